@@ -1,0 +1,197 @@
+"""Every error that rosmini raises on purpose, in one tree.
+
+Catch :class:`RosminiError` to catch them all. Where ROS has a name for an error, ours has the same name and the
+same relatives (an ``except rospy.ROSInterruptException`` or an ``except KeyError`` in a script written for rospy
+works as it does there); the others are ours. A message says what happened, what was found instead, and what to do
+next: :func:`nearest` writes the "did you mean" part.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from pathlib import Path
+
+__all__ = [
+    "CallbackError",
+    "DefinitionError",
+    "DeserializationError",
+    "DuplicateNode",
+    "GraphEnded",
+    "IllegalName",
+    "MessageException",
+    "ParameterError",
+    "ParameterNotSet",
+    "ROSException",
+    "ROSInitException",
+    "ROSInternalException",
+    "ROSInterruptException",
+    "ROSSerializationException",
+    "ROSTimeMovedBackwardsException",
+    "RosminiError",
+    "ScriptError",
+    "SerializationError",
+    "ServiceException",
+    "TransportException",
+    "TransportInitError",
+    "TransportTerminated",
+    "TypeMismatch",
+    "UnknownPackage",
+    "UnknownType",
+    "nearest",
+]
+
+
+class RosminiError(Exception):
+    """The base of every error in rosmini."""
+
+
+# ---- rospy's names (http://docs.ros.org/en/noetic/api/rospy/html/rospy.exceptions-module.html) ----
+
+
+class ROSException(RosminiError):
+    """Something went wrong in a ROS call: a timeout, a call before ``init_node``, a publish after shutdown."""
+
+
+class ROSInitException(ROSException):
+    """The node could not be initialised."""
+
+
+class ROSSerializationException(ROSException):
+    """A message could not be written to, or read from, the wire."""
+
+
+class ROSInterruptException(ROSException, KeyboardInterrupt):
+    """A blocking call (sleep, wait, spin) was ended because the node shuts down."""
+
+
+class ROSTimeMovedBackwardsException(ROSInterruptException):
+    """Simulated time jumped back while a call was sleeping; ``time`` says by how much, in seconds."""
+
+    def __init__(self, time: Any) -> None:
+        super().__init__("ROS time moved backwards")
+        self.time = time
+
+
+class ROSInternalException(RosminiError):
+    """The client library itself failed; a script can do nothing about it."""
+
+
+class TransportException(ROSInternalException):
+    """A connection between two nodes failed."""
+
+
+class TransportInitError(TransportException):
+    """A connection between two nodes could not be made (the header was refused, for instance)."""
+
+
+class TransportTerminated(TransportException):
+    """A connection between two nodes was closed by the other side."""
+
+
+class ServiceException(RosminiError):
+    """A service call failed: no server, the handler raised, or the answer did not arrive."""
+
+
+# ---- genpy's names ----
+
+
+class MessageException(RosminiError):
+    """A message, or the description of one, is wrong."""
+
+
+class SerializationError(MessageException):
+    """A field of a message holds something that its ROS type cannot hold."""
+
+
+class DeserializationError(MessageException):
+    """Bytes from a wire or a bag are not a message of the type that was expected."""
+
+
+# ---- ours ----
+
+
+class IllegalName(RosminiError, ValueError):
+    """A graph or package resource name breaks the rules of http://wiki.ros.org/Names."""
+
+
+class UnknownPackage(RosminiError):
+    """No ROS package of this name is on the package path."""
+
+
+class UnknownType(RosminiError):
+    """No message, service or action type of this name is known."""
+
+
+class DefinitionError(RosminiError):
+    """A ``.msg``, ``.srv``, ``.action`` or manifest file is broken at ``file``, line ``line`` (counted from 1)."""
+
+    def __init__(self, message: str, file: str | Path | None = None, line: int | None = None) -> None:
+        self.message = message
+        self.file = None if file is None else str(file)
+        self.line = line
+        super().__init__(message, self.file, line)
+
+    def __str__(self) -> str:
+        place = ":".join(str(part) for part in (self.file, self.line) if part is not None)
+        return f"{place}: {self.message}" if place else self.message
+
+
+class TypeMismatch(RosminiError):
+    """Two ends of a topic or a service disagree about its type."""
+
+
+class ParameterError(RosminiError):
+    """A parameter has a value of the wrong type, out of range, or one that ROS cannot hold."""
+
+
+class ParameterNotSet(ParameterError, KeyError):
+    """A parameter was asked for that nobody has set (rospy raises ``KeyError``)."""
+
+    # KeyError shows the repr of its argument, which would put quotes and "\n" into our sentences.
+    __str__ = Exception.__str__
+
+
+class ScriptError(RosminiError):
+    """A script is not there, is not Python, or failed while it was being loaded."""
+
+
+class CallbackError(RosminiError):
+    """A callback raised; ``__cause__`` is what it raised."""
+
+
+class DuplicateNode(RosminiError):
+    """A node was shut down because another one registered under the same name."""
+
+
+class GraphEnded(RosminiError):
+    """Nothing more can happen in the graph, so what was waited for will never come."""
+
+
+def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
+    """The clause "did you mean ...?" for a mistyped ``name``; empty if no candidate resembles it.
+
+    Upper and lower case count as alike, and so do equal last parts of names in different namespaces (``/scan`` and
+    ``/robot1/scan``). The answer depends only on the set of candidates, not on their order.
+
+    >>> nearest("/chater", ["/chatter", "/rosout"])
+    'did you mean /chatter?'
+    """
+    from difflib import SequenceMatcher  # only needed once something has gone wrong
+
+    def likeness(candidate: str) -> float:
+        folded, wanted = candidate.lower(), name.lower()
+        whole = SequenceMatcher(None, wanted, folded).ratio()
+        wanted_base, folded_base = wanted.rpartition("/")[2], folded.rpartition("/")[2]
+        base = SequenceMatcher(None, wanted_base, folded_base).ratio() if wanted_base and folded_base else 0.0
+        return max(whole, 0.95 * base)
+
+    ranked = sorted((-likeness(candidate), candidate) for candidate in set(candidates) if candidate != name)
+    if not ranked or ranked[0][0] > -0.7:
+        return ""
+    best = ranked[0][0]
+    found = [candidate for score, candidate in ranked if score <= min(-0.7, best + 0.1)][:limit]
+    listed = found[0] if len(found) == 1 else f"{', '.join(found[:-1])} or {found[-1]}"
+    return f"did you mean {listed}?"
