@@ -1,0 +1,527 @@
+"""The scheduler: one thread, one event queue, two clocks.
+
+Everything that happens in a graph is an event in one queue ordered by (time, sequence number). In simulated time the
+queue jumps from event to event, as fast as the machine allows and in the same order on each run; in wall time events
+wait until they are due. Code that blocks is parked (see :mod:`rosmini.graph.lanes`) and the queue goes on.
+
+The loop has no thread or greenlet of its own: whoever blocks hands it to a worker greenlet, which runs the events, calls
+the callbacks in place, and is itself left behind when one of them blocks. A callback that does not block
+therefore costs a function call, not a switch.
+"""
+
+from __future__ import annotations
+
+import contextvars
+import heapq
+import queue
+import sys
+import threading
+import time
+from collections import deque
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+from greenlet import getcurrent, greenlet
+
+from rosmini.errors import GraphEnded, RosminiError
+
+from .interrupts import InterruptGuard
+from .lanes import Lane, LaneContext, LaneExit, Waiter
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+T = TypeVar("T")
+
+SIMULATED_START_NS = 1_000 * 10**9
+"""Where simulated time starts: not at zero, because ``Time(0)`` means "the latest"."""
+
+TICKS_PER_YIELD = 1_000
+"""How many turns a polling loop makes before the others get theirs."""
+
+TICK_QUANTUM_NS = 1_000_000
+"""How far simulated time goes on in those turns: a microsecond each, about what they take on a real machine."""
+
+EVENTS_PER_INSTANT = 100_000
+"""So many events at one instant of simulated time are taken for a ping-pong, and time moves on by a quantum."""
+
+
+@dataclass(frozen=True)
+class Waiting:
+    """A lane that was still parked when a run ended, and what for."""
+
+    lane: str
+    reason: str
+
+    def __str__(self) -> str:
+        return f"{self.lane} was waiting for {self.reason}"
+
+
+@dataclass(frozen=True)
+class RunReport:
+    """How a run ended: ``reason`` is "time", "condition", "drained" or "stopped"; ``now`` is the graph time in seconds."""
+
+    reason: str
+    now: float
+    waiting: tuple[Waiting, ...] = ()
+
+    def __str__(self) -> str:
+        why = {
+            "time": "the time is over",
+            "condition": "the condition holds",
+            "drained": "nothing is left to happen",
+            "stopped": "it was stopped",
+        }[self.reason]
+        lines = [f"the run ended at {self.now:.3f} s: {why}"]
+        lines += [f"  {waiting}" for waiting in self.waiting]
+        return "\n".join(lines)
+
+
+class Timer:
+    """A call in the future that can be taken back."""
+
+    __slots__ = ("callback", "when_ns")
+
+    def __init__(self, when_ns: int, callback: Callable[[], object]) -> None:
+        self.when_ns = when_ns
+        self.callback: Callable[[], object] | None = callback
+
+    def cancel(self) -> None:
+        """Do not call. Harmless when it was called already."""
+        self.callback = None
+
+
+class Scheduler:
+    """Runs lanes and timed events; see the module's text.
+
+    Args:
+        simulated: jump from event to event instead of waiting for the clock on the wall.
+        rate: in wall time, how many seconds of graph time pass in one second.
+    """
+
+    def __init__(self, *, simulated: bool = True, rate: float = 1.0) -> None:
+        if not rate > 0:
+            msg = f"the rate of a clock must be positive, not {rate!r}"
+            raise RosminiError(msg)
+        self.simulated = simulated
+        self.rate = rate
+        self.trace: Callable[[int, str], None] | None = None
+        self.on_error: Callable[[Lane, BaseException], None] | None = None
+        self.ready: deque[Callable[[], object]] = deque()
+        self._now = SIMULATED_START_NS
+        self._wall_start = time.time_ns()
+        self._mono_start = time.monotonic_ns()
+        self._heap: list[tuple[int, int, Timer]] = []
+        self._sequence = 0
+        self._inbox: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
+        self._holds = 0
+        self._hold_lock = threading.Lock()
+        self._thread = threading.get_ident()
+        self._idle: list[greenlet] = []
+        self._parked: dict[Waiter, Lane] = {}
+        self._thread_lanes: dict[int, Lane] = {}
+        self._ticks = TICKS_PER_YIELD
+        self._instant = 0
+        self.root = Lane(self, "main")
+        self._current = self.root
+        self._context: LaneContext | None = None
+        self._root_waiter: Waiter | None = None
+        self._until: Callable[[], bool] | None = None
+        self._carry_context = "ipykernel" in sys.modules
+        self._py_context: contextvars.Context | None = None
+        self._interrupts = InterruptGuard(self._wake_hub)
+
+    # -- time ----------------------------------------------------------------------------------------------------
+
+    def now_ns(self) -> int:
+        """Return the graph time in nanoseconds."""
+        if self.simulated:
+            return self._now
+        return self._wall_start + int((time.monotonic_ns() - self._mono_start) * self.rate)
+
+    def call_at(self, when_ns: int, callback: Callable[[], object]) -> Timer:
+        """Call ``callback`` at graph time ``when_ns`` (at once when that is over). Only from the hub's thread."""
+        timer = Timer(when_ns, callback)
+        self._sequence += 1
+        heapq.heappush(self._heap, (when_ns, self._sequence, timer))
+        return timer
+
+    def call_soon(self, callback: Callable[[], object]) -> None:
+        """Call ``callback`` after what is already due now. It must not block: code that may goes into a lane."""
+        if threading.get_ident() == self._thread:
+            self.ready.append(callback)
+        else:
+            self._inbox.put(callback)
+
+    def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
+        """Like :meth:`call_soon`, through the inbox: the only door for other threads."""
+        self._inbox.put(callback)
+
+    # -- who is running ------------------------------------------------------------------------------------------
+
+    def is_hub_thread(self) -> bool:
+        """Tell whether the caller is in the thread that runs the queue."""
+        return threading.get_ident() == self._thread
+
+    def current(self) -> Lane:
+        """Return the caller's lane: the main program's own when it is in none."""
+        ident = threading.get_ident()
+        if ident == self._thread:
+            return self._current
+        return self._thread_lanes.get(ident, self.root)
+
+    def adopt_thread(self, name: str, *, node: Any = None, context: LaneContext | None = None) -> Lane:
+        """Tell which node and script the calling real thread works for. Undo with :meth:`release_thread`."""
+        lane = Lane(self, name, node=node, context=context)
+        self._thread_lanes[threading.get_ident()] = lane
+        return lane
+
+    def release_thread(self) -> None:
+        """Forget what :meth:`adopt_thread` noted for the calling thread."""
+        self._thread_lanes.pop(threading.get_ident(), None)
+
+    def spawn(
+        self,
+        name: str,
+        task: Callable[[], object] | None = None,
+        *,
+        node: Any = None,
+        context: LaneContext | None = None,
+        on_error: Callable[[BaseException], None] | None = None,
+    ) -> Lane:
+        """Make a lane, running ``task`` if given; node and context are the caller's where they are not given."""
+        parent = self.current()
+        lane = Lane(
+            self,
+            name,
+            node=parent.node if node is None else node,
+            context=parent.context if context is None else context,
+            on_error=on_error,
+        )
+        if task is not None:
+            lane.submit(task)
+        return lane
+
+    def waiter(self, reason: str) -> Waiter:
+        """Return a new :class:`Waiter`; ``reason`` completes "... was waiting for"."""
+        return Waiter(self, reason)
+
+    def on_hub(self, function: Callable[[], T]) -> T:
+        """Return ``function()``, run in the hub's thread, in a lane with the caller's node and context."""
+        if self.may_park():
+            return function()
+        waiter = self.waiter("the thread that runs the graph")
+        caller = self.current()
+
+        def work() -> None:
+            try:
+                waiter.wake(function())
+            except BaseException as error:  # noqa: BLE001 - handed to whoever asked
+                waiter.fail(error)
+
+        lane = Lane(self, caller.name, node=caller.node, context=caller.context)
+        self.call_soon_threadsafe(lambda: lane.submit(work))
+        waiter.wait()
+        return cast("T", waiter.value)
+
+    # -- blocking ------------------------------------------------------------------------------------------------
+
+    def sleep_until(self, when_ns: int, reason: str | None = None) -> None:
+        """Block until graph time ``when_ns``."""
+        timeout = when_ns - self.now_ns()
+        Waiter(self, reason or "time to pass").wait(max(timeout, 0))
+
+    def tick(self, weight: int = 1) -> None:
+        """Count one turn of a loop that may never block; now and then let the others run and time go on."""
+        self._ticks -= weight
+        if self._ticks <= 0:
+            self._ticks = TICKS_PER_YIELD
+            if threading.get_ident() == self._thread:
+                self._yield()
+
+    def _yield(self) -> None:
+        if self.simulated:
+            self.sleep_until(self._now + TICK_QUANTUM_NS, "its turn in a polling loop")
+            return
+        waiter = Waiter(self, "its turn in a polling loop")
+        waiter.done = waiter._queued = True  # noqa: SLF001 - one class in two files
+        self._inbox.put(lambda: self.ready.append(waiter._resume))  # noqa: SLF001
+        self.park(waiter)
+
+    def in_thread(self, function: Callable[[], T]) -> T:
+        """Run a blocking call of the operating system in a helper thread while the caller is parked."""
+        if not self.is_hub_thread():
+            return function()
+        waiter = self.waiter("the operating system")
+        self.hold()
+
+        def work() -> None:
+            try:
+                waiter.wake(function())
+            except BaseException as error:  # noqa: BLE001 - handed to whoever asked
+                waiter.fail(error)
+            finally:
+                self.release()
+
+        threading.Thread(target=work, name="rosmini-helper", daemon=True).start()
+        waiter.wait()
+        return cast("T", waiter.value)
+
+    def hold(self) -> None:
+        """Say that something is under way outside the queue: simulated time stands still until :meth:`release`."""
+        with self._hold_lock:
+            self._holds += 1
+
+    def release(self) -> None:
+        """Undo one :meth:`hold`, from any thread, after its result was put into the inbox."""
+
+        def let_go() -> None:
+            with self._hold_lock:
+                self._holds -= 1
+
+        self._inbox.put(let_go)
+
+    def may_park(self) -> bool:
+        """Tell whether the caller may be parked: it is in the hub's thread, or the hub is free to move to its own."""
+        ident = threading.get_ident()
+        if ident == self._thread:
+            return True
+        if self._root_waiter is not None or self._parked or ident in self._thread_lanes:
+            return False
+        self._idle.clear()
+        self._thread = ident
+        return True
+
+    def park(self, waiter: Waiter) -> None:
+        """Leave the caller parked until ``waiter`` resumes it, and run the queue meanwhile. For waiters only."""
+        lane = self._current
+        is_root = lane is self.root
+        if is_root:
+            self._start_drive(waiter)
+        waiter._greenlet = getcurrent()  # noqa: SLF001
+        lane._waiter = waiter  # noqa: SLF001
+        self._parked[waiter] = lane
+        try:
+            self._switch(self._idle.pop() if self._idle else greenlet(self._loop))
+        finally:
+            del self._parked[waiter]
+            waiter._greenlet = None  # noqa: SLF001
+            lane._waiter = None  # noqa: SLF001
+            self.enter_lane(lane)
+            if is_root:
+                self._end_drive()
+        if is_root and self._interrupts.take():
+            raise KeyboardInterrupt
+
+    def _start_drive(self, waiter: Waiter) -> None:
+        self._root_waiter = waiter
+        self._interrupts.arm()
+        if self._carry_context:
+            self._py_context = contextvars.copy_context()
+
+    def _end_drive(self) -> None:
+        self._root_waiter = None
+        self._py_context = None
+        self._interrupts.disarm()
+
+    def _switch(self, target: greenlet) -> None:
+        """Switch to ``target``; in Jupyter its output belongs to the cell that drives."""
+        if self._py_context is not None and target is not self._root_greenlet():
+            target.gr_context = self._py_context.copy()
+        target.switch()
+
+    def _root_greenlet(self) -> greenlet | None:
+        waiter = self._root_waiter
+        return None if waiter is None else waiter._greenlet  # noqa: SLF001
+
+    # -- called by lanes and waiters -----------------------------------------------------------------------------
+
+    def enter_lane(self, lane: Lane) -> None:
+        """Make ``lane`` the running one, with its context. For lanes and the scheduler only."""
+        self._current = lane
+        self._ticks = TICKS_PER_YIELD
+        if lane.context is not self._context:
+            self._swap_context(lane.context)
+        if self.trace is not None:
+            self.trace(self.now_ns(), lane.name)
+
+    def _swap_context(self, context: LaneContext | None) -> None:
+        if self._context is not None:
+            self._context.leave()
+        self._context = context
+        if context is not None:
+            context.enter()
+
+    def switch_to(self, waiter: Waiter) -> None:
+        """Go on with the code that is parked on ``waiter``; the calling worker becomes idle. For waiters only."""
+        target = waiter._greenlet  # noqa: SLF001
+        waiter._queued = False  # noqa: SLF001
+        if target is None:
+            return
+        self._idle.append(getcurrent())
+        self._switch(target)
+
+    def lane_failed(self, lane: Lane, error: BaseException) -> None:
+        """Tell whoever should know that a task of ``lane`` raised. For lanes only."""
+        if isinstance(error, KeyboardInterrupt) and self._interrupts.pending():
+            return
+        if lane.on_error is not None:
+            lane.on_error(error)
+        elif self.on_error is not None:
+            self.on_error(lane, error)
+        else:
+            self.raise_in_driver(error)
+
+    def raise_in_driver(self, error: BaseException) -> None:
+        """Raise ``error`` at the call that drives the queue."""
+        if self._root_waiter is not None:
+            self._root_waiter.fail(error)
+        else:
+            raise error
+
+    # -- driving -------------------------------------------------------------------------------------------------
+
+    @property
+    def driven(self) -> bool:
+        """True while somebody drives the queue."""
+        return self._root_waiter is not None
+
+    def run(self, until_ns: int | None = None, until: Callable[[], bool] | None = None) -> RunReport:
+        """Drive the queue until graph time ``until_ns``, until ``until()`` is true, or until nothing is left to happen.
+
+        Only from the main program or a notebook cell. In wall time "nothing left" never comes by itself.
+        """
+        if self._current is not self.root or not self.may_park():
+            msg = (
+                "run() was called from inside the graph (a callback or a script); only the main program drives it. "
+                "In a callback, block with sleep() or wait_for_message() instead."
+            )
+            raise RosminiError(msg)
+        if until is not None and until():
+            return self._report("condition")
+        waiter = self.waiter("the end of the run")
+        timer = None if until_ns is None else self.call_at(until_ns, partial(waiter.wake, "time"))
+        self._until = until
+        try:
+            waiter.wait()
+        except GraphEnded:
+            return self._report("drained")
+        finally:
+            self._until = None
+            if timer is not None:
+                timer.cancel()
+        return self._report(waiter.value)
+
+    def stop(self) -> None:
+        """End the current :meth:`run`, from any thread or lane."""
+        if self._root_waiter is not None:
+            self._root_waiter.wake("stopped")
+
+    def _report(self, reason: str) -> RunReport:
+        return RunReport(reason, self.now_ns() / 1e9, self.waiting())
+
+    def waiting(self) -> tuple[Waiting, ...]:
+        """Return the parked lanes and what each waits for, without the driver."""
+        return tuple(Waiting(lane.name, waiter.reason) for waiter, lane in self._parked.items() if lane is not self.root)
+
+    def close(self) -> None:
+        """End every lane. The scheduler can be used again afterwards."""
+        for waiter, lane in list(self._parked.items()):
+            if lane is not self.root:
+                lane.dead = True
+                waiter.fail(LaneExit("the graph was closed"))
+        if self.may_park() and self._current is self.root:
+            for _ in range(3):  # a lane may block again while it cleans up
+                if not any(lane is not self.root for lane in self._parked.values()):
+                    break
+                self.run(until_ns=self.now_ns())
+        self.ready.clear()
+        self._heap.clear()
+
+    def _wake_hub(self) -> None:
+        self._inbox.put(None)
+
+    # -- the loop ------------------------------------------------------------------------------------------------
+
+    def _loop(self) -> None:
+        """Run events for ever. The body of each worker greenlet; there is one running and some idle."""
+        ready = self.ready
+        while True:
+            try:
+                while True:
+                    self._instant += len(ready)
+                    for _ in range(len(ready)):
+                        if not ready:  # another worker went on while this one was idle
+                            break
+                        ready.popleft()()
+                        if self._until is not None and self._until():
+                            self._until = None
+                            self.stop_with("condition")
+                    self._take_inbox()
+                    self._take_due()
+                    if not ready:
+                        self._advance()
+            except KeyboardInterrupt:
+                self._interrupts.note()
+            except Exception as error:  # noqa: BLE001 - an error of an internal event belongs to the driver
+                self.raise_in_driver(error)
+
+    def stop_with(self, reason: str) -> None:
+        """Wake the driver of :meth:`run` with ``reason``."""
+        if self._root_waiter is not None:
+            self._root_waiter.wake(reason)
+
+    def _take_inbox(self) -> None:
+        root = self._root_waiter
+        if root is not None and not root.done and self._interrupts.take():
+            root.fail(KeyboardInterrupt())
+        inbox = self._inbox
+        while not inbox.empty():
+            item = inbox.get()
+            if item is not None:
+                self.ready.append(item)
+
+    def _take_due(self) -> None:
+        heap = self._heap
+        if not heap:
+            return
+        if self.simulated and self._instant > EVENTS_PER_INSTANT:
+            self._now += TICK_QUANTUM_NS
+            self._instant = 0
+        now = self.now_ns()
+        while heap and heap[0][0] <= now:
+            callback = heapq.heappop(heap)[2].callback
+            if callback is not None:
+                self.ready.append(callback)
+
+    def _advance(self) -> None:
+        """Nothing is due: go on to the next event, or wait for it, or end."""
+        heap = self._heap
+        while heap and heap[0][2].callback is None:
+            heapq.heappop(heap)
+        if self.simulated and not self._holds:
+            if heap:
+                self._now = heap[0][0]
+                self._instant = 0
+            elif self._root_waiter is not None and not self._root_waiter.done:
+                self._root_waiter.fail(GraphEnded(self._ended_message()))
+            return
+        timeout = 0.2  # Python on Windows notices Ctrl-C only between waits
+        if heap and not self.simulated:
+            timeout = min(timeout, (heap[0][0] - self.now_ns()) / 1e9 / self.rate)
+        if timeout > 0:
+            try:
+                item = self._inbox.get(timeout=timeout)
+            except queue.Empty:
+                return
+            if item is not None:
+                self.ready.append(item)
+
+    def _ended_message(self) -> str:
+        waiter = self._root_waiter
+        reason = waiter.reason if waiter is not None else "the graph"
+        lines = [f"waited for {reason}, but nothing is left to happen in simulated time"]
+        lines += [f"  {waiting}" for waiting in self.waiting()]
+        lines.append("Start the node that should answer before waiting for it, or give a timeout.")
+        return "\n".join(lines)
