@@ -1,0 +1,157 @@
+"""Exercises that check themselves.
+
+A notebook hands an answer to `check`, which prints one of three things: that the exercise is not attempted yet,
+what is wrong with the answer and a hint, or that it is right. What "right" means stands in
+`rosmini/book/exercises/chapter_NN.py`, one `Exercise` per exercise. CONTRIBUTING.md tells how to write one.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import types
+from dataclasses import dataclass
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import RosminiError, nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+
+class UnknownExercise(RosminiError):
+    """There is no exercise with that number."""
+
+
+class Wrong(RosminiError):
+    """The answer is wrong: the message says what is wrong with it, `hint` what to look at."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.hint = hint
+
+
+class Status(Enum):
+    """What a check found."""
+
+    NOT_ATTEMPTED = "not attempted yet"
+    WRONG = "not right yet"
+    RIGHT = "right"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a check found, and the text that the reader sees."""
+
+    status: Status
+    text: str
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """One exercise: its number ("11.2"), what is said about a right answer, and the function that examines one.
+
+    `examine(answer)` raises `Wrong` (most simply through `expect`) or returns. `mistakes` are functions without
+    arguments, each returning an answer that `examine` must refuse: the tests call them, so no check passes always.
+    """
+
+    number: str
+    praise: str
+    mistakes: Sequence[Callable[[], Any]]
+    examine: Callable[[Any], None]
+
+    def grade(self, answer: Any) -> Verdict:
+        """Examine `answer`. An exception out of the reader's code is a wrong answer, not an error of the check."""
+        if is_stub(answer):
+            return self._verdict(Status.NOT_ATTEMPTED)
+        try:
+            self.examine(answer)
+        except Wrong as wrong:
+            hint = f"\nHint: {wrong.hint}" if wrong.hint else ""
+            return self._verdict(Status.WRONG, f"{wrong}{hint}")
+        except Exception as error:
+            return self._verdict(Status.WRONG, f"Your code raised {type(error).__name__}: {error}")
+        return self._verdict(Status.RIGHT, self.praise)
+
+    def _verdict(self, status: Status, more: str = "") -> Verdict:
+        text = f"Exercise {self.number}: {status.value}."
+        return Verdict(status, f"{text} {more}" if more else text)
+
+
+def exercise(
+    number: str, *, praise: str, mistakes: Sequence[Callable[[], Any]]
+) -> Callable[[Callable[[Any], None]], Exercise]:
+    """Decorate the function that examines an answer: makes an `Exercise` of it. See there for the arguments."""
+    if not mistakes:
+        raise ValueError(
+            f"exercise {number} lists no mistakes: give at least one answer that its check refuses"
+        )
+
+    def decorate(examine: Callable[[Any], None]) -> Exercise:
+        return Exercise(number, praise, tuple(mistakes), examine)
+
+    return decorate
+
+
+def expect(condition: object, message: str, hint: str = "") -> None:
+    """Raise `Wrong` with `message` and `hint` unless `condition` is true."""
+    if not condition:
+        raise Wrong(message, hint)
+
+
+def check(number: str, answer: Any) -> None:
+    """Print what is to be said about `answer` to exercise `number` ("11.2").
+
+    Raises `UnknownExercise` if there is no such exercise.
+    """
+    print(find(number).grade(answer).text)
+
+
+def find(number: str) -> Exercise:
+    """The exercise with that number; raises `UnknownExercise` if there is none."""
+    known = {found.number: found for found in exercises_of(number.partition(".")[0])}
+    if number not in known:
+        guess = nearest(number, known) or (
+            f"this chapter has {', '.join(known)}" if known else "no exercise has such a number"
+        )
+        raise UnknownExercise(f"there is no exercise {number!r}; {guess}")
+    return known[number]
+
+
+def exercises_of(chapter: str) -> Iterator[Exercise]:
+    """The exercises of a chapter ("11"), in the order in which its module defines them; none if it has no module."""
+    name = f"rosmini.book.exercises.chapter_{chapter}"
+    if chapter.isdecimal() and importlib.util.find_spec(name):
+        yield from (
+            value for value in vars(importlib.import_module(name)).values() if isinstance(value, Exercise)
+        )
+
+
+def is_stub(answer: Any) -> bool:
+    """Whether the reader has not begun: `...`, something that holds `...`, or a function or class that does nothing."""
+    if answer is ...:
+        return True
+    if isinstance(answer, dict):
+        return any(is_stub(value) for value in answer.values())
+    if isinstance(answer, list | tuple):
+        return any(is_stub(value) for value in answer)
+    if isinstance(answer, types.FunctionType):
+        return _does_nothing(answer)
+    if isinstance(answer, type):
+        methods = [value for value in vars(answer).values() if isinstance(value, types.FunctionType)]
+        return bool(methods) and all(_does_nothing(method) for method in methods)
+    return False
+
+
+def _bare() -> None: ...
+
+
+def _documented() -> None:
+    """Do nothing, and say so."""
+
+
+def _does_nothing(function: types.FunctionType) -> bool:
+    code = function.__code__
+    bodies = {_bare.__code__.co_code, _documented.__code__.co_code}
+    return code.co_code in bodies and set(code.co_consts) <= {None, function.__doc__}

@@ -1,0 +1,119 @@
+"""The `rosmini` command: finds the subcommand that was asked for and imports that one only.
+
+A subcommand is a module with `add_parser(subparsers)`, which adds its own parser, and `main(args) -> int`,
+which does the work and returns the exit status.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import importlib.util
+import sys
+from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
+
+from rosmini.errors import RosminiError, nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+class Command(Protocol):
+    """What the module of a subcommand provides."""
+
+    def add_parser(self, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
+        """Add the subcommand's parser."""
+
+    def main(self, args: argparse.Namespace) -> int:
+        """Do it; the exit status."""
+
+
+class Entry(NamedTuple):
+    """Where a subcommand lives, and the line that `rosmini --help` shows without importing it."""
+
+    module: str
+    summary: str
+
+
+COMMANDS: dict[str, Entry] = {
+    "run": Entry("rosmini.cli.run", "run scripts written for rospy as nodes of one graph"),
+    "book": Entry("rosmini.cli.book", "build the book from the stored outputs and open it"),
+    "lab": Entry("rosmini.cli.lab", "open the notebooks in JupyterLab"),
+    "bench": Entry("rosmini.cli.bench", "measure rosmini, and real ROS where it is installed"),
+}
+
+
+def available() -> dict[str, Entry]:
+    """The subcommands whose module is installed, by name."""
+    return {name: entry for name, entry in COMMANDS.items() if importlib.util.find_spec(entry.module)}
+
+
+def chosen(argv: Sequence[str], commands: dict[str, Entry]) -> str | None:
+    """The subcommand that `argv` names: its first word that is not an option; None if there is no such word.
+
+    Raises `RosminiError` if that word is no subcommand.
+    """
+    word = next((word for word in argv if not word.startswith("-")), None)
+    if word is None or word in commands:
+        return word
+    guess = nearest(word, commands)
+    raise RosminiError(f"there is no command {word!r}; {guess or 'the commands are: ' + ', '.join(commands)}")
+
+
+def build_parser(commands: dict[str, Entry], loaded: dict[str, Command]) -> argparse.ArgumentParser:
+    """The whole parser: in full for the `loaded` subcommands, by name and summary for the others."""
+    parser = argparse.ArgumentParser(
+        prog="rosmini",
+        description="ROS 1 that you can read, run and test.",
+        epilog="`rosmini COMMAND --help` says more about a command.",
+    )
+    parser.add_argument("--version", action="store_true", help="print the version and exit")
+    subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
+    for name, entry in commands.items():
+        if name in loaded:
+            loaded[name].add_parser(subparsers)
+        else:
+            subparsers.add_parser(name, help=entry.summary, add_help=False)
+    return parser
+
+
+def version() -> str:
+    """The installed version of rosmini."""
+    from importlib.metadata import version as installed
+
+    return installed("rosmini")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run `rosmini` with `argv` (default: the command line) and return its exit status.
+
+    0 is success, 1 a failure that was reported, 2 a command line that makes no sense, 130 Ctrl-C.
+    """
+    argv = sys.argv[1:] if argv is None else list(argv)
+    commands = available()
+    try:
+        name = chosen(argv, commands)
+    except RosminiError as error:
+        print(f"rosmini: {error}", file=sys.stderr)
+        return 2
+    loaded = {name: cast("Command", importlib.import_module(commands[name].module))} if name else {}
+    parser = build_parser(commands, loaded)
+    args = parser.parse_args(argv)
+    if args.version:
+        print(f"rosmini {version()}")
+        return 0
+    if name is None:
+        parser.print_help()
+        return 2
+    try:
+        return loaded[name].main(args)
+    except RosminiError as error:
+        print(f"rosmini {name}: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print(file=sys.stderr)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,120 @@
+"""Exercise checks: what the reader sees for no answer, a wrong one, one that raises, and a right one."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import types
+
+import pytest
+
+import rosmini.book.exercises
+from rosmini.book import checks
+from rosmini.book.checks import Status, UnknownExercise, check, exercise, expect, is_stub
+
+
+@exercise("98.1", praise="Six wheels it is.", mistakes=[lambda: 5])
+def wheels(answer):
+    expect(answer == 6, f"A rover has 6 wheels, not {answer}.", hint="count the middle ones too")
+
+
+@exercise("98.2", praise="Doubled.", mistakes=[lambda: lambda x: x])
+def doubling(answer):
+    expect(answer(2) == 4, "It does not double 2.")
+
+
+def method_stub(self, msg): ...
+
+
+class StubNode:
+    """A node."""
+
+    def callback(self, msg):
+        """Called for each message."""
+
+
+class Node(StubNode):
+    def callback(self, msg):
+        self.last = msg
+
+
+def documented_stub():
+    """Return the answer."""
+    ...
+
+
+def passing_stub():
+    pass
+
+
+@pytest.mark.parametrize(
+    "stub", [..., [1, ...], (..., 2), {"a": ...}, method_stub, documented_stub, passing_stub, StubNode]
+)
+def test_a_stub_is_not_attempted(stub):
+    assert is_stub(stub)
+    verdict = wheels.grade(stub)
+    assert (verdict.status, verdict.text) == (Status.NOT_ATTEMPTED, "Exercise 98.1: not attempted yet.")
+
+
+@pytest.mark.parametrize(
+    "answer", [None, 0, "", [], (), {}, int, Node, StubNode(), lambda: 7, print, lambda x: x]
+)
+def test_an_answer_is_not_a_stub(answer):
+    assert not is_stub(answer)
+
+
+def test_a_wrong_answer_is_told_why_with_a_hint():
+    verdict = wheels.grade(5)
+    assert verdict.status is Status.WRONG
+    assert (
+        verdict.text
+        == "Exercise 98.1: not right yet. A rover has 6 wheels, not 5.\nHint: count the middle ones too"
+    )
+
+
+def test_an_answer_that_raises_is_wrong_and_says_what_it_raised():
+    verdict = doubling.grade(lambda x: x / 0)
+    assert verdict.status is Status.WRONG
+    assert (
+        verdict.text == "Exercise 98.2: not right yet. Your code raised ZeroDivisionError: division by zero"
+    )
+
+
+def test_a_right_answer_is_praised():
+    assert wheels.grade(6).text == "Exercise 98.1: right. Six wheels it is."
+
+
+def test_an_exercise_without_mistakes_is_refused():
+    with pytest.raises(ValueError, match=r"exercise 98\.3 lists no mistakes"):
+        exercise("98.3", praise="", mistakes=[])
+
+
+def test_check_prints_and_returns_nothing(monkeypatch, capsys):
+    chapter = types.ModuleType("chapter_98")
+    chapter.wheels, chapter.doubling = wheels, doubling
+    monkeypatch.setattr(checks.importlib.util, "find_spec", lambda name: name.endswith("chapter_98"))
+    monkeypatch.setattr(checks.importlib, "import_module", lambda name: chapter)
+    assert check("98.1", 6) is None
+    assert capsys.readouterr().out == "Exercise 98.1: right. Six wheels it is.\n"
+    with pytest.raises(UnknownExercise, match=r"there is no exercise '98\.9'; did you mean 98\.1 or 98\.2\?"):
+        check("98.9", 6)
+
+
+@pytest.mark.parametrize("number", ["97.1", "x", "", "../..", "11"])
+def test_a_number_that_no_exercise_has(number):
+    with pytest.raises(UnknownExercise, match="there is no exercise"):
+        check(number, 1)
+
+
+def all_exercises():
+    for module in pkgutil.iter_modules(rosmini.book.exercises.__path__):
+        found = importlib.import_module(f"rosmini.book.exercises.{module.name}")
+        yield from (value for value in vars(found).values() if isinstance(value, checks.Exercise))
+
+
+@pytest.mark.parametrize("found", all_exercises(), ids=lambda found: found.number)
+def test_every_check_refuses_the_mistakes_that_it_lists(found):
+    for mistake in found.mistakes:
+        verdict = found.grade(mistake())
+        assert verdict.status is Status.WRONG, verdict.text
+        assert verdict.text == found.grade(mistake()).text, "the text differs between two runs"

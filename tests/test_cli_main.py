@@ -1,0 +1,98 @@
+"""The `rosmini` command: what it lists, what it imports, how it ends."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+import rosmini.cli.main as cli
+from rosmini.errors import RosminiError
+
+
+def python(code: str, **env: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=os.environ | env,
+        timeout=60,
+    )
+
+
+def test_help_lists_the_commands_without_importing_them():
+    done = python(
+        "import sys, rosmini.cli.main as m\n"
+        "try: m.main(['--help'])\n"
+        "except SystemExit as end: assert end.code == 0\n"
+        "loaded = [e.module for e in m.COMMANDS.values() if e.module in sys.modules]\n"
+        "assert not loaded, loaded\n"
+    )
+    assert done.returncode == 0, done.stderr
+    for name in cli.available():
+        assert f"    {name} " in done.stdout
+
+
+def test_every_command_has_its_own_help(capsys):
+    for name in cli.available():
+        with pytest.raises(SystemExit) as end:
+            cli.main([name, "--help"])
+        assert end.value.code == 0
+        assert f"usage: rosmini {name}" in capsys.readouterr().out
+
+
+def test_no_command_prints_the_help_and_fails(capsys):
+    assert cli.main([]) == 2
+    assert "usage: rosmini" in capsys.readouterr().out
+
+
+def test_version(capsys):
+    assert cli.main(["--version"]) == 0
+    name, number = capsys.readouterr().out.split()
+    assert name == "rosmini"
+    assert number[0].isdigit()
+
+
+def test_an_unknown_command_suggests_the_nearest(capsys):
+    assert cli.main(["bok"]) == 2
+    assert capsys.readouterr().err == "rosmini: there is no command 'bok'; did you mean book?\n"
+
+
+def test_a_command_unlike_any_lists_them(capsys):
+    assert cli.main(["zzz"]) == 2
+    assert "the commands are: " in capsys.readouterr().err
+
+
+class Failing:
+    """A subcommand that ends with `error`."""
+
+    def __init__(self, error: BaseException) -> None:
+        self.error = error
+
+    def add_parser(self, subparsers):
+        subparsers.add_parser("book")
+
+    def main(self, args):
+        raise self.error
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "says"),
+    [
+        (RosminiError("the battery is flat; charge it"), 1, "rosmini book: the battery is flat; charge it\n"),
+        (KeyboardInterrupt(), 130, "\n"),
+    ],
+)
+def test_how_a_command_fails(error, status, says, monkeypatch, capsys):
+    monkeypatch.setattr(cli.importlib, "import_module", lambda name: Failing(error))
+    assert cli.main(["book"]) == status
+    assert capsys.readouterr().err == says
+
+
+def test_importing_rosmini_is_light():
+    heavy = ["matplotlib", "IPython", "numba", "ipywidgets", "meshcat", "sphinx", "pymunk"]
+    done = python(f"import rosmini, sys; print([m for m in {heavy} if m in sys.modules])")
+    assert done.stdout.strip() == "[]", done.stdout + done.stderr
