@@ -1,0 +1,43 @@
+"""Message, service and action classes, made from ``.msg``, ``.srv`` and ``.action`` files as ROS 1 makes them.
+
+    from rosmini.msgs.std_msgs.msg import String        # always
+    from std_msgs.msg import String                     # after rosmini.msgs.install()
+    String = rosmini.msgs.message_class("std_msgs/String")
+
+All three give the same class. Classes exist for every package that can be found (those that come with rosmini and
+those on ROS_PACKAGE_PATH) and are made when they are first asked for.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .message import Message
+
+__all__ = ["action_class", "message_class", "service_class"]
+
+
+def message_class(name: str) -> type[Any]:
+    """The class of a message type such as "std_msgs/String".
+
+    Raises :class:`~rosmini.errors.UnknownType` or :class:`~rosmini.errors.UnknownPackage` with the nearest names, and
+    :class:`~rosmini.errors.DefinitionError` with file and line if a definition is broken.
+    """
+    from .registry import registry
+
+    return registry().message_class(name)
+
+
+def service_class(name: str) -> type[Any]:
+    """The class of a service type such as "std_srvs/SetBool"; raises as :func:`message_class` does."""
+    from .registry import registry
+
+    return registry().service_class(name)
+
+
+def action_class(name: str) -> type[Any]:
+    """The class of an action such as "move_base_msgs/MoveBase"; raises as :func:`message_class` does."""
+    from .registry import registry
+
+    return registry().action_class(name)

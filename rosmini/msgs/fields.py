@@ -1,0 +1,253 @@
+"""What may stand in a field: the conversions that the generated code calls, and the diagnosis when one fails.
+
+A value is accepted exactly if :mod:`struct` packs it, as in genpy: a bool or a numpy integer in an int field, an int
+in a float field, but no float in an int field. Two additions to genpy: numpy arrays are taken wherever lists are, and
+a ``str`` is refused as a list of strings (genpy sends its letters).
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rosmini.errors import DeserializationError, SerializationError
+
+from .definition import INTEGER_RANGES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from .definition import Field
+    from .message import Message
+
+__all__ = ["DTYPES", "ERRORS", "FORMATS", "array_freezer", "as_bool", "checked_text", "explain", "freeze_bytes"]
+
+# What a wrong value can raise in generated code; AttributeError: None or a number where a message belongs.
+ERRORS = (struct.error, TypeError, ValueError, OverflowError, AttributeError, SerializationError)
+
+FORMATS = {
+    "bool": "B",
+    "int8": "b",
+    "byte": "b",
+    "uint8": "B",
+    "char": "B",
+    "int16": "h",
+    "uint16": "H",
+    "int32": "i",
+    "uint32": "I",
+    "int64": "q",
+    "uint64": "Q",
+    "float32": "f",
+    "float64": "d",
+}
+DTYPES = {
+    name: np.dtype("?" if name == "bool" else f"<{'f' if code in 'fd' else 'iu'[code.isupper()]}{struct.calcsize('<' + code)}")
+    for name, code in FORMATS.items()
+}
+
+
+def checked_text(value: Any) -> str:
+    """A string field's value as a plain ``str`` that UTF-8 can hold. Raises ``TypeError`` or ``ValueError``."""
+    if not isinstance(value, str):
+        raise TypeError("not a str")
+    value.encode()
+    return str(value)
+
+
+def as_bool(value: Any) -> Any:
+    """numpy's bool, which struct does not take, as Python's; anything else as it is."""
+    return bool(value) if isinstance(value, np.bool_) else value
+
+
+def freeze_bytes(size: int) -> Callable[[Any], bytes]:
+    """The conversion of a ``uint8[]`` or ``char[]`` field of ``size`` elements (-1: any number) to ``bytes``."""
+
+    def convert(values: Any) -> bytes:
+        if values.__class__ is bytes:
+            data: bytes = values
+        elif isinstance(values, np.ndarray):
+            data = _array_bytes(values, DTYPES["uint8"])
+        elif isinstance(values, (bytes, bytearray, list, tuple)):
+            data = bytes(values)
+        elif isinstance(values, memoryview):
+            data = values.tobytes()
+        elif isinstance(values, str):
+            raise TypeError("a str, not bytes")
+        else:
+            data = bytes(tuple(values))
+        if size >= 0 and len(data) != size:
+            raise ValueError("wrong length")
+        return data
+
+    return convert
+
+
+def array_freezer(kind: str, size: int) -> Callable[[Any], NDArray[Any]]:
+    """The conversion of a numeric array field to a numpy array over ``bytes``, which nobody can write to."""
+    code, dtype = FORMATS[kind], DTYPES[kind]
+    pack, frombuffer, ndarray = struct.pack, np.frombuffer, np.ndarray
+
+    def convert(values: Any) -> NDArray[Any]:
+        if isinstance(values, ndarray):
+            if values.dtype == dtype and values.base.__class__ is bytes and values.ndim == 1 and values.flags.c_contiguous:
+                array: NDArray[Any] = values
+            else:
+                array = frombuffer(_array_bytes(values, dtype), dtype)
+        elif isinstance(values, (str, bytes, dict)):
+            raise TypeError("not a list")
+        else:
+            array = frombuffer(pack(f"<{len(values)}{code}", *values), dtype)
+        if size >= 0 and len(array) != size:
+            raise ValueError("wrong length")
+        return array
+
+    def convert_bools(values: Any) -> NDArray[Any]:
+        if isinstance(values, (str, bytes, dict)):
+            raise TypeError("not a list")
+        numbers = bytes([as_bool(value) for value in values])
+        if size >= 0 and len(numbers) != size:
+            raise ValueError("wrong length")
+        return bools_from(numbers)
+
+    return convert_bools if kind == "bool" else convert
+
+
+def bools_from(data: bytes) -> NDArray[Any]:
+    """A bool array over bytes from a wire, where any byte but 0 means true."""
+    return np.frombuffer((np.frombuffer(data, np.uint8) != 0).tobytes(), np.bool_)
+
+
+def _array_bytes(values: NDArray[Any], dtype: np.dtype[Any]) -> bytes:
+    """The little-endian bytes of a numpy array as ``dtype``, refusing whatever struct would refuse of its elements."""
+    if values.ndim != 1:
+        raise ValueError(f"an array of {values.ndim} dimensions")
+    if values.dtype == dtype:
+        return values.tobytes()
+    source = values.dtype.kind
+    if source not in ("iub" if dtype.kind in "iu" else "fiub"):
+        raise TypeError(f"an array of {values.dtype}")
+    with np.errstate(over="ignore"):
+        converted = values.astype(dtype)
+    if dtype.kind == "f" and source == "f":
+        lost = bool((np.isinf(converted) != np.isinf(values)).any())
+    else:
+        lost = dtype.kind in "iu" and source in "iu" and bool((converted != values).any())
+    if lost:
+        raise OverflowError("an element that does not fit")
+    return converted.tobytes()
+
+
+# ---- diagnosis ----
+
+
+def explain(cls: type[Message], message: Any, cause: Exception) -> SerializationError:
+    """The error for a message that could not be converted: which field, what it holds, what its ROS type is."""
+    try:
+        _check(cls, message, "")
+    except SerializationError as error:
+        return SerializationError(f"{cls._type}: {error}")
+    return SerializationError(f"{cls._type}: {cause}")
+
+
+def _check(cls: type[Message], message: Any, prefix: str) -> None:
+    for field in cls._spec.fields:
+        path = prefix + field.name
+        try:
+            value = getattr(message, field.name)
+        except AttributeError:
+            where = prefix.rstrip(".") or "the message"
+            problem = f"field {where} must be of type {cls._type}: {_shown(message)} has no '{field.name}'"
+            raise SerializationError(problem) from None
+        if field.size is None:
+            _check_value(cls, field, path, value)
+            continue
+        if isinstance(value, (str, dict)) or (isinstance(value, bytes) and field.base not in ("uint8", "char")):
+            raise SerializationError(f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]")
+        try:
+            elements = list(value)
+        except TypeError:
+            problem = f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]"
+            raise SerializationError(problem) from None
+        if isinstance(value, np.ndarray) and value.ndim != 1:
+            problem = f"field {path} must have one dimension, not {value.ndim} (ravel() flattens an array) [{field.type}]"
+            raise SerializationError(problem)
+        if field.size >= 0 and len(elements) != field.size:
+            problem = f"field {path} must have exactly {field.size} elements, not {len(elements)} [{field.type}]"
+            raise SerializationError(problem)
+        for index, element in enumerate(elements):
+            _check_value(cls, field, f"{path}[{index}]", element)
+
+
+def _check_value(cls: type[Message], field: Field, path: str, value: Any) -> None:
+    kind = field.base
+    if kind == "string":
+        _check_text(path, value)
+    elif kind in ("time", "duration"):
+        name = kind.capitalize()
+        if not (hasattr(value, "secs") and hasattr(value, "nsecs")):
+            raise SerializationError(f"field {path} must be of type {name}, not {_shown(value)}")
+        for part in ("secs", "nsecs"):
+            _check_number("uint32" if kind == "time" else "int32", f"{path}.{part}", getattr(value, part))
+    elif field.builtin:
+        _check_number(kind, path, value)
+    else:
+        nested: type[Message] = cls._nested[kind]
+        _check(nested, value, f"{path}.")
+
+
+def _check_text(path: str, value: Any) -> None:
+    if not isinstance(value, str):
+        hint = ": decode the bytes first" if isinstance(value, bytes) else ""
+        raise SerializationError(f"field {path} must be of type str, not {_shown(value)}{hint} [string]")
+    try:
+        value.encode()
+    except UnicodeEncodeError as error:
+        raise SerializationError(f"field {path} cannot be written as UTF-8: {error.reason} [string]") from None
+
+
+def _check_number(kind: str, path: str, value: Any) -> None:
+    try:
+        struct.pack(f"<{FORMATS[kind]}", as_bool(value) if kind == "bool" else value)
+    except (struct.error, TypeError, ValueError, OverflowError):
+        pass
+    else:
+        return
+    if kind == "bool":
+        problem = "is not a bool:"
+    elif kind in ("float32", "float64"):
+        fits = not isinstance(value, (int, float, np.floating))
+        problem = "must be float type, not" if fits else f"exceeds specified width [{kind}]:"
+    elif not hasattr(value, "__index__"):
+        problem = f"must be {'unsigned integer' if INTEGER_RANGES[kind][0] == 0 else 'an integer'} type, not"
+    elif INTEGER_RANGES[kind][0] == 0 and value < 0:
+        problem = "must be unsigned integer type, not"
+    else:
+        problem = f"exceeds specified width [{kind}]:"
+    raise SerializationError(f"field {path} {problem} {_shown(value)} [{kind}]")
+
+
+def _shown(value: Any) -> str:
+    """A value and its type, short enough for one line."""
+    if value is None:
+        return "None"
+    text = " ".join(repr(value).split())
+    return f"{text if len(text) <= 60 else text[:57] + '...'} ({type(value).__name__})"
+
+
+# ---- bytes from outside ----
+
+
+def short(cls_name: str, path: str, wanted: int, left: int) -> DeserializationError:
+    """The error for a length on the wire that goes beyond the data."""
+    problem = f"field {path} claims {wanted} bytes, but only {left} are left"
+    return DeserializationError(f"{cls_name}: {problem}: the data is cut off, or of another type")
+
+
+def too_many(cls_name: str, path: str, count: int, left: int) -> DeserializationError:
+    """The error for an array on the wire with more elements than the data can hold."""
+    problem = f"field {path} claims {count} elements, but only {left} bytes are left"
+    return DeserializationError(f"{cls_name}: {problem}: the data is cut off, or of another type")

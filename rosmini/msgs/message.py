@@ -1,0 +1,257 @@
+"""The base of all message classes: everything that does not depend on the fields of one type.
+
+A message class comes in two layers. The lower one has only the slots; the generated code makes objects of it, fills
+them at full speed, and then turns them into the upper, public one (``message.__class__ = ...``), whose
+``__setattr__`` gives a helpful error for a mistyped field.
+"""
+
+from __future__ import annotations
+
+import copyreg
+import struct
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+from rosmini.errors import DeserializationError, SerializationError, nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from io import BytesIO
+    from types import ModuleType
+
+    from .definition import MessageSpec
+    from .registry import Registry
+
+__all__ = ["Message", "make_message_class"]
+
+
+class _Compiled:
+    """A function of a message class that is generated when it is first asked for."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    def __get__(self, instance: Any, owner: type[Message]) -> Any:
+        from .codegen import compile_function
+
+        home = next(cls for cls in owner.__mro__ if "_spec" in cls.__dict__)
+        function = compile_function(home, self.name.removeprefix("_"))
+        setattr(home, self.name, staticmethod(function))
+        return function
+
+
+class Message:
+    """A ROS message; ``isinstance(x, Message)`` is true for messages of every type.
+
+    Made by :func:`rosmini.msgs.message_class`, with the conventions of genpy
+    (http://wiki.ros.org/msg, http://docs.ros.org/en/noetic/api/genpy/html/).
+    """
+
+    __slots__ = ("_connection_header",)
+
+    _type: ClassVar[str]
+    _md5sum: ClassVar[str]
+    _full_text: ClassVar[str]
+    _has_header: ClassVar[bool]
+    _slot_types: ClassVar[list[str]]
+    _spec: ClassVar[MessageSpec]
+    _nested: ClassVar[dict[str, type[Message]]]
+    _registry: ClassVar[Registry]
+    _fields_class: ClassVar[type[Message]]
+    _plain: ClassVar[bool]
+
+    _freeze: ClassVar[Callable[[Any], Any]] = _Compiled()  # type: ignore[assignment]
+    _thaw: ClassVar[Callable[[Any], Any]] = _Compiled()  # type: ignore[assignment]
+    _thaw_numpy: ClassVar[Callable[[Any], Any]] = _Compiled()  # type: ignore[assignment]
+    _thaw_genpy_numpy: ClassVar[Callable[[Any], Any]] = _Compiled()  # type: ignore[assignment]
+    _encode: ClassVar[Callable[[Any], bytes]] = _Compiled()  # type: ignore[assignment]
+    _read: ClassVar[Callable[[bytes, int, int], tuple[Any, int]]] = _Compiled()  # type: ignore[assignment]
+
+    @classmethod
+    def _decode(cls, data: bytes | bytearray | memoryview) -> Self:
+        """The frozen message that ``data`` holds in ROS 1 serialisation.
+
+        Raises :class:`DeserializationError` unless ``data`` is exactly one message of this type.
+        """
+        # numpy arrays will look into these bytes, so they must be ones that nobody can write to
+        fixed = data if data.__class__ is bytes else bytes(data)
+        try:
+            message, used = cls._read(fixed, 0, len(fixed))
+        except struct.error as error:
+            problem = f"{len(fixed)} bytes are too few: the data is cut off, or of another type"
+            raise DeserializationError(f"{cls._type}: {problem}") from error
+        if used != len(fixed):
+            problem = f"{len(fixed) - used} of {len(fixed)} bytes are left over: the data is of another type"
+            raise DeserializationError(f"{cls._type}: {problem}")
+        return message  # type: ignore[no-any-return]
+
+    # ---- genpy's interface ----
+
+    def serialize(self, buff: BytesIO) -> None:
+        """Write the message to ``buff``. Raises :class:`SerializationError` naming the field that is wrong."""
+        buff.write(type(self)._encode(self))
+
+    def deserialize(self, str: bytes) -> Self:
+        """Take all fields from bytes; gives ``self``. Raises :class:`DeserializationError`.
+
+        Unlike genpy it refuses bytes after the end of the message.
+        """
+        cls = type(self)
+        return self._take(cls._thaw(cls._decode(str)))
+
+    def serialize_numpy(self, buff: BytesIO, numpy: ModuleType) -> None:
+        """As :meth:`serialize`, which takes numpy arrays as well."""
+        self.serialize(buff)
+
+    def deserialize_numpy(self, str: bytes, numpy: ModuleType) -> Self:
+        """As :meth:`deserialize`, with numpy arrays where there are numbers; ``uint8[]`` stays bytes, as in genpy."""
+        cls = type(self)
+        return self._take(cls._thaw_genpy_numpy(cls._decode(str)))
+
+    def _take(self, other: Message) -> Self:
+        for field in self._spec.fields:
+            setattr(self, field.name, getattr(other, field.name))
+        return self
+
+    def _get_types(self) -> list[str]:
+        return self._slot_types
+
+    def _check_types(self, exc: Exception | None = None) -> None:
+        """Raise :class:`SerializationError` if a field is wrong, or with the text of ``exc`` if that is given."""
+        type(self)._freeze(self)
+        if exc is not None:
+            raise SerializationError(str(exc)) from exc
+
+    # ---- Python's interface ----
+
+    def __str__(self) -> str:
+        from .text import strify_message
+
+        return strify_message(self)
+
+    __repr__ = __str__
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, type(self)):
+            return False
+        names = [field.name for field in self._spec.fields]
+        return all(_alike(getattr(self, name, None), getattr(other, name, None)) for name in names)
+
+    __hash__ = None  # type: ignore[assignment]  # as in genpy: messages can be changed
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "_connection_header":
+            return None  # not received from anyone
+        if name.startswith("_"):
+            raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'", name=name, obj=self)
+        raise self._no_such_field(name)
+
+    def _no_such_field(self, name: str) -> AttributeError:
+        names = [field.name for field in self._spec.fields]
+        if name in names:
+            return AttributeError(f"field '{name}' of this {self._type} was never set", name=name, obj=self)
+        help_text = nearest(name, names) or f"its fields are {', '.join(names) or '(none)'}"
+        problem = f"{name} is not an attribute of {type(self).__name__} ({self._type}): {help_text}"
+        return AttributeError(problem, name=name, obj=self)
+
+    def _positional(self, args: tuple[Any, ...], given: dict[str, Any], unknown: dict[str, Any]) -> Sequence[Any]:
+        """The field values of a constructor call by position; raises what genpy raises for a wrong call."""
+        if args and (unknown or any(value is not None for value in given.values())):
+            raise TypeError("Message constructor may only use args OR keywords, not both")
+        for name in unknown:
+            raise self._no_such_field(name)
+        if len(args) != len(given):
+            fields = ", ".join(given) or "(none)"
+            problem = f"{type(self).__name__} takes all of its {len(given)} fields by position, or some by keyword"
+            raise TypeError(f"Invalid number of arguments: {problem}; given: {len(args)}, fields: {fields}")
+        return args
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        state = [getattr(self, field.name) for field in self._spec.fields]
+        cls = type(self)
+        if cls._registry.is_default and cls is cls._registry.message_class(cls._type):
+            return _restore, (cls._type, state)
+        return copyreg.__newobj__, (cls,), state  # type: ignore[attr-defined]
+
+    def __setstate__(self, state: Sequence[Any]) -> None:
+        for field, value in zip(self._spec.fields, state, strict=True):
+            setattr(self, field.name, value)
+
+
+def _restore(type_name: str, state: Sequence[Any]) -> Message:
+    """Make a message again from a pickle, which names its type and not its class."""
+    from .registry import registry
+
+    cls = registry().message_class(type_name)
+    message = cls.__new__(cls)
+    message.__setstate__(state)
+    return message
+
+
+def _alike(one: Any, other: Any) -> bool:
+    """Equality of field values: lists and tuples are alike, numpy arrays compare as a whole."""
+    if hasattr(one, "dtype") or hasattr(other, "dtype"):
+        import numpy as np
+
+        return bool(np.array_equal(one, other))
+    if isinstance(one, (list, tuple)) and isinstance(other, (list, tuple)):
+        return tuple(one) == tuple(other)
+    return bool(one == other)
+
+
+def _set_field(self: Message, name: str, value: Any) -> None:
+    try:
+        object.__setattr__(self, name, value)
+    except AttributeError:
+        raise self._no_such_field(name) from None
+
+
+def _first_init(self: Message, /, *args: Any, **kwds: Any) -> None:
+    """Compile the constructor when the first message is made, and go on with it."""
+    from .codegen import compile_function
+
+    home = next(cls for cls in type(self).__mro__ if "_spec" in cls.__dict__)
+    home.__init__ = compile_function(home, "init")  # type: ignore[misc]
+    self.__init__(*args, **kwds)  # type: ignore[misc]
+
+
+def make_message_class(
+    spec: MessageSpec,
+    nested: dict[str, type[Message]],
+    registry: Registry,
+    md5sum: str,
+    text: str,
+    module: str,
+) -> type[Message]:
+    """Make the class for ``spec``; ``nested`` has the classes of its fields by type name."""
+    names = [field.name for field in spec.fields]
+    fields_class = type(f"_{spec.short_name}Fields", (Message,), {"__slots__": tuple(names), "__module__": module})
+    namespace: dict[str, Any] = {
+        "__slots__": (),
+        "__module__": module,
+        "__qualname__": spec.short_name,
+        "__doc__": _docstring(spec),
+        "__setattr__": _set_field,
+        "__init__": _first_init,
+        "__match_args__": tuple(names),
+        "_type": spec.name,
+        "_md5sum": md5sum,
+        "_full_text": text,
+        "_has_header": spec.has_header,
+        "_slot_types": [field.type for field in spec.fields],
+        "_spec": spec,
+        "_nested": nested,
+        "_registry": registry,
+        "_fields_class": fields_class,
+        "_plain": all(field.size is None for field in spec.fields) and all(cls._plain for cls in nested.values()),
+        **{constant.name: constant.value for constant in spec.constants},
+    }
+    cls = type(spec.short_name, (fields_class,), namespace)
+    # The slots are those of the layer below; scripts expect to find the field names here.
+    cls.__slots__ = names  # type: ignore[attr-defined]
+    return cls
+
+
+def _docstring(spec: MessageSpec) -> str:
+    lines = [f"{spec.name}", ""]
+    lines += [f"    {field.type} {field.name}" for field in spec.fields] or ["    (no fields)"]
+    return "\n".join(lines)

@@ -1,0 +1,246 @@
+"""The classes of all message, service and action types, made from their definitions when they are first asked for."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from rosmini.errors import UnknownPackage, UnknownType, nearest
+
+from .definition import ACTION_SUFFIXES, BUILTIN_TYPES, MessageSpec, ServiceSpec, parse_message, parse_service, split_action
+from .fingerprint import full_text, message_md5, service_md5
+from .sources import FolderSource
+
+if TYPE_CHECKING:
+    from .message import Message
+    from .sources import Source
+
+__all__ = ["Registry", "Service", "registry"]
+
+MODULE_PREFIX = "rosmini.msgs"
+
+
+class Service:
+    """The base of all service classes, which only hold a type, an md5 sum and two message classes."""
+
+    _type: ClassVar[str]
+    _md5sum: ClassVar[str]
+    _request_class: ClassVar[type[Message]]
+    _response_class: ClassVar[type[Message]]
+
+
+class Registry:
+    """Makes and keeps the classes for the definitions of one source. Safe to use from several threads."""
+
+    def __init__(self, source: Source, *, is_default: bool = False) -> None:
+        self.source = source
+        self.is_default = is_default
+        self._lock = threading.RLock()
+        self._messages: dict[str, type[Message]] = {}
+        self._services: dict[str, type[Service]] = {}
+        self._specs: dict[str, MessageSpec] = {}
+
+    # ---- classes ----
+
+    def message_class(self, name: str) -> type[Any]:
+        """The class of a message type "package/Type"; also of the messages that services and actions are made of.
+
+        Raises :class:`UnknownType` or :class:`UnknownPackage` with the nearest names, :class:`DefinitionError` with
+        file and line if the definition, or one that it is made from, is broken.
+        """
+        found = self._messages.get(name)
+        if found is not None:
+            return found
+        with self._lock:
+            return self._make_message_class(name)
+
+    def service_class(self, name: str) -> type[Any]:
+        """The class of a service type "package/Type". Raises as :meth:`message_class` does."""
+        with self._lock:
+            if name not in self._services:
+                spec = self.service_definition(name)
+                package, _, short = name.partition("/")
+                self._services[name] = type(
+                    short,
+                    (Service,),
+                    {
+                        "__module__": f"{MODULE_PREFIX}.{package}.srv",
+                        "__doc__": f"{name}: a service (request: {spec.request.name}, response: {spec.response.name})",
+                        "_type": name,
+                        "_md5sum": service_md5(spec, self.definition),
+                        "_request_class": self.message_class(spec.request.name),
+                        "_response_class": self.message_class(spec.response.name),
+                    },
+                )
+            return self._services[name]
+
+    def action_class(self, name: str) -> type[Any]:
+        """The class of an action "package/Type" (or "package/TypeAction"), as actionlib's constructors take it.
+
+        A message class with the fields ``action_goal``, ``action_result`` and ``action_feedback``.
+        """
+        package, _, short = name.partition("/")
+        base = short.removesuffix("Action") or short
+        if self.source.read(package, "action", base) is None:
+            cls = self._messages.get(name) or (self._try(name) if short.endswith("Action") else None)
+            if cls is not None and [field.name for field in cls._spec.fields] == [
+                "action_goal",
+                "action_result",
+                "action_feedback",
+            ]:
+                return cls  # an action whose messages were generated into the package's msg folder
+            raise self._unknown("action", name)
+        return self.message_class(f"{package}/{base}Action")
+
+    def _try(self, name: str) -> type[Message] | None:
+        try:
+            return self.message_class(name)
+        except UnknownType:
+            return None
+
+    # ---- definitions ----
+
+    def definition(self, name: str) -> MessageSpec:
+        """The parsed definition of a message type, whose nested types all exist. Raises as :meth:`message_class`."""
+        with self._lock:
+            return self._load(name, ())
+
+    def service_definition(self, name: str) -> ServiceSpec:
+        """The parsed definition of a service type. Raises as :meth:`message_class`."""
+        package, short = self._split(name, "service")
+        found = self.source.read(package, "srv", short)
+        if found is None:
+            raise self._unknown("service", name)
+        spec = parse_service(found[0], name, found[1])
+        for half in (spec.request, spec.response):
+            self.definition(half.name)
+        return spec
+
+    def messages(self, package: str) -> list[str]:
+        """The names of a package's messages, those of its actions included, sorted; nothing is parsed."""
+        derived = [f"{name}{suffix}" for name in self.source.names(package, "action") for suffix in ACTION_SUFFIXES]
+        return sorted({*self.source.names(package, "msg"), *derived})
+
+    def services(self, package: str) -> list[str]:
+        """The names of a package's services, sorted; nothing is parsed."""
+        return self.source.names(package, "srv")
+
+    # ---- inside ----
+
+    def _make_message_class(self, name: str) -> type[Message]:
+        from .message import make_message_class
+
+        if name in self._messages:
+            return self._messages[name]
+        spec = self.definition(name)
+        nested = {field.base: self._make_message_class(field.base) for field in spec.fields if not field.builtin}
+        folder = "srv" if self._is_half_of_service(spec) else "msg"
+        self._messages[name] = make_message_class(
+            spec,
+            nested,
+            self,
+            message_md5(spec, self.definition),
+            full_text(spec, self.definition),
+            f"{MODULE_PREFIX}.{spec.package}.{folder}",
+        )
+        return self._messages[name]
+
+    @staticmethod
+    def _is_half_of_service(spec: MessageSpec) -> bool:
+        return spec.file is not None and spec.file.endswith(".srv")
+
+    def _load(self, name: str, within: tuple[str, ...]) -> MessageSpec:
+        if name in self._specs:
+            return self._specs[name]
+        package, short = self._split(name, "message")
+        spec = self._parse(package, short)
+        if spec is None:
+            raise self._unknown("message", name)
+        for field in spec.fields:
+            if field.builtin:
+                continue
+            if field.base in (*within, name):
+                circle = " -> ".join((*within, name, field.base))
+                raise spec.error(field.line, f"a message cannot contain itself: {circle}")
+            try:
+                self._load(field.base, (*within, name))
+            except UnknownType as error:
+                known = [*BUILTIN_TYPES, *self._type_names(package)]
+                hint = nearest(field.base.removeprefix(f"{package}/"), known)
+                if field.base == f"{package}/Header":
+                    hint = "write std_msgs/Header"
+                raise spec.error(field.line, hint and f"unknown type '{field.base}': {hint}" or str(error)) from error
+            except UnknownPackage as error:
+                raise spec.error(field.line, str(error)) from error
+        self._specs[name] = spec
+        return spec
+
+    def _parse(self, package: str, short: str) -> MessageSpec | None:
+        name = f"{package}/{short}"
+        found = self.source.read(package, "msg", short)
+        if found is not None:
+            return parse_message(found[0], name, found[1])
+        for suffix in ACTION_SUFFIXES:
+            base = short.removesuffix(suffix)
+            found = self.source.read(package, "action", base) if base and base != short else None
+            if found is not None:
+                return split_action(found[0], f"{package}/{base}", found[1])[name]
+        for suffix in ("Request", "Response"):
+            base = short.removesuffix(suffix)
+            found = self.source.read(package, "srv", base) if base and base != short else None
+            if found is not None:
+                service = parse_service(found[0], f"{package}/{base}", found[1])
+                return service.request if suffix == "Request" else service.response
+        return None
+
+    @staticmethod
+    def _split(name: str, what: str) -> tuple[str, str]:
+        package, slash, short = name.partition("/")
+        if not (package and slash and short) or "/" in short:
+            raise UnknownType(f"'{name}' is no {what} type: it is written package/Type, as in std_msgs/String")
+        return package, short
+
+    def _type_names(self, package: str) -> list[str]:
+        return [*self.messages(package), *(f"{owner}/{name}" for owner in self.source.packages() for name in self.messages(owner))]
+
+    def _unknown(self, what: str, name: str) -> UnknownType | UnknownPackage:
+        package, short = self._split(name, what)
+        packages = self.source.packages()
+        kind = {"message": self.messages, "service": self.services}.get(what, lambda p: self.source.names(p, "action"))
+        if package not in packages:
+            everywhere = [f"{owner}/{other}" for owner in packages for other in kind(owner) if other == short]
+            hint = nearest(package, packages) or (f"{short} is defined by {', '.join(everywhere)}" if everywhere else "")
+            hint = hint or "is it on ROS_PACKAGE_PATH?"
+            return UnknownPackage(f"{what} type {name}: no package '{package}' defines messages or services: {hint}")
+        names = kind(package)
+        hint = nearest(short, names)
+        elsewhere = [f"{owner}/{short}" for owner in packages if owner != package and short in kind(owner)]
+        if elsewhere:
+            hint = f"did you mean {' or '.join(elsewhere)}?"
+        shown = hint or (f"it has {', '.join(names[:12])}{' ...' if len(names) > 12 else ''}" if names else "it has none")
+        return UnknownType(f"package '{package}' has no {what} type '{short}': {shown}")
+
+
+class _Holder:
+    """Holds the one registry of the process, which the module functions and the import hook use.
+
+    This is the only state of ``rosmini.msgs`` that lives outside objects. It has to: a message type must be the same
+    class wherever it is imported.
+    """
+
+    current: ClassVar[Registry | None] = None
+    lock: ClassVar[threading.Lock] = threading.Lock()
+
+
+def registry() -> Registry:
+    """The registry of this process, over all packages that can be found."""
+    with _Holder.lock:
+        if _Holder.current is None:
+            _Holder.current = Registry(FolderSource(_package_roots), is_default=True)
+        return _Holder.current
+
+
+def _package_roots() -> dict[str, Path]:
+    root = Path(__file__).resolve().parents[2] / "assets" / "ros"
+    return {path.name: path for path in root.iterdir()}
