@@ -26,26 +26,37 @@ def build_book(checkout: Path, output: Path | None = None, *, quiet: bool = True
             "Jupyter Book is not installed in this environment; run `uv run rosmini book` in the checkout, "
             "or `pip install -e '.[book]'` first"
         )
-    target = (output or checkout / "book") / "_build"
-    # Sphinx keeps pages and notebooks of earlier builds, and would miss a change in our own extension.
-    shutil.rmtree(target, ignore_errors=True)
-    command = [sys.executable, "-m", "jupyter_book", "build", str(checkout)]
-    command += [
-        "--config",
-        str(checkout / "book" / "_config.yml"),
-        "--toc",
-        str(checkout / "book" / "_toc.yml"),
-    ]
-    command += ["--path-output", str(target.parent), "-W", "-n", "--keep-going"]
-    command += ["-q"] if quiet else []
-    environment = os.environ | {"PYTHONIOENCODING": "utf-8", "PYDEVD_DISABLE_FILE_VALIDATION": "1"}
-    done = subprocess.run(command, cwd=checkout, env=environment, check=False)
-    first = target / "html" / "index.html"
+    build = (output or checkout / "book") / "_build"
+    # Sphinx keeps the pages of earlier builds, and would miss a change in our own extension.
+    for stale in ("html", ".doctrees", ".jupyter_cache"):
+        shutil.rmtree(build / stale, ignore_errors=True)
+    done = _jupyter_book(checkout, build.parent, quiet=quiet)
+    first = build / "html" / "index.html"
     if done.returncode or not first.is_file():
+        if quiet:
+            print(done.stdout, file=sys.stderr)
         raise BookError(
             f"the book was not built (Jupyter Book ended with status {done.returncode}); its messages are above"
         )
     return first
+
+
+def _jupyter_book(checkout: Path, output: Path, *, quiet: bool) -> subprocess.CompletedProcess[str]:
+    """Run Jupyter Book in a process of its own: it changes `sys.path`, locale and logging of the one it runs in."""
+    command = [sys.executable, "-c", "from jupyter_book.cli.main import main; main()", "build", str(checkout)]
+    for option, value in (("config", "book/_config.yml"), ("toc", "book/_toc.yml")):
+        command += [f"--{option}", str(checkout / value)]
+    command += ["--path-output", str(output), "-W", "-n", "--keep-going"]
+    return subprocess.run(
+        command,
+        cwd=checkout,
+        env=os.environ | {"PYTHONIOENCODING": "utf-8", "PYDEVD_DISABLE_FILE_VALIDATION": "1"},
+        check=False,
+        stdout=subprocess.PIPE if quiet else None,
+        stderr=subprocess.STDOUT if quiet else None,
+        encoding="utf-8",
+        errors="replace",
+    )
 
 
 def has_display() -> bool:

@@ -1,0 +1,77 @@
+"""The hidden solutions of a notebook's exercises, and the notebook with them in place of the stubs.
+
+A stub is a code cell whose first line is `# Exercise 11.2`. Its solution is the first Python block of the Markdown
+cell with `<summary>Solution to exercise 11.2</summary>` in it.
+"""
+
+from __future__ import annotations
+
+import copy
+import re
+from typing import TYPE_CHECKING
+
+from rosmini.errors import RosminiError
+
+if TYPE_CHECKING:
+    import nbformat
+
+STUB = re.compile(r"\A#\s*Exercise\s+(\d+\.\d+)\b")
+SOLUTION = re.compile(r"<summary>Solution to exercise (\d+\.\d+)</summary>(.*?)</details>", re.DOTALL)
+PYTHON = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
+CHECK = re.compile(r"^check\(\s*[\"'](\d+\.\d+)[\"']", re.MULTILINE)
+
+
+class SolutionError(RosminiError):
+    """Stubs, checks and solutions of a notebook do not belong together."""
+
+
+def stubs(notebook: nbformat.NotebookNode) -> dict[str, int]:
+    """The places of the stub cells (from 0), by the number of the exercise."""
+    found = (
+        (STUB.match(cell.source), place)
+        for place, cell in enumerate(notebook.cells)
+        if cell.cell_type == "code"
+    )
+    return {match[1]: place for match, place in found if match}
+
+
+def checks(notebook: nbformat.NotebookNode) -> dict[str, int]:
+    """The places of the cells that call `check` (from 0), by the number of the exercise."""
+    cells = ((place, cell.source) for place, cell in enumerate(notebook.cells) if cell.cell_type == "code")
+    return {number: place for place, source in cells for number in CHECK.findall(source)}
+
+
+def solutions(notebook: nbformat.NotebookNode) -> dict[str, str]:
+    """The code of the solutions, by the number of the exercise. Raises `SolutionError` if one has no Python block."""
+    found: dict[str, str] = {}
+    for cell in notebook.cells:
+        if cell.cell_type != "markdown":
+            continue
+        for number, text in SOLUTION.findall(cell.source):
+            block = PYTHON.search(text)
+            if not block:
+                raise SolutionError(f"the solution to exercise {number} has no ```python block")
+            found[number] = block[1].rstrip()
+    return found
+
+
+def solved(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
+    """A copy of `notebook` with each stub replaced by its solution.
+
+    Raises `SolutionError` unless each exercise has a stub, a check and a solution.
+    """
+    at, checked, code = stubs(notebook), checks(notebook), solutions(notebook)
+    for what, numbers in (("stub", at), ("check", checked), ("solution", code)):
+        missing = sorted((at.keys() | checked.keys() | code.keys()) - numbers.keys())
+        if missing:
+            raise SolutionError(f"no {what} for exercise {', '.join(missing)}")
+    copied = copy.deepcopy(notebook)
+    for number, place in at.items():
+        copied.cells[place].source = f"# Exercise {number}\n{code[number]}"
+    return copied
+
+
+def check_output(notebook: nbformat.NotebookNode, number: str) -> str:
+    """What the check of exercise `number` printed."""
+    outputs = notebook.cells[checks(notebook)[number]].outputs
+    return "".join(output.get("text", "") for output in outputs)

@@ -1,0 +1,138 @@
+"""The Sphinx extension of the book: pages that need no network, and notebooks that need no Sphinx.
+
+- Formulas become MathML when the book is built, so that no MathJax is loaded.
+- A quote that begins with a bold word such as "On a real robot" becomes a box. In JupyterLab it stays a quote.
+- What sphinx-thebe adds to each page (a script from a CDN, declared twice) is taken out.
+- The chatter of the theme's scripts in the browser's console is taken out too.
+- The style sheet of `rosmini.viz` comes along when it is there.
+"""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from docutils import nodes
+from latex2mathml.converter import convert
+from sphinx.transforms import SphinxTransform
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+    from sphinx.writers.html5 import HTML5Translator
+
+# How a quote begins -> the classes of the box that it becomes (the theme gives "note", "tip" and so on their look).
+BOXES: dict[str, tuple[str, ...]] = {
+    "On a real robot": ("real-robot",),
+    "You will learn": ("learn",),
+    "Summary": ("summary-box",),
+    "Note": ("note",),
+    "Tip": ("tip",),
+    "Warning": ("warning",),
+}
+
+
+def mathml(tex: str, *, display: bool) -> str:
+    """The formula `tex` as a MathML element, with the TeX source as its accessible label."""
+    return convert(tex.strip(), display="block" if display else "inline")
+
+
+def visit_inline_math(self: HTML5Translator, node: nodes.math) -> None:
+    """Write an inline formula."""
+    self.body.append(mathml(node.astext(), display=False))
+    raise nodes.SkipNode
+
+
+def visit_block_math(self: HTML5Translator, node: nodes.math_block) -> None:
+    """Write a displayed formula, with its number if it has one."""
+    self.body.append(self.starttag(node, "div", CLASS="math-block"))
+    self.body.append(mathml(node.astext(), display=True))
+    if node.get("number"):
+        self.body.append(f'<span class="eqno">({node["number"]})')
+        self.add_permalink_ref(node, "Link to this equation")
+        self.body.append("</span>")
+    self.body.append("</div>\n")
+    raise nodes.SkipNode
+
+
+class QuoteBoxes(SphinxTransform):
+    """Turns quotes that begin with one of `BOXES` in bold into boxes with that title."""
+
+    default_priority = 400
+
+    def apply(self, **kwargs: Any) -> None:  # noqa: ARG002  (docutils' signature)
+        """Replace them in the page at hand."""
+        for quote in list(self.document.findall(nodes.block_quote)):
+            title = box_title(quote)
+            if title is not None:
+                quote.replace_self(make_box(quote, title))
+
+
+def box_title(quote: nodes.block_quote) -> str | None:
+    """The title with which `quote` asks to be a box, if it does."""
+    first = quote.children[0] if quote.children else None
+    if not isinstance(first, nodes.paragraph):
+        return None
+    lead = next((child for child in first.children if child.astext().strip()), None)
+    title = lead.astext().strip().rstrip(".:") if isinstance(lead, nodes.strong) else ""
+    return title if title in BOXES else None
+
+
+def make_box(quote: nodes.block_quote, title: str) -> nodes.admonition:
+    """The box that takes the place of `quote`: its bold lead becomes the title."""
+    first, *rest = quote.children
+    lead = next(first.findall(nodes.strong))
+    words = list(first.children[first.children.index(lead) + 1 :])
+    if words and isinstance(words[0], nodes.Text):
+        words[0] = nodes.Text(words[0].lstrip(" .:\n"))
+    text = nodes.paragraph("", "", *words)
+    body = [text, *rest] if text.astext().strip() else rest
+    return nodes.admonition("", nodes.title("", title), *body, classes=[*BOXES[title], "box"])
+
+
+def silence_thebe(app: Sphinx) -> None:
+    """Disconnect what sphinx-thebe does to each page: the book starts no remote kernels."""
+    for listeners in app.events.listeners.values():
+        for listener in list(listeners):
+            if listener.handler.__module__.startswith("sphinx_thebe"):
+                app.disconnect(listener.id)
+
+
+def add_viz_style(app: Sphinx) -> None:
+    """Add the style sheet of the pictures that `rosmini.viz` makes."""
+    package = find_spec("rosmini.viz")
+    if package is None or package.origin is None:
+        return
+    static = Path(package.origin).parent / "static"
+    if (static / "rosmini.css").is_file():
+        app.config.html_static_path.append(str(static))
+        app.add_css_file("rosmini.css")
+
+
+def prepare(app: Sphinx) -> None:
+    """When the builder is ready, and before the handlers of the other extensions."""
+    silence_thebe(app)
+    add_viz_style(app)
+
+
+def hush(app: Sphinx, error: Exception | None) -> None:
+    """Take the chatter out of the theme's scripts ("Changed to auto mode ..."): the reader's console stays empty.
+
+    Errors and warnings are left as they are.
+    """
+    if error is not None or app.builder.format != "html":
+        return
+    for script in Path(app.outdir, "_static").rglob("*.js"):
+        text = script.read_text(encoding="utf-8")
+        if "console.log(" in text:
+            script.write_text(text.replace("console.log(", "void("), encoding="utf-8", newline="\n")
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Register all of it with Sphinx."""
+    app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_block_math, None))
+    app.add_transform(QuoteBoxes)
+    app.connect("builder-inited", prepare, priority=1)
+    # After every extension has copied its scripts.
+    app.connect("build-finished", hush, priority=999)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,104 @@
+"""Notebook hygiene: each rule refuses what it is there to refuse, and a clean notebook passes."""
+
+from __future__ import annotations
+
+import nbformat
+import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
+
+from rosmini.book import notebooks
+
+
+def stream(text: str):
+    return new_output("stream", name="stdout", text=text)
+
+
+def notebook(*cells, **metadata):
+    metadata = {
+        "kernelspec": dict(notebooks.KERNELSPEC),
+        "language_info": dict(notebooks.LANGUAGE),
+    } | metadata
+    return new_notebook(cells=list(cells), metadata=metadata)
+
+
+def code(source: str, count: int | None = 1, *outputs, **metadata):
+    return new_code_cell(source, execution_count=count, outputs=list(outputs), metadata=metadata)
+
+
+def test_a_clean_notebook_has_no_problems():
+    nb = notebook(
+        new_markdown_cell("# T"), code("1 + 1", 1), code("print(2)", 2, stream("2\n"), tags=["hide-input"])
+    )
+    assert list(notebooks.problems(nb)) == []
+
+
+@pytest.mark.parametrize(
+    ("cell", "problem"),
+    [
+        (code("x = 1", None), "cell 1 was not executed: 'x = 1'"),
+        (code("x = 1", 7), "cell 1 was executed as number 7, not 1: run all, from the top: 'x = 1'"),
+        (code("x", tags=["nbval-skip"]), "cell 1 has the tag nbval-skip and gives no reason: 'x'"),
+        (
+            code("x", tags=["raises-exception"]),
+            "cell 1 has the tag raises-exception and gives no reason: 'x'",
+        ),
+        (
+            code("# NBVAL_IGNORE_OUTPUT\nx"),
+            "cell 1 has the comment NBVAL_IGNORE_OUTPUT and gives no reason: '# NBVAL_IGNORE_OUTPUT'",
+        ),
+        (code("x", execution={"iopub.status.busy": "2026"}), "cell 1 has metadata of a tool or a run (execution): 'x'"),
+        (code("", None), "cell 1 is empty: ''"),
+        (
+            code("clear_output()"),
+            "cell 1 uses clear_output, whose output nbval cannot compare: 'clear_output()'",
+        ),
+        (
+            code("x", 1, stream("<f at 0x7f00deadbeef>")),
+            "cell 1 printed a memory address ('0x7f00deadbeef'): 'x'",
+        ),
+        (code("x", 1, stream("in /home/me/x.py")), "cell 1 printed a path of this machine ('/home/m'): 'x'"),
+        (code("x", 1, stream("http://127.0.0.1:7000")), "cell 1 printed a local address ('127.0.0.1'): 'x'"),
+        (
+            code("\n".join("x = 1" for _ in range(21))),
+            "cell 1 has 21 lines of code, over 20: split it, or move a helper into rosmini: 'x = 1'",
+        ),
+    ],
+)
+def test_what_is_refused(cell, problem):
+    assert list(notebooks.problems(notebook(cell))) == [problem]
+
+
+@pytest.mark.parametrize(
+    "cell",
+    [
+        code("# reason: it prints the time\nx", tags=["nbval-ignore-output"]),
+        code("x", tags=["nbval-skip"], reason="it needs a camera"),
+        code("# NBVAL_IGNORE_OUTPUT: it prints the time\nx"),
+        code("x", 1, stream("the topic /rosout, the type geometry_msgs/Twist, http://localhost:11311/")),
+    ],
+)
+def test_what_is_accepted(cell):
+    assert list(notebooks.problems(notebook(cell))) == []
+
+
+def test_the_metadata_of_the_notebook():
+    nb = notebook(code("x"), language_info={"name": "python", "version": "3.11.7"}, widgets={})
+    assert list(notebooks.problems(nb)) == [
+        "the notebook's metadata has widgets",
+        "the notebook's metadata tells the Python version of a machine",
+    ]
+    notebooks.clean(nb)
+    assert list(notebooks.problems(nb)) == []
+
+
+def test_execute_stores_outputs_that_pass_and_are_the_same_bytes(tmp_path):
+    path = tmp_path / "a.ipynb"
+    nbformat.write(notebook(code("print(1)\nprint(2)", None), code("40 + 2", None)), path)
+    assert notebooks.main(["check", str(path)]) == 1
+    assert notebooks.main(["execute", str(path)]) == 0
+    once = path.read_bytes()
+    stored = notebooks.read(path)
+    assert stored.cells[0].outputs[0].text == "1\n2\n"
+    assert stored.cells[1].outputs[0].data == {"text/plain": "42"}
+    assert notebooks.main(["execute", str(path)]) == 0
+    assert path.read_bytes() == once
