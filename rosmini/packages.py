@@ -86,6 +86,8 @@ class Package:
     description: str
     depends: tuple[str, ...]
     """Packages needed to build or to run it, sorted; tools of the build are not among them."""
+    exec_depends: tuple[str, ...]
+    """Packages needed to run it, in the order in which ``rospack depends1`` prints them."""
     is_metapackage: bool
 
     @cached_property
@@ -347,14 +349,16 @@ def _read_package(folder: Path) -> Package:
     except (InvalidPackage, AssertionError, ValueError) as error:
         reason = _reason(error)
         raise DefinitionError(reason, manifest, _line_at_fault(data, reason)) from error
-    groups = (parsed.build_depends, parsed.build_export_depends, parsed.exec_depends)
-    depends = {each.name for group in groups for each in group if each.evaluated_condition}
+    needed = [*parsed.build_depends, *parsed.build_export_depends, *parsed.exec_depends]
     return Package(
         name=parsed.name,
         path=folder,
         version=parsed.version,
         description=" ".join(parsed.plaintext_description.split()),
-        depends=tuple(sorted(depends)),
+        depends=tuple(sorted({each.name for each in needed if each.evaluated_condition})),
+        exec_depends=tuple(
+            dict.fromkeys(each.name for each in parsed.exec_depends if each.evaluated_condition)
+        ),
         is_metapackage=parsed.is_metapackage(),
     )
 

@@ -236,6 +236,16 @@ def test_an_unknown_package_names_the_folders_and_the_nearest(tmp_path: Path) ->
     assert f"{tmp_path / 'gone'}  (there is no such folder)" in text
 
 
+def test_what_it_needs_to_run_comes_in_the_order_of_rospack(own: PackageIndex) -> None:
+    # $ rospack depends1 gazebo_msgs, of real ROS on this manifest
+    assert own.find("gazebo_msgs").exec_depends == (
+        "message_runtime",
+        "geometry_msgs",
+        "std_msgs",
+        "trajectory_msgs",
+    )
+
+
 # ---- broken manifests ----
 
 
