@@ -12,10 +12,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-if TYPE_CHECKING:
-    from .message import Message
+from .importer import enable_own_imports, install, installed, uninstall
+from .registry import registry
 
-__all__ = ["action_class", "message_class", "service_class"]
+if TYPE_CHECKING:
+    from .message import Message as Message
+
+__all__ = ["Message", "action_class", "install", "installed", "message_class", "service_class", "uninstall"]
+
+enable_own_imports()
 
 
 def message_class(name: str) -> type[Any]:
@@ -24,20 +29,30 @@ def message_class(name: str) -> type[Any]:
     Raises :class:`~rosmini.errors.UnknownType` or :class:`~rosmini.errors.UnknownPackage` with the nearest names, and
     :class:`~rosmini.errors.DefinitionError` with file and line if a definition is broken.
     """
-    from .registry import registry
-
     return registry().message_class(name)
 
 
 def service_class(name: str) -> type[Any]:
     """The class of a service type such as "std_srvs/SetBool"; raises as :func:`message_class` does."""
-    from .registry import registry
-
     return registry().service_class(name)
 
 
 def action_class(name: str) -> type[Any]:
     """The class of an action such as "move_base_msgs/MoveBase"; raises as :func:`message_class` does."""
-    from .registry import registry
-
     return registry().action_class(name)
+
+
+def __getattr__(name: str) -> Any:
+    if name == "Message":  # its module is only loaded when a class is needed
+        from .message import Message
+
+        return Message
+    if name.startswith("_"):
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    from importlib import import_module
+
+    return import_module(f"{__name__}.{name}")
+
+
+def __dir__() -> list[str]:
+    return [*__all__, *registry().source.packages()]

@@ -68,7 +68,9 @@ class _Generator:
         self.lines: list[str] = []
         self.globals: dict[str, Any] = {"__builtins__": __builtins__}
         self.nodes: list[_Node] = []
-        self.leaves: list[tuple[_Node, str, Field | None, str]] = []  # node, attribute, field (None in a time), kind
+        self.leaves: list[
+            tuple[_Node, str, Field | None, str]
+        ] = []  # node, attribute, field (None in a time), kind
         self._walk(_Node("", cls, None, "", 0))
 
     def _walk(self, node: _Node) -> None:
@@ -88,7 +90,7 @@ class _Generator:
     def class_of(owner: type[Any], base: str) -> type[Any]:
         if base == "time":
             return Time
-        return Duration if base == "duration" else owner._nested[base]  # type: ignore[no-any-return]
+        return Duration if base == "duration" else owner._nested[base]
 
     # ---- pieces ----
 
@@ -133,24 +135,31 @@ class _Generator:
         return self.use("numbers", packer), packer
 
     def emit_sources(self, depth: int) -> None:
-        for node in self.nodes[1:]:
-            assert node.parent is not None
-            self.emit(f"{node.source} = {node.parent.source}.{node.name}", depth)
+        for node in self.nodes:
+            if node.parent is not None:
+                self.emit(f"{node.source} = {node.parent.source}.{node.name}", depth)
 
     def emit_targets(self, depth: int) -> None:
         """Make the objects, as instances of the classes without ``__setattr__`` for speed (see message.py)."""
         for node in self.nodes:
             if node.is_time:
-                self.emit(f"{node.target} = {self.use('new', object.__new__)}({self.use(f'class_{node.cls.__name__}', node.cls)})", depth)
+                self.emit(
+                    f"{node.target} = {self.use('new', object.__new__)}({self.use(f'class_{node.cls.__name__}', node.cls)})",
+                    depth,
+                )
             else:
-                self.emit(f"{node.target} = {self.use(f'new_{node.cls.__name__}', node.cls._fields_class)}()", depth)
+                self.emit(
+                    f"{node.target} = {self.use(f'new_{node.cls.__name__}', node.cls._fields_class)}()", depth
+                )
 
     def emit_finish(self, depth: int) -> None:
         for node in reversed(self.nodes):
             if node.parent is not None:
                 self.emit(f"{node.parent.target}.{node.name} = {node.target}", depth)
             if not node.is_time:
-                self.emit(f"{node.target}.__class__ = {self.use(f'class_{node.cls.__name__}', node.cls)}", depth)
+                self.emit(
+                    f"{node.target}.__class__ = {self.use(f'class_{node.cls.__name__}', node.cls)}", depth
+                )
             elif node.parent is self.nodes[0]:
                 # genpy brings the times that are fields of the message itself to canonical form
                 wrong = f"{node.target}.nsecs > 999999999"
@@ -160,7 +169,10 @@ class _Generator:
 
     def emit_unpacked(self, run: list[tuple[_Node, str, Field | None, str]], values: str, depth: int) -> None:
         targets = [f"{node.target}.{name}" for node, name, _, _ in run]
-        self.emit(f"{', '.join(targets)}, = {values}" if len(targets) == 1 else f"{', '.join(targets)} = {values}", depth)
+        self.emit(
+            f"{', '.join(targets)}, = {values}" if len(targets) == 1 else f"{', '.join(targets)} = {values}",
+            depth,
+        )
         for target, (*_, kind) in zip(targets, run, strict=True):
             if kind == "bool":
                 self.emit(f"{target} = {target} != 0", depth)
@@ -174,11 +186,11 @@ class _Generator:
 
     def array_function(self, field: Field, *, verb: str) -> str:
         """The name of the function that freezes (or thaws) one array field."""
-        assert field.size is not None
+        size = -1 if field.size is None else field.size
         if field.base in ("uint8", "char"):
-            return self.use(f"freeze_{field.base}s_{field.name}", fields.freeze_bytes(field.size))
+            return self.use(f"freeze_{field.base}s_{field.name}", fields.freeze_bytes(size))
         if field.base in FORMATS:
-            return self.use(f"freeze_{field.base}s_{field.name}", fields.array_freezer(field.base, field.size))
+            return self.use(f"freeze_{field.base}s_{field.name}", fields.array_freezer(field.base, size))
         element: Callable[[Any], Any]
         if field.base == "string":
             element = fields.checked_text
@@ -186,7 +198,7 @@ class _Generator:
             element = _freeze_time if field.base == "time" else _freeze_duration
         else:
             element = getattr(self.cls_of_field(field), f"_{verb}")
-        return self.use(f"freeze_{field.name}", _list_freezer(element, field.size))
+        return self.use(f"freeze_{field.name}", _list_freezer(element, size))
 
     def cls_of_field(self, field: Field) -> type[Message]:
         for node in self.nodes:
@@ -214,11 +226,15 @@ class _Generator:
         if field.base in ("uint8", "char") and field.size is not None:
             return f"{self.use('_bytes', bytes)}({field.size})"
         if field.base in FORMATS or field.base == "string":
-            single = {"float32": "0.0", "float64": "0.0", "string": "''", "bool": "False"}.get(field.base, "0")
+            single = {"float32": "0.0", "float64": "0.0", "string": "''", "bool": "False"}.get(
+                field.base, "0"
+            )
             return single if field.size is None else f"[{single}] * {field.size}"
         cls = self.class_of(self.cls, field.base)
         single = f"{self.use(f'_{cls.__name__}', cls)}()"
-        return single if field.size is None else f"[{single} for _ in {self.use('_range', range)}({field.size})]"
+        return (
+            single if field.size is None else f"[{single} for _ in {self.use('_range', range)}({field.size})]"
+        )
 
     def _freeze(self) -> None:
         self.emit("def freeze(m):", 0)
@@ -231,7 +247,10 @@ class _Generator:
                 packer, _struct = self.struct_for(run)
                 self.emit_unpacked(run, f"{packer}.unpack({self.packed(run, packer)})", 2)
             elif field is not None and field.size is not None:
-                self.emit(f"{node.target}.{name} = {self.array_function(field, verb='freeze')}({node.source}.{name})", 2)
+                self.emit(
+                    f"{node.target}.{name} = {self.array_function(field, verb='freeze')}({node.source}.{name})",
+                    2,
+                )
             else:
                 self.emit(f"v = {node.source}.{name}", 2)
                 self.emit("if v.__class__ is not str or not v.isascii():", 2)
@@ -243,7 +262,10 @@ class _Generator:
 
     def emit_explained(self) -> None:
         self.emit(f"except {self.use('ERRORS', fields.ERRORS)} as error:")
-        self.emit(f"raise {self.use('explain', fields.explain)}({self.use('CLS', self.cls)}, m, error) from error", 2)
+        self.emit(
+            f"raise {self.use('explain', fields.explain)}({self.use('CLS', self.cls)}, m, error) from error",
+            2,
+        )
 
     def _thaw(self) -> None:
         self.emit(f"def {self.purpose}(m):", 0)
@@ -296,7 +318,7 @@ class _Generator:
                 self.emit(f"parts += ({length}(len(v)), v)", 2)
                 continue
             self.emit(f"v = {self.array_function(field, verb='encode')}({value})", 2)
-            if field.size < 0:
+            if field.size == -1:
                 self.emit(f"parts.append({length}(len(v)))", 2)
             if kind in ("uint8", "char"):
                 self.emit("parts.append(v)", 2)
@@ -338,22 +360,25 @@ class _Generator:
         self.emit_length("n", depth)
         self.emit("stop = pos + n", depth)
         self.emit("if stop > end:", depth)
-        self.emit(f"raise {self.use('short', fields.short)}({self.cls._type!r}, {path}, n, end - pos)", depth + 1)
+        self.emit(
+            f"raise {self.use('short', fields.short)}({self.cls._type!r}, {path}, n, end - pos)", depth + 1
+        )
         # as in rospy, what is not UTF-8 becomes U+FFFD
         self.emit(f"{target} = str(data[pos:stop], 'utf-8', 'replace')", depth)
         self.emit("pos = stop", depth)
 
     def emit_array_read(self, node: _Node, field: Field) -> None:
-        assert field.size is not None
         path, target, kind = repr(node.field_path(field.name)), f"{node.target}.{field.name}", field.base
-        if field.size < 0:
+        if field.size == -1:
             self.emit_length("count", 1)
         else:
             self.emit(f"count = {field.size}")
         smallest = _smallest(self.cls_of_field(field)) if not field.builtin else _smallest_builtin(kind)
         limit = f"count * {smallest} > end - pos" if smallest else f"count > {MAX_EMPTY_ELEMENTS}"
         self.emit(f"if {limit}:")
-        self.emit(f"raise {self.use('too_many', fields.too_many)}({self.cls._type!r}, {path}, count, end - pos)", 2)
+        self.emit(
+            f"raise {self.use('too_many', fields.too_many)}({self.cls._type!r}, {path}, count, end - pos)", 2
+        )
         if kind in FORMATS:
             size = struct.calcsize("<" + FORMATS[kind])
             self.emit(f"stop = pos + count * {size}")
@@ -415,8 +440,6 @@ def _list_freezer(element: Callable[[Any], Any], size: int) -> Callable[[Any], t
     return convert
 
 
-
-
 def _freeze_time(value: Any) -> Time:
     time = object.__new__(Time)
     time.secs, time.nsecs = _TIME.unpack(_TIME.pack(value.secs, value.nsecs))
@@ -429,6 +452,8 @@ def _freeze_duration(value: Any) -> Duration:
     return duration
 
 
-def _arguments(message: Message, args: tuple[Any, ...], given: dict[str, Any], unknown: dict[str, Any]) -> Any:
+def _arguments(
+    message: Message, args: tuple[Any, ...], given: dict[str, Any], unknown: dict[str, Any]
+) -> Any:
     """The values for the fields when a constructor was called by position, or wrongly."""
     return message._positional(args, given, unknown)

@@ -24,7 +24,16 @@ if TYPE_CHECKING:
     from .definition import Field
     from .message import Message
 
-__all__ = ["DTYPES", "ERRORS", "FORMATS", "array_freezer", "as_bool", "checked_text", "explain", "freeze_bytes"]
+__all__ = [
+    "DTYPES",
+    "ERRORS",
+    "FORMATS",
+    "array_freezer",
+    "as_bool",
+    "checked_text",
+    "explain",
+    "freeze_bytes",
+]
 
 # What a wrong value can raise in generated code; AttributeError: None or a number where a message belongs.
 ERRORS = (struct.error, TypeError, ValueError, OverflowError, AttributeError, SerializationError)
@@ -45,7 +54,11 @@ FORMATS = {
     "float64": "d",
 }
 DTYPES = {
-    name: np.dtype("?" if name == "bool" else f"<{'f' if code in 'fd' else 'iu'[code.isupper()]}{struct.calcsize('<' + code)}")
+    name: np.dtype(
+        "?"
+        if name == "bool"
+        else f"<{'f' if code in 'fd' else 'iu'[code.isupper()]}{struct.calcsize('<' + code)}"
+    )
     for name, code in FORMATS.items()
 }
 
@@ -59,7 +72,7 @@ def checked_text(value: Any) -> str:
 
 
 def as_bool(value: Any) -> Any:
-    """numpy's bool, which struct does not take, as Python's; anything else as it is."""
+    """A bool of numpy, which struct does not take, as one of Python; anything else as it is."""
     return bool(value) if isinstance(value, np.bool_) else value
 
 
@@ -93,7 +106,12 @@ def array_freezer(kind: str, size: int) -> Callable[[Any], NDArray[Any]]:
 
     def convert(values: Any) -> NDArray[Any]:
         if isinstance(values, ndarray):
-            if values.dtype == dtype and values.base.__class__ is bytes and values.ndim == 1 and values.flags.c_contiguous:
+            if (
+                values.dtype == dtype
+                and isinstance(values.base, bytes)
+                and values.ndim == 1
+                and values.flags.c_contiguous
+            ):
                 array: NDArray[Any] = values
             else:
                 array = frombuffer(_array_bytes(values, dtype), dtype)
@@ -165,8 +183,12 @@ def _check(cls: type[Message], message: Any, prefix: str) -> None:
         if field.size is None:
             _check_value(cls, field, path, value)
             continue
-        if isinstance(value, (str, dict)) or (isinstance(value, bytes) and field.base not in ("uint8", "char")):
-            raise SerializationError(f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]")
+        if isinstance(value, (str, dict)) or (
+            isinstance(value, bytes) and field.base not in ("uint8", "char")
+        ):
+            raise SerializationError(
+                f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]"
+            )
         try:
             elements = list(value)
         except TypeError:
@@ -176,7 +198,9 @@ def _check(cls: type[Message], message: Any, prefix: str) -> None:
             problem = f"field {path} must have one dimension, not {value.ndim} (ravel() flattens an array) [{field.type}]"
             raise SerializationError(problem)
         if field.size >= 0 and len(elements) != field.size:
-            problem = f"field {path} must have exactly {field.size} elements, not {len(elements)} [{field.type}]"
+            problem = (
+                f"field {path} must have exactly {field.size} elements, not {len(elements)} [{field.type}]"
+            )
             raise SerializationError(problem)
         for index, element in enumerate(elements):
             _check_value(cls, field, f"{path}[{index}]", element)
@@ -206,7 +230,9 @@ def _check_text(path: str, value: Any) -> None:
     try:
         value.encode()
     except UnicodeEncodeError as error:
-        raise SerializationError(f"field {path} cannot be written as UTF-8: {error.reason} [string]") from None
+        raise SerializationError(
+            f"field {path} cannot be written as UTF-8: {error.reason} [string]"
+        ) from None
 
 
 def _check_number(kind: str, path: str, value: Any) -> None:

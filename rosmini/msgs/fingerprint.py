@@ -36,7 +36,9 @@ def service_md5(spec: ServiceSpec, lookup: Lookup) -> str:
 def full_text(spec: MessageSpec, lookup: Lookup) -> str:
     """The definition followed by those of all nested types, each under a line of 80 "=" and a line "MSG: type"."""
     parts = [spec.text]
-    parts += [f"{'=' * 80}\nMSG: {name}\n{lookup(name).text}" for name in dict.fromkeys(dependencies(spec, lookup))]
+    parts += [
+        f"{'=' * 80}\nMSG: {name}\n{lookup(name).text}" for name in dict.fromkeys(dependencies(spec, lookup))
+    ]
     return "\n".join(parts)
 
 
@@ -49,7 +51,7 @@ def dependencies(spec: MessageSpec, lookup: Lookup) -> Iterator[str]:
 
 
 def _md5_text(spec: MessageSpec, lookup: Lookup) -> str:
-    lines = [f"{constant.type} {constant.declared}={constant.text}" for constant in spec.constants]
+    lines = [f"{constant.type} {constant.ros_name}={constant.text}" for constant in spec.constants]
     for field in spec.fields:
         kind = field.type if field.builtin else message_md5(lookup(field.base), lookup)
         lines.append(f"{kind} {field.ros_name}")

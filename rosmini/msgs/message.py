@@ -98,11 +98,11 @@ class Message:
         cls = type(self)
         return self._take(cls._thaw(cls._decode(str)))
 
-    def serialize_numpy(self, buff: BytesIO, numpy: ModuleType) -> None:
+    def serialize_numpy(self, buff: BytesIO, numpy: ModuleType) -> None:  # noqa: ARG002 (genpy's signature)
         """As :meth:`serialize`, which takes numpy arrays as well."""
         self.serialize(buff)
 
-    def deserialize_numpy(self, str: bytes, numpy: ModuleType) -> Self:
+    def deserialize_numpy(self, str: bytes, numpy: ModuleType) -> Self:  # noqa: ARG002 (genpy's signature)
         """As :meth:`deserialize`, with numpy arrays where there are numbers; ``uint8[]`` stays bytes, as in genpy."""
         cls = type(self)
         return self._take(cls._thaw_genpy_numpy(cls._decode(str)))
@@ -142,7 +142,9 @@ class Message:
         if name == "_connection_header":
             return None  # not received from anyone
         if name.startswith("_"):
-            raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'", name=name, obj=self)
+            raise AttributeError(
+                f"'{type(self).__name__}' object has no attribute '{name}'", name=name, obj=self
+            )
         raise self._no_such_field(name)
 
     def _no_such_field(self, name: str) -> AttributeError:
@@ -153,7 +155,9 @@ class Message:
         problem = f"{name} is not an attribute of {type(self).__name__} ({self._type}): {help_text}"
         return AttributeError(problem, name=name, obj=self)
 
-    def _positional(self, args: tuple[Any, ...], given: dict[str, Any], unknown: dict[str, Any]) -> Sequence[Any]:
+    def _positional(
+        self, args: tuple[Any, ...], given: dict[str, Any], unknown: dict[str, Any]
+    ) -> Sequence[Any]:
         """The field values of a constructor call by position; raises what genpy raises for a wrong call."""
         if args and (unknown or any(value is not None for value in given.values())):
             raise TypeError("Message constructor may only use args OR keywords, not both")
@@ -161,7 +165,9 @@ class Message:
             raise self._no_such_field(name)
         if len(args) != len(given):
             fields = ", ".join(given) or "(none)"
-            problem = f"{type(self).__name__} takes all of its {len(given)} fields by position, or some by keyword"
+            problem = (
+                f"{type(self).__name__} takes all of its {len(given)} fields by position, or some by keyword"
+            )
             raise TypeError(f"Invalid number of arguments: {problem}; given: {len(args)}, fields: {fields}")
         return args
 
@@ -182,7 +188,7 @@ def _restore(type_name: str, state: Sequence[Any]) -> Message:
     from .registry import registry
 
     cls = registry().message_class(type_name)
-    message = cls.__new__(cls)
+    message: Message = object.__new__(cls)
     message.__setstate__(state)
     return message
 
@@ -224,7 +230,9 @@ def make_message_class(
 ) -> type[Message]:
     """Make the class for ``spec``; ``nested`` has the classes of its fields by type name."""
     names = [field.name for field in spec.fields]
-    fields_class = type(f"_{spec.short_name}Fields", (Message,), {"__slots__": tuple(names), "__module__": module})
+    fields_class = type(
+        f"_{spec.short_name}Fields", (Message,), {"__slots__": tuple(names), "__module__": module}
+    )
     namespace: dict[str, Any] = {
         "__slots__": (),
         "__module__": module,
@@ -242,7 +250,8 @@ def make_message_class(
         "_nested": nested,
         "_registry": registry,
         "_fields_class": fields_class,
-        "_plain": all(field.size is None for field in spec.fields) and all(cls._plain for cls in nested.values()),
+        "_plain": all(field.size is None for field in spec.fields)
+        and all(cls._plain for cls in nested.values()),
         **{constant.name: constant.value for constant in spec.constants},
     }
     cls = type(spec.short_name, (fields_class,), namespace)

@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import threading
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.errors import UnknownPackage, UnknownType, nearest
 
-from .definition import ACTION_SUFFIXES, BUILTIN_TYPES, MessageSpec, ServiceSpec, parse_message, parse_service, split_action
+from .definition import (
+    ACTION_SUFFIXES,
+    BUILTIN_TYPES,
+    MessageSpec,
+    ServiceSpec,
+    parse_message,
+    parse_service,
+    split_action,
+)
 from .fingerprint import full_text, message_md5, service_md5
-from .sources import FolderSource
+from .sources import PackageSource
 
 if TYPE_CHECKING:
     from .message import Message
@@ -119,7 +126,9 @@ class Registry:
 
     def messages(self, package: str) -> list[str]:
         """The names of a package's messages, those of its actions included, sorted; nothing is parsed."""
-        derived = [f"{name}{suffix}" for name in self.source.names(package, "action") for suffix in ACTION_SUFFIXES]
+        derived = [
+            f"{name}{suffix}" for name in self.source.names(package, "action") for suffix in ACTION_SUFFIXES
+        ]
         return sorted({*self.source.names(package, "msg"), *derived})
 
     def services(self, package: str) -> list[str]:
@@ -134,7 +143,9 @@ class Registry:
         if name in self._messages:
             return self._messages[name]
         spec = self.definition(name)
-        nested = {field.base: self._make_message_class(field.base) for field in spec.fields if not field.builtin}
+        nested = {
+            field.base: self._make_message_class(field.base) for field in spec.fields if not field.builtin
+        }
         folder = "srv" if self._is_half_of_service(spec) else "msg"
         self._messages[name] = make_message_class(
             spec,
@@ -170,7 +181,9 @@ class Registry:
                 hint = nearest(field.base.removeprefix(f"{package}/"), known)
                 if field.base == f"{package}/Header":
                     hint = "write std_msgs/Header"
-                raise spec.error(field.line, hint and f"unknown type '{field.base}': {hint}" or str(error)) from error
+                raise spec.error(
+                    field.line, f"unknown type '{field.base}': {hint}" if hint else str(error)
+                ) from error
             except UnknownPackage as error:
                 raise spec.error(field.line, str(error)) from error
         self._specs[name] = spec
@@ -198,27 +211,40 @@ class Registry:
     def _split(name: str, what: str) -> tuple[str, str]:
         package, slash, short = name.partition("/")
         if not (package and slash and short) or "/" in short:
-            raise UnknownType(f"'{name}' is no {what} type: it is written package/Type, as in std_msgs/String")
+            raise UnknownType(
+                f"'{name}' is no {what} type: it is written package/Type, as in std_msgs/String"
+            )
         return package, short
 
     def _type_names(self, package: str) -> list[str]:
-        return [*self.messages(package), *(f"{owner}/{name}" for owner in self.source.packages() for name in self.messages(owner))]
+        return [
+            *self.messages(package),
+            *(f"{owner}/{name}" for owner in self.source.packages() for name in self.messages(owner)),
+        ]
 
     def _unknown(self, what: str, name: str) -> UnknownType | UnknownPackage:
         package, short = self._split(name, what)
         packages = self.source.packages()
-        kind = {"message": self.messages, "service": self.services}.get(what, lambda p: self.source.names(p, "action"))
+        kind = {"message": self.messages, "service": self.services}.get(
+            what, lambda p: self.source.names(p, "action")
+        )
         if package not in packages:
             everywhere = [f"{owner}/{other}" for owner in packages for other in kind(owner) if other == short]
-            hint = nearest(package, packages) or (f"{short} is defined by {', '.join(everywhere)}" if everywhere else "")
+            hint = nearest(package, packages) or (
+                f"{short} is defined by {', '.join(everywhere)}" if everywhere else ""
+            )
             hint = hint or "is it on ROS_PACKAGE_PATH?"
-            return UnknownPackage(f"{what} type {name}: no package '{package}' defines messages or services: {hint}")
+            return UnknownPackage(
+                f"{what} type {name}: no package '{package}' defines messages or services: {hint}"
+            )
         names = kind(package)
         hint = nearest(short, names)
         elsewhere = [f"{owner}/{short}" for owner in packages if owner != package and short in kind(owner)]
         if elsewhere:
             hint = f"did you mean {' or '.join(elsewhere)}?"
-        shown = hint or (f"it has {', '.join(names[:12])}{' ...' if len(names) > 12 else ''}" if names else "it has none")
+        shown = hint or (
+            f"it has {', '.join(names[:12])}{' ...' if len(names) > 12 else ''}" if names else "it has none"
+        )
         return UnknownType(f"package '{package}' has no {what} type '{short}': {shown}")
 
 
@@ -237,10 +263,5 @@ def registry() -> Registry:
     """The registry of this process, over all packages that can be found."""
     with _Holder.lock:
         if _Holder.current is None:
-            _Holder.current = Registry(FolderSource(_package_roots), is_default=True)
+            _Holder.current = Registry(PackageSource(), is_default=True)
         return _Holder.current
-
-
-def _package_roots() -> dict[str, Path]:
-    root = Path(__file__).resolve().parents[2] / "assets" / "ros"
-    return {path.name: path for path in root.iterdir()}

@@ -1,16 +1,18 @@
-"""Where definitions come from: the ``msg``, ``srv`` and ``action`` folders of packages."""
+"""Where definitions come from: the ``msg``, ``srv`` and ``action`` folders of ROS packages."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-from rosmini.errors import DefinitionError
+from rosmini.errors import DefinitionError, UnknownPackage
+from rosmini.packages import PackageIndex, search_paths
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from pathlib import Path
 
-__all__ = ["DictSource", "FolderSource", "Source"]
+__all__ = ["KINDS", "PackageSource", "Source"]
+
+KINDS = ("msg", "srv", "action")
 
 
 class Source(Protocol):
@@ -19,6 +21,9 @@ class Source(Protocol):
     def packages(self) -> list[str]:
         """The names of all packages that define something, sorted."""
 
+    def has_package(self, package: str) -> bool:
+        """True if this package defines something; answers from what is known already, so it is quick."""
+
     def names(self, package: str, kind: str) -> list[str]:
         """The names of all definitions of one kind in a package, sorted; empty for an unknown package."""
 
@@ -26,49 +31,52 @@ class Source(Protocol):
         """The text of a definition and the file that it is in, or None if there is none."""
 
 
-class FolderSource:
-    """The definition files of packages on disk; ``roots`` gives the folder of each package by name."""
+class PackageSource:
+    """The definition files of the packages in an index; by default of all that can be found.
 
-    def __init__(self, roots: Callable[[], Mapping[str, Path]]) -> None:
-        self._roots = roots
+    Without an index of its own it follows changes of ``ROS_PACKAGE_PATH``.
+    """
+
+    def __init__(self, index: PackageIndex | None = None) -> None:
+        self._fixed = index is not None
+        self._index = PackageIndex() if index is None else index
+
+    @property
+    def index(self) -> PackageIndex:
+        """The packages that are looked through."""
+        if not self._fixed and self._index.paths != search_paths():
+            self._index = PackageIndex()
+        return self._index
 
     def packages(self) -> list[str]:
-        found = self._roots()
-        return sorted(
-            name for name, root in found.items() if any((root / kind).is_dir() for kind in ("msg", "srv", "action"))
-        )
+        """As :meth:`Source.packages`."""
+        return [name for name in self.index.names() if self.has_package(name)]
+
+    def has_package(self, package: str) -> bool:
+        """As :meth:`Source.has_package`."""
+        index = self.index
+        return package in index and any((index.path(package) / kind).is_dir() for kind in KINDS)
 
     def names(self, package: str, kind: str) -> list[str]:
-        root = self._roots().get(package)
-        folder = None if root is None else root / kind
-        if folder is None or not folder.is_dir():
-            return []
-        return sorted(path.stem for path in folder.iterdir() if path.suffix == f".{kind}" and path.is_file())
+        """As :meth:`Source.names`."""
+        return sorted(self._files(package, kind))
 
     def read(self, package: str, kind: str, name: str) -> tuple[str, str] | None:
-        # Compared with the listing because some file systems take "string.msg" for "String.msg".
-        if name not in self.names(package, kind):
+        """As :meth:`Source.read`. Raises :class:`DefinitionError` if the file is not UTF-8 text."""
+        path = self._files(package, kind).get(name)
+        if path is None:
             return None
-        path = self._roots()[package] / kind / f"{name}.{kind}"
         try:
             return path.read_text(encoding="utf-8"), str(path)
         except UnicodeDecodeError as error:
             line = error.object[: error.start].count(b"\n") + 1
-            raise DefinitionError("the file is not UTF-8 text", str(path), line) from error
+            raise DefinitionError("the file is not UTF-8 text", path, line) from error
 
-
-class DictSource:
-    """Definitions held in memory: ``{"my_msgs/msg/Pair": "int32 a\\nint32 b"}``."""
-
-    def __init__(self, texts: Mapping[str, str]) -> None:
-        self._texts = {tuple(key.split("/")): text for key, text in texts.items()}
-
-    def packages(self) -> list[str]:
-        return sorted({package for package, _, _ in self._texts})
-
-    def names(self, package: str, kind: str) -> list[str]:
-        return sorted(name for owner, of_kind, name in self._texts if (owner, of_kind) == (package, kind))
-
-    def read(self, package: str, kind: str, name: str) -> tuple[str, str] | None:
-        text = self._texts.get((package, kind, name))
-        return None if text is None else (text, f"{package}/{kind}/{name}.{kind}")
+    def _files(self, package: str, kind: str) -> dict[str, Path]:
+        try:
+            folder = self.index.path(package) / kind
+        except UnknownPackage:
+            return {}
+        if not folder.is_dir():
+            return {}
+        return {path.stem: path for path in folder.iterdir() if path.suffix == f".{kind}" and path.is_file()}

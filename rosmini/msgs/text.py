@@ -20,7 +20,7 @@ def strify_message(
     val: Any,
     indent: str = "",
     time_offset: Time | None = None,
-    current_time: Time | None = None,
+    current_time: Time | None = None,  # noqa: ARG001 (genpy's signature)
     field_filter: Callable[[Message], Iterable[str]] | None = None,
     fixed_numeric_width: int | None = None,
 ) -> str:
@@ -94,8 +94,16 @@ class _Writer:
             if field.name not in chosen:
                 continue
             value = getattr(val, field.name)
-            if "uint8[" in field.type:  # bytes are shown as the numbers they stand for; those of a char[] are not
-                value = list(value) if isinstance(value, bytes) else [ord(c) for c in value] if isinstance(value, str) else value
+            if (
+                "uint8[" in field.type
+            ):  # bytes are shown as the numbers they stand for; those of a char[] are not
+                value = (
+                    list(value)
+                    if isinstance(value, bytes)
+                    else [ord(c) for c in value]
+                    if isinstance(value, str)
+                    else value
+                )
             lines.append(f"{indent}{field.name}: {self.text(value, indent + '  ')}")
         body = "\n".join(lines)
         return f"\n{body}" if indent else body

@@ -1,0 +1,228 @@
+"""``import`` for messages: ``rosmini.msgs.std_msgs.msg`` always, ``std_msgs.msg`` after :func:`install`.
+
+The modules are made on the fly, and so is each class in them when it is first asked for. Both paths lead to the same
+class objects, because both ask the one registry.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import UnknownPackage, UnknownType, nearest
+
+from .registry import MODULE_PREFIX, registry
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["UnknownImport", "UnknownPackageImport", "install", "installed", "uninstall"]
+
+
+class UnknownImport(UnknownType, ImportError):
+    """An import of a message or service type that does not exist."""
+
+
+class UnknownPackageImport(UnknownPackage, ModuleNotFoundError):
+    """An import from a package that does not exist, or that defines no messages."""
+
+
+class _DefinitionsModule(ModuleType):
+    """``<package>.msg`` or ``<package>.srv``: its attributes are the classes."""
+
+    def __init__(self, name: str, package: str, kind: str) -> None:
+        super().__init__(
+            name, f"The {'messages' if kind == 'msg' else 'services'} of the ROS package {package}."
+        )
+        self.__dict__["_package"], self.__dict__["_kind"] = package, kind
+
+    @property
+    def __all__(self) -> list[str]:
+        return self._names()
+
+    def _names(self) -> list[str]:
+        if self._kind == "msg":
+            return registry().messages(self._package)
+        services = registry().services(self._package)
+        return sorted(
+            {*services, *(f"{name}{half}" for name in services for half in ("Request", "Response"))}
+        )
+
+    def __dir__(self) -> list[str]:
+        return [*self._names(), "__name__", "__doc__"]
+
+    def __getattr__(self, name: str) -> Any:
+        # Tools look for all sorts of attributes; only what can be a type is worth an error that is not AttributeError.
+        if name.startswith("_"):
+            raise AttributeError(f"module '{self.__name__}' has no attribute '{name}'", name=name, obj=self)
+        full_name = f"{self._package}/{name}"
+        if name not in self._names():
+            if not name[:1].isupper():
+                raise AttributeError(
+                    f"module '{self.__name__}' has no attribute '{name}'", name=name, obj=self
+                )
+            kind = "message" if self._kind == "msg" else "service"
+            hint = nearest(name, self._names()) or f"it has {', '.join(self._names()[:12]) or 'none'}"
+            raise UnknownImport(f"package '{self._package}' has no {kind} type '{name}': {hint}")
+        is_service = self._kind == "srv" and name in registry().services(self._package)
+        cls = registry().service_class(full_name) if is_service else registry().message_class(full_name)
+        self.__dict__[name] = cls
+        return cls
+
+
+class _PackageModule(ModuleType):
+    """A package; its submodules ``msg`` and ``srv`` are imported when they are first asked for."""
+
+    def __init__(self, name: str, package: str) -> None:
+        super().__init__(name, f"The messages and services of the ROS package {package}.")
+        self.__dict__["_package"] = package
+
+    def __dir__(self) -> list[str]:
+        return [*_kinds(self._package), "__name__", "__doc__"]
+
+    def __getattr__(self, name: str) -> Any:
+        if name in _kinds(self._package):
+            from importlib import import_module
+
+            return import_module(f"{self.__name__}.{name}")
+        raise AttributeError(f"module '{self.__name__}' has no attribute '{name}'", name=name, obj=self)
+
+
+def _kinds(package: str) -> list[str]:
+    """The submodules of a package."""
+    found = registry()
+    return [
+        kind for kind, names in (("msg", found.messages(package)), ("srv", found.services(package))) if names
+    ]
+
+
+class _DefinitionsLoader(Loader):
+    def __init__(self, package: str, kind: str | None) -> None:
+        self.package, self.kind = package, kind
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
+        if self.kind is None:
+            return _PackageModule(spec.name, self.package)
+        return _DefinitionsModule(spec.name, self.package, self.kind)
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Nothing to run: the classes are made on demand."""
+
+
+def _spec(fullname: str, package: str, kind: str | None) -> ModuleSpec:
+    return ModuleSpec(fullname, _DefinitionsLoader(package, kind), is_package=kind is None)
+
+
+class _OwnFinder(MetaPathFinder):
+    """Finds ``rosmini.msgs.<package>`` and its submodules."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """As :meth:`importlib.abc.MetaPathFinder.find_spec`. Raises :class:`UnknownPackageImport`."""
+        if not fullname.startswith(f"{MODULE_PREFIX}."):
+            return None
+        package, _, kind = fullname.removeprefix(f"{MODULE_PREFIX}.").partition(".")
+        if not kind:
+            own = PathFinder.find_spec(fullname, path, target)
+            if own is not None and own.loader is not None and own.origin is not None:
+                return None  # a module of ours, such as rosmini.msgs.registry
+            source = registry().source
+            if source.has_package(package) or any(
+                source.names(package, kind) for kind in ("msg", "srv", "action")
+            ):
+                return _spec(fullname, package, None)
+            hint = nearest(package, source.packages()) or "is it on ROS_PACKAGE_PATH?"
+            raise UnknownPackageImport(
+                f"no package '{package}' defines messages or services: {hint}", name=fullname
+            )
+        if kind in _kinds(package):
+            return _spec(fullname, package, kind)
+        return None
+
+
+class _TopLevelFinder(MetaPathFinder):
+    """Finds ``<package>.msg`` and ``<package>.srv`` for ROS packages."""
+
+    def __init__(self, *, shadow: bool) -> None:
+        self.shadow = shadow
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """As :meth:`importlib.abc.MetaPathFinder.find_spec`."""
+        package, _, kind = fullname.partition(".")
+        if "." in kind or (kind and kind not in ("msg", "srv")):
+            return None
+        if not registry().source.has_package(package):
+            return None
+        if not self.shadow and _is_real(fullname, path, target):
+            return None
+        if not kind:
+            return _spec(fullname, package, None)
+        return _spec(fullname, package, kind) if kind in _kinds(package) else None
+
+
+class _LastFinder(MetaPathFinder):
+    """Comes when all others have failed: a package may be new, or its name mistyped."""
+
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None,  # noqa: ARG002 (the protocol's signature)
+        target: ModuleType | None = None,  # noqa: ARG002
+    ) -> ModuleSpec | None:
+        """As :meth:`importlib.abc.MetaPathFinder.find_spec`. Raises :class:`UnknownPackageImport` for a near miss."""
+        if "." in fullname or not fullname.endswith(("_msgs", "_msg", "_srvs", "_srv", "_interfaces")):
+            return None
+        source = registry().source
+        if any(source.names(fullname, kind) for kind in ("msg", "srv", "action")):
+            return _spec(fullname, fullname, None)
+        hint = nearest(fullname, source.packages()) or "is it on ROS_PACKAGE_PATH?"
+        raise UnknownPackageImport(
+            f"no package '{fullname}' defines messages or services: {hint}", name=fullname
+        )
+
+
+def _is_real(fullname: str, path: Sequence[str] | None, target: ModuleType | None) -> bool:
+    """True if Python finds such a module by itself; a folder of that name without ``__init__.py`` does not count."""
+    found = PathFinder.find_spec(fullname, path, target)
+    return found is not None and found.loader is not None and found.origin is not None
+
+
+def install(*, shadow: bool = False) -> None:
+    """Let ``from std_msgs.msg import String`` find our classes, for every ROS package that can be found.
+
+    Python modules that are really installed under such a name (those of a ROS installation) win, unless ``shadow`` is
+    true. A second call changes ``shadow``.
+    """
+    uninstall()
+    finders: list[MetaPathFinder] = [_TopLevelFinder(shadow=shadow), _LastFinder()]
+    sys.meta_path.insert(0, finders[0])
+    sys.meta_path.append(finders[1])
+
+
+def uninstall() -> None:
+    """Undo :func:`install`: forget the finders and the modules that came through them."""
+    sys.meta_path[:] = [
+        finder for finder in sys.meta_path if not isinstance(finder, (_TopLevelFinder, _LastFinder))
+    ]
+    ours = (_PackageModule, _DefinitionsModule)
+    for name, module in list(sys.modules.items()):
+        if isinstance(module, ours) and not name.startswith(f"{MODULE_PREFIX}."):
+            del sys.modules[name]
+
+
+def installed() -> bool:
+    """True between :func:`install` and :func:`uninstall`."""
+    return any(isinstance(finder, _TopLevelFinder) for finder in sys.meta_path)
+
+
+def enable_own_imports() -> None:
+    """Let ``rosmini.msgs.<package>`` be imported. Called once, when ``rosmini.msgs`` is."""
+    if not any(isinstance(finder, _OwnFinder) for finder in sys.meta_path):
+        # in front, because the folders with the stubs would pass for packages without __init__.py
+        sys.meta_path.insert(0, _OwnFinder())
