@@ -13,6 +13,7 @@ import rospkg
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rosmini import packages
 from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage
 from rosmini.packages import PackageIndex, assets_dir, search_paths
 
@@ -135,6 +136,17 @@ def test_without_ros_package_path_there_are_the_assets(monkeypatch: pytest.Monke
     monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
     assert "geometry_msgs" in PackageIndex()
     assert search_paths({"ROS_PACKAGE_PATH": ""}) == (assets_dir() / "ros",)
+
+
+def test_assets_are_found_in_a_checkout_and_in_an_installed_wheel(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, root: Path
+) -> None:
+    assert assets_dir() == root / "assets"
+    monkeypatch.setattr(packages, "__file__", str(tmp_path / "site" / "rosmini" / "packages.py"))
+    with pytest.raises(RosminiError, match="install rosmini again"):
+        assets_dir()
+    (tmp_path / "site" / "rosmini" / "_assets").mkdir(parents=True)
+    assert assets_dir() == tmp_path / "site" / "rosmini" / "_assets"
 
 
 # ---- the search ----
