@@ -1,7 +1,8 @@
 """Run by /usr/bin/python3: makes, writes, prints and reads messages with the real genpy.
 
-Reads one pickle from standard input, a list of (type, full text, list of plain messages), and writes one pickle with
-an answer for each to standard output. A plain message is a dict of its fields; a time is a tuple (secs, nsecs).
+Reads one pickle from standard input and writes one pickle with an answer for each job in it to standard output. A job
+is (type, full text, list of plain messages): a plain message is a dict of its fields, a time is a tuple (secs, nsecs);
+or (type, full text, field, expression): is a message whose field is the value of this Python expression written?
 """
 
 import io
@@ -84,6 +85,20 @@ def answer(type_name, full_text, plain_messages):
     return result
 
 
+def attempt(type_name, full_text, field, expression):
+    classes = genpy.dynamic.generate_dynamic(type_name, full_text)
+    message = classes[type_name]()
+    names = {"np": np, "Time": genpy.Time, "Duration": genpy.Duration}
+    setattr(message, field, eval(expression, names))
+    buffer = io.BytesIO()
+    try:
+        message.serialize(buffer)
+    except Exception as error:
+        return (type(error).__name__, str(error))
+    return ("written", buffer.getvalue())
+
+
 if __name__ == "__main__":
     jobs = pickle.load(sys.stdin.buffer)
-    pickle.dump([answer(*job) for job in jobs], sys.stdout.buffer, protocol=4)
+    answers = [answer(*job) if len(job) == 3 else attempt(*job) for job in jobs]
+    pickle.dump(answers, sys.stdout.buffer, protocol=4)

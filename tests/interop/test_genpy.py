@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rosmini.errors import SerializationError
 from rosmini.msgs.definition import INTEGER_RANGES
 from rosmini.msgs.message import Message
 from rosmini.msgs.registry import Registry, registry
@@ -136,7 +137,7 @@ def describe(thing: Any) -> Any:
     return (type(thing).__name__, repr(thing))
 
 
-def ask_genpy(jobs: list[tuple[str, str, list[dict[str, Any]]]]) -> list[dict[str, Any]]:
+def ask_genpy(jobs: list[Any]) -> list[Any]:
     environment = {**os.environ, "PYTHONPATH": "", "PYTHONDONTWRITEBYTECODE": "1"}
     done = subprocess.run(
         [SYSTEM_PYTHON, str(PEER)],
@@ -146,7 +147,7 @@ def ask_genpy(jobs: list[tuple[str, str, list[dict[str, Any]]]]) -> list[dict[st
         check=False,
     )
     assert done.returncode == 0, done.stderr.decode()
-    answers: list[dict[str, Any]] = pickle.loads(done.stdout)
+    answers: list[Any] = pickle.loads(done.stdout)
     return answers
 
 
@@ -247,3 +248,123 @@ def test_many_types_were_compared(compared: Any) -> None:
     assert len(compared) > 300
     assert sum(theirs["installed_md5"] is not None for _, _, theirs in compared) > 130
     assert {"Fixed", "Stamped"} <= {cls.__name__ for cls, _, _ in compared}
+
+
+# What stands in a field, and the words that genpy's and our error must share; None: both write the same bytes.
+ATTEMPTS: list[tuple[str, str, str, str | None]] = [
+    ("std_msgs/Float64", "data", "1", None),
+    ("std_msgs/Float64", "data", "True", None),
+    ("std_msgs/Float64", "data", "np.float32(1.5)", None),
+    ("std_msgs/Float64", "data", "np.int64(3)", None),
+    ("std_msgs/Float64", "data", "float('nan')", None),
+    ("std_msgs/Float64", "data", "'1'", "field data must be float type"),
+    ("std_msgs/Float64", "data", "None", "field data must be float type"),
+    ("std_msgs/Float64", "data", "[1.0]", "field data must be float type"),
+    ("std_msgs/Float32", "data", "0.1", None),
+    ("std_msgs/Float32", "data", "float('inf')", None),
+    ("std_msgs/Int8", "data", "127", None),
+    ("std_msgs/Int8", "data", "True", None),
+    ("std_msgs/Int8", "data", "np.int8(-3)", None),
+    ("std_msgs/Int8", "data", "np.uint64(3)", None),
+    ("std_msgs/Int8", "data", "128", "field data exceeds specified width [int8]"),
+    ("std_msgs/Int8", "data", "-129", "field data exceeds specified width [int8]"),
+    ("std_msgs/Int8", "data", "1.0", "field data must be an integer type"),
+    ("std_msgs/Int8", "data", "np.float64(1)", "field data must be an integer type"),
+    ("std_msgs/Int8", "data", "'1'", "field data must be an integer type"),
+    ("std_msgs/UInt8", "data", "255", None),
+    ("std_msgs/UInt8", "data", "-1", "field data must be unsigned integer type"),
+    ("std_msgs/UInt8", "data", "2.0", "field data must be unsigned integer type"),
+    ("std_msgs/UInt8", "data", "256", "field data exceeds specified width [uint8]"),
+    ("std_msgs/Bool", "data", "True", None),
+    ("std_msgs/Bool", "data", "1", None),
+    ("std_msgs/Bool", "data", "np.uint8(0)", None),
+    ("std_msgs/Bool", "data", "'yes'", "field data is not a bool"),
+    ("std_msgs/Bool", "data", "None", "field data is not a bool"),
+    ("std_msgs/String", "data", "'gr\u00f6\u00dfe'", None),
+    ("std_msgs/String", "data", "np.str_('text')", None),
+    ("std_msgs/Float64MultiArray", "data", "[1, 2.5]", None),
+    ("std_msgs/Float64MultiArray", "data", "(1.0,)", None),
+    ("std_msgs/Float64MultiArray", "data", "np.array([1.0, 2.0])", None),
+    ("std_msgs/Float64MultiArray", "data", "np.array([1, 2], np.int16)", None),
+    ("std_msgs/Float64MultiArray", "data", "np.array([1, 2], '>f8')", None),
+    ("std_msgs/Float64MultiArray", "data", "np.arange(6.0)[::2]", None),
+    ("std_msgs/Float64MultiArray", "data", "range(3)", None),
+    ("std_msgs/Float64MultiArray", "data", "'ab'", "field data must be a list or tuple type"),
+    ("std_msgs/Float64MultiArray", "data", "5", "field data must be a list or tuple type"),
+    ("std_msgs/Float64MultiArray", "data", "None", "field data must be a list or tuple type"),
+    ("std_msgs/Float64MultiArray", "data", "np.zeros((2, 2))", "field data"),
+    ("std_msgs/Float64MultiArray", "data", "[1.0, 'x']", "must be float type"),
+    ("std_msgs/Float32MultiArray", "data", "np.array([0.1, 0.2])", None),
+    ("std_msgs/Int32MultiArray", "data", "np.array([1, -2])", None),
+    ("std_msgs/Int32MultiArray", "data", "[1.5]", "must be an integer type"),
+    ("std_msgs/Int32MultiArray", "data", "[2**31]", "exceeds specified width [int32]"),
+    ("std_msgs/UInt8MultiArray", "data", "b'ab'", None),
+    ("std_msgs/UInt8MultiArray", "data", "[1, 255]", None),
+    ("std_msgs/UInt8MultiArray", "data", "(1, 2)", None),
+    ("std_msgs/UInt8MultiArray", "data", "bytearray(b'ab')", None),
+    ("std_msgs/UInt8MultiArray", "data", "[256]", "exceeds specified width [uint8]"),
+    ("std_msgs/UInt8MultiArray", "data", "[-1]", "must be unsigned integer type"),
+    ("std_msgs/UInt8MultiArray", "data", "5", ""),
+    ("std_msgs/UInt8MultiArray", "data", "'ab'", ""),
+    ("geometry_msgs/PoseWithCovariance", "covariance", "np.zeros(36)", None),
+    ("geometry_msgs/PoseWithCovariance", "covariance", "[0.0] * 35", "35"),
+    ("geometry_msgs/Twist", "angular", "'fast'", ""),
+    ("geometry_msgs/Twist", "angular", "None", ""),
+    ("std_msgs/Header", "stamp", "Duration(3, 4)", None),
+    ("std_msgs/Header", "stamp", "3.0", ""),
+    ("std_msgs/Header", "seq", "-1", "field seq must be unsigned integer type"),
+    ("sensor_msgs/JointState", "name", "('a', 'b')", None),
+    ("sensor_msgs/JointState", "name", "[1]", ""),
+    ("nav_msgs/Path", "poses", "[1]", ""),
+    ("nav_msgs/Path", "poses", "None", ""),
+]
+
+# Where we differ on purpose: (type, field, expression, what genpy does, what we do).
+DIFFERENCES = [
+    ("std_msgs/Bool", "data", "np.bool_(True)", "SerializationError", "written"),
+    ("std_msgs/Float32", "data", "1e39", "OverflowError", "SerializationError"),
+    ("std_msgs/String", "data", "b'bytes'", "AttributeError", "SerializationError"),
+    ("std_msgs/String", "data", "5", "AttributeError", "SerializationError"),
+    ("std_msgs/String", "data", "'\ud800'", "UnicodeEncodeError", "SerializationError"),
+    ("std_msgs/UInt8MultiArray", "data", "np.array([1, 2], np.uint8)", "SerializationError", "written"),
+    ("sensor_msgs/JointState", "name", "'ab'", "written", "SerializationError"),
+]
+
+
+def try_ours(type_name: str, field: str, expression: str) -> tuple[str, Any]:
+    cls = registry().message_class(type_name)
+    message = cls()
+    setattr(message, field, eval(expression, {"np": np, "Time": Time, "Duration": Duration}))
+    results = []
+    for attempt in (lambda: cls._encode(message), lambda: cls._encode(cls._freeze(message))):
+        try:
+            results.append(("written", attempt()))
+        except SerializationError as error:
+            results.append(("SerializationError", str(error)))
+    assert results[0] == results[1]
+    return results[0]
+
+
+def ask_attempts(attempts: list[tuple[str, str, str]]) -> list[tuple[str, Any]]:
+    return ask_genpy([(name, registry().message_class(name)._full_text, *rest) for name, *rest in attempts])
+
+
+def test_the_same_values_are_written_or_refused(genpy: None) -> None:
+    answers = ask_attempts([attempt[:3] for attempt in ATTEMPTS])
+    for (*attempt, words), theirs in zip(ATTEMPTS, answers, strict=True):
+        ours = try_ours(*attempt)
+        if words is None:
+            assert ours == theirs, attempt
+            continue
+        assert theirs[0] != "written", attempt
+        assert ours[0] == "SerializationError", attempt
+        assert words in theirs[1], attempt
+        assert words in ours[1], attempt
+        assert attempt[1] in ours[1], attempt
+
+
+def test_the_differences_are_the_documented_ones(genpy: None) -> None:
+    answers = ask_attempts([difference[:3] for difference in DIFFERENCES])
+    for (*attempt, expected_theirs, expected_ours), theirs in zip(DIFFERENCES, answers, strict=True):
+        assert theirs[0] == expected_theirs, (attempt, theirs)
+        assert try_ours(*attempt)[0] == expected_ours, attempt
