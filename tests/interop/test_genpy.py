@@ -325,7 +325,7 @@ DIFFERENCES = [
     ("std_msgs/Float32", "data", "1e39", "OverflowError", "SerializationError"),
     ("std_msgs/String", "data", "b'bytes'", "AttributeError", "SerializationError"),
     ("std_msgs/String", "data", "5", "AttributeError", "SerializationError"),
-    ("std_msgs/String", "data", "'\ud800'", "UnicodeEncodeError", "SerializationError"),
+    ("std_msgs/String", "data", "chr(0xD800)", "UnicodeEncodeError", "SerializationError"),
     ("std_msgs/UInt8MultiArray", "data", "np.array([1, 2], np.uint8)", "SerializationError", "written"),
     ("sensor_msgs/JointState", "name", "'ab'", "written", "SerializationError"),
 ]
