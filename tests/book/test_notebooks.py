@@ -46,7 +46,10 @@ def test_a_clean_notebook_has_no_problems():
             code("# NBVAL_IGNORE_OUTPUT\nx"),
             "cell 1 has the comment NBVAL_IGNORE_OUTPUT and gives no reason: '# NBVAL_IGNORE_OUTPUT'",
         ),
-        (code("x", execution={"iopub.status.busy": "2026"}), "cell 1 has metadata of a tool or a run (execution): 'x'"),
+        (
+            code("x", execution={"iopub.status.busy": "2026"}),
+            "cell 1 has metadata of a tool or a run (execution): 'x'",
+        ),
         (code("", None), "cell 1 is empty: ''"),
         (
             code("clear_output()"),

@@ -1,0 +1,116 @@
+"""What a built page may not contain: anything fetched from elsewhere, anything that a reader cannot perceive."""
+
+from __future__ import annotations
+
+import re
+from html.parser import HTMLParser
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+# Where an element names something that the browser fetches by itself (a link in the text is followed by the reader).
+FETCHED = {
+    "script": ("src",),
+    "link": ("href",),
+    "img": ("src", "srcset"),
+    "iframe": ("src",),
+    "source": ("src", "srcset"),
+    "video": ("src", "poster"),
+    "audio": ("src",),
+    "track": ("src",),
+    "embed": ("src",),
+    "object": ("data",),
+    "image": ("href", "xlink:href"),
+    "use": ("href", "xlink:href"),
+}
+# `rel` values of links that name a page and fetch nothing.
+NAMING = {"canonical", "next", "prev", "author", "license", "alternate", "index", "search"}
+ELSEWHERE = re.compile(r"^\s*(?:[a-z][a-z0-9+.-]*:)?//", re.IGNORECASE)
+IN_STYLE = re.compile(r"(?:url\(|@import)\s*[\"']?\s*((?:https?:)?//[^\"')\s]+)", re.IGNORECASE)
+IN_SCRIPT = re.compile(r"\b(?:import\s*\(?|from|fetch\(|importScripts\(|require\()\s*[\"'](https?://[^\"']+)")
+
+
+class Page(HTMLParser):
+    """Reads one page and gathers what is wrong with it in `problems`."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.problems: list[str] = []
+        self.within = ""
+        self.pictures: list[dict[str, str]] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Look at one element."""
+        given = {name: value or "" for name, value in attrs}
+        self.within = tag if tag in {"script", "style"} else self.within
+        self._look_for_fetches(tag, given)
+        if tag == "img" and not given.get("alt", "").strip() and given.get("aria-hidden") != "true":
+            self.problems.append(f"an image without a text: {given.get('src', '')[:80]}")
+        if tag == "iframe" and not given.get("title", "").strip():
+            self.problems.append(f"a frame without a title: {given.get('src', 'srcdoc')[:80]}")
+        if tag == "svg":
+            self.pictures.append(given)
+        elif tag == "title" and self.pictures:
+            self.pictures[-1]["title"] = "yes"
+        self.problems += [
+            f"a local address in {tag} {name}" for name, value in given.items() if "127.0.0.1" in value
+        ]
+
+    def handle_endtag(self, tag: str) -> None:
+        """Leave an element; a picture has to have a text by then."""
+        if tag == self.within:
+            self.within = ""
+        if tag == "svg" and self.pictures:
+            given = self.pictures.pop()
+            named = given.get("aria-label", "").strip() or given.get("aria-labelledby") or given.get("title")
+            if not self.pictures and not named and given.get("aria-hidden") != "true":
+                self.problems.append(f"a drawing without a text: svg {given.get('class', '')}".rstrip())
+
+    def handle_data(self, data: str) -> None:
+        """Look at text, styles and scripts."""
+        if "127.0.0.1" in data:
+            self.problems.append(f"a local address in the text: {_around(data, '127.0.0.1')}")
+        if self.within == "style":
+            self.problems += [f"a style from elsewhere: {url}" for url in IN_STYLE.findall(data)]
+        if self.within == "script":
+            self.problems += [f"a script from elsewhere: {url}" for url in IN_SCRIPT.findall(data)]
+
+    def _look_for_fetches(self, tag: str, given: dict[str, str]) -> None:
+        if tag == "link" and set(given.get("rel", "").split()) & NAMING:
+            return
+        for name in FETCHED.get(tag, ()):
+            if ELSEWHERE.match(given.get(name, "")):
+                self.problems.append(f"{tag} {name} from elsewhere: {given[name]}")
+        self.problems += [
+            f"a style from elsewhere: {url}" for url in IN_STYLE.findall(given.get("style", ""))
+        ]
+        if given.get("srcdoc"):
+            inner = Page()
+            inner.feed(given["srcdoc"])
+            self.problems += [f"in a frame: {problem}" for problem in inner.problems]
+
+
+def _around(text: str, found: str) -> str:
+    at = text.index(found)
+    return " ".join(text[max(0, at - 30) : at + 40].split())
+
+
+def page_problems(html: str) -> list[str]:
+    """What is wrong with one page of HTML, one line each."""
+    page = Page()
+    page.feed(html)
+    page.close()
+    return page.problems
+
+
+def site_problems(site: Path) -> Iterator[str]:
+    """What is wrong with the pages and style sheets below `site`, one line each, beginning with the file."""
+    for path in sorted(site.rglob("*.html")):
+        if "_static" not in path.relative_to(site).parts:
+            text = path.read_text(encoding="utf-8")
+            yield from (f"{path.relative_to(site).as_posix()}: {problem}" for problem in page_problems(text))
+    for path in sorted(site.rglob("*.css")):
+        text = path.read_text(encoding="utf-8")
+        yield from (f"{path.relative_to(site).as_posix()}: fetches {url}" for url in IN_STYLE.findall(text))

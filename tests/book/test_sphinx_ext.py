@@ -1,0 +1,118 @@
+"""The book's Sphinx extension, on a small book of its own."""
+
+from __future__ import annotations
+
+import re
+from io import StringIO
+
+import pytest
+
+pytest.importorskip("sphinx")
+
+PAGE = r"""# A page
+
+Half is $\frac{1}{2}$.
+
+$$
+\dot\theta = \omega
+$$ (eq:omega)
+
+By {eq}`eq:omega` it turns.
+
+> **On a real robot.** Type this:
+>
+> ```console
+> $ rosnode list
+> ```
+
+> **Summary**
+>
+> - All is well.
+
+> **Bold** words begin this quote, which stays one.
+
+> Plain words begin this one.
+
+<details>
+<summary>Solution to exercise 11.1</summary>
+
+```python
+print("solved")
+```
+
+</details>
+"""
+
+
+@pytest.fixture(scope="module")
+def html(tmp_path_factory):
+    from sphinx.application import Sphinx
+    from sphinx.util.docutils import docutils_namespace
+
+    source = tmp_path_factory.mktemp("source")
+    (source / "conf.py").write_text(
+        "extensions = ['myst_nb', 'sphinx_thebe', 'rosmini.book.sphinx_ext']\n"
+        "html_math_renderer = 'mathml'\nmyst_enable_extensions = ['dollarmath']\nhtml_theme = 'sphinx_book_theme'\n"
+        "thebe_config = {'always_load': False}\nhtml_context = {'default_mode': 'auto'}\n"
+    )
+    (source / "index.md").write_text(PAGE)
+    warnings = StringIO()
+    with docutils_namespace():
+        app = Sphinx(
+            source,
+            source,
+            source / "out",
+            source / "doctrees",
+            "html",
+            status=None,
+            warning=warnings,
+            warningiserror=False,
+        )
+        app.build()
+    assert warnings.getvalue() == ""
+    return source / "out"
+
+
+@pytest.fixture(scope="module")
+def page(html):
+    return (html / "index.html").read_text(encoding="utf-8")
+
+
+def test_formulas_are_mathml(page):
+    inline, displayed = re.findall(r"<math.*?</math>", page)
+    assert 'display="inline"' in inline
+    assert "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>2</mn></mrow></mfrac>" in inline
+    assert 'display="block"' in displayed
+    assert '<span class="eqno">(1)' in page
+    assert 'href="#equation-eq-omega">(1)</a> it turns' in page
+
+
+def test_quotes_that_say_so_become_boxes(page):
+    boxes = re.findall(r'<div class="([^"]*)admonition">\s*<p class="admonition-title">(.*?)</p>', page)
+    assert boxes == [("real-robot box ", "On a real robot"), ("summary-box box ", "Summary")]
+    assert "<p>Type this:</p>" in page
+
+
+def test_other_quotes_stay_quotes(page):
+    quotes = re.findall(r"<blockquote>\s*<div><p>(.*?)</p>", page)
+    assert quotes == [
+        "<strong>Bold</strong> words begin this quote, which stays one.",
+        "Plain words begin this one.",
+    ]
+
+
+def test_solutions_are_folded_with_their_code_highlighted(page):
+    details = re.search(r"<details>(.*?)</details>", page, re.DOTALL)[1]
+    assert "<summary>Solution to exercise 11.1</summary>" in details
+    assert 'class="highlight-python' in details
+
+
+def test_thebe_is_silent(page):
+    assert "THEBE_JS_URL" not in page
+    assert "sphinx-thebe.js" not in page
+
+
+def test_the_theme_writes_nothing_to_the_console(html):
+    scripts = list((html / "_static").rglob("*.js"))
+    assert scripts
+    assert [path.name for path in scripts if "console.log(" in path.read_text(encoding="utf-8")] == []

@@ -1,0 +1,111 @@
+"""The built book fetches nothing from elsewhere, names no local address, and has a text for every picture."""
+
+from __future__ import annotations
+
+import pytest
+import yaml
+
+from rosmini.book.pages import page_problems, site_problems
+
+
+def toc_pages(root):
+    toc = yaml.safe_load((root / "book" / "_toc.yml").read_text(encoding="utf-8"))
+    return [toc["root"], *(chapter["file"] for part in toc["parts"] for chapter in part["chapters"])]
+
+
+def test_the_book_is_built_with_warnings_as_errors(book_html, root):
+    for page in toc_pages(root):
+        assert (book_html / f"{page}.html").is_file(), page
+
+
+def test_every_notebook_is_in_the_contents(root):
+    listed = {page for page in toc_pages(root) if page.startswith("notebooks/")}
+    assert listed == {f"notebooks/{path.stem}" for path in (root / "notebooks").glob("*.ipynb")}
+
+
+def test_every_prose_page_is_in_the_contents(root):
+    pages = (path.relative_to(root) for path in (root / "book").rglob("*.md") if "_build" not in path.parts)
+    assert {page.with_suffix("").as_posix() for page in pages} <= set(toc_pages(root))
+
+
+def test_nothing_in_the_pages_comes_from_elsewhere(book_html):
+    assert list(site_problems(book_html)) == []
+
+
+def test_no_page_has_the_scripts_that_jupyter_book_loads_from_the_network(book_html):
+    for path in book_html.rglob("*.html"):
+        text = path.read_text(encoding="utf-8")
+        for unwanted in (
+            "MathJax",
+            "mathjax@",
+            "require.min.js",
+            "require.js",
+            "THEBE_JS_URL",
+            "html-manager",
+        ):
+            assert unwanted not in text, f"{path}: {unwanted}"
+
+
+@pytest.mark.parametrize(
+    ("html", "problem"),
+    [
+        (
+            '<script src="https://cdn.example/x.js"></script>',
+            "script src from elsewhere: https://cdn.example/x.js",
+        ),
+        ('<script src="//cdn.example/x.js"></script>', "script src from elsewhere: //cdn.example/x.js"),
+        (
+            '<script>import("https://cdn.example/x.mjs")</script>',
+            "a script from elsewhere: https://cdn.example/x.mjs",
+        ),
+        (
+            '<link rel="stylesheet" href="http://cdn.example/x.css">',
+            "link href from elsewhere: http://cdn.example/x.css",
+        ),
+        (
+            "<style>@font-face {src: url('https://fonts.example/a.woff2')}</style>",
+            "a style from elsewhere: https://fonts.example/a.woff2",
+        ),
+        ("<style>@import '//fonts.example/a.css';</style>", "a style from elsewhere: //fonts.example/a.css"),
+        (
+            '<img alt="a map" src="https://example.org/a.png">',
+            "img src from elsewhere: https://example.org/a.png",
+        ),
+        (
+            '<iframe title="t" src="http://127.0.0.1:7000/"></iframe>',
+            "iframe src from elsewhere: http://127.0.0.1:7000/",
+        ),
+        ('<iframe title="t" src="http://127.0.0.1:7000/"></iframe>', "a local address in iframe src"),
+        (
+            "<p>open http://127.0.0.1:7000 now</p>",
+            "a local address in the text: open http://127.0.0.1:7000 now",
+        ),
+        ('<img src="a.png">', "an image without a text: a.png"),
+        ('<img src="a.png" alt=" ">', "an image without a text: a.png"),
+        ("<svg class='graph'><path d='M0 0'/></svg>", "a drawing without a text: svg graph"),
+        ('<iframe src="a.html"></iframe>', "a frame without a title: a.html"),
+        (
+            '<iframe title="t" srcdoc="&lt;script src=&quot;https://cdn.example/x.js&quot;&gt;&lt;/script&gt;"></iframe>',
+            "in a frame: script src from elsewhere: https://cdn.example/x.js",
+        ),
+    ],
+)
+def test_what_the_gate_refuses(html, problem):
+    assert problem in page_problems(html)
+
+
+@pytest.mark.parametrize(
+    "html",
+    [
+        '<p>See <a href="https://wiki.ros.org">the wiki</a>.</p>',
+        '<link rel="canonical" href="https://example.org/">',
+        '<img src="a.png" alt="a map">',
+        '<img src="data:image/png;base64,AAAA" alt="a map">',
+        "<svg><title>two nodes</title><g><svg><path/></svg></g></svg>",
+        '<svg role="img" aria-label="two nodes" xmlns="http://www.w3.org/2000/svg"></svg>',
+        '<math xmlns="http://www.w3.org/1998/Math/MathML"><mi>x</mi></math>',
+        '<script src="../_static/x.js"></script><style>a {background: url("../a.svg")}</style>',
+    ],
+)
+def test_what_the_gate_accepts(html):
+    assert page_problems(html) == []
