@@ -1,0 +1,33 @@
+"""For the built book: images in notebook outputs get the alt text that their metadata carries.
+
+myst-nb writes an `image/png` output as an image without alt text. It loads this class through the entry point group
+`myst_nb.mime_renderers`; a view's own image brings `{"alt": ...}` in the metadata of its output (see `view.py`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+if TYPE_CHECKING:
+    from docutils import nodes
+
+
+class AltText:
+    """A mime renderer of myst-nb: leaves everything to myst-nb, then adds what it has left out."""
+
+    mime_priority_overrides: ClassVar[list[tuple[str, str, int | None]]] = []
+
+    @staticmethod
+    def handle_mime(renderer: Any, data: Any, inline: bool) -> list[nodes.Element] | None:
+        """Render an image that has alt text in its output's metadata; None for anything else."""
+        if data.mime_type not in {"image/png", "image/svg+xml"}:
+            return None
+        alt = data.output_metadata.get(data.mime_type, {}).get("alt")
+        if not alt:
+            return None
+        rendered: list[nodes.Element] = (
+            renderer.render_image_inline(data) if inline else renderer.render_image(data)
+        )
+        for image in rendered:
+            image.setdefault("alt", alt)
+        return rendered

@@ -1,0 +1,171 @@
+"""One layered layout for every graph that rosmini draws: plain Python, and the same on every machine.
+
+`layered(vertices, edges)` takes names and sizes and returns places and curves. It does not know what is drawn, and
+it sorts its input first, so that the same graph gives the same drawing whatever order it came in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from rosmini.viz.layout.coordinates import GROUP_HEAD, GROUP_PAD, assign_across
+from rosmini.viz.layout.model import Direction, Edge, Layout, Rect, Route, Vertex
+from rosmini.viz.layout.ordering import order_layers
+from rosmini.viz.layout.routing import Bands, group_rectangles, rectangles, routes
+from rosmini.viz.layout.slots import make_proper
+
+__all__ = ["Direction", "Edge", "Layout", "Rect", "Route", "Vertex", "layered"]
+
+COMPONENT_GAP = 26.0
+PAGE_WIDTH = 680.0
+"""Components stand side by side up to this width, or up to that of the widest component."""
+
+
+def layered(vertices: Iterable[Vertex], edges: Iterable[Edge], *, direction: Direction = "right") -> Layout:
+    """Lay out a directed graph in layers that follow its edges to the right or down.
+
+    Args:
+        vertices: what to place; names are unique.
+        edges: from vertex name to vertex name; names are unique. Parallel edges and loops are welcome.
+        direction: where edges lead, "right" as in rqt_graph or "down" as in a tree of frames.
+
+    Raises:
+        ValueError: a name is used twice, or an edge has an end that is no vertex.
+
+    """
+    vertices = sorted(vertices, key=lambda vertex: vertex.name)
+    edges = sorted(edges, key=lambda edge: edge.name)
+    _check(vertices, edges)
+    if direction == "down":
+        vertices, edges = [_turned_vertex(v) for v in vertices], [_turned_edge(e) for e in edges]
+    parts = [_component(some, among, direction) for some, among in _components(vertices, edges)]
+    layout = _on_shelves(parts, direction)
+    return layout if direction == "right" else _turned(layout)
+
+
+def _check(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> None:
+    names = {vertex.name for vertex in vertices}
+    if len(names) < len(vertices) or len({edge.name for edge in edges}) < len(edges):
+        raise ValueError("the names of vertices and of edges must be unique")
+    for edge in edges:
+        if edge.source not in names or edge.target not in names:
+            raise ValueError(
+                f"edge {edge.name!r} leads from {edge.source!r} to {edge.target!r}: no such vertex"
+            )
+
+
+def _components(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> list[tuple[list[Vertex], list[Edge]]]:
+    """What hangs together by edges or by an outermost group; the largest first, then by name."""
+    leader = {vertex.name: vertex.name for vertex in vertices}
+
+    def find(name: str) -> str:
+        while leader[name] != name:
+            leader[name] = leader[leader[name]]
+            name = leader[name]
+        return name
+
+    def join(a: str, b: str) -> None:
+        first, second = sorted((find(a), find(b)))
+        leader[second] = first
+
+    first_of_group: dict[str, str] = {}
+    for vertex in vertices:
+        if vertex.groups:
+            join(vertex.name, first_of_group.setdefault(vertex.groups[0], vertex.name))
+    for edge in edges:
+        join(edge.source, edge.target)
+    parts: dict[str, tuple[list[Vertex], list[Edge]]] = {}
+    for vertex in vertices:
+        parts.setdefault(find(vertex.name), ([], []))[0].append(vertex)
+    for edge in edges:
+        parts[find(edge.source)][1].append(edge)
+    return [parts[root] for root in sorted(parts, key=lambda root: (-len(parts[root][0]), root))]
+
+
+def _component(vertices: Sequence[Vertex], edges: Sequence[Edge], direction: Direction) -> Layout:
+    # The name of a group is written along its upper border, whichever way the layers run.
+    along, across = (GROUP_PAD, GROUP_HEAD) if direction == "right" else (GROUP_HEAD, GROUP_PAD)
+    proper = make_proper(vertices, edges)
+    order_layers(proper)
+    assign_across(proper, across)
+    bands = Bands(proper, along)
+    return _at_origin(
+        Layout(
+            vertices=rectangles(proper, bands, vertices),
+            edges=routes(proper, bands, vertices),
+            groups=group_rectangles(proper, bands, along, across),
+            layers={name: slot.layer for name, slot in proper.vertices.items()},
+        )
+    )
+
+
+def _at_origin(part: Layout) -> Layout:
+    boxes = [*part.vertices.values(), *part.groups.values()]
+    boxes += [route.label for route in part.edges.values() if route.label]
+    points = [point for route in part.edges.values() for point in route.points]
+    left = min([box.x for box in boxes] + [x for x, _ in points])
+    top = min([box.y for box in boxes] + [y for _, y in points])
+    right = max([box.right for box in boxes] + [x for x, _ in points])
+    bottom = max([box.bottom for box in boxes] + [y for _, y in points])
+    return _moved(part, -left, -top, right - left, bottom - top)
+
+
+def _moved(part: Layout, dx: float, dy: float, width: float, height: float) -> Layout:
+    return Layout(
+        width,
+        height,
+        {name: rect.moved(dx, dy) for name, rect in part.vertices.items()},
+        {name: route.moved(dx, dy) for name, route in part.edges.items()},
+        {path: rect.moved(dx, dy) for path, rect in part.groups.items()},
+        part.layers,
+    )
+
+
+def _on_shelves(parts: Sequence[Layout], direction: Direction) -> Layout:
+    """Put components side by side on shelves, as wide as the page or as the widest of them."""
+    if direction == "down":  # here the parts are still lying on their side
+        return _turned(_on_shelves([_turned(part) for part in parts], "right"))
+    limit = max([PAGE_WIDTH, *(part.width for part in parts)])
+    x = y = shelf = widest = 0.0
+    whole = Layout()
+    for part in parts:
+        if x > 0 and x + part.width > limit:
+            x, y, shelf = 0.0, y + shelf + COMPONENT_GAP, 0.0
+        placed = _moved(part, x, y, part.width, part.height)
+        for name in ("vertices", "edges", "groups", "layers"):
+            getattr(whole, name).update(getattr(placed, name))
+        widest = max(widest, x + part.width)
+        x += part.width + COMPONENT_GAP
+        shelf = max(shelf, part.height)
+    return _moved(whole, 0.0, 0.0, widest, y + shelf)
+
+
+def _turned_vertex(v: Vertex) -> Vertex:
+    return Vertex(v.name, v.height, v.width, v.shape, v.groups)
+
+
+def _turned_edge(e: Edge) -> Edge:
+    return Edge(e.name, e.source, e.target, e.label_height, e.label_width)
+
+
+def _turned_rect(r: Rect) -> Rect:
+    return Rect(r.y, r.x, r.height, r.width)
+
+
+def _turned(layout: Layout) -> Layout:
+    """Mirror in the diagonal: what led to the right leads down."""
+    return Layout(
+        layout.height,
+        layout.width,
+        {name: _turned_rect(rect) for name, rect in layout.vertices.items()},
+        {
+            name: Route(
+                tuple((y, x) for x, y in route.points),
+                _turned_rect(route.label) if route.label else None,
+                route.reversed,
+            )
+            for name, route in layout.edges.items()
+        },
+        {path: _turned_rect(rect) for path, rect in layout.groups.items()},
+        layout.layers,
+    )

@@ -1,0 +1,197 @@
+"""Positions across the layers: as straight as the order and the sizes allow.
+
+Each layer in turn takes the places that are nearest, in least squares, to what its neighbours ask for (pool adjacent
+violators: Ayer et al., 1955). Then everything is pushed apart until the groups fit too, and slots slide to the
+median of their neighbours as far as there is room, which makes lines straight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from rosmini.viz.layout.slots import Proper, Slot
+
+VERTEX_GAP = 20.0
+BEND_GAP = 9.0
+GROUP_PAD = 10.0
+GROUP_HEAD = 20.0
+"""Room for the name of a group inside its box, above its members."""
+SWEEPS = 24
+
+Node = Slot | tuple[str, tuple[str, ...]]
+"""What a position is sought for: a slot, or the ("top" or "bottom", group) border of a group."""
+
+
+def gap(a: Slot, b: Slot) -> float:
+    """The least distance between the borders of two neighbours that share all their groups."""
+    return VERTEX_GAP if not a.bend and not b.bend else BEND_GAP if a.bend and b.bend else 13.0
+
+
+def assign_across(proper: Proper, head: float) -> None:
+    """Set `at` of every slot. `head` is the room at the beginning of each group, in pixels."""
+    for row in proper.layers:
+        _pack(row, [0.0] * len(row), head)
+    for turn in range(SWEEPS):
+        downward = turn % 2 == 0
+        for row in proper.layers if downward else proper.layers[::-1]:
+            both = turn >= SWEEPS // 2
+            _pack(row, [_wish(slot, downward=downward, both=both) for slot in row], head)
+    borders = _Borders(proper, head)
+    borders.push_apart()
+    borders.straighten()
+    top = min(slot.at - slot.before for row in proper.layers for slot in row)
+    for row in proper.layers:
+        for slot in row:
+            slot.at -= top
+
+
+def _wish(slot: Slot, *, downward: bool, both: bool) -> float:
+    links = slot.previous if downward else slot.following
+    if both:
+        links = slot.previous + slot.following
+    if not links:
+        return slot.at
+    weight = sum(w for _, w in links)
+    return sum(other.at * w for other, w in links) / weight
+
+
+def distance(a: Slot, b: Slot, head: float) -> float:
+    """The least distance between the centre lines of two neighbours in a layer, group borders included."""
+    depth = _shared_depth(a, b)
+    closing, opening = len(a.groups) - depth, len(b.groups) - depth
+    return a.after + gap(a, b) + b.before + closing * GROUP_PAD + opening * head
+
+
+def _shared_depth(a: Slot, b: Slot) -> int:
+    depth = 0
+    while depth < min(len(a.groups), len(b.groups)) and a.groups[depth] == b.groups[depth]:
+        depth += 1
+    return depth
+
+
+def _pack(row: Sequence[Slot], wishes: Sequence[float], head: float) -> None:
+    """Place a layer in its order, with its distances, as near to the wishes as least squares allows."""
+    offsets = [0.0]
+    for a, b in pairwise(row):
+        offsets.append(offsets[-1] + distance(a, b, head))
+    blocks: list[tuple[float, float, int]] = []  # mean, weight, number of slots
+    for slot, wish, offset in zip(row, wishes, offsets, strict=False):
+        links = slot.previous + slot.following
+        weight = sum(w for _, w in links) or 0.1
+        mean, count = wish - offset, 1
+        while blocks and blocks[-1][0] >= mean:
+            last_mean, last_weight, last_count = blocks.pop()
+            mean = (mean * weight + last_mean * last_weight) / (weight + last_weight)
+            weight += last_weight
+            count += last_count
+        blocks.append((mean, weight, count))
+    i = 0
+    for mean, _, count in blocks:
+        for _ in range(count):
+            row[i].at = mean + offsets[i]
+            i += 1
+
+
+class _Borders:
+    """The constraints that say who is before whom, the borders of groups included, and moves that keep them."""
+
+    def __init__(self, proper: Proper, head: float) -> None:
+        self.layers = proper.layers
+        self.head = head
+        self.position: dict[Node, float] = {}
+        self.after: dict[Node, list[tuple[Node, float]]] = {}
+        self.before: dict[Node, list[tuple[Node, float]]] = {}
+        for row in proper.layers:
+            for slot in row:
+                self._add(slot, slot.at)
+        for group in proper.groups:
+            members = [s for row in proper.layers for s in row if s.groups[: len(group)] == group]
+            self._add(("top", group), min(s.at - s.before for s in members) - head)
+            self._add(("bottom", group), max(s.at + s.after for s in members) + GROUP_PAD)
+        for row in proper.layers:
+            self._constrain(row)
+
+    def _add(self, node: Node, position: float) -> None:
+        self.position[node] = position
+        self.after[node] = []
+        self.before[node] = []
+
+    def _require(self, first: Node, second: Node, apart: float) -> None:
+        self.after[first].append((second, apart))
+        self.before[second].append((first, apart))
+
+    def _constrain(self, row: Sequence[Slot]) -> None:
+        for a, b in zip([None, *row], [*row, None], strict=True):
+            depth = _shared_depth(a, b) if a and b else 0
+            closing = list(range(len(a.groups), depth, -1)) if a else []
+            opening = list(range(depth + 1, len(b.groups) + 1)) if b else []
+            chain: list[tuple[Node, float, float]] = []  # a border or slot, its extents before and after
+            if a:
+                chain.append((a, 0.0, a.after))
+                chain += [(("bottom", a.groups[:level]), GROUP_PAD, 0.0) for level in closing]
+            start = len(chain)
+            if b:
+                chain += [(("top", b.groups[:level]), 0.0, self.head) for level in opening]
+                chain.append((b, b.before, 0.0))
+            between = gap(a, b) if a and b else 0.0
+            for i, (first, second) in enumerate(pairwise(chain)):
+                inner = between if i == start - 1 else 0.0
+                self._require(first[0], second[0], first[2] + second[1] + inner)
+
+    def push_apart(self) -> None:
+        """Move things onwards, never back, until all constraints hold."""
+        waiting = {node: len(self.before[node]) for node in self.position}
+        ready = [node for node in self.position if waiting[node] == 0]
+        for node in ready:
+            for other, apart in self.after[node]:
+                self.position[other] = max(self.position[other], self.position[node] + apart)
+                waiting[other] -= 1
+                if waiting[other] == 0:
+                    ready.append(other)
+        self._store()
+
+    def straighten(self) -> None:
+        """Slide every slot to the weighted median of its neighbours, as far as the constraints leave room."""
+        slots = [slot for row in self.layers for slot in row]
+        borders = [node for node in self.position if isinstance(node, tuple)]
+        for turn in range(10):
+            for border in borders:
+                self._tighten(border)
+            for slot in slots if turn % 2 == 0 else slots[::-1]:
+                links = slot.previous + slot.following
+                if links:
+                    self._slide(slot, _median([(other.at, weight) for other, weight in links], slot.at))
+        for border in borders:
+            self._tighten(border)
+
+    def _tighten(self, border: Node) -> None:
+        """Draw a border in, as near to the members of its group as they allow."""
+        if border[0] == "top":  # type: ignore[index]
+            self.position[border] = min(self.position[n] - apart for n, apart in self.after[border])
+        else:
+            self.position[border] = max(self.position[n] + apart for n, apart in self.before[border])
+
+    def _slide(self, slot: Slot, wish: float) -> None:
+        low = max((self.position[n] + apart for n, apart in self.before[slot]), default=wish)
+        high = min((self.position[n] - apart for n, apart in self.after[slot]), default=wish)
+        self.position[slot] = slot.at = max(low, min(wish, high)) if low <= high else slot.at
+
+    def _store(self) -> None:
+        for row in self.layers:
+            for slot in row:
+                slot.at = self.position[slot]
+
+
+def _median(values: list[tuple[float, float]], current: float) -> float:
+    """The weighted median; where it is a whole interval, its point nearest to `current`."""
+    values = sorted(values)
+    half = sum(weight for _, weight in values) / 2
+    seen = 0.0
+    for i, (value, weight) in enumerate(values):
+        seen += weight
+        if seen > half + 1e-9:
+            return value
+        if seen >= half - 1e-9:
+            return max(value, min(current, values[i + 1][0]))
+    return current

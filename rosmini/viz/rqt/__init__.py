@@ -1,0 +1,8 @@
+"""The tools of rqt, each as a function that returns a view."""
+
+from __future__ import annotations
+
+from rosmini.viz.rqt.graph import rqt_graph
+from rosmini.viz.rqt.state import GraphState
+
+__all__ = ["GraphState", "rqt_graph"]

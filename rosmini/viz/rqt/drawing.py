@@ -1,0 +1,194 @@
+"""From a selection to SVG: nodes as ovals, topics as labels on edges or as boxes, namespaces as boxes around."""
+
+from __future__ import annotations
+
+from rosmini.viz import style
+from rosmini.viz.layout import Edge, Layout, Rect, Route, Vertex, layered
+from rosmini.viz.layout.model import Direction, Point
+from rosmini.viz.metrics import text_width
+from rosmini.viz.rqt.selection import Selection
+from rosmini.viz.svg import bezier, document, element, escape, number
+
+MARGIN = 12.0
+LINE_HEIGHT = 15.0
+ARROW_LENGTH, ARROW_HALF = 8.5, 3.6
+COLOURS = [
+    "ink", "muted", "line", "node-fill", "node-line", "topic-fill", "topic-line",
+    "group-fill", "group-line", "label", "bad-fill", "bad-line",
+]  # fmt: skip
+
+
+def draw(selection: Selection, *, namespaces: int, direction: Direction, title: str, alt: str) -> str:
+    """The SVG of a selection. `namespaces` is how deep boxes around namespaces nest, 0 for none."""
+    vertices, edges, labels = _graph(selection, namespaces)
+    layout = layered(vertices, edges, direction=direction)
+    if not vertices:
+        return _nothing(title, alt)
+    groups = sorted(layout.groups.items(), key=lambda group: (len(group[0]), group[0]))
+    parts = [_group(path, rect) for path, rect in groups]
+    parts += [_edge(layout.edges[edge.name], edge, labels) for edge in sorted(edges, key=lambda e: e.name)]
+    parts += [_vertex(vertex, layout, selection) for vertex in sorted(vertices, key=lambda v: v.name)]
+    parts += [_group_name(path, rect) for path, rect in groups]
+    moved = element("g", "".join(parts), transform=f"translate({number(MARGIN)},{number(MARGIN)})")
+    width, height = layout.width + 2 * MARGIN, layout.height + 2 * MARGIN
+    return document(moved, width=width, height=height, title=title, alt=alt, css=_css(), colours=COLOURS)
+
+
+def _graph(selection: Selection, namespaces: int) -> tuple[list[Vertex], list[Edge], dict[str, str]]:
+    """Vertices, edges, and the label of each labelled edge. `n:` and `t:` keep equal names apart."""
+    edges: list[Edge] = []
+    labels: dict[str, str] = {}
+    if selection.mode == "nodes_only":
+        for publisher, topic, subscriber in selection.connections:
+            name = f"{publisher} {topic} {subscriber}"
+            labels[name] = topic
+            width = text_width(topic, style.LABEL_SIZE) + 6
+            edges.append(Edge(name, f"n:{publisher}", f"n:{subscriber}", width, LINE_HEIGHT))
+    else:
+        edges += [Edge(f"p:{n} {t}", f"n:{n}", f"t:{t}") for n, t in selection.publications]
+        edges += [Edge(f"s:{t} {n}", f"t:{t}", f"n:{n}") for n, t in selection.subscriptions]
+    vertices = [_sized(f"n:{n}", "ellipse", edges, namespaces) for n in selection.nodes]
+    if selection.mode != "nodes_only":
+        vertices += [_sized(f"t:{t}", "box", edges, namespaces) for t in selection.topics]
+    return vertices, edges, labels
+
+
+def _sized(name: str, shape: str, edges: list[Edge], namespaces: int) -> Vertex:
+    label = name[2:]
+    width = text_width(label, style.TEXT_SIZE)
+    busiest = max(
+        sum(1 for e in edges if e.source == name != e.target),
+        sum(1 for e in edges if e.target == name != e.source),
+    )
+    groups = tuple(_namespaces(label)[:namespaces])
+    if shape == "ellipse":
+        height = min(120.0, max(36.0, 14 + 9.0 * busiest))
+        return Vertex(name, max(64.0, width + 34, 1.2 * height), height, "ellipse", groups)
+    return Vertex(name, max(40.0, width + 18), min(110.0, max(28.0, 10 + 9.0 * busiest)), "box", groups)
+
+
+def _namespaces(name: str) -> list[str]:
+    """The namespaces that a name is in: `/a` and `/a/b` for `/a/b/c`."""
+    parts = name.split("/")[1:-1]
+    return ["/" + "/".join(parts[: i + 1]) for i in range(len(parts))]
+
+
+def _vertex(vertex: Vertex, layout: Layout, selection: Selection) -> str:
+    rect = layout.vertices[vertex.name]
+    name = vertex.name[2:]
+    x, y = rect.centre
+    if vertex.shape == "ellipse":
+        bad = name in selection.unreachable
+        shape = element("ellipse", cx=x, cy=y, rx=rect.width / 2, ry=rect.height / 2, **_paint(bad))
+        kind, tip = ("node rm-bad", f"{name} does not answer") if bad else ("node", f"node {name}")
+    else:
+        members = selection.groups.get(name, ())
+        paint = {"fill": style.LIGHT["topic-fill"], "stroke": style.LIGHT["topic-line"]}
+        shape = "".join(_box(rect, shift, paint) for shift in ((4.0, 0.0) if members else (0.0,)))
+        kind = "topic"
+        tip = f"topic {name}" + (f" [{selection.types[name]}]" if name in selection.types else "")
+        if members:
+            tip = f"{name}: {', '.join(members)}"
+    label = element("text", escape(name), x=x, y=y + 4.5, **_text(style.TEXT_SIZE, "ink"))
+    return element("g", element("title", escape(tip)) + shape + label, class_=f"rm-{kind}")
+
+
+def _paint(bad: bool) -> dict[str, str]:
+    kind = "bad" if bad else "node"
+    return {"fill": style.LIGHT[f"{kind}-fill"], "stroke": style.LIGHT[f"{kind}-line"]}
+
+
+def _text(size: float, colour: str) -> dict[str, str | float]:
+    return {"font_size": size, "text_anchor": "middle", "fill": style.LIGHT[colour]}
+
+
+def _box(rect: Rect, shift: float, paint: dict[str, str]) -> str:
+    return element(
+        "rect", x=rect.x + shift, y=rect.y - shift, width=rect.width, height=rect.height, rx=4.0, **paint
+    )
+
+
+def _edge(route: Route, edge: Edge, labels: dict[str, str]) -> str:
+    points, arrow = _with_arrow(route.points)
+    line = element("path", d=bezier(points), fill="none", stroke=style.LIGHT["line"])
+    head = element("path", d=arrow, fill=style.LIGHT["line"])
+    source, target = edge.source[2:], edge.target[2:]
+    topic = labels.get(edge.name)
+    tip = f"{source} -> {topic} -> {target}" if topic else f"{source} -> {target}"
+    label = ""
+    if topic and route.label:
+        x, _ = route.label.centre
+        label = element(
+            "text", escape(topic), x=x, y=route.label.bottom - 3, **_text(style.LABEL_SIZE, "label")
+        )
+    return element("g", element("title", escape(tip)) + line + head + label, class_="rm-edge")
+
+
+def _with_arrow(points: tuple[Point, ...]) -> tuple[tuple[Point, ...], str]:
+    """The curve, cut off where its arrow head begins, and the head's outline."""
+    tip, before = points[-1], points[-2]
+    dx, dy = tip[0] - before[0], tip[1] - before[1]
+    length = (dx * dx + dy * dy) ** 0.5
+    if length < 0.05:
+        dx, dy = tip[0] - points[0][0], tip[1] - points[0][1]
+        length = (dx * dx + dy * dy) ** 0.5 or 1.0
+    ux, uy = dx / length, dy / length
+    base = (tip[0] - ux * ARROW_LENGTH, tip[1] - uy * ARROW_LENGTH)
+    left = (base[0] - uy * ARROW_HALF, base[1] + ux * ARROW_HALF)
+    right = (base[0] + uy * ARROW_HALF, base[1] - ux * ARROW_HALF)
+    outline = "M" + "L".join(f"{number(x)},{number(y)}" for x, y in (tip, left, right)) + "Z"
+    neck = (tip[0] - ux * (ARROW_LENGTH - 1.5), tip[1] - uy * (ARROW_LENGTH - 1.5))
+    return (*points[:-1], neck), outline
+
+
+def _group(path: tuple[str, ...], rect: Rect) -> str:
+    paint = {"fill": style.LIGHT["group-fill"], "stroke": style.LIGHT["group-line"]}
+    box = element("rect", x=rect.x, y=rect.y, width=rect.width, height=rect.height, rx=8.0, **paint)
+    return element("g", element("title", escape(f"namespace {path[-1]}")) + box, class_="rm-group")
+
+
+def _group_name(path: tuple[str, ...], rect: Rect) -> str:
+    """The name of a namespace, over the edges that pass it, with a halo that keeps it legible."""
+    return element(
+        "text",
+        escape(path[-1]),
+        class_="rm-group-name",
+        x=rect.x + 9,
+        y=rect.y + 14.5,
+        font_size=11.5,
+        fill=style.LIGHT["muted"],
+        stroke=style.LIGHT["group-fill"],
+        stroke_width=4.0,
+        stroke_linejoin="round",
+        paint_order="stroke",
+    )
+
+
+def _nothing(title: str, alt: str) -> str:
+    message = "(no node to show)"
+    width = text_width(message, style.TEXT_SIZE) + 6 * MARGIN
+    label = element("text", message, x=width / 2, y=34.0, class_="rm-none", **_text(style.TEXT_SIZE, "muted"))
+    return document(label, width=width, height=60.0, title=title, alt=alt, css=_css(), colours=COLOURS)
+
+
+def _css() -> str:
+    def rule(selector: str, **properties: str) -> str:
+        body = ";".join(f"{name}:{style.variable(value)}" for name, value in properties.items())
+        return f".rosmini-svg {selector}{{{body}}}"
+
+    return (
+        rule(".rm-node ellipse", fill="node-fill", stroke="node-line")
+        + rule(".rm-bad ellipse", fill="bad-fill", stroke="bad-line").replace("}", ";stroke-dasharray:5 3}")
+        + rule(".rm-topic rect", fill="topic-fill", stroke="topic-line")
+        + rule(".rm-group rect", fill="group-fill", stroke="group-line")
+        + rule(".rm-group-name", fill="muted", stroke="group-fill")
+        + rule(".rm-node text,.rosmini-svg .rm-topic text", fill="ink")
+        + rule(".rm-edge text", fill="label")
+        + rule(".rm-none", fill="muted")
+        + rule(".rm-edge path:first-of-type", stroke="line")
+        + rule(".rm-edge path:last-of-type", fill="line")
+        + f".rosmini-svg path:first-of-type,.rosmini-svg ellipse{{stroke-width:{style.LINE_WIDTH}}}"
+        + f".rosmini-svg rect{{stroke-width:{style.HAIRLINE}}}"
+        + ".rosmini-svg .rm-edge:hover path:first-of-type{stroke-width:2.8}"
+        + ".rosmini-svg .rm-edge:hover text{font-weight:bold}"
+    )

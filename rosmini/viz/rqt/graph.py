@@ -1,0 +1,55 @@
+"""`rqt_graph`: the computation graph as a picture, with the modes and switches of the tool of that name."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from rosmini.viz.layout import Direction
+from rosmini.viz.rqt.drawing import draw
+from rosmini.viz.rqt.selection import Group, Hide, Mode, select
+from rosmini.viz.rqt.state import graph_state
+from rosmini.viz.rqt.wording import alt_text, text_form
+from rosmini.viz.view import Picture
+
+DEFAULT_HIDE: tuple[Hide, ...] = ("debug", "dead_sinks", "leaf_topics", "params", "unreachable")
+DEFAULT_GROUP: tuple[Group, ...] = ("actions", "images", "tf")
+
+
+def rqt_graph(
+    source: object,
+    *,
+    mode: Mode = "nodes_only",
+    hide: Collection[Hide] = DEFAULT_HIDE,
+    group: Collection[Group] = DEFAULT_GROUP,
+    namespaces: int = 2,
+    namespace: str = "/",
+    topics: str = "/",
+    direction: Direction = "right",
+    title: str | None = None,
+) -> Picture:
+    """Draw who publishes what to whom, as rqt_graph does (wiki.ros.org/rqt_graph).
+
+    Args:
+        source: a Master (anything with `getSystemState` and `getTopicTypes`), an object with a `master`, the value
+            of `getSystemState`, or a `GraphState`.
+        mode: "nodes_only" draws a topic as a label on each edge from publisher to subscriber; "nodes_topics_active"
+            draws topics as boxes, those with a connection; "nodes_topics_all" those that are only registered too.
+        hide: switches of the "Hide" row. "debug": tools and their topics, such as /rosout and /clock; "dead_sinks":
+            topics without subscribers; "leaf_topics": topics with one end only; "params": dynamic_reconfigure;
+            "tf": /tf and /tf_static; "unreachable": nodes that do not answer. `()` hides nothing.
+        group: switches of the "Group" row: one box for the topics of an "actions" server, of "images", of "tf".
+            They matter only where topics are boxes.
+        namespaces: how deep boxes around namespaces nest; 0 draws none.
+        namespace: filter for nodes: names or regular expressions with commas between, `-` excludes. "/" is all.
+        topics: filter for topics, in the same form.
+        direction: "right" as rqt_graph, or "down".
+        title: a caption under the picture, and the first words of its text form.
+
+    Raises:
+        ViewError: the source has no graph state, or a mode, switch or filter is not known.
+
+    """
+    selection = select(graph_state(source), mode, hide=hide, group=group, nodes=namespace, topics=topics)
+    text, alt = text_form(selection, title), alt_text(selection)
+    svg = draw(selection, namespaces=namespaces, direction=direction, title=title or "rqt_graph", alt=alt)
+    return Picture(svg, text=text, alt=alt, caption=title)

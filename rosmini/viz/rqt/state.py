@@ -1,0 +1,133 @@
+"""What rqt_graph draws: who publishes and who subscribes to what, as a plain value."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from rosmini.viz.view import ViewError
+
+Connection = tuple[str, str, str]
+"""(publisher, topic, subscriber)"""
+
+CALLER_ID = "/rqt_graph"
+
+
+@dataclass(frozen=True)
+class GraphState:
+    """One moment of a computation graph.
+
+    Attributes:
+        publishers: the publishing nodes of each topic.
+        subscribers: the subscribing nodes of each topic.
+        types: the message type of each topic, where the Master knows one.
+        nodes: nodes that may be on no topic (the Master knows them by their services).
+        connections: the connections that exist, if they are known; None counts every publisher of a topic as
+            connected to every subscriber, which is what the Master brings about.
+        unreachable: nodes that are registered but do not answer.
+
+    """
+
+    publishers: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    subscribers: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    types: Mapping[str, str] = field(default_factory=dict)
+    nodes: frozenset[str] = frozenset()
+    connections: frozenset[Connection] | None = None
+    unreachable: frozenset[str] = frozenset()
+
+    @property
+    def topics(self) -> list[str]:
+        """All topics with a publisher or a subscriber, sorted."""
+        return sorted(
+            {t for side in (self.publishers, self.subscribers) for t, nodes in side.items() if nodes}
+        )
+
+    @property
+    def all_nodes(self) -> list[str]:
+        """All nodes, sorted."""
+        found = set(self.nodes) | set(self.unreachable)
+        for side in (self.publishers, self.subscribers):
+            for nodes in side.values():
+                found |= nodes
+        return sorted(found)
+
+    def edges(self) -> list[Connection]:
+        """Every (publisher, topic, subscriber), sorted; only those that are connected, where that is known."""
+        return [
+            (publisher, topic, subscriber)
+            for topic in self.topics
+            for publisher in sorted(self.publishers.get(topic, ()))
+            for subscriber in sorted(self.subscribers.get(topic, ()))
+            if self.connections is None or (publisher, topic, subscriber) in self.connections
+        ]
+
+    @classmethod
+    def of(
+        cls,
+        system_state: Sequence[Iterable[Sequence[Any]]],
+        types: Iterable[Sequence[str]] = (),
+        *,
+        connections: Iterable[Connection] | None = None,
+        unreachable: Iterable[str] = (),
+    ) -> GraphState:
+        """From the answers of the Master's `getSystemState` and `getTopicTypes` (ROS Master API).
+
+        Args:
+            system_state: `[publishers, subscribers, services]`, each a list of `[name, [node, ...]]`.
+            types: a list of `[topic, type]`.
+            connections: (publisher, topic, subscriber) triples, if known.
+            unreachable: names of nodes that do not answer.
+
+        Raises:
+            ViewError: `system_state` does not have that form.
+
+        """
+        try:
+            publishers, subscribers, services = (
+                [(str(n), frozenset(who)) for n, who in s] for s in system_state
+            )
+        except (TypeError, ValueError) as error:
+            raise ViewError(
+                "a system state is [publishers, subscribers, services], each a list of [name, [node, ...]], as the "
+                f"Master's getSystemState answers; got {system_state!r:.200}"
+            ) from error
+        return cls(
+            publishers=dict(publishers),
+            subscribers=dict(subscribers),
+            types={topic: kind for topic, kind in types if kind != "*"},
+            nodes=frozenset(node for _, nodes in services for node in nodes),
+            connections=None if connections is None else frozenset(connections),
+            unreachable=frozenset(unreachable),
+        )
+
+
+def graph_state(source: object) -> GraphState:
+    """The state of whatever has one: a `GraphState`, a Master (in process or an XML-RPC proxy), or a graph with one.
+
+    Raises:
+        ViewError: `source` is none of these, or the Master did not answer.
+
+    """
+    if isinstance(source, GraphState):
+        return source
+    if isinstance(source, list | tuple):
+        return GraphState.of(source)
+    master: Any = source if hasattr(source, "getSystemState") else getattr(source, "master", None)
+    if master is None or not hasattr(master, "getSystemState"):
+        raise ViewError(
+            f"rqt_graph cannot draw a {type(source).__name__}: give it a Master, an object with a `master`, "
+            "or a GraphState"
+        )
+    return GraphState.of(
+        _answer(master.getSystemState(CALLER_ID), "getSystemState"),
+        _answer(master.getTopicTypes(CALLER_ID), "getTopicTypes"),
+        unreachable=getattr(source, "unreachable", ()),
+    )
+
+
+def _answer(reply: Any, method: str) -> Any:
+    code, status, value = reply
+    if code != 1:
+        raise ViewError(f"the Master refused {method}: {status}")
+    return value

@@ -1,0 +1,100 @@
+"""The graph in words: the text form, which is complete, and the alt text, which is a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+
+from rosmini.viz.rqt.selection import Selection
+
+ALT_FLOWS = 6
+"""How many topics the alt text spells out."""
+
+
+def plural(count: int, noun: str) -> str:
+    """A count with its noun: "1 topic", "2 topics"."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def text_form(selection: Selection, title: str | None = None) -> str:
+    """A line of counts, then a line for each flow `publishers -> topic [type] -> subscribers`, then lone nodes."""
+    head = f"{title or 'rqt_graph'}: {_counts(selection)}"
+    hidden = [
+        plural(count, noun)
+        for count, noun in ((selection.hidden_nodes, "node"), (selection.hidden_topics, "topic"))
+        if count
+    ]
+    lines = [head + (f" (hidden: {' and '.join(hidden)})" if hidden else "")]
+    flows = _flows(selection)
+    for publishers, topic, subscribers in flows:
+        source = ", ".join(publishers) or "(no publisher)"
+        sink = ", ".join(subscribers) or "(no subscriber)"
+        lines.append(f"{source} -> {topic}{_type(selection, topic)} -> {sink}")
+    connected = {name for publishers, _, subscribers in flows for name in (*publishers, *subscribers)}
+    lines += [f"{node} (not connected)" for node in selection.nodes if node not in connected]
+    for name, members in sorted(selection.groups.items()):
+        lines.append(f"{name} stands for {', '.join(m + _type(selection, m) for m in members)}")
+    lines += [f"{node} does not answer" for node in sorted(selection.unreachable)]
+    return "\n".join(lines)
+
+
+def alt_text(selection: Selection) -> str:
+    """What the picture shows, in a sentence or two."""
+    if not selection.nodes and not selection.topics:
+        return "Computation graph with nothing to show."
+    flows = _flows(selection)
+    said = [_clause(*flow) for flow in flows[:ALT_FLOWS]]
+    if len(flows) > ALT_FLOWS:
+        said.append(f"and {plural(len(flows) - ALT_FLOWS, 'more flow')}")
+    start = f"Computation graph with {_counts(selection, ' and ')}"
+    if not said:
+        return f"{start}: {_listed(selection.nodes)} without a connection."
+    sentence = f"{start}: {'; '.join(said)}."
+    if selection.unreachable:
+        verb = "does" if len(selection.unreachable) == 1 else "do"
+        sentence += f" {_listed(sorted(selection.unreachable))} {verb} not answer."
+    return sentence
+
+
+def _counts(selection: Selection, separator: str = ", ") -> str:
+    return plural(len(selection.nodes), "node") + separator + plural(len(selection.topics), "topic")
+
+
+def _type(selection: Selection, topic: str) -> str:
+    return f" [{selection.types[topic]}]" if topic in selection.types else ""
+
+
+def _flows(selection: Selection) -> list[tuple[tuple[str, ...], str, tuple[str, ...]]]:
+    """(publishers, topic, subscribers), sorted by topic. Publishers whose subscribers differ are apart."""
+    flows: set[tuple[tuple[str, ...], str, tuple[str, ...]]] = set()
+    for topic in selection.topics:
+        members = selection.groups.get(topic, (topic,))
+        publishers = [n for n, t in selection.publications if t == topic]
+        subscribers = [n for n, t in selection.subscriptions if t == topic]
+        pairs = {(p, s) for p, t, s in selection.connections if t in members}
+        if selection.mode == "nodes_only":
+            publishers, subscribers = sorted({p for p, _ in pairs}), sorted({s for _, s in pairs})
+        elif not pairs or topic in selection.groups:
+            flows.add((tuple(publishers), topic, tuple(subscribers)))
+            continue
+        by_sinks: dict[tuple[str, ...], list[str]] = {}
+        for publisher in publishers:
+            by_sinks.setdefault(tuple(sorted(s for p, s in pairs if p == publisher)), []).append(publisher)
+        flows |= {(tuple(sources), topic, sinks) for sinks, sources in by_sinks.items()}
+        reached = {s for _, s in pairs}
+        waiting = tuple(s for s in subscribers if s not in reached)
+        if waiting:
+            flows.add(((), topic, waiting))
+    return sorted(flows, key=lambda flow: (flow[1], flow[0], flow[2]))
+
+
+def _clause(publishers: Collection[str], topic: str, subscribers: Collection[str]) -> str:
+    if not publishers:
+        return f"nobody publishes {topic} to {_listed(subscribers)}"
+    verb = "publishes" if len(publishers) == 1 else "publish"
+    sink = f"to {_listed(subscribers)}" if subscribers else "to nobody"
+    return f"{_listed(publishers)} {verb} {topic} {sink}"
+
+
+def _listed(names: Iterable[str]) -> str:
+    *most, last = names
+    return f"{', '.join(most)} and {last}" if most else last

@@ -1,0 +1,146 @@
+"""The house style: one palette for light and dark, one font stack, a few line widths.
+
+The hues are those of Okabe and Ito, "Color Universal Design" (2008), told apart with every kind of colour vision and
+in print; each is paired with a fill that keeps text on it above a contrast of 4.5:1. Pictures name colours through
+CSS custom properties (`--rosmini-ink`), with the light colour as fallback, so they follow the theme of the page.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+FONT = '"Helvetica Neue", Helvetica, Arial, "Liberation Sans", "DejaVu Sans", sans-serif'
+"""Faces that every system has; none is loaded."""
+
+TEXT_SIZE = 13.0
+LABEL_SIZE = 12.0
+LINE_WIDTH = 1.4
+HAIRLINE = 1.0
+
+LIGHT: Mapping[str, str] = MappingProxyType(
+    {
+        "page": "#ffffff",
+        "ink": "#1b2733",
+        "muted": "#56636f",
+        "line": "#5b6875",
+        "node-fill": "#e3effa",
+        "node-line": "#0067a8",
+        "topic-fill": "#fdf3dc",
+        "topic-line": "#a66d00",
+        "group-fill": "#f4f6f8",
+        "group-line": "#9aa5af",
+        "label": "#7a4f00",
+        "bad-fill": "#fdeae3",
+        "bad-line": "#c04a00",
+        "blue": "#0072b2",
+        "orange": "#d97f00",
+        "green": "#00865f",
+        "vermilion": "#d55e00",
+        "purple": "#b85c93",
+        "sky": "#3a9bd9",
+    }
+)
+DARK: Mapping[str, str] = MappingProxyType(
+    {
+        "page": "#14181e",
+        "ink": "#e8edf2",
+        "muted": "#a3afba",
+        "line": "#93a1ae",
+        "node-fill": "#16324a",
+        "node-line": "#56b4e9",
+        "topic-fill": "#3a2f14",
+        "topic-line": "#e6b24a",
+        "group-fill": "#1c222a",
+        "group-line": "#5c6a77",
+        "label": "#f0c566",
+        "bad-fill": "#47241a",
+        "bad-line": "#ff8f5c",
+        "blue": "#56b4e9",
+        "orange": "#e69f00",
+        "green": "#2fc79a",
+        "vermilion": "#ff8f5c",
+        "purple": "#dd9dc0",
+        "sky": "#8fd0f5",
+    }
+)
+DARK_PAGES = (
+    'html[data-theme="dark"]',  # the book (pydata and sphinx-book themes)
+    'body[data-jp-theme-light="false"]',  # JupyterLab
+    "body.vscode-dark",  # notebooks in Visual Studio Code
+)
+
+
+def variable(name: str) -> str:
+    """The CSS value for a colour of the palette: `var(--rosmini-ink, #1b2733)`.
+
+    Raises:
+        KeyError: the palette has no such colour.
+
+    """
+    return f"var(--rosmini-{name}, {LIGHT[name]})"
+
+
+def declarations(palette: Mapping[str, str], names: list[str] | None = None) -> str:
+    """Custom properties of a palette, for use inside a rule; all of them, or those named."""
+    return "".join(f"--rosmini-{name}:{palette[name]};" for name in names or palette)
+
+
+def themed(selector: str, names: list[str]) -> str:
+    """Rules that give inline pictures the dark palette on dark pages, and a picture opened alone a page of its own.
+
+    `svg:root` matches only where the SVG is the document, so what a reader's system prefers rules there, while on a
+    page the page's own switch does.
+    """
+    dark = ",".join(f"{page} {selector}" for page in DARK_PAGES)
+    return (
+        f"@media not print{{{dark}{{{declarations(DARK, names)}}}}}"
+        f"svg:root{{background:{LIGHT['page']}}}"
+        f"@media screen and (prefers-color-scheme:dark){{"
+        f"svg:root{{background:{DARK['page']};{declarations(DARK, names)}}}}}"
+    )
+
+
+def book_css() -> str:
+    """The style sheet that the book serves: `static/rosmini.css` is this text, and a test keeps it so."""
+    dark = ",\n  ".join(DARK_PAGES)
+    light_rules = "\n".join(f"  --rosmini-{name}: {value};" for name, value in LIGHT.items())
+    dark_rules = "\n".join(f"    --rosmini-{name}: {value};" for name, value in DARK.items())
+    return f"""\
+/* The house style of rosmini's pictures. Made by rosmini.viz.style.book_css(): change it there. */
+:root {{
+{light_rules}
+  --rosmini-font: {FONT};
+}}
+
+@media not print {{
+  {dark} {{
+{dark_rules}
+  }}
+}}
+
+{FIGURE_CSS}"""
+
+
+FIGURE_CSS = """\
+.rosmini-figure {
+  margin: 0.5rem 0 1rem;
+  max-width: 100%;
+  overflow-x: auto;
+}
+
+.rosmini-figure > svg,
+.rosmini-figure > img {
+  display: block;
+  height: auto;
+  margin: 0 auto;
+  max-width: 100%;
+}
+
+.rosmini-figure > figcaption {
+  color: var(--rosmini-muted);
+  font-size: 0.9em;
+  margin-top: 0.4rem;
+  text-align: center;
+}
+"""

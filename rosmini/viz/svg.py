@@ -1,0 +1,78 @@
+"""Writing SVG: elements as strings, well formed whatever a name contains, and the same bytes at each run.
+
+There are no ids, since two pictures on one page would share them: a picture is named by `aria-label`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from html import escape as _escape
+
+from rosmini.viz.layout.model import Point
+from rosmini.viz.style import FONT, themed
+
+_REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
+
+
+def number(value: float) -> str:
+    """A coordinate to a tenth of a pixel, without a trailing zero or a negative one."""
+    text = f"{value:.1f}".removesuffix(".0")
+    return "0" if text == "-0" else text
+
+
+def clean(text: str) -> str:
+    """`text` without the characters that XML cannot hold at all (control characters, lone surrogates)."""
+    return "".join(c if _allowed(ord(c)) else _REPLACEMENT for c in text)
+
+
+def _allowed(code: int) -> bool:
+    return code in (9, 10, 13) or 0x20 <= code <= 0xD7FF or 0xE000 <= code <= 0xFFFD or code >= 0x10000
+
+
+def escape(text: str) -> str:
+    """`text` for use in an attribute or an element of XML or HTML."""
+    return _escape(clean(text), quote=True)
+
+
+def element(tag: str, content: str = "", /, **attributes: str | float | None) -> str:
+    """An element. `content` is markup; attribute values are escaped; `class_` is class, `_` in names is `-`."""
+    parts = [tag]
+    for name, value in attributes.items():
+        if value is None:
+            continue
+        text = number(value) if isinstance(value, int | float) else escape(value)
+        parts.append(f'{name.rstrip("_").replace("_", "-") if name != "viewBox" else name}="{text}"')
+    start = " ".join(parts)
+    return f"<{start}>{content}</{tag}>" if content else f"<{start}/>"
+
+
+def bezier(points: Iterable[Point]) -> str:
+    """Path data for a chain of cubic curves: a start, then two control points and an end for each."""
+    start, *rest = points
+    pieces = (rest[i : i + 3] for i in range(0, len(rest), 3))
+    curves = ("C" + " ".join(f"{number(x)},{number(y)}" for x, y in piece) for piece in pieces)
+    return f"M{number(start[0])},{number(start[1])}" + "".join(curves)
+
+
+def document(
+    body: str, *, width: float, height: float, title: str, alt: str, css: str, colours: list[str]
+) -> str:
+    """A whole picture: usable as a file, and inline in a page of any theme.
+
+    `alt` is what a screen reader says; `css` may use the custom properties named in `colours`. Where a page is too
+    narrow, the picture shrinks with it, but not below 60 per cent: its text stays legible and the figure scrolls.
+    """
+    style = f".rosmini-svg text{{font-family:{FONT}}}{css}{themed('.rosmini-svg', colours)}"
+    least = number(min(width, max(0.6 * width, 320.0)))
+    return element(
+        "svg",
+        element("title", escape(title)) + element("desc", escape(alt)) + f"<style>{style}</style>" + body,
+        xmlns="http://www.w3.org/2000/svg",
+        class_="rosmini-svg",
+        role="img",
+        aria_label=alt,
+        viewBox=f"0 0 {number(width)} {number(height)}",
+        width=width,
+        height=height,
+        style=f"max-width:100%;min-width:{least}px;height:auto",
+    )

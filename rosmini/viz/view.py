@@ -1,0 +1,191 @@
+"""The display funnel: every picture that rosmini shows is a view, and a view has three forms.
+
+| form | what it is | who shows it |
+|---|---|---|
+| text | what the picture means, in a few lines | a terminal (`print(view)`), and nbval, which compares it |
+| image | SVG or PNG | files, GitHub, LaTeX, Jupyter's image viewers |
+| HTML | a `<figure>` with the picture and its alt text, offline, with no script from elsewhere | Jupyter and the built book |
+
+Jupyter and myst-nb both take `text/html` before an image. Only so does the alt text reach the page: an
+`image/svg+xml` output becomes an `<img>` without one. An inline SVG also follows the light or dark theme of its page.
+A PNG has no HTML form here, because nbval compares `text/html` to the byte and PNG bytes differ between machines; its alt
+text travels in the output's metadata, and `rosmini.viz.alt_text` puts it on the page when the book is built.
+"""
+
+from __future__ import annotations
+
+import base64
+from abc import ABC, abstractmethod
+from collections.abc import Collection
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from rosmini.errors import RosminiError
+from rosmini.viz.svg import element, escape
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SVG_MIME = "image/svg+xml"
+PNG_MIME = "image/png"
+
+MimeBundle = tuple[dict[str, str], dict[str, dict[str, Any]]]
+
+
+class ViewError(RosminiError, ValueError):
+    """A picture cannot be made or saved as asked."""
+
+
+class View(ABC):
+    """Something to look at. `repr` and `print` give its text form; at the end of a notebook cell it shows itself."""
+
+    @property
+    @abstractmethod
+    def text(self) -> str:
+        """What the picture means: complete, sorted, rounded, the same at each run."""
+
+    @property
+    @abstractmethod
+    def alt(self) -> str:
+        """The picture in a sentence or two, for those who do not see it. Never empty."""
+
+    @abstractmethod
+    def _images(self) -> dict[str, bytes]:
+        """The picture's bytes by mime type, the preferred one first."""
+
+    @property
+    def html(self) -> str | None:
+        """The form for pages, self-contained; None where the image alone does better."""
+        return None
+
+    def __repr__(self) -> str:
+        return self.text
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> MimeBundle:
+        """All forms for Jupyter, with the alt text in the metadata of images."""
+        data: dict[str, str] = {"text/plain": self.text}
+        metadata: dict[str, dict[str, Any]] = {}
+        for mime, content in self._images().items():
+            data[mime] = content.decode() if mime == SVG_MIME else base64.b64encode(content).decode()
+            metadata[mime] = {"alt": self.alt}
+        if self.html is not None:
+            data["text/html"] = self.html
+        wanted = [
+            mime for mime in data if (not include or mime in include) and (not exclude or mime not in exclude)
+        ]
+        return {m: data[m] for m in wanted}, {m: metadata[m] for m in wanted if m in metadata}
+
+    def save(self, path: str | Path) -> Path:
+        """Write the picture to a file, in the format that the file's suffix names, and return its path.
+
+        Raises:
+            ViewError: the picture has no such form; the message names those that it has.
+
+        """
+        path = Path(path)
+        forms = {_SUFFIX[mime]: content for mime, content in self._images().items()}
+        forms[".txt"] = (self.text + "\n").encode()
+        if self.html is not None:
+            forms[".html"] = _page(self.html, self.text.partition("\n")[0]).encode()
+        if path.suffix.lower() not in forms:
+            raise ViewError(
+                f"cannot save {path.name!r}: a {type(self).__name__} has no form for the suffix "
+                f"{path.suffix!r}. Use one of {', '.join(sorted(forms))}."
+            )
+        path.write_bytes(forms[path.suffix.lower()])
+        return path
+
+
+_SUFFIX = {SVG_MIME: ".svg", PNG_MIME: ".png"}
+
+
+def _page(figure: str, title: str) -> str:
+    return (
+        f'<!DOCTYPE html>\n<html lang="en">\n<head><meta charset="utf-8"><title>{escape(title)}</title></head>\n'
+        f"<body>\n{figure}\n</body>\n</html>\n"
+    )
+
+
+class Picture(View):
+    """A finished still picture: an SVG text or the bytes of a PNG, with its text form and its alt text.
+
+    Raises:
+        ViewError: the text or the alt text is empty, or the image is neither SVG nor PNG.
+
+    """
+
+    def __init__(self, image: str | bytes, *, text: str, alt: str, caption: str | None = None) -> None:
+        if not text.strip():
+            raise ViewError(
+                "a picture needs a text form: it is what a notebook's test compares, so say what it shows"
+            )
+        if not alt.strip():
+            raise ViewError(
+                "a picture needs alt text: one sentence that says what it shows to those who cannot see it"
+            )
+        if isinstance(image, str) and not image.startswith("<svg"):
+            raise ViewError("an SVG picture must begin with its <svg> element")
+        if isinstance(image, bytes) and not image.startswith(b"\x89PNG\r\n\x1a\n"):
+            raise ViewError("a picture given as bytes must be a PNG")
+        self._image = image
+        self._text = text
+        self._alt = alt
+        self.caption = caption
+
+    @property
+    def text(self) -> str:
+        """What the picture means, as given."""
+        return self._text
+
+    @property
+    def alt(self) -> str:
+        """The picture in a sentence or two, as given."""
+        return self._alt
+
+    @property
+    def svg(self) -> str | None:
+        """The SVG text, if this picture is one."""
+        return self._image if isinstance(self._image, str) else None
+
+    def _images(self) -> dict[str, bytes]:
+        if isinstance(self._image, str):
+            return {SVG_MIME: self._image.encode()}
+        return {PNG_MIME: self._image}
+
+    @property
+    def html(self) -> str | None:
+        """A `<figure>` around the inline SVG, with the caption; None for a PNG."""
+        if self.svg is None:
+            return None
+        caption = element("figcaption", escape(self.caption)) if self.caption else ""
+        return element(
+            "figure", self.svg + caption, class_="rosmini-figure", style="margin:0.5em 0;overflow-x:auto"
+        )
+
+
+def matplotlib_picture(
+    figure: Figure, *, text: str, alt: str, form: Literal["png", "svg"] = "png", dpi: float = 110.0
+) -> Picture:
+    """A picture of a matplotlib figure, with no date and no random ids in it.
+
+    The figure is not shown by Jupyter's inline backend as well if it was made with `matplotlib.figure.Figure`.
+
+    Raises:
+        ViewError: the alt text or the text form is empty.
+
+    """
+    from io import BytesIO
+
+    import matplotlib as mpl
+
+    file = BytesIO()
+    with mpl.rc_context({"svg.hashsalt": "rosmini", "svg.fonttype": "path"}):
+        metadata = {"Date": None} if form == "svg" else {"Software": None}
+        figure.savefig(file, format=form, dpi=dpi, metadata=metadata)
+    if form == "png":
+        return Picture(file.getvalue(), text=text, alt=alt)
+    svg = file.getvalue().decode()
+    svg = svg[svg.index("<svg") :].strip()
+    return Picture(svg.replace("<svg", f'<svg role="img" aria-label="{escape(alt)}"', 1), text=text, alt=alt)

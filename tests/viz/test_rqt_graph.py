@@ -1,0 +1,339 @@
+"""rqt_graph: what is shown, in words and in the picture."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rosmini.errors import RosminiError
+from rosmini.viz import GraphState, ViewError, rqt_graph
+from rosmini.viz.rqt.selection import is_debug, matches
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def state(*flows: str, services=(), **more) -> GraphState:
+    """A state from lines such as "/talker -> /chatter std_msgs/String -> /listener"."""
+    publishers: dict[str, list[str]] = {}
+    subscribers: dict[str, list[str]] = {}
+    types = {}
+    for flow in flows:
+        sources, topic, sinks = (part.strip() for part in flow.split("->"))
+        topic, kind = topic.split()
+        publishers.setdefault(topic, []).extend(sources.split())
+        subscribers.setdefault(topic, []).extend(sinks.split())
+        types[topic] = kind
+    system = [
+        [[t, n] for t, n in publishers.items() if n],
+        [[t, n] for t, n in subscribers.items() if n],
+        [[f"{node}/get_loggers", [node]] for node in services],
+    ]
+    return GraphState.of(system, types.items(), **more)
+
+
+CHATTER = "/talker -> /chatter std_msgs/String -> /listener"
+LOG = "/talker /listener -> /rosout rosgraph_msgs/Log -> /rosout"
+AGG = "/rosout -> /rosout_agg rosgraph_msgs/Log ->"
+ACTION = [
+    "/explore -> /move_base/goal move_base_msgs/MoveBaseActionGoal -> /move_base",
+    "/explore -> /move_base/cancel actionlib_msgs/GoalID -> /move_base",
+    "/move_base -> /move_base/status actionlib_msgs/GoalStatusArray -> /explore",
+    "/move_base -> /move_base/feedback move_base_msgs/MoveBaseActionFeedback -> /explore",
+    "/move_base -> /move_base/result move_base_msgs/MoveBaseActionResult -> /explore",
+]
+
+
+class FakeMaster:
+    """Answers as the ROS Master does (shared/ros_transcripts/wire_xmlrpc_tcpros.txt)."""
+
+    def getSystemState(self, caller_id):
+        system = [
+            [["/rosout_agg", ["/rosout"]], ["/chatter", ["/talker"]], ["/rosout", ["/talker", "/listener"]]],
+            [["/rosout", ["/rosout"]], ["/chatter", ["/listener"]]],
+            [["/rosout/get_loggers", ["/rosout"]], ["/set_bool", ["/srv_server"]]],
+        ]
+        return [1, "current system state", system]
+
+    def getTopicTypes(self, caller_id):
+        types = [
+            ["/rosout_agg", "rosgraph_msgs/Log"],
+            ["/rosout", "rosgraph_msgs/Log"],
+            ["/chatter", "std_msgs/String"],
+        ]
+        return [1, "current system state", types]
+
+
+def drawn(view, kind: str) -> list[str]:
+    """The texts of all nodes, topics or edges in the picture."""
+    root = ET.fromstring(view.svg)
+    groups = [g for g in root.iter(f"{SVG}g") if kind in (g.get("class") or "").split()]
+    return sorted(text.text or "" for g in groups for text in g.findall(f"{SVG}text"))
+
+
+def test_talker_and_listener_of_a_master_with_the_default_switches():
+    view = rqt_graph(FakeMaster())
+    assert view.text == (
+        "rqt_graph: 3 nodes, 1 topic (hidden: 1 node and 2 topics)\n"
+        "/talker -> /chatter [std_msgs/String] -> /listener\n"
+        "/srv_server (not connected)"
+    )
+    assert view.alt == "Computation graph with 3 nodes and 1 topic: /talker publishes /chatter to /listener."
+    assert drawn(view, "rm-node") == ["/listener", "/srv_server", "/talker"]
+    assert drawn(view, "rm-edge") == ["/chatter"]
+
+
+def test_an_object_with_a_master_and_the_plain_value_will_do_as_well():
+    class Graph:
+        master = FakeMaster()
+
+    assert rqt_graph(Graph()).text == rqt_graph(FakeMaster()).text
+    assert "/talker -> /chatter -> /listener" in rqt_graph(FakeMaster().getSystemState("/me")[2]).text
+
+
+def test_without_hiding_everything_is_there_and_all_topics_are_boxes():
+    view = rqt_graph(state(CHATTER, LOG, AGG), mode="nodes_topics_all", hide=())
+    assert view.text == (
+        "rqt_graph: 3 nodes, 3 topics\n"
+        "/talker -> /chatter [std_msgs/String] -> /listener\n"
+        "/listener, /talker -> /rosout [rosgraph_msgs/Log] -> /rosout\n"
+        "/rosout -> /rosout_agg [rosgraph_msgs/Log] -> (no subscriber)"
+    )
+    assert drawn(view, "rm-topic") == ["/chatter", "/rosout", "/rosout_agg"]
+    assert drawn(view, "rm-node") == ["/listener", "/rosout", "/talker"]
+    assert "to nobody" in view.alt
+
+
+def test_active_shows_only_topics_with_a_connection():
+    graph = state(
+        CHATTER, "/talker -> /unheard std_msgs/String ->", "-> /awaited std_msgs/String -> /listener"
+    )
+    everything = rqt_graph(graph, mode="nodes_topics_all", hide=())
+    active = rqt_graph(graph, mode="nodes_topics_active", hide=())
+    assert drawn(everything, "rm-topic") == ["/awaited", "/chatter", "/unheard"]
+    assert "(no publisher) -> /awaited [std_msgs/String] -> /listener" in everything.text
+    assert "nobody publishes /awaited to /listener" in everything.alt
+    assert drawn(active, "rm-topic") == ["/chatter"]
+
+
+def test_known_connections_are_the_only_ones_drawn():
+    graph = state(
+        "/a /b -> /t std_msgs/String -> /c /d", connections=[("/a", "/t", "/c"), ("/b", "/t", "/d")]
+    )
+    view = rqt_graph(graph)
+    assert view.text.splitlines()[1:] == [
+        "/a -> /t [std_msgs/String] -> /c",
+        "/b -> /t [std_msgs/String] -> /d",
+    ]
+    assert drawn(view, "rm-edge") == ["/t", "/t"]
+
+
+@pytest.mark.parametrize(
+    ("switch", "kept"),
+    [
+        (
+            (),
+            {
+                "/chatter",
+                "/one",
+                "/sink",
+                "/tf",
+                "/p/parameter_updates",
+                "/p/parameter_descriptions",
+                "/clock",
+            },
+        ),
+        (
+            ("dead_sinks",),
+            {"/chatter", "/one", "/tf", "/p/parameter_updates", "/p/parameter_descriptions", "/clock"},
+        ),
+        (
+            ("leaf_topics",),
+            {"/chatter", "/tf", "/p/parameter_updates", "/p/parameter_descriptions", "/clock", "/sink"},
+        ),
+        (("params",), {"/chatter", "/one", "/sink", "/tf", "/clock"}),
+        (
+            ("tf",),
+            {"/chatter", "/one", "/sink", "/p/parameter_updates", "/p/parameter_descriptions", "/clock"},
+        ),
+        (
+            ("debug",),
+            {"/chatter", "/one", "/sink", "/tf", "/p/parameter_updates", "/p/parameter_descriptions"},
+        ),
+    ],
+)
+def test_each_switch_hides_its_topics(switch, kept):
+    graph = state(
+        CHATTER,
+        "-> /one std_msgs/String -> /listener",
+        "/talker /listener -> /sink std_msgs/String ->",
+        "/talker -> /tf tf2_msgs/TFMessage -> /listener",
+        "/talker -> /p/parameter_updates dynamic_reconfigure/Config -> /listener",
+        "/talker -> /p/parameter_descriptions dynamic_reconfigure/ConfigDescription -> /listener",
+        "/talker -> /clock rosgraph_msgs/Clock -> /listener",
+    )
+    view = rqt_graph(graph, mode="nodes_topics_all", hide=switch, group=())
+    assert set(drawn(view, "rm-topic")) == kept
+
+
+def test_a_node_that_does_not_answer_is_marked_or_hidden():
+    graph = state(CHATTER, unreachable=["/listener"])
+    marked = rqt_graph(graph, hide=("debug",))
+    assert drawn(marked, "rm-bad") == ["/listener"]
+    assert marked.text.endswith("/listener does not answer")
+    assert marked.alt.endswith(". /listener does not answer.")
+    hidden = rqt_graph(graph)
+    assert drawn(hidden, "rm-node") == ["/talker"]
+    assert hidden.text == "rqt_graph: 1 node, 0 topics (hidden: 1 node)\n/talker (not connected)"
+
+
+def test_the_topics_of_an_action_and_of_tf_are_one_box_each():
+    graph = state(
+        *ACTION, "/amcl -> /tf tf2_msgs/TFMessage -> /x", "/amcl -> /tf_static tf2_msgs/TFMessage -> /x"
+    )
+    view = rqt_graph(graph, mode="nodes_topics_active")
+    assert drawn(view, "rm-topic") == ["/move_base/action_topics", "/tf"]
+    assert "/explore, /move_base -> /move_base/action_topics -> /explore, /move_base" in view.text
+    assert "stands for /move_base/cancel [actionlib_msgs/GoalID], /move_base/feedback" in view.text
+    assert len(drawn(rqt_graph(graph, mode="nodes_topics_active", group=()), "rm-topic")) == 7
+
+
+def test_namespaces_are_boxes_as_deep_as_asked_for():
+    graph = state("/robot/nav/a -> /t std_msgs/String -> /robot/b")
+
+    def boxes(depth):
+        return re.findall(r"<title>namespace ([^<]*)</title>", rqt_graph(graph, namespaces=depth).svg)
+
+    assert boxes(0) == []
+    assert boxes(1) == ["/robot"]
+    assert boxes(2) == ["/robot", "/robot/nav"]
+
+
+@pytest.mark.parametrize(
+    ("patterns", "name", "through"),
+    [
+        ("/", "/any/name", True),
+        ("", "/any/name", True),
+        ("/talker", "/talker", True),
+        ("/talker", "/talker_2", False),
+        ("/robot1/.*", "/robot1/amcl", True),
+        ("/robot1/.*, /map_server", "/map_server", True),
+        ("-/rqt.*", "/rqt_console", False),
+        ("-/rqt.*", "/talker", True),
+        ("/robot.*,-/robot2/.*", "/robot2/amcl", False),
+    ],
+)
+def test_filters_are_read_as_rqt_graph_reads_them(patterns, name, through):
+    assert matches(name, patterns) is through
+
+
+def test_filters_choose_nodes_and_topics():
+    graph = state(CHATTER, "/camera -> /image sensor_msgs/Image -> /listener")
+    assert drawn(rqt_graph(graph, namespace="-/camera"), "rm-node") == ["/listener", "/talker"]
+    assert drawn(rqt_graph(graph, topics="/image"), "rm-edge") == ["/image"]
+
+
+def test_debug_names_are_those_of_the_real_tool():
+    assert all(
+        map(is_debug, ["/rosout", "/rosout_agg", "/rviz_1604", "/rqt_gui_py_node_7", "/clock", "/x/_hidden"])
+    )
+    assert not any(map(is_debug, ["/talker", "/turtle1/cmd_vel", "/move_base"]))
+
+
+def test_loops_and_parallel_edges_are_all_drawn():
+    graph = state(
+        "/a -> /x std_msgs/String -> /a /b",
+        "/a -> /y std_msgs/String -> /a /b",
+        "/b -> /z std_msgs/String -> /a",
+    )
+    assert drawn(rqt_graph(graph), "rm-edge") == ["/x", "/x", "/y", "/y", "/z"]
+
+
+@pytest.mark.parametrize("mode", ["nodes_only", "nodes_topics_all", "nodes_topics_active"])
+def test_an_empty_graph_says_so(mode):
+    view = rqt_graph(GraphState(), mode=mode)
+    assert view.text == "rqt_graph: 0 nodes, 0 topics"
+    assert view.alt == "Computation graph with nothing to show."
+    assert "(no node to show)" in view.svg
+
+
+def test_a_title_is_the_caption_and_heads_the_text():
+    view = rqt_graph(state(CHATTER), title="After <start>")
+    assert view.text.startswith("After <start>: 2 nodes")
+    assert "<figcaption>After &lt;start&gt;</figcaption>" in view.html
+
+
+def test_a_long_alt_text_stays_a_sentence():
+    graph = state(*(f"/n{i:02} -> /t{i:02} std_msgs/String -> /sink" for i in range(20)))
+    assert rqt_graph(graph).alt.endswith("/n05 publishes /t05 to /sink; and 14 more flows.")
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: rqt_graph(42), "cannot draw a int"),
+        (lambda: rqt_graph([[], []]), "getSystemState"),
+        (lambda: rqt_graph(GraphState(), mode="node_only"), "did you mean nodes_only"),
+        (lambda: rqt_graph(GraphState(), hide=("debugs",)), "did you mean debug"),
+        (lambda: rqt_graph(GraphState(), group=("action",)), "did you mean actions"),
+        (lambda: rqt_graph(state(CHATTER), namespace="/robot[1"), "neither a name nor a regular expression"),
+    ],
+)
+def test_a_wrong_argument_is_an_error_that_says_what_would_do(call, message):
+    with pytest.raises(ViewError, match=re.escape(message)) as caught:
+        call()
+    assert isinstance(caught.value, RosminiError)
+
+
+def test_a_master_that_refuses_is_an_error():
+    class Refusing(FakeMaster):
+        def getSystemState(self, caller_id):
+            return [-1, "caller_id must be a name", ""]
+
+    with pytest.raises(ViewError, match="refused getSystemState: caller_id must be a name"):
+        rqt_graph(Refusing())
+
+
+hostile = st.text(min_size=1, max_size=12).map(lambda text: "/" + text.replace(",", "").replace("\n", ""))
+triples = st.lists(st.tuples(hostile, hostile, hostile), max_size=8)
+
+
+@settings(max_examples=60, deadline=None)
+@given(triples, st.sampled_from(["nodes_only", "nodes_topics_all", "nodes_topics_active"]))
+def test_every_name_is_in_the_text_and_in_well_formed_svg_whatever_it_is(flows, mode):
+    publishers: dict[str, set[str]] = {}
+    subscribers: dict[str, set[str]] = {}
+    for source, topic, sink in flows:
+        publishers.setdefault(topic, set()).add(source)
+        subscribers.setdefault(topic, set()).add(sink)
+    system = [[[t, sorted(n)] for t, n in side.items()] for side in (publishers, subscribers)]
+    view = rqt_graph(GraphState.of([*system, []]), mode=mode, hide=(), group=(), namespaces=0)
+    ET.fromstring(view.svg)  # raises if a name broke it
+    shown = drawn(view, "rm-node") + drawn(view, "rm-topic" if mode != "nodes_only" else "rm-edge")
+    for name in {name for flow in flows for name in flow}:
+        assert name in view.text
+        cleaned = "".join(c if c.isprintable() else "" for c in name)
+        assert any("".join(c for c in text if c.isprintable() and c != "\N{REPLACEMENT CHARACTER}")
+                   == cleaned.replace("\N{REPLACEMENT CHARACTER}", "") for text in shown)  # fmt: skip
+
+
+@settings(max_examples=30, deadline=None)
+@given(triples, st.randoms(use_true_random=False))
+def test_the_order_of_registration_does_not_change_a_byte(flows, random):
+    def picture():
+        publishers: dict[str, list[str]] = {}
+        subscribers: dict[str, list[str]] = {}
+        for source, topic, sink in flows:
+            publishers.setdefault(topic, []).append(source)
+            subscribers.setdefault(topic, []).append(sink)
+        return rqt_graph(
+            GraphState.of([publishers.items(), subscribers.items(), []]), mode="nodes_topics_all", hide=()
+        )
+
+    before = picture()
+    random.shuffle(flows)
+    after = picture()
+    assert (before.text, before.alt, before.svg) == (after.text, after.alt, after.svg)
