@@ -192,8 +192,9 @@ def resolve(
                 f"{name} is private to a node, and there is no node yet: call init_node first, or name the node"
             )
         node_name = join(canonicalize(namespace) or "/", "node")
-    # rospy reads "~/rate" as "/rate" (and roscpp as "/node/rate"): scripts written for rospy get what they get there.
-    resolved = resolve_for(name[1:] if name.startswith("~/") else name, node_name)
+    # rospy reads "~/rate" as "/rate" (roscpp as "/node/rate"): scripts written for rospy get here what they get there.
+    private = is_private(name)
+    resolved = join(node_name, canonicalize(name)[1:]) if private else resolve_for(name, node_name)
     return remappings.apply(resolved, node_name) if remappings is not None else resolved
 
 

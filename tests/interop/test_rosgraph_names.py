@@ -1,0 +1,125 @@
+"""Resolution, remapping and command lines: the same as real rosgraph and rospy."""
+
+import itertools
+import json
+import os
+import random
+import subprocess
+
+import pytest
+
+from rosmini.names import Remappings, canonicalize, is_remapping, join, namespace, resolve, resolve_for
+
+THEIRS = """
+import json, sys
+import rosgraph.names, rospy.names, rospy.client
+job = json.load(sys.stdin)
+out = {"rospy": [], "rosgraph": [], "basic": [], "argv": []}
+for node, rules, name in job["names"]:
+    rospy.names.reload_mappings(["%s:=%s" % rule for rule in rules.items()])
+    rospy.names.initialize_mappings(node)
+    out["rospy"].append(rospy.names.resolve_name(name, node))
+    out["rosgraph"].append(rosgraph.names.resolve_name(name, node))
+    out["basic"].append([rosgraph.names.namespace(name), rosgraph.names.canonicalize_name(name), rosgraph.names.ns_join(node, name)])
+for argv in job["argvs"]:
+    out["argv"].append([rosgraph.names.load_mappings(argv), rospy.client.load_command_line_node_params(argv),
+                        rospy.client.myargv(argv), [rosgraph.names.is_legal_remap(a) for a in argv]])
+print(json.dumps(out))
+"""
+
+NODES = ["/node", "/ns/node", "/a/b/c"]
+RULES = [{}, {"chatter": "talk", "/odom": "ns/odom", "~cmd": "cmd"}, {"a": "b", "b": "a", "x/y": "~p"}]
+NAMES = [
+    "",
+    "/",
+    "~",
+    "chatter",
+    "/chatter",
+    "~chatter",
+    "ns/odom",
+    "/odom",
+    "~cmd",
+    "a",
+    "b",
+    "x/y",
+    "a//b/",
+    "//a",
+    "~/a",
+    "~a//b",
+]
+ARGVS = [
+    [
+        "prog",
+        "a:=b",
+        "/x:=/y",
+        "~p:=q",
+        "_rate:=10",
+        "__name:=n",
+        "--flag",
+        "plain",
+        "x=1",
+        "_s:=''",
+        "_l:=[1, 2]",
+        "_e:=1e5",
+        "_f:=1.0e+5",
+    ],
+    [
+        "prog",
+        "_t:=true",
+        "_empty:=",
+        ":=b",
+        "a:=",
+        "-x:=y",
+        "a b:=c",
+        "2a:=b",
+        "_d:={a: {b: 1}}",
+        "_sp:= 5 ",
+        "__ns:=foo",
+        "_u:=two\nlines",
+    ],
+]
+
+
+def test_names_resolve_as_in_real_ros() -> None:
+    rng = random.Random(1)
+    made = ["".join(rng.choice("~/ab_") for _ in range(rng.randint(1, 8))) for _ in range(300)]
+    made = [name for name in made if "~" not in name[1:] and name[0] != "_"]
+    table = [list(row) for row in itertools.product(NODES, RULES, NAMES + made)]
+    job = json.dumps({"names": table, "argvs": ARGVS})
+    try:
+        done = subprocess.run(
+            ["/usr/bin/python3", "-c", THEIRS],
+            input=job,
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=True,
+        )
+    except (OSError, subprocess.CalledProcessError) as error:
+        if os.environ.get("ROSMINI_REQUIRE_ROS"):
+            raise
+        pytest.skip(f"real rospy is not installed: {error}")
+    theirs = json.loads(done.stdout)
+    ours: dict = {"rospy": [], "rosgraph": [], "basic": [], "argv": []}
+    for node, rules, name in table:
+        ours["rospy"].append(resolve(name, namespace(node), node, Remappings(rules)))
+        ours["rosgraph"].append(resolve_for(name, node))
+        ours["basic"].append([namespace(name), canonicalize(name), join(node, name)])
+    for argv in ARGVS:
+        found = Remappings.from_argv(argv)
+        legal = [is_remapping(argument) for argument in argv]
+        ours["argv"].append(
+            [
+                {**found.names, **found.special},
+                found.private_parameters,
+                Remappings.other_arguments(argv),
+                legal,
+            ]
+        )
+    for kind, rows in theirs.items():
+        labels = ARGVS if kind == "argv" else table
+        assert [
+            (kind, at, "real", a, "ours", b)
+            for at, a, b in zip(labels, rows, ours[kind], strict=True)
+            if a != b
+        ] == []
