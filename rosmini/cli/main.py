@@ -12,6 +12,7 @@ import importlib.util
 import sys
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
+from rosmini import __version__
 from rosmini.errors import RosminiError, nearest
 
 if TYPE_CHECKING:
@@ -77,13 +78,6 @@ def build_parser(commands: dict[str, Entry], loaded: dict[str, Command]) -> argp
     return parser
 
 
-def version() -> str:
-    """The installed version of rosmini."""
-    from importlib.metadata import version as installed
-
-    return installed("rosmini")
-
-
 def main(argv: Sequence[str] | None = None) -> int:
     """Run `rosmini` with `argv` (default: the command line) and return its exit status.
 
@@ -100,7 +94,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = build_parser(commands, loaded)
     args = parser.parse_args(argv)
     if args.version:
-        print(f"rosmini {version()}")
+        print(f"rosmini {__version__}")
         return 0
     if name is None:
         parser.print_help()

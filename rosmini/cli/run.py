@@ -1,0 +1,135 @@
+"""`rosmini run`: scripts written for rospy, unmodified, as nodes of one graph."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+from rosmini.errors import RosminiError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rosmini.scripts import RunResult, ScriptSpec
+
+USAGE = "rosmini run [options] SCRIPT [args] [+ SCRIPT [args] ...] [options]"
+
+EPILOG = """\
+The options of `rosmini run` stand before the first script or at the very end. Anything else belongs to the script
+before it, remappings (chatter:=/news, __name:=talker2, _rate:=5) included. If a script has to get an argument at the end that looks like an option of
+`rosmini run`, put a lone `--` after it: `rosmini run plot.py --duration 5 --`. For an argument that is a
+plus sign, write `++`.
+
+In simulated time everything happens as fast as the machine allows, and in the same order on each run. In wall time
+one second takes a second. Ctrl-C asks the nodes to shut down; a second one ends them at once.
+
+The exit status is that of the first script that failed, else 0.
+"""
+
+
+def positive(text: str) -> float:
+    """Read a number of seconds above zero."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds above zero")
+    return value
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options, which may stand at both ends of the command line."""
+    clock = parser.add_mutually_exclusive_group()
+    clock.add_argument(
+        "--sim-time", action="store_true", help="simulated time: as fast as possible, the same on each run"
+    )
+    clock.add_argument("--wall-time", action="store_true", help="wall time (the default without --duration)")
+    parser.add_argument(
+        "--duration",
+        type=positive,
+        metavar="S",
+        help="end after S seconds of graph time; selects simulated time unless --wall-time is given",
+    )
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
+    """Add `run`."""
+    parser = subparsers.add_parser(
+        "run",
+        help="run scripts written for rospy as nodes of one graph",
+        description=__doc__,
+        usage=USAGE,
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add_options(parser)
+    parser.add_argument(
+        "words", nargs=argparse.REMAINDER, metavar="SCRIPT [args]", help="the scripts, with + between them"
+    )
+    return parser
+
+
+def split_options(words: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Split ``words`` into the scripts with their arguments, and the options of ours at the end."""
+    end = len(words)
+    if end and words[-1] == "--":
+        return list(words[:-1]), []
+    while end > 0:
+        if words[end - 1] in ("--sim-time", "--wall-time") or words[end - 1].startswith("--duration="):
+            end -= 1
+        elif end > 1 and words[end - 2] == "--duration":
+            end -= 2
+        elif words[end - 1] == "--duration":  # its value is missing: argparse says so
+            end -= 1
+        else:
+            break
+    return list(words[:end]), list(words[end:])
+
+
+def scripts_in(words: Sequence[str]) -> list[ScriptSpec]:
+    """Split ``words`` at the plus signs into scripts with their arguments.
+
+    Raises `RosminiError` where a script is missing.
+    """
+    from rosmini.scripts import ScriptSpec
+
+    groups: list[list[str]] = [[]]
+    for word in words:
+        if word == "+":
+            groups.append([])
+        else:
+            groups[-1].append("+" if word == "++" else word)
+    if groups == [[]]:
+        raise RosminiError(f"no script was given.\nusage: {USAGE}")
+    if [] in groups:
+        raise RosminiError(
+            "a script is missing before or after `+`; write `++` for an argument that is a plus sign"
+        )
+    return [ScriptSpec(group[0], tuple(group[1:])) for group in groups]
+
+
+def main(args: argparse.Namespace) -> int:
+    """Run the scripts; the exit status is that of the first that failed."""
+    words, trailing = split_options(args.words)
+    if trailing:
+        parser = argparse.ArgumentParser(prog="rosmini run", usage=USAGE)
+        add_options(parser)
+        args = parser.parse_args(trailing, argparse.Namespace(**vars(args)))
+        if args.sim_time and args.wall_time:
+            parser.error("--sim-time and --wall-time exclude each other")
+    specs = scripts_in(words)
+    from rosmini.scripts import run_scripts
+
+    simulated = not args.wall_time and (args.sim_time or args.duration is not None)
+    result = run_scripts(specs, simulated=simulated, duration=args.duration)
+    tell(result)
+    return result.status
+
+
+def tell(result: RunResult) -> None:
+    """Say what the nodes were waiting for, if the run ended because nothing was left to happen."""
+    report = result.report
+    if result.reason == "drained" and report is not None and report.waiting:
+        print(f"rosmini: {report}", file=sys.stderr)

@@ -1,0 +1,126 @@
+"""Every notebook in its stored form, its solutions, and the comparison itself: a tampered notebook turns the run red."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from rosmini.book import notebooks, solutions
+
+ROOT = Path(__file__).resolve().parents[2]
+CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+
+chapters = pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda path: path.stem)
+
+
+@chapters
+def test_the_stored_form_is_clean(chapter):
+    assert list(notebooks.problems(notebooks.read(chapter))) == []
+
+
+@chapters
+def test_a_chapter_has_three_exercises_at_least(chapter):
+    notebook = notebooks.read(chapter)
+    numbers = sorted(solutions.stubs(notebook))
+    assert len(numbers) >= 3
+    assert {number.partition(".")[0] for number in numbers} == {chapter.name.partition("_")[0]}
+    for number in numbers:
+        stored = solutions.check_output(notebook, number)
+        assert stored == f"Exercise {number}: not attempted yet.\n"
+
+
+@chapters
+def test_the_hidden_solutions_pass_their_checks(chapter):
+    solved = solutions.solved(notebooks.read(chapter))
+    notebooks.execute(solved, chapter.parent)
+    for number in solutions.stubs(solved):
+        assert solutions.check_output(solved, number).startswith(f"Exercise {number}: right.")
+
+
+def change_an_output(notebook) -> None:
+    for cell in notebook.cells:
+        for output in cell.get("outputs", []):
+            if output.output_type == "stream":
+                output.text += "tampered\n"
+                return
+    pytest.fail("no cell of this notebook prints")
+
+
+def remove_an_output(notebook) -> None:
+    cell = next(cell for cell in notebook.cells if cell.get("outputs"))
+    cell.outputs = []
+
+
+def forget_an_execution(notebook) -> None:
+    cell = next(cell for cell in notebook.cells if cell.cell_type == "code")
+    cell.execution_count = None
+
+
+def empty_a_cell(notebook) -> None:
+    cell = next(cell for cell in notebook.cells if cell.get("outputs"))
+    cell.execution_count = None
+    cell.outputs = []
+
+
+def skip_a_cell(notebook) -> None:
+    next(cell for cell in notebook.cells if cell.cell_type == "code").metadata["tags"] = ["nbval-skip"]
+
+
+def forge_a_wrong_print(notebook) -> None:
+    """A cell that prints something else than is stored."""
+    cell = next(cell for cell in reversed(notebook.cells) if cell.cell_type == "code")
+    cell.source += "\nprint('something else')"
+
+
+# What is done to a copy -> who has to notice: nbval, when it runs the copy, or the gate on its stored form.
+BY_NBVAL, BY_FORM = ".ipynb", "stored_form"
+TAMPER = {
+    "changed": (change_an_output, BY_NBVAL),
+    "removed": (remove_an_output, BY_NBVAL),
+    "forged": (forge_a_wrong_print, BY_NBVAL),
+    "forgotten": (forget_an_execution, BY_FORM),
+    "emptied": (empty_a_cell, BY_FORM),
+    "skipped": (skip_a_cell, BY_FORM),
+}
+
+
+@pytest.fixture(scope="module")
+def outcome(tmp_path_factory):
+    """How the project's own pytest command judges the first chapter, and copies of it that were tampered with: failures by copy."""
+    if not CHAPTERS:
+        pytest.skip("no chapter is written yet")
+    checkout = tmp_path_factory.mktemp("checkout")
+    copied = ["pyproject.toml", "tests/conftest.py", "tests/gates/test_notebooks.py"]
+    for name in copied:
+        (checkout / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, checkout / name)
+    (checkout / "notebooks").mkdir()
+    for name, (tamper, _) in {"intact": (lambda _: None, ""), **TAMPER}.items():
+        notebook = notebooks.read(CHAPTERS[0])
+        tamper(notebook)
+        notebooks.write(notebook, checkout / "notebooks" / f"{name}.ipynb")
+    command = [sys.executable, "-m", "pytest", "-q", "-n2", "-p", "no:cacheprovider", "--junitxml=result.xml"]
+    command += ["notebooks", "tests/gates/test_notebooks.py", "-k", "ipynb or stored_form"]
+    done = subprocess.run(command, cwd=checkout, capture_output=True, text=True, check=False, timeout=280)
+    assert done.returncode == 1, done.stdout + done.stderr
+    failures: dict[str, list[str]] = {name: [] for name in ["intact", *TAMPER]}
+    for case in ET.parse(checkout / "result.xml").iter("testcase"):
+        if case.find("failure") is not None or case.find("error") is not None:
+            label = f"{case.get('classname')} {case.get('name')}"
+            failures[next(name for name in failures if name in label)].append(label)
+    return failures
+
+
+def test_an_intact_notebook_is_green(outcome):
+    assert outcome["intact"] == []
+
+
+@pytest.mark.parametrize("name", TAMPER)
+def test_a_tampered_notebook_is_red(outcome, name):
+    _, noticed_by = TAMPER[name]
+    assert any(noticed_by in label for label in outcome[name]), outcome[name]

@@ -1,0 +1,127 @@
+"""The built wheel, in an environment with nothing else of ours in it: its assets are there, and a chapter runs with it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+
+
+def uv(*arguments: str | Path, cwd: Path = ROOT) -> None:
+    """Run uv: from its cache if that has everything, else from the network."""
+    from uv import find_uv_bin
+
+    # The settings of the machine's own environment are not to be seen.
+    environment = {name: value for name, value in os.environ.items() if name != "VIRTUAL_ENV"}
+    said = ""
+    for more in (["--offline"], []):
+        done = subprocess.run(
+            [find_uv_bin(), *arguments, *more],
+            cwd=cwd,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=250,
+        )
+        if done.returncode == 0:
+            return
+        said += done.stderr
+    pytest.fail(said)
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("wheel")
+    uv("build", "--wheel", "--out-dir", folder)
+    return next(folder.glob("*.whl"))
+
+
+@pytest.fixture(scope="module")
+def python(wheel, tmp_path_factory):
+    """The Python of an environment with the wheel, and what runs and compares a notebook."""
+    folder = tmp_path_factory.mktemp("empty")
+    pins = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["uv"][
+        "constraint-dependencies"
+    ]
+    (folder / "pins.txt").write_text("\n".join(pins), encoding="utf-8")
+    uv("venv", "--python", sys.executable, folder / "env")
+    found = folder / "env" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    uv("pip", "install", "--python", found, "-c", folder / "pins.txt", wheel, "pytest", "nbval", "ipykernel")
+    return found
+
+
+def run(python: Path, *arguments: str | Path, cwd: Path) -> str:
+    kept = {"PATH", "HOME", "USERPROFILE", "SYSTEMROOT", "TEMP", "TMP", "TMPDIR", "APPDATA", "LOCALAPPDATA"}
+    environment = {name: value for name, value in os.environ.items() if name.upper() in kept}
+    done = subprocess.run(
+        [python, *arguments],
+        cwd=cwd,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=250,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_the_wheel_carries_the_assets_and_no_tests(wheel):
+    names = set(zipfile.ZipFile(wheel).namelist())
+    assets = {
+        f"rosmini/_assets/{path.relative_to(ROOT / 'assets').as_posix()}"
+        for path in (ROOT / "assets").rglob("*.msg")
+    }
+    assert "rosmini/_assets/ros/std_msgs/msg/String.msg" in assets
+    assert assets <= names
+    assert {name.partition("/")[0].partition("-")[0] for name in names} == {"rosmini"}
+    assert not [name for name in names if name.endswith((".pyc", ".ipynb"))]
+
+
+def test_it_finds_its_messages_there(python, tmp_path):
+    code = "import rosmini, rosmini.msgs as m; print(rosmini.__file__); print(m.message_class('std_msgs/String')._md5sum)"
+    where, md5 = run(python, "-c", code, cwd=tmp_path).splitlines()
+    assert Path(where).is_relative_to(python.parents[1])
+    assert md5 == "992ce8a1687cec8c8bd883ec73ca41d1"
+
+
+def test_the_command_says_what_is_missing_outside_a_checkout(python, tmp_path):
+    done = subprocess.run(
+        [python, "-m", "rosmini", "book"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert done.returncode == 1
+    assert done.stderr.startswith(
+        "rosmini book: the book's sources (book/_config.yml and notebooks/) are neither in "
+    )
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.skipif(not CHAPTERS, reason="no chapter is written yet")
+def test_a_chapter_runs_with_it(python, tmp_path):
+    chapter = shutil.copy(CHAPTERS[0], tmp_path)
+    run(
+        python,
+        "-m",
+        "pytest",
+        "-p",
+        "no:cacheprovider",
+        "--nbval",
+        "--nbval-current-env",
+        chapter,
+        cwd=tmp_path,
+    )
