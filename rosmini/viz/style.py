@@ -140,7 +140,15 @@ FIGURE_CSS = """\
 .rosmini-figure > figcaption {
   color: var(--rosmini-muted);
   font-size: 0.9em;
+  font-weight: 400;
   margin-top: 0.4rem;
   text-align: center;
+}
+
+/* In dark mode the theme puts HTML outputs on a light ground: our pictures are dark themselves. */
+html[data-theme="dark"] .bd-content div.cell_output .output.text_html:not(:has(table.dataframe)):has(> .rosmini-figure) {
+  background-color: transparent;
+  color: inherit;
+  padding: 0;
 }
 """

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from math import inf
 
 from rosmini.viz.layout.slots import Proper, Slot
 
@@ -18,6 +19,7 @@ GROUP_PAD = 10.0
 GROUP_HEAD = 20.0
 """Room for the name of a group inside its box, above its members."""
 SWEEPS = 24
+STRAIGHTENING = 12
 
 Node = Slot | tuple[str, tuple[str, ...]]
 """What a position is sought for: a slot, or the ("top" or "bottom", group) border of a group."""
@@ -98,6 +100,7 @@ class _Borders:
 
     def __init__(self, proper: Proper, head: float) -> None:
         self.layers = proper.layers
+        self.chains = [bends for chain in proper.chains if len(bends := chain.slots[1:-1]) > 1]
         self.head = head
         self.position: dict[Node, float] = {}
         self.after: dict[Node, list[tuple[Node, float]]] = {}
@@ -155,9 +158,11 @@ class _Borders:
         """Slide every slot to the weighted median of its neighbours, as far as the constraints leave room."""
         slots = [slot for row in self.layers for slot in row]
         borders = [node for node in self.position if isinstance(node, tuple)]
-        for turn in range(10):
+        for turn in range(STRAIGHTENING):
             for border in borders:
                 self._tighten(border)
+            for bends in self.chains:
+                self._align(bends)
             for slot in slots if turn % 2 == 0 else slots[::-1]:
                 links = slot.previous + slot.following
                 if links:
@@ -172,10 +177,36 @@ class _Borders:
         else:
             self.position[border] = max(self.position[n] + apart for n, apart in self.before[border])
 
+    def _room(self, slot: Slot) -> tuple[float, float]:
+        low = max((self.position[n] + apart for n, apart in self.before[slot]), default=-inf)
+        high = min((self.position[n] - apart for n, apart in self.after[slot]), default=inf)
+        return low, high
+
     def _slide(self, slot: Slot, wish: float) -> None:
-        low = max((self.position[n] + apart for n, apart in self.before[slot]), default=wish)
-        high = min((self.position[n] - apart for n, apart in self.after[slot]), default=wish)
-        self.position[slot] = slot.at = max(low, min(wish, high)) if low <= high else slot.at
+        low, high = self._room(slot)
+        if low <= high:
+            self.position[slot] = slot.at = max(low, min(wish, high))
+
+    def _align(self, bends: Sequence[Slot]) -> None:
+        """Put the bends of an edge on one line, or on as few as their rooms allow."""
+        run: list[Slot] = []
+        low, high = -inf, inf
+        for bend in bends:
+            bend_low, bend_high = self._room(bend)
+            if run and max(low, bend_low) > min(high, bend_high):
+                self._level(run, low, high)
+                run, low, high = [], -inf, inf
+            run.append(bend)
+            low, high = max(low, bend_low), min(high, bend_high)
+        self._level(run, low, high)
+
+    def _level(self, run: Sequence[Slot], low: float, high: float) -> None:
+        if low > high:
+            return
+        ends = [(other.at, weight) for other, weight in run[0].previous + run[-1].following]
+        wish = _median(ends, sum(bend.at for bend in run) / len(run))
+        for bend in run:
+            self.position[bend] = bend.at = max(low, min(wish, high))
 
     def _store(self) -> None:
         for row in self.layers:
