@@ -296,8 +296,7 @@ class _Parser:
             )
         match = _TYPE.fullmatch(type_name)
         if match is None:
-            why = "bounds such as <=3 exist in ROS 2 only" if "<=" in type_name else "write T, T[] or T[3]"
-            raise self.error(line, f"'{type_name}' is no type: {why}")
+            raise self.error(line, f"'{type_name}' is no type: write T, T[] or T[3]")
         base, array = self.resolve(match["base"]), match["array"] or ""
         if base == "Header":
             base = "std_msgs/Header" if not array else f"{self.name.partition('/')[0]}/Header"
@@ -310,10 +309,14 @@ class _Parser:
         return f"{self.name.partition('/')[0]}/{base}"
 
     def constant(self, line: int, raw: str, clean: str) -> Constant:
+        if "<=" in clean.partition(" ")[0]:
+            raise self.error(line, "bounds such as <=3 exist in ROS 2 only")
         type_name = clean.partition("=")[0].split(" ")[0].strip()
         if type_name not in PRIMITIVE_TYPES:
             hint = nearest(type_name, PRIMITIVE_TYPES)
-            raise self.error(line, f"'{type_name}' cannot be the type of a constant {hint}".rstrip())
+            raise self.error(
+                line, f"'{type_name}' cannot be the type of a constant{': ' if hint else ''}{hint}"
+            )
         if type_name == "string":
             # The text of a string goes on to the end of the line, "#" and all.
             before, _, after = raw.partition("=")

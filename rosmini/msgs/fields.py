@@ -177,8 +177,9 @@ def _check(cls: type[Message], message: Any, prefix: str) -> None:
         try:
             value = getattr(message, field.name)
         except AttributeError:
-            where = prefix.rstrip(".") or "the message"
-            problem = f"field {where} must be of type {cls._type}: {_shown(message)} has no '{field.name}'"
+            missing = f"not {_shown(message)}, which has no '{field.name}'"
+            where = f"field {prefix[:-1]}" if prefix else "the message"
+            problem = f"{where} must be of type {cls._type}, {missing}"
             raise SerializationError(problem) from None
         if field.size is None:
             _check_value(cls, field, path, value)

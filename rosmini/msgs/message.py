@@ -48,6 +48,8 @@ class Message:
 
     __slots__ = ("_connection_header",)
 
+    _connection_header: dict[str, Any] | None
+
     _type: ClassVar[str]
     _md5sum: ClassVar[str]
     _full_text: ClassVar[str]
@@ -79,6 +81,10 @@ class Message:
         except struct.error as error:
             problem = f"{len(fixed)} bytes are too few: the data is cut off, or of another type"
             raise DeserializationError(f"{cls._type}: {problem}") from error
+        except DeserializationError as error:
+            if str(error).startswith(f"{cls._type}: "):
+                raise
+            raise DeserializationError(f"{cls._type}: in {error}") from error  # in an element of an array
         if used != len(fixed):
             problem = f"{len(fixed) - used} of {len(fixed)} bytes are left over: the data is of another type"
             raise DeserializationError(f"{cls._type}: {problem}")
@@ -138,14 +144,16 @@ class Message:
 
     __hash__ = None  # type: ignore[assignment]  # as in genpy: messages can be changed
 
-    def __getattr__(self, name: str) -> Any:
-        if name == "_connection_header":
-            return None  # not received from anyone
-        if name.startswith("_"):
-            raise AttributeError(
-                f"'{type(self).__name__}' object has no attribute '{name}'", name=name, obj=self
-            )
-        raise self._no_such_field(name)
+    if not TYPE_CHECKING:  # a type checker must not think that any attribute will do
+
+        def __getattr__(self, name: str) -> Any:
+            if name == "_connection_header":
+                return None  # not received from anyone
+            if name.startswith("_"):
+                raise AttributeError(
+                    f"'{type(self).__name__}' object has no attribute '{name}'", name=name, obj=self
+                )
+            raise self._no_such_field(name)
 
     def _no_such_field(self, name: str) -> AttributeError:
         names = [field.name for field in self._spec.fields]
@@ -217,7 +225,7 @@ def _first_init(self: Message, /, *args: Any, **kwds: Any) -> None:
 
     home = next(cls for cls in type(self).__mro__ if "_spec" in cls.__dict__)
     home.__init__ = compile_function(home, "init")  # type: ignore[misc]
-    self.__init__(*args, **kwds)  # type: ignore[misc]
+    home.__init__(self, *args, **kwds)  # type: ignore[misc]
 
 
 def make_message_class(

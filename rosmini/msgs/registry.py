@@ -219,7 +219,12 @@ class Registry:
     def _type_names(self, package: str) -> list[str]:
         return [
             *self.messages(package),
-            *(f"{owner}/{name}" for owner in self.source.packages() for name in self.messages(owner)),
+            *(
+                f"{owner}/{name}"
+                for owner in self.source.packages()
+                if owner != package
+                for name in self.messages(owner)
+            ),
         ]
 
     def _unknown(self, what: str, name: str) -> UnknownType | UnknownPackage:

@@ -1,0 +1,23 @@
+# Written by python -m rosmini.msgs.stubs; do not edit.
+from typing import Any, ClassVar, Sequence, overload
+from rosmini.msgs.message import Message as _Message
+from rosmini.msgs.registry import Service as _Service
+
+class AddTwoIntsRequest(_Message):
+    a: int
+    b: int
+    @overload
+    def __init__(self, *, a: int | None = ..., b: int | None = ...) -> None: ...
+    @overload
+    def __init__(self, a: int | None, b: int | None, /) -> None: ...
+
+class AddTwoIntsResponse(_Message):
+    sum: int
+    @overload
+    def __init__(self, *, sum: int | None = ...) -> None: ...
+    @overload
+    def __init__(self, sum: int | None, /) -> None: ...
+
+class AddTwoInts(_Service):
+    _request_class: ClassVar[type[AddTwoIntsRequest]]
+    _response_class: ClassVar[type[AddTwoIntsResponse]]

@@ -1,0 +1,3 @@
+# Written by python -m rosmini.msgs.stubs; do not edit.
+from . import msg as msg
+from . import srv as srv

@@ -1,0 +1,69 @@
+# Written by python -m rosmini.msgs.stubs; do not edit.
+from typing import Any, ClassVar, Sequence, overload
+from rosmini.msgs.actionlib_msgs import msg as _actionlib_msgs
+from rosmini.msgs.geometry_msgs import msg as _geometry_msgs
+from rosmini.msgs.message import Message as _Message
+from rosmini.msgs.std_msgs import msg as _std_msgs
+
+class MoveBaseAction(_Message):
+    action_goal: MoveBaseActionGoal
+    action_result: MoveBaseActionResult
+    action_feedback: MoveBaseActionFeedback
+    @overload
+    def __init__(self, *, action_goal: MoveBaseActionGoal | None = ..., action_result: MoveBaseActionResult | None = ..., action_feedback: MoveBaseActionFeedback | None = ...) -> None: ...
+    @overload
+    def __init__(self, action_goal: MoveBaseActionGoal | None, action_result: MoveBaseActionResult | None, action_feedback: MoveBaseActionFeedback | None, /) -> None: ...
+
+class MoveBaseActionFeedback(_Message):
+    header: _std_msgs.Header
+    status: _actionlib_msgs.GoalStatus
+    feedback: MoveBaseFeedback
+    @overload
+    def __init__(self, *, header: _std_msgs.Header | None = ..., status: _actionlib_msgs.GoalStatus | None = ..., feedback: MoveBaseFeedback | None = ...) -> None: ...
+    @overload
+    def __init__(self, header: _std_msgs.Header | None, status: _actionlib_msgs.GoalStatus | None, feedback: MoveBaseFeedback | None, /) -> None: ...
+
+class MoveBaseActionGoal(_Message):
+    header: _std_msgs.Header
+    goal_id: _actionlib_msgs.GoalID
+    goal: MoveBaseGoal
+    @overload
+    def __init__(self, *, header: _std_msgs.Header | None = ..., goal_id: _actionlib_msgs.GoalID | None = ..., goal: MoveBaseGoal | None = ...) -> None: ...
+    @overload
+    def __init__(self, header: _std_msgs.Header | None, goal_id: _actionlib_msgs.GoalID | None, goal: MoveBaseGoal | None, /) -> None: ...
+
+class MoveBaseActionResult(_Message):
+    header: _std_msgs.Header
+    status: _actionlib_msgs.GoalStatus
+    result: MoveBaseResult
+    @overload
+    def __init__(self, *, header: _std_msgs.Header | None = ..., status: _actionlib_msgs.GoalStatus | None = ..., result: MoveBaseResult | None = ...) -> None: ...
+    @overload
+    def __init__(self, header: _std_msgs.Header | None, status: _actionlib_msgs.GoalStatus | None, result: MoveBaseResult | None, /) -> None: ...
+
+class MoveBaseFeedback(_Message):
+    base_position: _geometry_msgs.PoseStamped
+    @overload
+    def __init__(self, *, base_position: _geometry_msgs.PoseStamped | None = ...) -> None: ...
+    @overload
+    def __init__(self, base_position: _geometry_msgs.PoseStamped | None, /) -> None: ...
+
+class MoveBaseGoal(_Message):
+    target_pose: _geometry_msgs.PoseStamped
+    @overload
+    def __init__(self, *, target_pose: _geometry_msgs.PoseStamped | None = ...) -> None: ...
+    @overload
+    def __init__(self, target_pose: _geometry_msgs.PoseStamped | None, /) -> None: ...
+
+class MoveBaseResult(_Message):
+    def __init__(self) -> None: ...
+
+class RecoveryStatus(_Message):
+    pose_stamped: _geometry_msgs.PoseStamped
+    current_recovery_number: int
+    total_number_of_recoveries: int
+    recovery_behavior_name: str
+    @overload
+    def __init__(self, *, pose_stamped: _geometry_msgs.PoseStamped | None = ..., current_recovery_number: int | None = ..., total_number_of_recoveries: int | None = ..., recovery_behavior_name: str | None = ...) -> None: ...
+    @overload
+    def __init__(self, pose_stamped: _geometry_msgs.PoseStamped | None, current_recovery_number: int | None, total_number_of_recoveries: int | None, recovery_behavior_name: str | None, /) -> None: ...

@@ -1,0 +1,18 @@
+# Written by python -m rosmini.msgs.stubs; do not edit.
+from typing import Any, ClassVar, Sequence, overload
+from rosmini.msgs.message import Message as _Message
+from rosmini.msgs.registry import Service as _Service
+
+class FrameGraphRequest(_Message):
+    def __init__(self) -> None: ...
+
+class FrameGraphResponse(_Message):
+    frame_yaml: str
+    @overload
+    def __init__(self, *, frame_yaml: str | None = ...) -> None: ...
+    @overload
+    def __init__(self, frame_yaml: str | None, /) -> None: ...
+
+class FrameGraph(_Service):
+    _request_class: ClassVar[type[FrameGraphRequest]]
+    _response_class: ClassVar[type[FrameGraphResponse]]

@@ -1,0 +1,2 @@
+# Written by python -m rosmini.msgs.stubs; do not edit.
+from . import msg as msg
