@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from importlib.util import find_spec
 
 from rosmini.book.build import has_display
@@ -43,6 +44,9 @@ def lab_arguments(args: argparse.Namespace, notebooks: str) -> list[str]:
     # No question about news, no confirmation at Ctrl-C.
     arguments += ["--LabApp.news_url=None", "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate"]
     arguments += ["--ServerApp.answer_yes=True"]
+    # In a container everybody is root, and the server listens to this machine only.
+    if getattr(os, "geteuid", lambda: 1)() == 0:
+        arguments.append("--allow-root")
     return arguments + (["--no-browser"] if args.no_open or not has_display() else [])
 
 

@@ -1,0 +1,59 @@
+"""The floors of the library: the contract holds, and refuses an import from above, a circle and a module without a floor."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+COMMAND = "from importlinter.cli import lint_imports_command; lint_imports_command()"
+
+
+def lint(checkout: Path) -> tuple[int, str]:
+    """The status and the words of lint-imports on the `rosmini` in `checkout`."""
+    done = subprocess.run(
+        [sys.executable, "-c", COMMAND, "--no-cache"],
+        cwd=checkout,
+        env=os.environ | {"PYTHONPATH": str(checkout), "PYTHONIOENCODING": "utf-8"},
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+        timeout=120,
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+@pytest.fixture
+def checkout(tmp_path):
+    ignored = shutil.ignore_patterns("__pycache__", "_assets")
+    shutil.copytree(ROOT / "rosmini", tmp_path / "rosmini", ignore=ignored)
+    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+    return tmp_path
+
+
+def test_the_floors_hold(checkout):
+    status, words = lint(checkout)
+    assert status == 0, words
+
+
+@pytest.mark.parametrize(
+    ("module", "line"),
+    [
+        ("names.py", "import rosmini.msgs"),
+        ("errors.py", "from rosmini.graph import Graph"),
+        ("graph/__init__.py", "def f():\n    import rosmini.viz"),
+        ("msgs/__init__.py", "from rosmini.cli import main"),
+        ("without_a_floor.py", "x = 1"),
+    ],
+)
+def test_a_wrong_import_is_refused(checkout, module, line):
+    with (checkout / "rosmini" / module).open("a", encoding="utf-8") as file:
+        file.write(f"\n{line}\n")
+    status, words = lint(checkout)
+    assert status == 1, words
+    assert "broken" in words.lower() or "without_a_floor" in words

@@ -1,0 +1,215 @@
+"""`rosmini book` and `rosmini lab`: where they find the sources, what they open, and what they say when they cannot."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+import pytest
+
+from rosmini.book import build, checkout
+from rosmini.book.build import BookError, build_book, has_display
+from rosmini.book.checkout import NoCheckout, find_checkout
+from rosmini.cli import book, lab, main
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def test_the_checkout_is_found_from_below(monkeypatch):
+    monkeypatch.chdir(ROOT / "book" / "static")
+    assert find_checkout() == ROOT
+
+
+def test_outside_of_a_checkout_the_command_says_where_it_looked(monkeypatch, tmp_path, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(
+        checkout, "__file__", str(tmp_path / "site-packages" / "rosmini" / "book" / "checkout.py")
+    )
+    with pytest.raises(NoCheckout):
+        find_checkout()
+    assert main.main(["book"]) == 1
+    said = capsys.readouterr().err
+    assert str(tmp_path) in said
+    assert "clone the repository" in said
+
+
+@pytest.fixture
+def built(monkeypatch, tmp_path):
+    """A build that takes no time, and the addresses that a browser was told to open."""
+    opened: list[str] = []
+    first = tmp_path / "index.html"
+    monkeypatch.setattr(book, "build_book", lambda *args, **options: first)
+    monkeypatch.setattr(book.webbrowser, "open", lambda address: opened.append(address) or True)
+    return first, opened
+
+
+def test_the_book_is_opened_where_there_is_a_display(built, monkeypatch, capsys):
+    first, opened = built
+    monkeypatch.setattr(book, "has_display", lambda: True)
+    assert main.main(["book"]) == 0
+    assert opened == [first.as_uri()]
+    assert f"The book is at {first}" in capsys.readouterr().out
+
+
+def test_it_is_not_opened_without_a_display_or_against_the_reader_s_will(built, monkeypatch, capsys):
+    first, opened = built
+    monkeypatch.setattr(book, "has_display", lambda: False)
+    assert main.main(["book"]) == 0
+    assert "No display here" in capsys.readouterr().out
+    monkeypatch.setattr(book, "has_display", lambda: True)
+    assert main.main(["book", "--no-open"]) == 0
+    assert f"The book is at {first}" in capsys.readouterr().out
+    assert opened == []
+
+
+@pytest.mark.parametrize(
+    ("platform", "environment", "seen"),
+    [
+        ("linux", {}, False),
+        ("linux", {"DISPLAY": ":0"}, True),
+        ("linux", {"WAYLAND_DISPLAY": "wayland-0"}, True),
+        ("linux", {"DISPLAY": ":0", "CI": "true"}, False),
+        ("win32", {}, True),
+        ("darwin", {}, True),
+    ],
+)
+def test_what_counts_as_a_display(platform, environment, seen, monkeypatch):
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "CI"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in environment.items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(build.sys, "platform", platform)
+    assert has_display() is seen
+
+
+def small_book(folder: Path, page: str) -> Path:
+    """A checkout with one page."""
+    (folder / "book").mkdir(parents=True)
+    (folder / "notebooks").mkdir()
+    (folder / "book" / "_toc.yml").write_text("format: jb-book\nroot: book/intro\n")
+    (folder / "book" / "_config.yml").write_text(
+        "title: t\nauthor: a\nonly_build_toc_files: true\nsphinx:\n  config: {html_context: {default_mode: auto}}\n"
+    )
+    (folder / "book" / "intro.md").write_text(page, encoding="utf-8")
+    return folder
+
+
+def test_a_warning_stops_the_build_and_is_shown(tmp_path, capfd):
+    folder = small_book(tmp_path / "checkout", "# T\n\nSee {ref}`nowhere`.\n")
+    with pytest.raises(BookError, match="the book was not built"):
+        build_book(folder, tmp_path / "out")
+    assert "undefined label: 'nowhere'" in capfd.readouterr().err
+
+
+def test_a_build_leaves_nothing_of_the_one_before_and_touches_nothing_else(tmp_path):
+    folder = small_book(tmp_path / "checkout", "# T\n\nText.\n")
+    html = tmp_path / "out" / "_build" / "html"
+    html.mkdir(parents=True)
+    (html / "stale.html").touch()
+    (html.parent / "mine.txt").touch()
+    assert build_book(folder, tmp_path / "out") == html / "index.html"
+    assert not (html / "stale.html").exists()
+    assert (html.parent / "mine.txt").exists()
+    assert sorted(path.name for path in (folder / "book").iterdir()) == [
+        "_config.yml",
+        "_toc.yml",
+        "intro.md",
+    ]
+
+
+def test_the_error_without_jupyter_book(monkeypatch, tmp_path):
+    monkeypatch.setattr(build, "_has_jupyter_book", lambda: False)
+    with pytest.raises(BookError, match="Jupyter Book is not installed"):
+        build_book(tmp_path)
+
+
+@pytest.mark.parametrize("port", ["x", "0", "65536", "-1", "8888.5"])
+def test_a_bad_port_is_refused(port, capsys):
+    with pytest.raises(SystemExit) as end:
+        main.main(["lab", f"--port={port}"])
+    assert end.value.code == 2
+    assert "is not a port" in capsys.readouterr().err
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def ask(address: str) -> dict:
+    """What the server answers. It tells its address a moment before it listens, so a refusal is asked again."""
+    request = urllib.request.Request(address, headers={"Authorization": "token t0ken"})
+    deadline = time.monotonic() + 30
+    while True:
+        try:
+            with urllib.request.urlopen(request, timeout=30) as reply:
+                return json.load(reply)
+        except urllib.error.URLError as error:
+            if not isinstance(error.reason, ConnectionRefusedError) or time.monotonic() > deadline:
+                raise
+
+
+def listening_addresses(port: int) -> set[str]:
+    """The local addresses (in the kernel's notation) at which something listens on `port`."""
+    rows = [
+        row.split()
+        for table in ("tcp", "tcp6")
+        for row in Path(f"/proc/net/{table}").read_text().splitlines()[1:]
+    ]
+    return {
+        row[1].partition(":")[0]
+        for row in rows
+        if row[3] == "0A" and int(row[1].partition(":")[2], 16) == port
+    }
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc to see who listens")
+def test_lab_serves_the_notebooks_on_this_machine_only(tmp_path):
+    port = free_port()
+    environment = os.environ | {"HOME": str(tmp_path), "JUPYTER_TOKEN": "t0ken", "PYTHONUNBUFFERED": "1"}
+    server = subprocess.Popen(
+        [sys.executable, "-m", "rosmini", "lab", "--no-open", "--port", str(port)],
+        cwd=ROOT,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    try:
+        for line in server.stdout:
+            if re.search(rf"http://127\.0\.0\.1:{port}/lab", line):
+                break
+        else:
+            pytest.fail("JupyterLab ended before it served")
+        request = urllib.request.Request(
+            f"http://127.0.0.1:{port}/api/contents", headers={"Authorization": "token t0ken"}
+        )
+        with urllib.request.urlopen(request, timeout=30) as reply:
+            names = {entry["name"] for entry in json.load(reply)["content"]}
+        assert names == {
+            path.name for path in (ROOT / "notebooks").iterdir() if not path.name.startswith(".")
+        }
+        assert listening_addresses(port) == {"0100007F"}
+    finally:
+        begin = time.monotonic()
+        server.terminate()
+        server.communicate(timeout=30)
+    assert time.monotonic() - begin < 20, "it asked before it ended"
+
+
+def test_lab_opens_no_browser_unless_it_can(monkeypatch):
+    monkeypatch.setattr(lab, "has_display", lambda: True)
+    parser = main.build_parser(main.available(), {"lab": lab})
+    assert "--no-browser" not in lab.lab_arguments(parser.parse_args(["lab"]), "n")
+    assert "--no-browser" in lab.lab_arguments(parser.parse_args(["lab", "--no-open"]), "n")
+    monkeypatch.setattr(lab, "has_display", lambda: False)
+    assert "--no-browser" in lab.lab_arguments(parser.parse_args(["lab"]), "n")
