@@ -182,8 +182,10 @@ class Waiter:
             self._queued = True
             scheduler.ready.append(self._resume)
 
-    def _resume(self) -> None:
-        self._scheduler.switch_to(self)
+    def _resume(self) -> greenlet | None:
+        """Return the code to go on with; the loop switches to it, and then holds nothing of this waiter."""
+        self._queued = False
+        return self._greenlet
 
     def wait(self, timeout_ns: int | None = None) -> bool:
         """Block until woken (True) or until ``timeout_ns`` of graph time have passed (False).

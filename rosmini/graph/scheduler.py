@@ -353,15 +353,6 @@ class Scheduler:
         if context is not None:
             context.enter()
 
-    def switch_to(self, waiter: Waiter) -> None:
-        """Go on with the code that is parked on ``waiter``; the calling worker becomes idle. For waiters only."""
-        target = waiter._greenlet  # noqa: SLF001
-        waiter._queued = False  # noqa: SLF001
-        if target is None:
-            return
-        self._idle.append(getcurrent())
-        self._switch(target)
-
     def lane_failed(self, lane: Lane, error: BaseException) -> None:
         """Tell whoever should know that a task of ``lane`` raised. For lanes only."""
         if isinstance(error, KeyboardInterrupt) and self._interrupts.pending():
@@ -454,10 +445,14 @@ class Scheduler:
                     for _ in range(len(ready)):
                         if not ready:  # another worker went on while this one was idle
                             break
-                        ready.popleft()()
-                        if self._until is not None and self._until():
-                            self._until = None
-                            self.stop_with("condition")
+                        parked = ready.popleft()()
+                        if parked.__class__ is greenlet:
+                            self._idle.append(getcurrent())
+                            self._switch(parked)
+                        if self._until is not None:
+                            self._check_until()
+                    if self._until is not None:
+                        self._check_until()
                     self._take_inbox()
                     self._take_due()
                     if not ready:
@@ -467,10 +462,11 @@ class Scheduler:
             except Exception as error:  # noqa: BLE001 - an error of an internal event belongs to the driver
                 self.raise_in_driver(error)
 
-    def stop_with(self, reason: str) -> None:
-        """Wake the driver of :meth:`run` with ``reason``."""
-        if self._root_waiter is not None:
-            self._root_waiter.wake(reason)
+    def _check_until(self) -> None:
+        if self._until is not None and self._until():
+            self._until = None
+            if self._root_waiter is not None:
+                self._root_waiter.wake("condition")
 
     def _take_inbox(self) -> None:
         root = self._root_waiter

@@ -1,0 +1,57 @@
+"""ROS 1 in one Python process: the computation graph behind the book.
+
+>>> from rosmini import Graph
+>>> graph = Graph()
+>>> graph.node("talker")
+<Node /talker>
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .errors import RosminiError
+    from .graph import Graph, Node, default_graph, set_default_graph
+    from .msgs import install, uninstall
+    from .time import Duration, Time
+
+__version__ = "0.1.0"
+
+_HOMES = {
+    "Duration": "rosmini.time",
+    "Graph": "rosmini.graph",
+    "Node": "rosmini.graph",
+    "RosminiError": "rosmini.errors",
+    "Time": "rosmini.time",
+    "default_graph": "rosmini.graph",
+    "install": "rosmini.msgs",
+    "set_default_graph": "rosmini.graph",
+    "uninstall": "rosmini.msgs",
+}
+
+__all__ = [
+    "Duration",
+    "Graph",
+    "Node",
+    "RosminiError",
+    "Time",
+    "default_graph",
+    "install",
+    "set_default_graph",
+    "uninstall",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what is asked for on first use, so that ``import rosmini`` costs next to nothing."""
+    if name not in _HOMES:
+        msg = f"module 'rosmini' has no attribute {name!r}"
+        raise AttributeError(msg)
+    import importlib
+
+    return getattr(importlib.import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

@@ -1,0 +1,33 @@
+"""The computation graph: scheduler, Master and Parameter Server, nodes, topics, services, log messages."""
+
+from __future__ import annotations
+
+from .clock import Rate, Timer, TimerEvent
+from .graph import Graph, default_graph, set_default_graph
+from .lanes import Lane, LaneContext, LaneExit, Waiter
+from .node import Node
+from .publisher import Publisher
+from .scheduler import RunReport, Scheduler, Waiting
+from .service import ServiceClient, ServiceServer
+from .subscriber import Subscriber
+
+__all__ = [
+    "Graph",
+    "Lane",
+    "LaneContext",
+    "LaneExit",
+    "Node",
+    "Publisher",
+    "Rate",
+    "RunReport",
+    "Scheduler",
+    "ServiceClient",
+    "ServiceServer",
+    "Subscriber",
+    "Timer",
+    "TimerEvent",
+    "Waiter",
+    "Waiting",
+    "default_graph",
+    "set_default_graph",
+]

@@ -1,0 +1,262 @@
+"""A transport that serialises everything and carries the bytes on real threads.
+
+Nobody needs it to run a graph: it is the proof that the seam of :mod:`rosmini.graph.transport` holds. What crosses it is what crosses a
+network (ROS 1 messages, TCPROS headers, XML-RPC documents), each node has a thread of its own that reads them, and the same tests pass
+on it as on the in-process transport. While bytes are under way, simulated time stands still.
+"""
+
+from __future__ import annotations
+
+import queue
+import struct
+import threading
+import xmlrpc.client
+from collections import deque
+from typing import TYPE_CHECKING, Any, cast
+
+from rosmini.errors import DeserializationError, TransportException, TransportInitError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .scheduler import Scheduler
+    from .transport import Endpoint, Header, Receiver, ServiceSession, Triple
+
+
+def encode_header(fields: Header) -> bytes:
+    """Return a TCPROS connection header: length-prefixed ``key=value`` fields (http://wiki.ros.org/ROS/Connection%20Header)."""
+    parts = [f"{key}={value}".encode() for key, value in fields.items()]
+    body = b"".join(struct.pack("<I", len(part)) + part for part in parts)
+    return struct.pack("<I", len(body)) + body
+
+
+def decode_header(data: bytes) -> Header:
+    """Return the fields of a TCPROS connection header. Raises ``DeserializationError`` when the bytes are none."""
+    if len(data) < 4 or struct.unpack_from("<I", data)[0] != len(data) - 4:  # noqa: PLR2004
+        msg = f"these {len(data)} bytes are not a connection header: the total length at the start is wrong"
+        raise DeserializationError(msg)
+    fields: Header = {}
+    offset = 4
+    while offset < len(data):
+        if offset + 4 > len(data):
+            msg = f"the connection header ends in the middle of a field's length, at byte {offset}"
+            raise DeserializationError(msg)
+        (length,) = struct.unpack_from("<I", data, offset)
+        field = data[offset + 4 : offset + 4 + length]
+        if len(field) != length:
+            msg = f"a field of the connection header claims {length} bytes, and {len(field)} are left (at byte {offset})"
+            raise DeserializationError(msg)
+        try:
+            key, separator, value = field.decode().partition("=")
+        except UnicodeDecodeError as error:
+            msg = f"a field of the connection header is not UTF-8 text (at byte {offset})"
+            raise DeserializationError(msg) from error
+        if not separator:
+            msg = f"a field of the connection header has no '=': {key!r} (at byte {offset})"
+            raise DeserializationError(msg)
+        fields[key] = value
+        offset += 4 + length
+    return fields
+
+
+class _Wire:
+    """The thread that reads what is sent to one node, in order."""
+
+    def __init__(self, scheduler: Scheduler, name: str) -> None:
+        self._scheduler = scheduler
+        self._queue: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
+        self._thread = threading.Thread(target=self._read, name=f"rosmini-wire {name}", daemon=True)
+        self._thread.start()
+
+    def carry(self, job: Callable[[], None]) -> None:
+        self._scheduler.hold()
+        self._queue.put(job)
+
+    def close(self) -> None:
+        self._queue.put(None)
+        self._thread.join()
+
+    def _read(self) -> None:
+        while (job := self._queue.get()) is not None:
+            try:
+                job()
+            finally:
+                self._scheduler.release()
+
+
+class _ByteSender:
+    """The publisher's end of a connection."""
+
+    def __init__(self, transport: ByteTransport, wire: _Wire, receiver: Receiver, destination: str) -> None:
+        self._scheduler = transport.scheduler
+        self._wire = wire
+        self._receiver = receiver
+        self._queue: deque[Any] = deque()
+        self._dropped = False
+        self.destination = destination
+        self.sent = 0
+
+    def send(self, frozen: Any, size: int | None) -> None:
+        waiting = self._queue
+        if not waiting:
+            self._scheduler.ready.append(self._flush)
+        elif size is not None and len(waiting) >= size:
+            waiting.popleft()
+        waiting.append(frozen)
+        self.sent += 1
+
+    def _flush(self) -> None:
+        packets = [frozen._encode(frozen) for frozen in self._queue]  # noqa: SLF001 - the contract of message classes
+        self._queue.clear()
+        self._wire.carry(lambda: self._arrive(packets))
+
+    def _arrive(self, packets: list[bytes]) -> None:
+        """Decode, in the receiving node's thread, and hand over to the hub."""
+        cls = self._receiver.message_class
+        messages = [cls._decode(packet) for packet in packets]  # noqa: SLF001
+
+        def deliver() -> None:
+            if not self._dropped:
+                self._receiver.deliver(messages)
+
+        self._scheduler.call_soon_threadsafe(deliver)
+
+    def close(self) -> None:
+        def tell() -> None:
+            if not self._dropped:
+                self._dropped = True
+                self._receiver.closed()
+
+        self._scheduler.ready.append(lambda: self._wire.carry(lambda: self._scheduler.call_soon_threadsafe(tell)))
+
+    def drop(self) -> None:
+        self._dropped = True
+
+
+class _ByteServiceLink:
+    """The client's end of a service connection."""
+
+    def __init__(self, transport: ByteTransport, wire: _Wire, session: ServiceSession, service_class: Any) -> None:
+        self._scheduler = transport.scheduler
+        self._wire = wire
+        self._session = session
+        self._class = service_class
+        self.header = session.header
+
+    def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        packet = request._encode(request)  # noqa: SLF001
+        request_class, response_class = self._class._request_class, self._class._response_class  # noqa: SLF001
+
+        def answer(response: Any, problem: str | None) -> None:
+            body = b"\x00" + problem.encode() if problem is not None else b"\x01" + bytes(response._encode(response))  # noqa: SLF001
+            self._wire.carry(lambda: arrive(body))
+
+        def arrive(body: bytes) -> None:
+            if body[0]:
+                response = response_class._decode(body[1:])  # noqa: SLF001
+                self._scheduler.call_soon_threadsafe(lambda: reply(response, None))
+            else:
+                self._scheduler.call_soon_threadsafe(lambda: reply(None, body[1:].decode()))
+
+        def ask() -> None:
+            received = request_class._decode(packet)  # noqa: SLF001
+            self._scheduler.call_soon_threadsafe(lambda: self._session.handle(received, answer))
+
+        self._wire.carry(ask)
+
+    def close(self) -> None:
+        self._scheduler.call_soon(self._session.close)
+
+
+class ByteTransport:
+    """Nodes of one process that exchange bytes through threads."""
+
+    protocol = "BYTES"
+
+    def __init__(self, scheduler: Scheduler) -> None:
+        self.scheduler = scheduler
+        self._endpoints: dict[str, tuple[Endpoint, _Wire]] = {}
+        self._numbers = 0
+
+    def attach(self, endpoint: Endpoint) -> str:
+        """Make a node reachable, with a thread of its own."""
+        self._numbers += 1
+        uri = f"bytes://localhost:{self._numbers}/"
+        self._endpoints[uri] = (endpoint, _Wire(self.scheduler, endpoint.name))
+        return uri
+
+    def detach(self, uri: str) -> None:
+        """Make a node unreachable and end its thread when it has read what is under way."""
+        found = self._endpoints.pop(uri, None)
+        if found is not None:
+            found[1].close()
+
+    def service_uri(self, uri: str) -> str:
+        """Return the address of the node's services."""
+        return uri.replace("bytes://", "rosrpc://").rstrip("/")
+
+    def topic_parameters(self, uri: str) -> list[Any]:
+        """Return the connection parameters of a topic."""
+        return [self.protocol, uri]
+
+    def call(self, uri: str, method: str, *arguments: Any) -> Triple:
+        """Call a method of a node's slave API through an XML-RPC document; blocks."""
+        request = xmlrpc.client.dumps(arguments, method, allow_none=False)
+
+        def serve(endpoint: Endpoint) -> str:
+            values, name = xmlrpc.client.loads(request)
+            return xmlrpc.client.dumps((endpoint.slave_call(cast("str", name), *values),), methodresponse=True)
+
+        reply = self._ask(uri, serve)
+        return cast("Triple", xmlrpc.client.loads(reply)[0][0])
+
+    def connect_topic(self, parameters: list[Any], header: Header, receiver: Receiver) -> tuple[Header, Callable[[], None]]:
+        """Open a topic connection by exchanging headers; blocks."""
+        request = encode_header(header)
+        made: list[_ByteSender] = []
+
+        def serve(endpoint: Endpoint) -> bytes:
+            fields = decode_header(request)
+            sender = _ByteSender(self, self._wire_of(fields["callerid"]), receiver, fields["callerid"])
+            made.append(sender)
+            return encode_header(endpoint.accept_subscriber(fields, sender))
+
+        reply = decode_header(self._ask(parameters[1], serve))
+        return reply, made[0].drop
+
+    def connect_service(self, service_uri: str, header: Header, service_class: Any) -> _ByteServiceLink:
+        """Open a service connection by exchanging headers; blocks."""
+        request = encode_header(header)
+
+        def serve(endpoint: Endpoint) -> ServiceSession:
+            return endpoint.accept_client(decode_header(request))
+
+        uri = service_uri.replace("rosrpc://", "bytes://") + "/"
+        session = self._ask(uri, serve)
+        return _ByteServiceLink(self, self._wire_of(header["callerid"]), session, service_class)
+
+    def _wire_of(self, name: str) -> _Wire:
+        for endpoint, wire in self._endpoints.values():
+            if endpoint.name == name:
+                return wire
+        msg = f"{name} has no connection to the graph any more"
+        raise TransportInitError(msg)
+
+    def _ask(self, uri: str, serve: Callable[[Endpoint], Any]) -> Any:
+        """Have ``serve`` run in the hub's thread on behalf of the node's own; park the caller meanwhile."""
+        found = self._endpoints.get(uri)
+        if found is None:
+            msg = f"no node answers at {uri}: it has been shut down"
+            raise TransportException(msg)
+        endpoint, wire = found
+        waiter = self.scheduler.waiter(f"an answer of {endpoint.name}")
+
+        def work() -> None:
+            try:
+                waiter.wake(serve(endpoint))
+            except Exception as error:  # noqa: BLE001 - handed to the caller
+                waiter.fail(error)
+
+        wire.carry(lambda: self.scheduler.call_soon_threadsafe(work))
+        waiter.wait()
+        return waiter.value

@@ -1,0 +1,131 @@
+"""Parameters as a node sees them (http://wiki.ros.org/Parameter%20Server)."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import ParameterError, ParameterNotSet, nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .graph import Graph
+
+_UNSET: Any = object()
+
+
+def check_value(name: str, value: Any) -> Any:
+    """Return ``value`` as the Parameter Server can hold it. Raises ``ParameterError``, which says where the value is wrong."""
+    if isinstance(value, (bool, str, bytes)):
+        return value
+    if isinstance(value, int):
+        if not -(2**31) <= value < 2**31:
+            msg = f"parameter {name}: {value} does not fit into the 32 bits of a ROS parameter; store it as a float or a string"
+            raise ParameterError(msg)
+        return value
+    if isinstance(value, float):
+        return value
+    if isinstance(value, dict):
+        for key in value:
+            if not isinstance(key, str):
+                msg = f"parameter {name}: the key {key!r} is a {type(key).__name__}; keys of a parameter tree are strings"
+                raise ParameterError(msg)
+        return {key: check_value(f"{name.rstrip('/')}/{key}", item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [check_value(f"{name}[{index}]", item) for index, item in enumerate(value)]
+    if hasattr(value, "tolist"):  # numpy scalars and arrays
+        return check_value(name, value.tolist())
+    msg = (
+        f"parameter {name}: a {type(value).__name__} cannot be stored ({value!r}). "
+        "Parameters are bool, int, float, str, bytes, lists of these, and dictionaries with string keys."
+    )
+    raise ParameterError(msg)
+
+
+class ParameterApi:
+    """The part of a node that reads and writes parameters."""
+
+    name: str
+    graph: Graph
+    _parameter_callbacks: dict[str, list[Callable[[Any], object]]]
+
+    def resolve(self, name: str) -> str:
+        """Return the global name that ``name`` means here."""
+        raise AssertionError(name)  # pragma: no cover - the node's own method hides this one
+
+    def get_param(self, name: str, default: Any = _UNSET, *, expect: type | tuple[type, ...] | None = None) -> Any:
+        """Return a parameter's value, or ``default`` if it is not set.
+
+        With ``expect`` a value of another type is an error (an int is welcome where a float is expected). Raises
+        ``ParameterNotSet``, which names parameters with a similar name and other namespaces that have this one.
+        """
+        resolved = self.resolve(name)
+        code, _, value = self.graph.master.getParam(self.name, resolved)
+        if code != 1:
+            if default is not _UNSET:
+                return default
+            raise ParameterNotSet(self._not_set(name, resolved))
+        if expect is not None:
+            return self._expected(resolved, value, expect)
+        return value
+
+    def _expected(self, name: str, value: Any, expect: type | tuple[type, ...]) -> Any:
+        kinds = expect if isinstance(expect, tuple) else (expect,)
+        if float in kinds and isinstance(value, int) and not isinstance(value, bool):
+            return float(value)
+        if isinstance(value, kinds) and not (isinstance(value, bool) and bool not in kinds):
+            if isinstance(value, float) and math.isnan(value):
+                msg = f"parameter {name} is not a number (nan)"
+                raise ParameterError(msg)
+            return value
+        wanted = " or ".join(kind.__name__ for kind in kinds)
+        msg = f"parameter {name} is the {type(value).__name__} {value!r}, and a {wanted} is needed. Set it again: set_param({name!r}, ...)."
+        raise ParameterError(msg)
+
+    def _not_set(self, name: str, resolved: str) -> str:
+        names = self.graph.master.getParamNames(self.name)[2]
+        base = resolved.rpartition("/")[2]
+        elsewhere = [other for other in names if other.rpartition("/")[2] == base]
+        text = f"parameter {resolved} is not set"
+        if name != resolved:
+            text += f" ({name!r} in node {self.name} means {resolved})"
+        if elsewhere:
+            return f"{text}; it exists as {', '.join(elsewhere[:3])}. Use that name, or give a default."
+        hint = nearest(resolved, names)
+        return f"{text}. {hint or 'Set it first, or give a default.'}"
+
+    def set_param(self, name: str, value: Any) -> None:
+        """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` for what ROS cannot hold."""
+        resolved = self.resolve(name)
+        code, status, _ = self.graph.master.setParam(self.name, resolved, check_value(resolved, value))
+        if code != 1:
+            raise ParameterError(status)
+
+    def has_param(self, name: str) -> bool:
+        """Tell whether a parameter, or a tree of them, is set."""
+        return bool(self.graph.master.hasParam(self.name, self.resolve(name))[2])
+
+    def delete_param(self, name: str) -> None:
+        """Delete a parameter or a tree. Raises ``ParameterNotSet``."""
+        resolved = self.resolve(name)
+        if self.graph.master.deleteParam(self.name, resolved)[0] != 1:
+            raise ParameterNotSet(self._not_set(name, resolved))
+
+    def search_param(self, name: str) -> str | None:
+        """Return the full name of the nearest parameter upwards from the node's own namespace, or None."""
+        code, _, found = self.graph.master.searchParam(self.name, name)
+        return found if code == 1 else None
+
+    def param_names(self) -> list[str]:
+        """Return the names of all parameters, sorted."""
+        return sorted(self.graph.master.getParamNames(self.name)[2])
+
+    def on_param(self, name: str, callback: Callable[[Any], object]) -> Any:
+        """Call ``callback(value)`` when a parameter changes; return its value now (``{}`` when it is not set)."""
+        resolved = self.resolve(name)
+        self._parameter_callbacks.setdefault(resolved, []).append(callback)
+        return self.graph.master.subscribeParam(self.name, self._uri(), resolved)[2]
+
+    def _uri(self) -> str:
+        return str(getattr(self, "uri", ""))

@@ -1,0 +1,241 @@
+"""Publishing: one :class:`Publication` per node and topic, a :class:`Publisher` handle for each who asked for it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import ROSException, TransportInitError, TypeMismatch
+
+from .mismatch import describe_mismatch
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .node import Node
+    from .transport import Header, Sender
+
+
+class Publication:
+    """A node's side of a topic that it publishes: the connections, the latched message, the sequence number."""
+
+    def __init__(self, node: Node, topic: str, message_class: Any) -> None:
+        self.node = node
+        self.topic = topic
+        self.message_class = message_class
+        self.latch = False
+        self.queue_size: int | None = None
+        self.handles: list[Publisher] = []
+        self.senders: dict[int, Sender] = {}
+        self.sent = 0
+        self._list: tuple[Sender, ...] = ()
+        self._latched: Any = None
+        self._warned = False
+        self._stamp = bool(message_class._has_header)  # noqa: SLF001 - the contract of message classes
+        self._freeze = message_class._freeze  # noqa: SLF001
+        self._plain = bool(message_class._plain)  # noqa: SLF001
+
+    def send(self, message: Any) -> None:
+        """Send ``message`` to every connection: a snapshot, taken now. From any thread.
+
+        Raises ``SerializationError``, which names the field, when the message holds what its type cannot hold.
+        """
+        if self._stamp:
+            message.header.seq = self.sent + 1
+            if message.header.frame_id is None:
+                message.header.frame_id = "0"
+        frozen = self._freeze(message)
+        scheduler = self.node.scheduler
+        if scheduler.is_hub_thread():
+            self._send(frozen)
+        else:
+            scheduler.call_soon_threadsafe(lambda: self._send(frozen))
+
+    def _send(self, frozen: Any) -> None:
+        self.sent += 1
+        if self.latch:
+            self._latched = self._copy(frozen)
+        senders = self._list
+        if not senders:
+            if not self._warned and not self.latch:
+                self._warn_unheard()
+            return
+        size = self.queue_size
+        senders[0].send(frozen, size)
+        for sender in senders[1:]:
+            sender.send(self._copy(frozen), size)
+
+    def _copy(self, frozen: Any) -> Any:
+        """Return a frozen message of which one receiver may become the owner."""
+        return self._freeze(frozen) if self._plain else frozen
+
+    def _warn_unheard(self) -> None:
+        self._warned = True
+        if self.topic == "/rosout" or self.node.graph.quiet_topic(self.topic):
+            return
+        self.node.loginfo(
+            f"published on {self.topic} while nobody was connected: the message is lost. Connections take a moment: call "
+            "wait_for_subscribers() first, or publish with latch=True if late subscribers need the last message."
+        )
+
+    def accept(self, header: Header, sender: Sender) -> Header:
+        """Take a subscriber's connection. Raises ``TransportInitError`` for another type."""
+        cls = self.message_class
+        wanted = header.get("md5sum")
+        if wanted is None:
+            msg = "Missing required 'md5sum' field"
+            raise TransportInitError(msg)
+        mine, theirs = cls._type, header.get("type", "*")  # noqa: SLF001
+        if wanted not in ("*", cls._md5sum) or (theirs not in ("*", mine) and wanted != "*"):  # noqa: SLF001
+            caller = header.get("callerid", "unknown")
+            self.node.graph.report(
+                TypeMismatch(
+                    describe_mismatch(self.topic, self.node.name, cls, caller, theirs, wanted, header.get("message_definition"))
+                ),
+                self.node,
+                raise_strict=False,
+            )
+            msg = (
+                f"Client [{caller}] wants topic [{self.topic}] to have datatype/md5sum [{theirs}/{wanted}], "
+                f"but our version has [{mine}/{cls._md5sum}] Dropping connection."  # noqa: SLF001
+            )
+            raise TransportInitError(msg)
+        self.add(sender)
+        return {
+            "callerid": self.node.name,
+            "latching": "1" if self.latch else "0",
+            "md5sum": cls._md5sum,  # noqa: SLF001
+            "message_definition": cls._full_text,  # noqa: SLF001
+            "topic": self.topic,
+            "type": mine,
+        }
+
+    def add(self, sender: Sender) -> None:
+        """Add a connection and send it what is latched."""
+        self.senders[self.node.next_connection_id()] = sender
+        self._list = tuple(self.senders.values())
+        if self._latched is not None:
+            sender.send(self._copy(self._latched), None)
+        for handle in self.handles:
+            handle.connected(sender.destination)
+
+    def remove(self, destination: str) -> None:
+        """Forget the connections to the node ``destination``."""
+        gone = [key for key, sender in self.senders.items() if sender.destination == destination]
+        for key in gone:
+            del self.senders[key]
+        self._list = tuple(self.senders.values())
+        for handle in self.handles if gone else ():
+            handle.disconnected(destination)
+
+    def close(self) -> None:
+        """Close all connections."""
+        for sender in self._list:
+            sender.close()
+        self.senders.clear()
+        self._list = ()
+
+
+class Publisher:
+    """Publishes messages of one type on one topic. Made by :meth:`Node.publisher <rosmini.graph.node.Node.publisher>`."""
+
+    def __init__(
+        self,
+        publication: Publication,
+        on_connect: Callable[[str], object] | None = None,
+        on_disconnect: Callable[[str], object] | None = None,
+    ) -> None:
+        self._publication: Publication | None = publication
+        self.node = publication.node
+        self.topic = publication.topic
+        self.message_class = publication.message_class
+        self._on_connect = on_connect
+        self._on_disconnect = on_disconnect
+        publication.handles.append(self)
+        if on_connect is not None:
+            for sender in publication.senders.values():
+                self.connected(sender.destination)
+
+    def __repr__(self) -> str:
+        return f"<Publisher {self.topic} [{self.message_class._type}] of {self.node.name}>"  # noqa: SLF001
+
+    def publish(self, *args: Any, **fields: Any) -> None:
+        """Publish a message, or the message made from the given field values.
+
+        Later changes to the message do not change what was sent. Raises ``ROSException`` after :meth:`unregister` or the node's
+        shutdown, ``TypeError`` for a message of another type, and ``SerializationError`` for a field of the wrong type.
+        """
+        publication = self._publication
+        if publication is None:
+            raise ROSException(self._closed_message())
+        if len(args) == 1 and not fields and type(args[0]) is self.message_class:
+            publication.send(args[0])
+        else:
+            publication.send(self._build(args, fields))
+
+    def _build(self, args: tuple[Any, ...], fields: dict[str, Any]) -> Any:
+        cls = self.message_class
+        if len(args) == 1 and not fields:
+            given = args[0]
+            if isinstance(given, cls):
+                return given
+            if hasattr(given, "_md5sum"):
+                msg = (
+                    f"{self.topic} carries {cls._type}, and publish() was given a {given._type}. "  # noqa: SLF001
+                    f"Publish a {cls._type}, or make the publisher with the type {given._type}."  # noqa: SLF001
+                )
+                raise TypeError(msg)
+        return cls(*args, **fields)
+
+    def _closed_message(self) -> str:
+        if self.node.is_shutdown():
+            reason = self.node.shutdown_reason or "no reason given"
+            return f"publish() on {self.topic} after node {self.node.name} was shut down ({reason}). Check is_shutdown() in loops."
+        return f"publish() on {self.topic} after unregister(): make a new publisher to publish again."
+
+    @property
+    def queue_size(self) -> int | None:
+        """How many messages wait for a slow connection before the oldest is dropped; None or 0: no bound."""
+        publication = self._publication
+        return None if publication is None else publication.queue_size
+
+    def num_connections(self) -> int:
+        """Return the number of connected subscribers."""
+        publication = self._publication
+        return 0 if publication is None else len(publication.senders)
+
+    def wait_for_subscribers(self, count: int = 1, timeout: float | None = None) -> None:
+        """Block until ``count`` subscribers are connected. Raises ``ROSException`` after ``timeout`` seconds."""
+        self.node.wait_until(
+            lambda: self.num_connections() >= count,
+            timeout,
+            f"{count} subscriber{'s' * (count != 1)} of {self.topic}",
+            f"{self.num_connections()} of {count} subscribers of {self.topic} are connected",
+        )
+
+    def unregister(self) -> None:
+        """Stop to publish. The topic is left when the node's last publisher of it has gone. Harmless when repeated."""
+        publication, self._publication = self._publication, None
+        if publication is not None:
+            publication.handles.remove(self)
+            if not publication.handles:
+                self.node.drop_publication(publication)
+
+    def detach(self) -> None:
+        """Learn that the node has shut down."""
+        self._publication = None
+
+    def connected(self, peer: str) -> None:
+        """Learn that the node ``peer`` connected."""
+        self._tell(self._on_connect, peer)
+
+    def disconnected(self, peer: str) -> None:
+        """Learn that the node ``peer`` disconnected."""
+        self._tell(self._on_disconnect, peer)
+
+    def _tell(self, callback: Callable[[str], object] | None, peer: str) -> None:
+        self.node.connections_changed()
+        if callback is not None:
+            self.node.spawn(
+                f"{self.node.name} connections of {self.topic}",
+                lambda: self.node.guarded(callback, peer, what=f"connection callback of {self.topic}"),
+            )

@@ -1,0 +1,269 @@
+"""Services: a request and one response (http://wiki.ros.org/Services)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import (
+    ROSException,
+    ROSInterruptException,
+    SerializationError,
+    ServiceException,
+    TransportException,
+    TransportInitError,
+    nearest,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .node import Node
+    from .transport import Header, ServiceLink
+
+Reply = "Callable[[Any, str | None], None]"
+
+
+class ServiceServer:
+    """Answers calls of one service. Made by :meth:`Node.service <rosmini.graph.node.Node.service>`.
+
+    The handler gets the request and returns a response, or what makes one: a tuple or list of its fields in order, a dictionary
+    of fields by name, or the value of its only field. Each client connection has a lane of its own, so a handler may block.
+    """
+
+    def __init__(
+        self, node: Node, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True
+    ) -> None:
+        self.node = node
+        self.name = name
+        self.service_class = service_class
+        self.handler = handler
+        self.sessions: list[Session] = []
+        self.numpy = numpy
+        self._open = True
+
+    def __repr__(self) -> str:
+        return f"<ServiceServer {self.name} [{self.service_class._type}] of {self.node.name}>"  # noqa: SLF001
+
+    def accept(self, header: Header) -> Session:
+        """Take a client's connection. Raises ``TransportInitError`` for another type."""
+        wanted, mine = header.get("md5sum"), self.service_class._md5sum  # noqa: SLF001
+        if wanted not in ("*", mine):
+            msg = f"request from [{header.get('callerid', 'unknown')}]: md5sums do not match: [{wanted}] vs. [{mine}]"
+            raise TransportInitError(msg)
+        session = Session(self, header.get("callerid", "unknown"))
+        self.sessions.append(session)
+        return session
+
+    def respond(self, request: Any) -> Any:
+        """Return the frozen response to a frozen request. Raises ``ServiceException`` with the text that the client gets."""
+        response_class = self.service_class._response_class  # noqa: SLF001
+        request_class = type(request)
+        thaw = request_class._thaw_numpy if self.numpy else request_class._thaw  # noqa: SLF001
+        try:
+            answer = self.handler(request if request_class._plain else thaw(request))  # noqa: SLF001
+        except Exception as error:
+            self.node.callback_failed(error, self.handler, self.name, request, service=True)
+            msg = f"error processing request: {error}"
+            raise ServiceException(msg) from error
+        try:
+            return response_class._freeze(_response_from(answer, response_class))  # noqa: SLF001
+        except (ServiceException, SerializationError, TypeError) as error:
+            msg = f"service cannot process request: {error}"
+            self.node.logerr(f"{self.name}: {msg}")
+            raise ServiceException(msg) from error
+
+    def shutdown(self, reason: str = "") -> None:
+        """Stop to answer; callers that wait get an error. Harmless when repeated."""
+        if self._open:
+            self._open = False
+            self.node.drop_service(self, reason)
+
+    def close_sessions(self) -> None:
+        """Refuse what is queued and fail what is being answered."""
+        for session in list(self.sessions):
+            session.abort()
+
+
+def _response_from(answer: Any, response_class: Any) -> Any:
+    """Make a response of what a handler returned, by rospy's rules."""
+    slots = response_class.__slots__
+    if isinstance(answer, response_class):
+        return answer
+    if answer is None and not slots:
+        return response_class()
+    if answer is None:
+        msg = "service handler returned None"
+        raise ServiceException(msg)
+    if isinstance(answer, dict):
+        return response_class(**answer)
+    if isinstance(answer, (list, tuple)):
+        if len(answer) != len(slots):
+            msg = f"handler returned invalid value: {response_class._type} has {len(slots)} fields ({', '.join(slots)}), not {len(answer)}"  # noqa: SLF001
+            raise ServiceException(msg)
+        return response_class(*answer)
+    if len(slots) != 1:
+        msg = f"handler returned invalid value: {answer!r} is no {response_class._type} ({', '.join(slots) or 'it has no fields'})"  # noqa: SLF001
+        raise ServiceException(msg)
+    return response_class(answer)
+
+
+class Session:
+    """The server's end of one client connection."""
+
+    def __init__(self, server: ServiceServer, client: str) -> None:
+        node = server.node
+        self.server = server
+        self.client = client
+        self.header: Header = {
+            "callerid": node.name,
+            "md5sum": server.service_class._md5sum,  # noqa: SLF001
+            "service": server.name,
+            "type": server.service_class._type,  # noqa: SLF001
+        }
+        self._lane = node.spawn(f"{node.name} service {server.name}")
+        self._pending: list[Callable[[Any, str | None], None]] = []
+
+    def handle(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        """Answer a request in the session's lane."""
+        self._pending.append(reply)
+        self._lane.submit(lambda: self._answer(request, reply))
+
+    def _answer(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        try:
+            response, problem = self.server.respond(request), None
+        except ServiceException as error:
+            response, problem = None, str(error)
+        except ROSInterruptException as error:
+            response, problem = None, f"error processing request: {error}"
+        if reply in self._pending:
+            self._pending.remove(reply)
+            reply(response, problem)
+
+    def close(self) -> None:
+        """Learn that the client has gone."""
+        if self in self.server.sessions:
+            self.server.sessions.remove(self)
+
+    def abort(self) -> None:
+        """Fail what is under way because the server goes away."""
+        pending, self._pending = self._pending, []
+        for reply in pending:
+            reply(None, "transport error completing service call: the server was shut down")
+        self.close()
+
+
+class ServiceClient:
+    """Calls a service. Made by :meth:`Node.service_client <rosmini.graph.node.Node.service_client>`.
+
+    ``client(a=1, b=2)``, ``client(1, 2)`` and ``client.call(request)`` do the same. A persistent client keeps its connection: faster,
+    and deaf to a server that is replaced.
+    """
+
+    def __init__(
+        self, node: Node, name: str, service_class: Any, *, persistent: bool = False, numpy: bool = True
+    ) -> None:
+        self.node = node
+        self.name = name
+        self.service_class = service_class
+        self.persistent = persistent
+        self._numpy = numpy
+        self._link: ServiceLink | None = None
+        self._closed = False
+
+    def __repr__(self) -> str:
+        return f"<ServiceClient {self.name} [{self.service_class._type}] of {self.node.name}>"  # noqa: SLF001
+
+    def __call__(self, *args: Any, **fields: Any) -> Any:
+        """Call the service; see :meth:`call`."""
+        return self.call(*args, **fields)
+
+    def call(self, *args: Any, **fields: Any) -> Any:
+        """Send a request and block until the response is there.
+
+        Raises ``ServiceException`` when there is no server, when its handler fails, or when it goes away meanwhile.
+        """
+        request_class = self.service_class._request_class  # noqa: SLF001
+        if len(args) == 1 and not fields and isinstance(args[0], request_class):
+            request = args[0]
+        else:
+            request = request_class(*args, **fields)
+        frozen = request_class._freeze(request)  # noqa: SLF001
+        return self.node.scheduler.on_hub(lambda: self._call(frozen))
+
+    def _call(self, frozen: Any) -> Any:
+        link = self._link or self._connect()
+        waiter = self.node.waiter(f"the service {self.name}")
+        answer: list[Any] = [None, None]
+
+        def reply(response: Any, problem: str | None) -> None:
+            answer[:] = [response, problem]
+            waiter.wake()
+
+        try:
+            link.call(frozen, reply)
+            self.node.wait(waiter, None, interrupt_error=ServiceException)
+        finally:
+            if not self.persistent:
+                link.close()
+        response, problem = answer
+        if problem is not None:
+            if self.persistent and problem.startswith("transport error"):
+                self.close()
+            msg = problem if problem.startswith("transport error") else f"service [{self.name}] responded with an error: {problem}"
+            raise ServiceException(msg)
+        cls = type(response)
+        if cls._plain:  # noqa: SLF001
+            return response
+        return cls._thaw_numpy(response) if self._numpy else cls._thaw(response)  # noqa: SLF001
+
+    def _connect(self) -> ServiceLink:
+        if self._closed:
+            msg = f"service [{self.name}]: this persistent client was closed; make a new one"
+            raise ServiceException(msg)
+        node = self.node
+        if node.is_shutdown():
+            msg = f"service [{self.name}] called after node {node.name} was shut down"
+            raise ServiceException(msg)
+        code, _, uri = node.graph.master.lookupService(node.name, self.name)
+        if code != 1:
+            known = [name for name, _ in node.graph.master.getSystemState(node.name)[2][2]]
+            hint = nearest(self.name, known)
+            msg = f"service [{self.name}] unavailable: no node offers it. {hint or 'Start its server, or call wait_for_service() first.'}"
+            raise ServiceException(msg)
+        cls = self.service_class
+        header = {
+            "callerid": node.name,
+            "md5sum": cls._md5sum,  # noqa: SLF001
+            "service": self.name,
+            "type": cls._type,  # noqa: SLF001
+            "persistent": "1" if self.persistent else "0",
+        }
+        try:
+            link = node.graph.transport.connect_service(uri, header, cls)
+        except TransportInitError as error:
+            server = node.graph.service_class_at(uri, self.name)
+            theirs = "another type" if server is None else server._type  # noqa: SLF001
+            msg = f"service [{self.name}] is a {theirs}, and was called as a {cls._type}: {error}. Use the server's type."  # noqa: SLF001
+            raise ServiceException(msg) from error
+        except TransportException as error:
+            msg = f"unable to connect to service [{self.name}]: {error}"
+            raise ServiceException(msg) from error
+        if self.persistent:
+            self._link = link
+        return link
+
+    def wait_for_service(self, timeout: float | None = None) -> None:
+        """Block until the service is there. Raises ``ROSException`` after ``timeout`` seconds."""
+        self.node.wait_for_service(self.name, timeout)
+
+    def close(self) -> None:
+        """Close a persistent connection for good."""
+        link, self._link = self._link, None
+        self._closed = self.persistent
+        if link is not None:
+            link.close()
+
+
+def timed_out(seconds: float, what: str) -> ROSException:
+    """Return the error of a wait that took too long."""
+    return ROSException(f"timeout exceeded after {seconds:g} s while waiting for {what}")

@@ -1,0 +1,327 @@
+"""Subscribing: one :class:`Subscription` per node and topic, a :class:`Connection` per publisher, a lane for each of these."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from rosmini.errors import TransportException, TransportInitError, TypeMismatch
+
+from .mismatch import describe_mismatch
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from .node import Node
+    from .transport import Header
+
+
+class _Callback(NamedTuple):
+    owner: Subscriber
+    function: Callable[..., object]
+    arguments: tuple[Any, ...]
+
+
+class Connection:
+    """A subscription's link to one publisher: its queue and the lane in which callbacks run."""
+
+    def __init__(self, subscription: Subscription, uri: str) -> None:
+        node = subscription.node
+        self.subscription = subscription
+        self.uri = uri
+        self.id = node.next_connection_id()
+        self.peer = ""
+        self.message_class = subscription.message_class
+        self.header: Header = {}
+        self.received = 0
+        self.dropped = 0
+        self.is_open = False
+        self._gone = False
+        self._incoming: deque[Any] = deque()
+        self._scheduled = False
+        self._last: Any = None
+        self._close_link: Callable[[], None] | None = None
+        self._lane = node.spawn(f"{node.name} <- {subscription.topic}", self._open)
+
+    def _open(self) -> None:
+        """Ask the publisher for the topic and connect to it. In the connection's lane."""
+        subscription = self.subscription
+        node = subscription.node
+        transport = node.graph.transport
+        try:
+            code, status, parameters = transport.call(
+                self.uri, "requestTopic", node.name, subscription.topic, [[transport.protocol]]
+            )
+            if code != 1:
+                raise TransportInitError(status)
+            self.header, self._close_link = transport.connect_topic(parameters, self._request(), self)
+        except TransportInitError as error:
+            subscription.forget(self)
+            self._refused(error)
+            return
+        except TransportException:
+            subscription.forget(self)  # the publisher went away meanwhile; the Master will say so
+            return
+        self.peer = self.header.get("callerid", "")
+        self.is_open = True
+        if self.message_class is None or self.message_class._type == "*":  # noqa: SLF001
+            self.message_class = node.graph.type_of_header(self.header, self.message_class)
+        for handle in subscription.handles:
+            handle.connected(self.peer)
+        node.connections_changed()
+
+    def _request(self) -> Header:
+        subscription = self.subscription
+        cls = subscription.message_class
+        return {
+            "callerid": subscription.node.name,
+            "md5sum": cls._md5sum,  # noqa: SLF001 - the contract of message classes
+            "message_definition": cls._full_text,  # noqa: SLF001
+            "topic": subscription.topic,
+            "type": cls._type,  # noqa: SLF001
+            "tcp_nodelay": "0",
+        }
+
+    def _refused(self, error: TransportInitError) -> None:
+        subscription = self.subscription
+        node = subscription.node
+        published = node.graph.publisher_class(self.uri, subscription.topic)
+        if published is not None and published._md5sum != subscription.message_class._md5sum:  # noqa: SLF001
+            cls = subscription.message_class
+            text = describe_mismatch(
+                subscription.topic,
+                node.graph.node_name_of(self.uri),
+                published,
+                node.name,
+                cls._type,  # noqa: SLF001
+                cls._md5sum,  # noqa: SLF001
+                cls._full_text,  # noqa: SLF001
+            )
+        else:
+            text = f"{subscription.topic}: the publisher at {self.uri} refused the connection: {error}"
+        problem = TypeMismatch(text)
+        problem.__cause__ = error
+        node.graph.report(problem, node)
+
+    def deliver(self, messages: Iterable[Any]) -> None:
+        """Queue frozen messages for the callbacks; beyond the queue size the oldest are dropped."""
+        if self._gone:
+            return
+        incoming = self._incoming
+        incoming.extend(messages)
+        size = self.subscription.queue_size
+        if size:
+            while len(incoming) > size:
+                incoming.popleft()
+                self.dropped += 1
+        if not self._scheduled:
+            self._scheduled = True
+            self._lane.submit(self._drain)
+
+    def _drain(self) -> None:
+        """Call the callbacks for what is queued. In the connection's lane."""
+        incoming = self._incoming
+        subscription = self.subscription
+        keep = self.header.get("latching") == "1"
+        try:
+            while incoming:
+                frozen = incoming.popleft()
+                self.received += 1
+                if keep:
+                    self._last = self._private(frozen)
+                first = True
+                for thaw, callbacks in subscription.groups(self.message_class):
+                    if thaw is not None:
+                        message = thaw(frozen)
+                    else:
+                        message = frozen if first else self._private(frozen)
+                    first = False
+                    message._connection_header = self.header  # noqa: SLF001
+                    for callback in callbacks:
+                        self._call(callback, message)
+        finally:
+            self._scheduled = False
+            if incoming and not self._gone:
+                self._scheduled = True
+                self._lane.submit(self._drain)
+
+    def _call(self, callback: _Callback, message: Any) -> None:
+        try:
+            callback.function(message, *callback.arguments)
+        except Exception as error:  # noqa: BLE001 - a callback's error must not end the connection
+            subscription = self.subscription
+            subscription.node.callback_failed(error, callback.function, subscription.topic, message)
+
+    def _private(self, frozen: Any) -> Any:
+        cls = type(frozen)
+        return cls._freeze(frozen) if cls._plain else frozen  # noqa: SLF001
+
+    def replay(self, callback: _Callback, thaw: Callable[[Any], Any] | None) -> None:
+        """Give a late callback the message that the publisher latched."""
+        if self._last is not None:
+            frozen = self._private(self._last)
+            message = frozen if thaw is None else thaw(frozen)
+            message._connection_header = self.header  # noqa: SLF001
+            self._lane.submit(lambda: self._call(callback, message))
+
+    def closed(self) -> None:
+        """Learn that the publisher closed the connection."""
+        self._shut()
+        self.subscription.forget(self)
+
+    def close(self) -> None:
+        """Close the connection: callbacks that have not started do not come."""
+        self._incoming.clear()
+        if self._close_link is not None:
+            node = self.subscription.node
+            node.graph.tell_publisher_gone(self.uri, self.subscription.topic, node.name)
+            self._close_link()
+        self._shut()
+
+    def _shut(self) -> None:
+        was_open, self.is_open = self.is_open, False
+        self._gone = True
+        self._close_link = None
+        if was_open:
+            for handle in self.subscription.handles:
+                handle.disconnected(self.peer)
+            self.subscription.node.connections_changed()
+
+
+class Subscription:
+    """A node's side of a topic that it subscribes to."""
+
+    def __init__(self, node: Node, topic: str, message_class: Any) -> None:
+        self.node = node
+        self.topic = topic
+        self.message_class = message_class
+        self.handles: list[Subscriber] = []
+        self.connections: dict[str, Connection] = {}
+        self.queue_size: int | None = None
+        self._groups: dict[Any, tuple[tuple[Callable[[Any], Any] | None, tuple[_Callback, ...]], ...]] = {}
+
+    def update_publishers(self, uris: Iterable[str]) -> None:
+        """Connect to new publishers and leave those that are gone: what ``publisherUpdate`` asks for."""
+        wanted = list(dict.fromkeys(uris))
+        for uri in [uri for uri in self.connections if uri not in wanted]:
+            self.connections.pop(uri).close()
+        for uri in wanted:
+            if uri not in self.connections:
+                self.connections[uri] = Connection(self, uri)
+
+    def forget(self, connection: Connection) -> None:
+        """Drop a connection that is closed or was refused."""
+        if self.connections.get(connection.uri) is connection:
+            del self.connections[connection.uri]
+
+    def add(self, handle: Subscriber) -> None:
+        """Add a subscriber of this node; it gets what connected publishers latched."""
+        self.handles.append(handle)
+        self._changed()
+        if handle.callback is not None:
+            for connection in self.connections.values():
+                connection.replay(handle.callback, handle.thaw_for(connection.message_class))
+
+    def remove(self, handle: Subscriber) -> None:
+        """Remove a subscriber; the last one leaves the topic."""
+        self.handles.remove(handle)
+        self._changed()
+        if not self.handles:
+            self.node.drop_subscription(self)
+
+    def _changed(self) -> None:
+        sizes = [handle.queue_size for handle in self.handles]
+        self.queue_size = None if not all(sizes) else max(size for size in sizes if size)
+        self._groups = {}
+
+    def groups(self, message_class: Any) -> tuple[tuple[Callable[[Any], Any] | None, tuple[_Callback, ...]], ...]:
+        """Return the callbacks by the way in which they want their message: (thaw, callbacks) pairs."""
+        found = self._groups.get(message_class)
+        if found is None:
+            by_thaw: dict[Callable[[Any], Any] | None, list[_Callback]] = {}
+            for handle in self.handles:
+                if handle.callback is not None:
+                    by_thaw.setdefault(handle.thaw_for(message_class), []).append(handle.callback)
+            found = self._groups[message_class] = tuple((thaw, tuple(callbacks)) for thaw, callbacks in by_thaw.items())
+        return found
+
+    def close(self) -> None:
+        """Close all connections."""
+        for connection in list(self.connections.values()):
+            connection.close()
+        self.connections.clear()
+
+
+class Subscriber:
+    """Receives messages of one type on one topic. Made by :meth:`Node.subscriber <rosmini.graph.node.Node.subscriber>`.
+
+    ``numpy`` chooses how numeric arrays arrive: as read-only numpy arrays, or as rospy's tuples and bytes.
+    """
+
+    def __init__(
+        self,
+        subscription: Subscription,
+        callback: Callable[..., object] | None,
+        arguments: tuple[Any, ...] = (),
+        *,
+        queue_size: int | None = None,
+        numpy: bool = True,
+        on_connect: Callable[[str], object] | None = None,
+        on_disconnect: Callable[[str], object] | None = None,
+        receipt: Callable[[Any], Callable[[Any], Any] | None] | None = None,
+    ) -> None:
+        self._subscription: Subscription | None = subscription
+        self.node = subscription.node
+        self.topic = subscription.topic
+        self.message_class = subscription.message_class
+        self.queue_size = queue_size
+        self.callback = None if callback is None else _Callback(self, callback, arguments)
+        self._numpy = numpy
+        self._receipt = receipt
+        self._on_connect = on_connect
+        self._on_disconnect = on_disconnect
+        subscription.add(self)
+
+    def __repr__(self) -> str:
+        return f"<Subscriber {self.topic} [{self.message_class._type}] of {self.node.name}>"  # noqa: SLF001
+
+    def thaw_for(self, message_class: Any) -> Callable[[Any], Any] | None:
+        """Return how a frozen message becomes this subscriber's own; None: as it is."""
+        if self._receipt is not None:
+            return self._receipt(message_class)
+        if message_class._plain:  # noqa: SLF001 - the contract of message classes
+            return None
+        thaw: Callable[[Any], Any] = message_class._thaw_numpy if self._numpy else message_class._thaw  # noqa: SLF001
+        return thaw
+
+    def num_connections(self) -> int:
+        """Return the number of connected publishers."""
+        subscription = self._subscription
+        if subscription is None:
+            return 0
+        return sum(connection.is_open for connection in subscription.connections.values())
+
+    def unregister(self) -> None:
+        """Stop to receive. The topic is left when the node's last subscriber of it has gone. Harmless when repeated."""
+        subscription, self._subscription = self._subscription, None
+        if subscription is not None:
+            subscription.remove(self)
+
+    def detach(self) -> None:
+        """Learn that the node has shut down."""
+        self._subscription = None
+
+    def connected(self, peer: str) -> None:
+        """Learn that a publisher was connected."""
+        self._tell(self._on_connect, peer)
+
+    def disconnected(self, peer: str) -> None:
+        """Learn that a publisher was disconnected."""
+        self._tell(self._on_disconnect, peer)
+
+    def _tell(self, callback: Callable[[str], object] | None, peer: str) -> None:
+        if callback is not None:
+            self.node.spawn(
+                f"{self.node.name} connections of {self.topic}",
+                lambda: self.node.guarded(callback, peer, what=f"connection callback of {self.topic}"),
+            )

@@ -1,0 +1,235 @@
+"""The seam between nodes and the way in which bytes or objects travel between them.
+
+A node knows only what is written here. Three things cross the seam: calls of another node's slave API, topic connections
+(from a publisher's :class:`Sender` to a subscriber's :class:`Receiver`), and service connections. What travels is
+always a *frozen* message: a private copy, checked and rounded as the wire would round it.
+
+:class:`LocalTransport` hands frozen messages over inside one process. :mod:`rosmini.graph.byte_transport` serialises them and carries
+the bytes on real threads. Header fields are those of TCPROS (http://wiki.ros.org/ROS/TCPROS), so that a TCPROS transport has nothing to add.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any, Protocol
+
+from rosmini.errors import TransportException, nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from .scheduler import Scheduler
+
+Triple = list[Any]
+"""What every call of the Master and slave APIs answers: [code, status message, value]."""
+
+Header = dict[str, str]
+"""A connection header: the fields that two ends show each other before the first message."""
+
+
+class Sender(Protocol):
+    """The publisher's end of a topic connection."""
+
+    destination: str
+
+    def send(self, frozen: Any, size: int | None) -> None:
+        """Send a frozen message that now belongs to the connection; ``size`` bounds the queue (None: no bound)."""
+
+    def close(self) -> None:
+        """Close the connection after what was sent."""
+
+
+class Receiver(Protocol):
+    """The subscriber's end of a topic connection. Its methods are called in the hub's thread."""
+
+    message_class: Any
+
+    def deliver(self, messages: Iterable[Any]) -> None:
+        """Take frozen messages, oldest first; they belong to the receiver."""
+
+    def closed(self) -> None:
+        """Learn that the publisher closed the connection."""
+
+
+class ServiceSession(Protocol):
+    """The server's end of a service connection."""
+
+    header: Header
+
+    def handle(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        """Answer a frozen request by ``reply(frozen_response, None)`` or ``reply(None, error_text)``, now or later."""
+
+    def close(self) -> None:
+        """Learn that the client closed the connection."""
+
+
+class ServiceLink(Protocol):
+    """The client's end of a service connection."""
+
+    header: Header
+
+    def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        """Send a frozen request; ``reply`` is called in the hub's thread, as in :meth:`ServiceSession.handle`."""
+
+    def close(self) -> None:
+        """Close the connection."""
+
+
+class Endpoint(Protocol):
+    """What a node offers to its transport."""
+
+    name: str
+
+    def slave_call(self, method: str, *arguments: Any) -> Triple:
+        """Answer a call of the slave API. In the hub's thread."""
+
+    def accept_subscriber(self, header: Header, sender: Sender) -> Header:
+        """Take a subscriber's connection and return the answering header, or raise ``TransportInitError``."""
+
+    def accept_client(self, header: Header) -> ServiceSession:
+        """Take a service client's connection, or raise ``TransportInitError``."""
+
+
+class Transport(Protocol):
+    """A way for nodes to reach one another."""
+
+    protocol: str
+
+    def attach(self, endpoint: Endpoint) -> str:
+        """Make a node reachable; return the URI of its slave API (its ``caller_api``)."""
+
+    def detach(self, uri: str) -> None:
+        """Make a node unreachable; open connections are the node's to close."""
+
+    def service_uri(self, uri: str) -> str:
+        """Return the URI under which the node with slave API ``uri`` serves its services."""
+
+    def topic_parameters(self, uri: str) -> list[Any]:
+        """Return what ``requestTopic`` of the node with slave API ``uri`` answers: [protocol, ...]."""
+
+    def call(self, uri: str, method: str, *arguments: Any) -> Triple:
+        """Call a method of a node's slave API; may block. Raises ``TransportException`` when nobody answers."""
+
+    def connect_topic(self, parameters: list[Any], header: Header, receiver: Receiver) -> tuple[Header, Callable[[], None]]:
+        """Open a topic connection; may block. Return the publisher's header and a function that closes it."""
+
+    def connect_service(self, service_uri: str, header: Header, service_class: Any) -> ServiceLink:
+        """Open a service connection; may block. Raises ``TransportInitError`` when it is refused."""
+
+
+class LocalSender:
+    """Hands messages to a receiver in the same process at the next event of the queue."""
+
+    __slots__ = ("_closed", "_on_closed", "_queue", "_receiver", "_scheduler", "_size", "destination", "dropped", "sent")
+
+    def __init__(self, scheduler: Scheduler, receiver: Receiver, destination: str) -> None:
+        self._scheduler = scheduler
+        self._receiver = receiver
+        self._queue: deque[Any] = deque()
+        self._size: int | None = None
+        self._closed = False
+        self.destination = destination
+        self.sent = 0
+        self.dropped = 0
+
+    def send(self, frozen: Any, size: int | None) -> None:
+        """Queue a message; the oldest makes room when ``size`` are waiting."""
+        waiting = self._queue
+        if not waiting:
+            self._scheduler.ready.append(self._flush)
+        elif size is not None and len(waiting) >= size:
+            waiting.popleft()
+            self.dropped += 1
+        waiting.append(frozen)
+        self.sent += 1
+
+    def _flush(self) -> None:
+        messages, self._queue = self._queue, deque()
+        if not self._closed:
+            self._receiver.deliver(messages)
+
+    def close(self) -> None:
+        """Close from the publisher's side: what is queued still arrives, then the receiver is told."""
+        if not self._closed:
+            self._scheduler.ready.append(self._close)
+
+    def _close(self) -> None:
+        if not self._closed:
+            self._closed = True
+            self._receiver.closed()
+
+    def drop(self) -> None:
+        """Close from the subscriber's side: nothing more arrives."""
+        self._closed = True
+
+
+class LocalServiceLink:
+    """Hands requests to a session in the same process."""
+
+    __slots__ = ("_session", "header")
+
+    def __init__(self, session: ServiceSession) -> None:
+        self._session = session
+        self.header = session.header
+
+    def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        """Hand over a request."""
+        self._session.handle(request, reply)
+
+    def close(self) -> None:
+        """Close the connection."""
+        self._session.close()
+
+
+class LocalTransport:
+    """Nodes of one process, connected by handing frozen messages over."""
+
+    protocol = "INPROC"
+
+    def __init__(self, scheduler: Scheduler) -> None:
+        self._scheduler = scheduler
+        self._endpoints: dict[str, Endpoint] = {}
+        self._numbers = 0
+
+    def attach(self, endpoint: Endpoint) -> str:
+        """Make a node reachable."""
+        self._numbers += 1
+        uri = f"inproc://localhost:{self._numbers}/"
+        self._endpoints[uri] = endpoint
+        return uri
+
+    def detach(self, uri: str) -> None:
+        """Make a node unreachable."""
+        self._endpoints.pop(uri, None)
+
+    def service_uri(self, uri: str) -> str:
+        """Return the address of the node's services."""
+        return uri.replace("inproc://", "rosrpc://").rstrip("/")
+
+    def topic_parameters(self, uri: str) -> list[Any]:
+        """Return the connection parameters of a topic."""
+        return [self.protocol, uri]
+
+    def endpoint(self, uri: str) -> Endpoint:
+        """Return the node at ``uri``, of its slave API or its services."""
+        key = uri.replace("rosrpc://", "inproc://")
+        found = self._endpoints.get(key) or self._endpoints.get(key + "/")
+        if found is None:
+            hint = nearest(uri, self._endpoints)
+            msg = f"no node answers at {uri}: it has been shut down. {hint}".rstrip()
+            raise TransportException(msg)
+        return found
+
+    def call(self, uri: str, method: str, *arguments: Any) -> Triple:
+        """Call a method of a node's slave API."""
+        return self.endpoint(uri).slave_call(method, *arguments)
+
+    def connect_topic(self, parameters: list[Any], header: Header, receiver: Receiver) -> tuple[Header, Callable[[], None]]:
+        """Open a topic connection."""
+        sender = LocalSender(self._scheduler, receiver, header["callerid"])
+        reply = self.endpoint(parameters[1]).accept_subscriber(header, sender)
+        return reply, sender.drop
+
+    def connect_service(self, service_uri: str, header: Header, service_class: Any) -> ServiceLink:
+        """Open a service connection."""
+        return LocalServiceLink(self.endpoint(service_uri).accept_client(header))
