@@ -10,13 +10,11 @@ those on ROS_PACKAGE_PATH) and are made when they are first asked for.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .importer import enable_own_imports, install, installed, uninstall
-from .registry import registry
-
-if TYPE_CHECKING:
-    from .message import Message as Message
+from .message import Message
+from .registry import registry as _registry
 
 __all__ = ["Message", "action_class", "install", "installed", "message_class", "service_class", "uninstall"]
 
@@ -29,24 +27,20 @@ def message_class(name: str) -> type[Any]:
     Raises :class:`~rosmini.errors.UnknownType` or :class:`~rosmini.errors.UnknownPackage` with the nearest names, and
     :class:`~rosmini.errors.DefinitionError` with file and line if a definition is broken.
     """
-    return registry().message_class(name)
+    return _registry().message_class(name)
 
 
 def service_class(name: str) -> type[Any]:
     """The class of a service type such as "std_srvs/SetBool"; raises as :func:`message_class` does."""
-    return registry().service_class(name)
+    return _registry().service_class(name)
 
 
 def action_class(name: str) -> type[Any]:
     """The class of an action such as "move_base_msgs/MoveBase"; raises as :func:`message_class` does."""
-    return registry().action_class(name)
+    return _registry().action_class(name)
 
 
 def __getattr__(name: str) -> Any:
-    if name == "Message":  # its module is only loaded when a class is needed
-        from .message import Message
-
-        return Message
     if name.startswith("_"):
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     from importlib import import_module
@@ -55,4 +49,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return [*__all__, *registry().source.packages()]
+    return [*__all__, *_registry().source.packages()]

@@ -31,7 +31,7 @@ __all__ = ["compile_function", "source"]
 
 _LENGTH, _READ_LENGTH = struct.Struct("<I").pack, struct.Struct("<I").unpack_from
 _TIME, _DURATION = struct.Struct("<II"), struct.Struct("<ii")
-MAX_EMPTY_ELEMENTS = 65536  # an array of elements that take no bytes is not bounded by the data
+MAX_EMPTY_ELEMENTS = 256  # elements that take no bytes are not bounded by the data, and may be nested
 
 
 def compile_function(cls: type[Message], purpose: str) -> Callable[..., Any]:

@@ -7,7 +7,6 @@ them at full speed, and then turns them into the upper, public one (``message.__
 
 from __future__ import annotations
 
-import copyreg
 import struct
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -180,25 +179,14 @@ class Message:
         return args
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        state = [getattr(self, field.name) for field in self._spec.fields]
-        cls = type(self)
-        if cls._registry.is_default and cls is cls._registry.message_class(cls._type):
-            return _restore, (cls._type, state)
-        return copyreg.__newobj__, (cls,), state  # type: ignore[attr-defined]
+        return self._registry.reduce(self) or super().__reduce_ex__(protocol)
+
+    def __getstate__(self) -> list[Any]:
+        return [getattr(self, field.name) for field in self._spec.fields]
 
     def __setstate__(self, state: Sequence[Any]) -> None:
         for field, value in zip(self._spec.fields, state, strict=True):
             setattr(self, field.name, value)
-
-
-def _restore(type_name: str, state: Sequence[Any]) -> Message:
-    """Make a message again from a pickle, which names its type and not its class."""
-    from .registry import registry
-
-    cls = registry().message_class(type_name)
-    message: Message = object.__new__(cls)
-    message.__setstate__(state)
-    return message
 
 
 def _alike(one: Any, other: Any) -> bool:

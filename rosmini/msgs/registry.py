@@ -17,10 +17,10 @@ from .definition import (
     split_action,
 )
 from .fingerprint import full_text, message_md5, service_md5
+from .message import Message, make_message_class
 from .sources import PackageSource
 
 if TYPE_CHECKING:
-    from .message import Message
     from .sources import Source
 
 __all__ = ["Registry", "Service", "registry"]
@@ -106,6 +106,16 @@ class Registry:
         except UnknownType:
             return None
 
+    def reduce(self, message: Message) -> tuple[Any, ...] | None:
+        """How to pickle a message: by the name of its type, which every process knows.
+
+        None for messages that another process could not make from a name: those of a subclass or another registry.
+        """
+        cls = type(message)
+        if not self.is_default or self._messages.get(cls._type) is not cls:
+            return None
+        return _restore, (cls._type, message.__getstate__())
+
     # ---- definitions ----
 
     def definition(self, name: str) -> MessageSpec:
@@ -138,8 +148,6 @@ class Registry:
     # ---- inside ----
 
     def _make_message_class(self, name: str) -> type[Message]:
-        from .message import make_message_class
-
         if name in self._messages:
             return self._messages[name]
         spec = self.definition(name)
@@ -262,6 +270,13 @@ class _Holder:
 
     current: ClassVar[Registry | None] = None
     lock: ClassVar[threading.Lock] = threading.Lock()
+
+
+def _restore(name: str, state: list[Any]) -> Message:
+    """Make a message again from its pickle."""
+    message: Message = object.__new__(registry().message_class(name))
+    message.__setstate__(state)
+    return message
 
 
 def registry() -> Registry:

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.time import Time, TVal
 
-from .message import Message
-
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
+
+    from .message import Message
 
 __all__ = ["strify_message"]
 
@@ -43,7 +43,7 @@ class _Writer:
         self.time_offset, self.field_filter, self.width = time_offset, field_filter, width
 
     def text(self, val: Any, indent: str) -> str:
-        if isinstance(val, Message):
+        if hasattr(type(val), "_spec"):
             return self.message(val, indent)
         kind = type(val)
         if kind in (int, float) and self.width is not None:

@@ -86,7 +86,7 @@ def test_services_and_actions() -> None:
 @pytest.mark.parametrize(
     ("make", "name", "error", "words"),
     [
-        (message_class, "std_msgs/Strin", UnknownType, "did you mean String"),
+        (message_class, "std_msgs/Stringe", UnknownType, "did you mean String"),
         (message_class, "std_msg/String", UnknownPackage, "did you mean std_msgs"),
         (message_class, "std_msgs/Twist", UnknownType, "did you mean geometry_msgs/Twist"),
         (message_class, "String", UnknownType, "package/Type"),

@@ -128,7 +128,7 @@ def test_a_broken_action_is_reported_with_its_line_in_the_file() -> None:
     ("field", "words"),
     [
         ("Pare other", "did you mean Pair?"),
-        ("geometry_msgs/Poin p", "did you mean geometry_msgs/Point"),
+        ("geometry_msgs/Poynt p", "did you mean geometry_msgs/Point"),
         ("geometry_msg/Point p", "did you mean geometry_msgs"),
         ("flaot32 x", "did you mean float32"),
         ("Header[] h", "write std_msgs/Header"),

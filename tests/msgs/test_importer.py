@@ -64,7 +64,7 @@ def test_star_imports_and_completion(hook: None) -> None:
 @pytest.mark.parametrize(
     ("code", "error", "words"),
     [
-        ("from std_msgs.msg import Strin", UnknownType, "did you mean String"),
+        ("from std_msgs.msg import Stringe", UnknownType, "did you mean String"),
         ("from std_srvs.srv import SetBol", UnknownType, "did you mean SetBool"),
         ("from std_msg.msg import String", UnknownPackage, "did you mean std_msgs"),
         ("from rosmini.msgs import std_msg", UnknownPackage, "did you mean std_msgs"),

@@ -23,7 +23,7 @@ WRONG = [
     ("from rosmini.msgs.geometry_msgs.msg import Twist\nTwist().linear.xx = 1.0\n", 'has no attribute "xx"'),
     ("from rosmini.msgs.std_msgs.msg import String\nString(dat='x')\n", "Unexpected keyword argument"),
     ("from rosmini.msgs.std_msgs.msg import String\nn: int = String().data\n", "Incompatible types"),
-    ("from rosmini.msgs.std_msgs.msg import Strin\n", 'has no attribute "Strin"'),
+    ("from rosmini.msgs.std_msgs.msg import Stringe\n", 'has no attribute "Stringe"'),
     ("from rosmini.msgs.geometry_msgs.msg import Twist\nTwist(1, 2)\n", "No overload variant"),
 ]
 
