@@ -172,10 +172,14 @@ def has_cycle(arcs) -> bool:
 
 
 @settings(max_examples=60, deadline=None)
-@given(arcs_of_six, st.lists(st.integers(1, 2), min_size=14, max_size=14))
-def test_layers_are_feasible_and_the_shortest_that_there_are(arcs, lengths):
-    arcs = [(min(a), max(a)) for a in arcs] + [(i, i + 1) for i in range(5)]
-    lengths = (lengths + [1] * 10)[: len(arcs)]
+@given(
+    st.lists(st.tuples(st.integers(0, 5), st.integers(0, 5)).filter(lambda a: a[0] != a[1]), max_size=5),
+    st.tuples(*(st.integers(0, i) for i in range(5))),
+    st.lists(st.integers(1, 2), min_size=10, max_size=10),
+)
+def test_layers_are_feasible_and_the_shortest_that_there_are(arcs, tree, lengths):
+    arcs = [(min(a), max(a)) for a in arcs] + [(parent, i + 1) for i, parent in enumerate(tree)]
+    lengths = lengths[: len(arcs)]
     found = layers(6, arcs, lengths)
     assert min(found) == 0
     assert all(found[h] - found[t] >= length for (t, h), length in zip(arcs, lengths, strict=True))
@@ -196,7 +200,7 @@ def least_total(arcs, lengths) -> int:
         lowest = max(
             (layer_of[t] + n for (t, h), n in zip(arcs, lengths, strict=True) if h == vertex), default=0
         )
-        for layer in range(lowest, min(lowest + 3, limit + 1)):
+        for layer in range(lowest, min(lowest + 4, limit + 1)):
             place(vertex + 1, [*layer_of, layer])
 
     place(0, [])
@@ -231,6 +235,22 @@ def test_planar_order_is_found():
                 above = layout.vertices[p.source].y - layout.vertices[q.source].y
                 below = layout.vertices[p.target].y - layout.vertices[q.target].y
                 assert above * below >= 0, f"{p.name} crosses {q.name}"
+
+
+def test_a_feeder_waits_beside_the_vertex_that_it_feeds():
+    # The longest path would put `map` into the first layer, far from its only reader.
+    vertices = [Vertex(n, 60, 30) for n in ("a", "b", "c", "map")]
+    layout = layered(vertices, [Edge(x + y, x, y) for x, y in (("a", "b"), ("b", "c"), ("map", "c"))])
+    assert layout.layers == {"a": 0, "b": 1, "c": 2, "map": 1}
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_an_edge_of_a_narrow_vertex_clears_the_wide_one_beside_it(turned):
+    vertices = [Vertex("a", 20, 30), Vertex("b", 500, 300), Vertex("c", 20, 30), Vertex("target", 20, 30)]
+    layout = layered(vertices, [Edge(n, "target", n) if turned else Edge(n, n, "target") for n in "abc"])
+    assert layout.vertices["a"].y < layout.vertices["b"].y < layout.vertices["c"].y
+    for name in "ac":
+        assert not any(inside(p, layout.vertices["b"]) for p in curve(layout.edges[name].points, 40))
 
 
 def test_components_fill_shelves_of_the_page():
