@@ -1,0 +1,78 @@
+"""A script's own traceback: the user's frames, without ours."""
+
+from __future__ import annotations
+
+import traceback
+from pathlib import Path
+
+from rosmini.errors import ScriptError
+
+_PACKAGE = str(Path(__file__).resolve().parents[1])
+
+_PYTHON_2_NAMES = {
+    "basestring": "str",
+    "cmp": "(a > b) - (a < b)",
+    "execfile": "exec(open(name).read())",
+    "file": "open",
+    "long": "int",
+    "raw_input": "input",
+    "reduce": "functools.reduce",
+    "reload": "importlib.reload",
+    "unichr": "chr",
+    "unicode": "str",
+    "xrange": "range",
+}
+
+_PYTHON_2_MODULES = {
+    "ConfigParser": "configparser",
+    "Queue": "queue",
+    "StringIO": "io",
+    "Tkinter": "tkinter",
+    "cPickle": "pickle",
+    "commands": "subprocess",
+    "thread": "_thread",
+    "urllib2": "urllib.request",
+}
+
+
+def user_traceback(error: BaseException) -> str:
+    """Return the traceback of ``error`` as Python prints it, without the frames inside rosmini.
+
+    Line numbers and source lines are the user's. A name that only Python 2 knows gets a line that says so.
+    """
+    shown = traceback.TracebackException.from_exception(error)
+    _strip(shown, error)
+    return "".join(shown.format()) + _hint(error)
+
+
+def _strip(shown: traceback.TracebackException, error: BaseException) -> None:
+    """Take our frames out, in causes and groups too."""
+    if shown.stack is not None:
+        shown.stack = traceback.StackSummary.from_list(
+            [frame for frame in shown.stack if not _ours(frame.filename)]
+        )
+        if not shown.stack:
+            shown.stack = None  # type: ignore[assignment]  # `format` leaves out the heading then
+    if isinstance(error, ScriptError):  # its message says it all
+        shown.__cause__ = shown.__context__ = None
+    for part, source in (
+        (shown.__cause__, error.__cause__),
+        (shown.__context__, error.__context__),
+    ):
+        if part is not None and source is not None:
+            _strip(part, source)
+    if isinstance(error, BaseExceptionGroup):
+        for part, source in zip(shown.exceptions or (), error.exceptions, strict=False):
+            _strip(part, source)
+
+
+def _ours(filename: str) -> bool:
+    return filename.startswith((_PACKAGE, "<frozen importlib"))
+
+
+def _hint(error: BaseException) -> str:
+    if isinstance(error, NameError) and error.name in _PYTHON_2_NAMES:
+        return f"({error.name} is Python 2; in Python 3 it is {_PYTHON_2_NAMES[error.name]})\n"
+    if isinstance(error, ModuleNotFoundError) and error.name in _PYTHON_2_MODULES:
+        return f"({error.name} is Python 2; in Python 3 it is {_PYTHON_2_MODULES[error.name]})\n"
+    return ""

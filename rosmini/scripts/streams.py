@@ -1,0 +1,146 @@
+"""Standard output of several scripts on one terminal: complete lines, in order, each with its node's name."""
+
+from __future__ import annotations
+
+import io
+import threading
+from typing import TYPE_CHECKING, TextIO
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+
+class OutputSink:
+    """Where the scripts of one run write: the host's standard output and error.
+
+    A line belongs to one script. An unfinished line is shown when its script flushes (a prompt, a progress
+    display) and is closed as soon as somebody else writes.
+    """
+
+    def __init__(self, stdout: TextIO, stderr: TextIO, *, prefix: bool = True) -> None:
+        self.stdout = stdout
+        self.stderr = stderr
+        self.prefix = prefix
+        self.lock = threading.RLock()
+        self._open: ScriptOutput | None = None
+
+    def emit(self, owner: ScriptOutput, text: str, *, complete: bool) -> None:
+        """Write ``text``, a line or the next part of one, for ``owner``."""
+        target = self.stderr if owner.is_error else self.stdout
+        if owner.is_error and self.stdout is not self.stderr:
+            self.stdout.flush()  # what was printed before an error stands before it, also in a pipe
+        if self._open is not owner:
+            if self._open is not None:
+                (self.stderr if self._open.is_error else self.stdout).write("\n")
+                self._open = None
+            label = self._label(owner)
+        else:
+            label = ""
+        text = text.removesuffix("\r")
+        if self.prefix and "\r" in text:
+            text = text.replace("\r", "\r" + self._label(owner))
+        target.write(f"{label}{text}\n" if complete else label + text)
+        self._open = None if complete else owner
+        if not complete or owner.is_error or target.isatty():
+            target.flush()
+
+    def _label(self, owner: ScriptOutput) -> str:
+        return f"[{owner.label()}] " if self.prefix else ""
+
+    def flush(self) -> None:
+        """Bring everything out."""
+        self.stdout.flush()
+        self.stderr.flush()
+
+
+class ScriptOutput(io.TextIOBase):
+    """``sys.stdout`` or ``sys.stderr`` of one script."""
+
+    def __init__(self, sink: OutputSink, label: Callable[[], str], *, is_error: bool = False) -> None:
+        super().__init__()
+        self._sink = sink
+        self.label = label
+        self.is_error = is_error
+        self._partial = ""
+        self._shown = 0
+        self.buffer = _OutputBuffer(self)
+        self.name = "<stderr>" if is_error else "<stdout>"
+        self.mode = "w"
+
+    @property
+    def encoding(self) -> str:  # type: ignore[override]
+        """What bytes written to ``buffer`` are read as."""
+        return "utf-8"
+
+    @property
+    def errors(self) -> str:  # type: ignore[override]
+        """How bytes that are not UTF-8 are shown."""
+        return "backslashreplace"
+
+    def writable(self) -> bool:
+        """Return True."""
+        return True
+
+    def isatty(self) -> bool:
+        """Tell whether a person reads it."""
+        return self._target().isatty()
+
+    def fileno(self) -> int:
+        """Return the host's descriptor; what is written to it directly has no name before it."""
+        return self._target().fileno()
+
+    def reconfigure(self, **_options: object) -> None:
+        """Accept what ``TextIOWrapper`` accepts; lines go out as they are complete in any case."""
+
+    def _target(self) -> TextIO:
+        return self._sink.stderr if self.is_error else self._sink.stdout
+
+    def write(self, text: str) -> int:
+        """Write ``text``; complete lines go out at once."""
+        if not isinstance(text, str):
+            raise TypeError(f"write() argument must be str, not {type(text).__name__}")
+        with self._sink.lock:
+            *lines, rest = (self._partial + text).split("\n")
+            for line in lines:
+                self._sink.emit(self, line[self._shown :], complete=True)
+                self._shown = 0
+            self._partial = rest
+        return len(text)
+
+    def writelines(self, lines: Iterable[str]) -> None:  # type: ignore[override]
+        """Write each of ``lines``, which bring their own ends."""
+        for line in lines:
+            self.write(line)
+
+    def flush(self) -> None:
+        """Show an unfinished line too."""
+        with self._sink.lock:
+            if len(self._partial) > self._shown:
+                self._sink.emit(self, self._partial[self._shown :], complete=False)
+                self._shown = len(self._partial)
+
+    def finish(self) -> None:
+        """End an unfinished line: the script has ended."""
+        with self._sink.lock:
+            if self._partial:
+                self.write("\n")
+
+
+class _OutputBuffer(io.RawIOBase):
+    """``sys.stdout.buffer``: bytes in, text out."""
+
+    def __init__(self, text: ScriptOutput) -> None:
+        super().__init__()
+        self._text = text
+
+    def writable(self) -> bool:
+        return True
+
+    def write(self, data: object) -> int:
+        raw = bytes(data)  # type: ignore[call-overload]
+        self._text.write(raw.decode("utf-8", "backslashreplace"))
+        return len(raw)
+
+    def flush(self) -> None:
+        if not self.closed:
+            self._text.flush()

@@ -1,0 +1,43 @@
+"""Loops that poll: a tick at the top of each turn, so that other nodes run and time goes on.
+
+Public scripts wait in loops that never block (``while not got: pass``, ``while distance < goal: pub.publish(v)``).
+On a real robot other threads run meanwhile; here everything shares one thread, so the loader inserts a call of
+``__tick__()`` as the first statement of each ``while`` and ``for`` body. Line numbers, tracebacks, docstrings and
+``from __future__`` imports stay as they were, and ``async`` functions are left alone: their loops give way by ``await``.
+"""
+
+from __future__ import annotations
+
+import ast
+
+TICK = "__tick__"
+"""The name under which the scripts' builtins hold the function that is called."""
+
+
+class _TickInserter(ast.NodeTransformer):
+    """Adds the call to the bodies of loops."""
+
+    def visit_While(self, node: ast.While) -> ast.AST:
+        return self._loop(node)
+
+    def visit_For(self, node: ast.For) -> ast.AST:
+        return self._loop(node)
+
+    def visit_AsyncFunctionDef(self, node: ast.AsyncFunctionDef) -> ast.AST:
+        return node
+
+    def _loop(self, node: ast.While | ast.For) -> ast.AST:
+        self.generic_visit(node)
+        call = ast.Expr(ast.Call(ast.Name(TICK, ast.Load()), [], []))
+        # The loop's own line: a script that is ended while it polls shows `while ...`, not its first statement.
+        place = node.test if isinstance(node, ast.While) else node.target
+        for part in ast.walk(call):
+            ast.copy_location(part, place)
+        node.body.insert(0, call)
+        return node
+
+
+def with_ticks(tree: ast.Module) -> ast.Module:
+    """Insert the ticks into ``tree`` in place and return it, ready for :func:`compile`."""
+    _TickInserter().visit(tree)
+    return tree

@@ -1,0 +1,142 @@
+"""Standard input: lines, keys, a terminal that is none, and other scripts that go on meanwhile."""
+
+import io
+import os
+
+import pytest
+
+from rosmini.scripts import ScriptSpec, run_scripts
+
+
+def test_input_and_readline(run):
+    ran = run(
+        """
+        import sys
+        name = input("Name: ")
+        print("hello", name)
+        print(repr(sys.stdin.readline()), repr(sys.stdin.read(2)), [line for line in sys.stdin])
+        try:
+            input()
+        except EOFError as error:
+            print("EOFError", error)
+        """,
+        stdin="Ada\ntwo\nabcd\nlast",
+    )
+    assert ran.lines == [
+        "[script] Name: hello Ada",
+        "[script] 'two\\n' 'ab' ['cd\\n', 'last']",
+        "[script] EOFError EOF when reading a line",
+    ]
+
+
+def test_timed_input_leaves_the_others_running(run):
+    ran = run(
+        run.text("ask", "print('got', input('? '))"),
+        run.text("tick", "import time\nfor i in range(2):\n    time.sleep(0.004)\n    print(i)"),
+        stdin=[(0.006, "yes\n")],
+    )
+    assert [line for line in ran.lines if line.startswith("[tick]")] == ["[tick] 0", "[tick] 1"]
+    assert ran.lines.index("[tick] 0") < ran.lines.index("[ask] got yes") < ran.lines.index("[tick] 1")
+
+
+KEYS = """
+import sys, select, termios, tty
+settings = termios.tcgetattr(sys.stdin)
+def get_key(timeout):
+    tty.setraw(sys.stdin.fileno())
+    ready, _, _ = select.select([sys.stdin], [], [], timeout)
+    key = sys.stdin.read(1) if ready else ''
+    termios.tcsetattr(sys.stdin, termios.TCSADRAIN, settings)
+    return key
+keys = []
+while True:
+    key = get_key(0.001)
+    if key == 'q' : break
+    if key: keys.append(key)
+    else: keys.append('.') if not keys or keys[-1] != '.' else None
+print(''.join(keys))
+"""
+
+
+def test_keyboard_script_with_supplied_keys(run):
+    assert run(KEYS, stdin=[(0, "ii"), (0.006, ","), (0.012, "q")]).lines == [
+        "[script] ii.,.q".replace("q", "")
+    ]
+
+
+def test_select_for_time_only(sim):
+    ran = sim("import select, time\nprint(select.select([], [], [], 2.5), time.monotonic())")
+    assert ran.lines == ["[script] ([], [], []) 2.5"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="select() on Windows takes sockets only")
+def test_select_on_a_pipe(run):
+    ran = run(
+        """
+        import os, select, threading
+        r, w = os.pipe()
+        print(select.select([r], [], [], 0.001)[0] == [])
+        threading.Timer(0.002, os.write, (w, b"x")).start()
+        while not select.select([r], [], [], 0.01)[0]: pass
+        print(os.read(r, 1)); os.close(r); os.close(w)
+        """
+    )
+    assert ran.lines == ["[script] True", "[script] b'x'"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="pipes cannot be waited for on Windows")
+def test_a_real_pipe_parks_only_the_reader(run):
+    read, write = os.pipe()
+    with os.fdopen(read) as stream:
+        ran = (
+            run(
+                run.text("ask", "print('got', input())\nprint(repr(input()))"),
+                run.text(
+                    "tell",
+                    f"import os, time\ntime.sleep(0.002)\nprint('tell')\nos.write({write}, b'one\\n\\xc3\\xa4\\n')\nos.close({write})",
+                ),
+                run.text("late", "import time\ntime.sleep(0.001)\nprint('late')"),
+                stdin=stream,
+            )
+            if not run.simulated
+            else None
+        )
+    if ran is None:
+        os.close(write)
+        return
+    assert ran.lines == ["[late] late", "[tell] tell", "[ask] got one", "[ask] 'ä'"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="pipes cannot be waited for on Windows")
+def test_a_reader_that_gets_nothing_is_ended(run):
+    read, write = os.pipe()
+    with os.fdopen(read) as stream:
+        if run.simulated:  # time stands still while a person types, so nothing would end it but Ctrl-C
+            os.close(write)
+            assert "EOFError" in run("input()", stdin=stream).text
+            return
+        ran = run("input()", stdin=stream, duration=0.005, grace=0.005)
+        os.close(write)
+    assert ran.result.reason == "time"
+    assert ran.status == 0
+
+
+def test_input_from_a_function_and_from_a_file(run):
+    answers = iter(["a", "b"])
+
+    def ask():
+        try:
+            return next(answers)
+        except StopIteration:
+            raise EOFError from None
+
+    source = "import sys\nprint([line.strip() for line in sys.stdin])"
+    assert run(source, stdin=ask).lines == ["[script] ['a', 'b']"]
+    assert run(source, stdin=io.StringIO("x\ny\n")).lines == ["[script] ['x', 'y']"]
+
+
+def test_two_scripts_share_what_is_typed():
+    out = io.StringIO()
+    ask = "print(input())"
+    run_scripts([ScriptSpec("a", source=ask), ScriptSpec("b", source=ask)], stdin="one\ntwo\n", stdout=out)
+    assert out.getvalue().splitlines() == ["[a] one", "[b] two"]
