@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rosmini.errors import RosminiError
+from rosmini.graph.master import Master
 from rosmini.viz import GraphState, ViewError, rqt_graph
 from rosmini.viz.rqt.selection import is_debug, matches
 
@@ -92,6 +93,27 @@ def test_an_object_with_a_master_and_the_plain_value_will_do_as_well():
 
     assert rqt_graph(Graph()).text == rqt_graph(FakeMaster()).text
     assert "/talker -> /chatter -> /listener" in rqt_graph(FakeMaster().getSystemState("/me")[2]).text
+
+
+def test_the_real_master_is_a_source():
+    class Silent:
+        def publisher_update(self, caller_api, topic, uris):
+            pass
+
+        def param_update(self, caller_api, key, value):
+            pass
+
+        def shutdown(self, caller_api, reason):
+            pass
+
+    master = Master("http://localhost:11311/", Silent())
+    master.registerPublisher("/talker", "/chatter", "std_msgs/String", "http://localhost:1/")
+    master.registerSubscriber("/listener", "/chatter", "*", "http://localhost:2/")
+    master.registerService("/adder", "/add", "rosrpc://localhost:3", "http://localhost:4/")
+    assert rqt_graph(master).text.splitlines()[1:] == [
+        "/talker -> /chatter [std_msgs/String] -> /listener",
+        "/adder (not connected)",
+    ]
 
 
 def test_without_hiding_everything_is_there_and_all_topics_are_boxes():
