@@ -16,6 +16,7 @@ from rosmini.viz.layout.slots import make_proper
 
 __all__ = ["Direction", "Edge", "Layout", "Rect", "Route", "Vertex", "layered"]
 
+ARROW_ROOM = 12.0
 COMPONENT_GAP = 26.0
 PAGE_WIDTH = 680.0
 """Components stand side by side up to this width, or up to that of the widest component."""
@@ -83,8 +84,9 @@ def _components(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> list[tuple
 
 
 def _component(vertices: Sequence[Vertex], edges: Sequence[Edge], direction: Direction) -> Layout:
-    # The name of a group is written along its upper border, whichever way the layers run.
-    along, across = (GROUP_PAD, GROUP_HEAD) if direction == "right" else (GROUP_HEAD, GROUP_PAD)
+    # The name of a group is written along its upper border, whichever way the layers run. Downwards, arrow heads
+    # end under it and need room of their own.
+    along, across = (GROUP_PAD, GROUP_HEAD) if direction == "right" else (GROUP_HEAD + ARROW_ROOM, GROUP_PAD)
     proper = make_proper(vertices, edges)
     order_layers(proper)
     assign_across(proper, across)
