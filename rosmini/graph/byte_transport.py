@@ -181,7 +181,7 @@ class ByteTransport:
     def attach(self, endpoint: Endpoint) -> str:
         """Make a node reachable, with a thread of its own."""
         self._numbers += 1
-        uri = f"bytes://localhost:{self._numbers}/"
+        uri = f"http://bytes:{self._numbers}/"
         self._endpoints[uri] = (endpoint, _Wire(self.scheduler, endpoint.name))
         return uri
 
@@ -193,7 +193,7 @@ class ByteTransport:
 
     def service_uri(self, uri: str) -> str:
         """Return the address of the node's services."""
-        return uri.replace("bytes://", "rosrpc://").rstrip("/")
+        return uri.replace("http://", "rosrpc://").rstrip("/")
 
     def topic_parameters(self, uri: str) -> list[Any]:
         """Return the connection parameters of a topic."""
@@ -231,7 +231,7 @@ class ByteTransport:
         def serve(endpoint: Endpoint) -> ServiceSession:
             return endpoint.accept_client(decode_header(request))
 
-        uri = service_uri.replace("rosrpc://", "bytes://") + "/"
+        uri = service_uri.replace("rosrpc://", "http://") + "/"
         session = self._ask(uri, serve)
         return _ByteServiceLink(self, self._wire_of(header["callerid"]), session, service_class)
 

@@ -30,6 +30,14 @@ if TYPE_CHECKING:
     from .transport import Header, Transport
 
 
+ROSCORE_PARAMETERS = {
+    "/rosdistro": "noetic\n",
+    "/rosversion": "1.16.0\n",
+    "/run_id": "00000000-0000-0000-0000-000000000001",
+}
+"""What ``roscore`` sets; its run id is random, ours is not."""
+
+
 class Graph:
     """A ROS computation graph in this process.
 
@@ -71,6 +79,8 @@ class Graph:
         self._anonymous = AnonymousNames()
         self._watched: list[tuple[Callable[[], bool], Waiter]] = []
         self._check_queued = False
+        for key, value in ROSCORE_PARAMETERS.items():
+            self.master.setParam("/roscore", key, value)
         if rosout:
             self._start_rosout()
 

@@ -110,7 +110,7 @@ class Node(ParameterApi):
             graph.master.setParam(self.name, resolve("~" + key, self.namespace, self.name), value)
         publication = Publication(self, "/rosout", graph.log_class)
         self.publications["/rosout"] = publication
-        graph.master.registerPublisher(self.name, "/rosout", graph.log_class._type, self.uri)
+        self._ask("registerPublisher", "/rosout", graph.log_class._type, self.uri)  # noqa: SLF001
         graph.offer_logger_services(self)
         code, _, use_sim_time = graph.master.getParam(self.name, "/use_sim_time")
         if code == 1 and use_sim_time is True:
@@ -120,6 +120,14 @@ class Node(ParameterApi):
         clock = TopicClock(self.scheduler, self.logwarn)
         self.clock = clock
         self.subscriber("/clock", self.graph.clock_class, clock.update)
+
+    def _ask(self, method: str, *arguments: Any) -> Any:
+        """Call the Master and return the value of its answer. Raises ``ROSException`` with its status for any code but 1."""
+        code, status, value = getattr(self.graph.master, method)(self.name, *arguments)
+        if code != 1:
+            msg = f"the Master refused {method} of node {self.name}: {status}"
+            raise ROSException(msg)
+        return value
 
     def __repr__(self) -> str:
         return f"<Node {self.name}{' (shut down)' if self._stopped else ''}>"
@@ -158,7 +166,7 @@ class Node(ParameterApi):
         if publication is None:
             publication = self.publications[topic] = Publication(self, topic, cls)
             publication.latch, publication.queue_size = latch, queue_size or None
-            self.graph.master.registerPublisher(self.name, topic, cls._type, self.uri)
+            self._ask("registerPublisher", topic, cls._type, self.uri)  # noqa: SLF001
             self.graph.changed()
         elif publication.message_class._type != cls._type:  # noqa: SLF001 - the contract of message classes
             msg = f"{self.name} already publishes {topic} as {publication.message_class._type}, not {cls._type}: use another topic."  # noqa: SLF001
@@ -208,7 +216,7 @@ class Node(ParameterApi):
                 receipt=receipt,
             )
             if fresh:
-                _, _, uris = self.graph.master.registerSubscriber(self.name, name, message_class._type, self.uri)  # noqa: SLF001
+                uris = self._ask("registerSubscriber", name, message_class._type, self.uri)  # noqa: SLF001
                 subscription.update_publishers(uris)
                 self.graph.changed()
             return handle
@@ -254,7 +262,7 @@ class Node(ParameterApi):
                 raise ROSException(msg)
             server = self.services[resolved] = ServiceServer(self, resolved, service_class, handler, numpy=numpy)
             uri = self.graph.transport.service_uri(self.uri)
-            self.graph.master.registerService(self.name, resolved, uri, self.uri)
+            self._ask("registerService", resolved, uri, self.uri)
             self.graph.changed()
             return server
 
@@ -457,7 +465,7 @@ class Node(ParameterApi):
 
     def shutdown_requested(self, caller: str, reason: str) -> None:
         """Learn by the slave API that the node is to end; it does so in a lane of its own."""
-        self.logger.console(LEVELS["WARN"], f"shutdown request: [{self.name}] Reason: {reason}")
+        self.logger.console(LEVELS["WARN"], f"shutdown request: {reason}")
         if caller == "/master" and "same name" in reason:
             problem = DuplicateNode(
                 f"{self.name} was shut down because another node registered under its name. Give one of them another name: "

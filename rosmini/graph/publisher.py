@@ -64,6 +64,12 @@ class Publication:
         for sender in senders[1:]:
             sender.send(self._copy(frozen), size)
 
+    def send_to(self, destination: str, message: Any) -> None:
+        """Send ``message`` to the node ``destination`` only, as rospy's ``peer_publish`` does."""
+        frozen = self._freeze(message)
+        for sender in [sender for sender in self._list if sender.destination == destination]:
+            sender.send(self._copy(frozen), self.queue_size)
+
     def _copy(self, frozen: Any) -> Any:
         """Return a frozen message of which one receiver may become the owner."""
         return self._freeze(frozen) if self._plain else frozen
@@ -171,6 +177,13 @@ class Publisher:
             publication.send(args[0])
         else:
             publication.send(self._build(args, fields))
+
+    def publish_to(self, destination: str, message: Any) -> None:
+        """Publish ``message`` to one connected node only; harmless when that has gone. Raises as :meth:`publish` does."""
+        publication = self._publication
+        if publication is None:
+            raise ROSException(self._closed_message())
+        self.node.scheduler.on_hub(lambda: publication.send_to(destination, message))
 
     def _build(self, args: tuple[Any, ...], fields: dict[str, Any]) -> Any:
         cls = self.message_class

@@ -39,6 +39,8 @@ class ServiceServer:
         self.handler = handler
         self.sessions: list[Session] = []
         self.numpy = numpy
+        self.error_handler: Callable[[Exception], object] | None = None
+        """Called instead of the report when the handler raises."""
         self._open = True
 
     def __repr__(self) -> str:
@@ -61,8 +63,14 @@ class ServiceServer:
         thaw = request_class._thaw_numpy if self.numpy else request_class._thaw  # noqa: SLF001
         try:
             answer = self.handler(request if request_class._plain else thaw(request))  # noqa: SLF001
+        except ServiceException as error:  # how a handler refuses a request
+            msg = f"service cannot process request: {error}"
+            raise ServiceException(msg) from error
         except Exception as error:
-            self.node.callback_failed(error, self.handler, self.name, request, service=True)
+            if self.error_handler is not None:
+                self.node.guarded(self.error_handler, error, what=f"error handler of {self.name}")
+            else:
+                self.node.callback_failed(error, self.handler, self.name, request, service=True)
             msg = f"error processing request: {error}"
             raise ServiceException(msg) from error
         try:

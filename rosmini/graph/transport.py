@@ -194,7 +194,7 @@ class LocalTransport:
     def attach(self, endpoint: Endpoint) -> str:
         """Make a node reachable."""
         self._numbers += 1
-        uri = f"inproc://localhost:{self._numbers}/"
+        uri = f"http://rosmini:{self._numbers}/"
         self._endpoints[uri] = endpoint
         return uri
 
@@ -204,7 +204,7 @@ class LocalTransport:
 
     def service_uri(self, uri: str) -> str:
         """Return the address of the node's services."""
-        return uri.replace("inproc://", "rosrpc://").rstrip("/")
+        return uri.replace("http://", "rosrpc://").rstrip("/")
 
     def topic_parameters(self, uri: str) -> list[Any]:
         """Return the connection parameters of a topic."""
@@ -212,7 +212,7 @@ class LocalTransport:
 
     def endpoint(self, uri: str) -> Endpoint:
         """Return the node at ``uri``, of its slave API or its services."""
-        key = uri.replace("rosrpc://", "inproc://")
+        key = uri.replace("rosrpc://", "http://")
         found = self._endpoints.get(key) or self._endpoints.get(key + "/")
         if found is None:
             hint = nearest(uri, self._endpoints)
