@@ -156,6 +156,7 @@ def ask(address: str) -> dict:
         except urllib.error.URLError as error:
             if not isinstance(error.reason, ConnectionRefusedError) or time.monotonic() > deadline:
                 raise
+            time.sleep(0.05)
 
 
 def listening_addresses(port: int) -> set[str]:
@@ -190,11 +191,7 @@ def test_lab_serves_the_notebooks_on_this_machine_only(tmp_path):
                 break
         else:
             pytest.fail("JupyterLab ended before it served")
-        request = urllib.request.Request(
-            f"http://127.0.0.1:{port}/api/contents", headers={"Authorization": "token t0ken"}
-        )
-        with urllib.request.urlopen(request, timeout=30) as reply:
-            names = {entry["name"] for entry in json.load(reply)["content"]}
+        names = {entry["name"] for entry in ask(f"http://127.0.0.1:{port}/api/contents")["content"]}
         assert names == {
             path.name for path in (ROOT / "notebooks").iterdir() if not path.name.startswith(".")
         }
