@@ -32,7 +32,7 @@ def encode_header(fields: Header) -> bytes:
 
 def decode_header(data: bytes) -> Header:
     """Return the fields of a TCPROS connection header. Raises ``DeserializationError`` when the bytes are none."""
-    if len(data) < 4 or struct.unpack_from("<I", data)[0] != len(data) - 4:  # noqa: PLR2004
+    if len(data) < 4 or struct.unpack_from("<I", data)[0] != len(data) - 4:
         msg = f"these {len(data)} bytes are not a connection header: the total length at the start is wrong"
         raise DeserializationError(msg)
     fields: Header = {}
@@ -106,14 +106,14 @@ class _ByteSender:
         self.sent += 1
 
     def _flush(self) -> None:
-        packets = [frozen._encode(frozen) for frozen in self._queue]  # noqa: SLF001 - the contract of message classes
+        packets = [frozen._encode(frozen) for frozen in self._queue]
         self._queue.clear()
         self._wire.carry(lambda: self._arrive(packets))
 
     def _arrive(self, packets: list[bytes]) -> None:
         """Decode, in the receiving node's thread, and hand over to the hub."""
         cls = self._receiver.message_class
-        messages = [cls._decode(packet) for packet in packets]  # noqa: SLF001
+        messages = [cls._decode(packet) for packet in packets]
 
         def deliver() -> None:
             if not self._dropped:
@@ -127,7 +127,9 @@ class _ByteSender:
                 self._dropped = True
                 self._receiver.closed()
 
-        self._scheduler.ready.append(lambda: self._wire.carry(lambda: self._scheduler.call_soon_threadsafe(tell)))
+        self._scheduler.ready.append(
+            lambda: self._wire.carry(lambda: self._scheduler.call_soon_threadsafe(tell))
+        )
 
     def drop(self) -> None:
         self._dropped = True
@@ -136,7 +138,9 @@ class _ByteSender:
 class _ByteServiceLink:
     """The client's end of a service connection."""
 
-    def __init__(self, transport: ByteTransport, wire: _Wire, session: ServiceSession, service_class: Any) -> None:
+    def __init__(
+        self, transport: ByteTransport, wire: _Wire, session: ServiceSession, service_class: Any
+    ) -> None:
         self._scheduler = transport.scheduler
         self._wire = wire
         self._session = session
@@ -144,22 +148,26 @@ class _ByteServiceLink:
         self.header = session.header
 
     def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
-        packet = request._encode(request)  # noqa: SLF001
-        request_class, response_class = self._class._request_class, self._class._response_class  # noqa: SLF001
+        packet = request._encode(request)
+        request_class, response_class = self._class._request_class, self._class._response_class
 
         def answer(response: Any, problem: str | None) -> None:
-            body = b"\x00" + problem.encode() if problem is not None else b"\x01" + bytes(response._encode(response))  # noqa: SLF001
+            body = (
+                b"\x00" + problem.encode()
+                if problem is not None
+                else b"\x01" + bytes(response._encode(response))
+            )
             self._wire.carry(lambda: arrive(body))
 
         def arrive(body: bytes) -> None:
             if body[0]:
-                response = response_class._decode(body[1:])  # noqa: SLF001
+                response = response_class._decode(body[1:])
                 self._scheduler.call_soon_threadsafe(lambda: reply(response, None))
             else:
                 self._scheduler.call_soon_threadsafe(lambda: reply(None, body[1:].decode()))
 
         def ask() -> None:
-            received = request_class._decode(packet)  # noqa: SLF001
+            received = request_class._decode(packet)
             self._scheduler.call_soon_threadsafe(lambda: self._session.handle(received, answer))
 
         self._wire.carry(ask)
@@ -205,12 +213,16 @@ class ByteTransport:
 
         def serve(endpoint: Endpoint) -> str:
             values, name = xmlrpc.client.loads(request)
-            return xmlrpc.client.dumps((endpoint.slave_call(cast("str", name), *values),), methodresponse=True)
+            return xmlrpc.client.dumps(
+                (endpoint.slave_call(cast("str", name), *values),), methodresponse=True
+            )
 
         reply = self._ask(uri, serve)
         return cast("Triple", xmlrpc.client.loads(reply)[0][0])
 
-    def connect_topic(self, parameters: list[Any], header: Header, receiver: Receiver) -> tuple[Header, Callable[[], None]]:
+    def connect_topic(
+        self, parameters: list[Any], header: Header, receiver: Receiver
+    ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection by exchanging headers; blocks."""
         request = encode_header(header)
         made: list[_ByteSender] = []
@@ -254,7 +266,7 @@ class ByteTransport:
         def work() -> None:
             try:
                 waiter.wake(serve(endpoint))
-            except Exception as error:  # noqa: BLE001 - handed to the caller
+            except Exception as error:
                 waiter.fail(error)
 
         wire.carry(lambda: self.scheduler.call_soon_threadsafe(work))

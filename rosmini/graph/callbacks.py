@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import linecache
 import os
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import CallbackError
 
-from .rosout import source_of
+from .rosout import OWN, source_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import FrameType
+
+STANDARD_LIBRARY = str(Path(os.__file__).parent) + os.sep
 
 SHOWN_LINES = 12
 """So much of a message is shown."""
@@ -23,13 +26,15 @@ def describe_failure(
 ) -> CallbackError:
     """Return a ``CallbackError`` caused by ``error``: the callback, the user's line, the topic or service, and the message."""
     name = getattr(callback, "__qualname__", None) or type(callback).__name__
-    lines = [f"{name.rpartition('<locals>.')[2]} of {node}, called for {where}, raised {type(error).__name__}: {error}"]
+    lines = [
+        f"{name.rpartition('<locals>.')[2]} of {node}, called for {where}, raised {type(error).__name__}: {error}"
+    ]
     place = _users_line(error)
     if place is not None:
         lines.append(place)
     if message is not None:
         shown = str(message).splitlines()
-        lines.append(f"  The message ({message._type}):")  # noqa: SLF001 - the contract of message classes
+        lines.append(f"  The message ({message._type}):")
         lines += [f"    {line}" for line in shown[:SHOWN_LINES]]
         if len(shown) > SHOWN_LINES:
             lines.append(f"    ... and {len(shown) - SHOWN_LINES} more lines")
@@ -40,13 +45,11 @@ def describe_failure(
 
 def _users_line(error: BaseException) -> str | None:
     """Return the last line of the traceback that is not in rosmini or the standard library."""
-    own = os.path.dirname(os.path.dirname(__file__)) + os.sep
-    library = os.path.dirname(os.__file__) + os.sep
     best: tuple[FrameType, int] | None = None
     trace = error.__traceback__
     while trace is not None:
         filename = trace.tb_frame.f_code.co_filename
-        if not filename.startswith((own, library)):
+        if not filename.startswith((OWN, STANDARD_LIBRARY)):
             best = (trace.tb_frame, trace.tb_lineno)
         trace = trace.tb_next
     if best is None:
@@ -55,4 +58,4 @@ def _users_line(error: BaseException) -> str | None:
     code = frame.f_code
     text = linecache.getline(code.co_filename, number, frame.f_globals).strip()
     source = source_of(code.co_filename)
-    return f"  {os.path.basename(source)}, line {number}, in {code.co_name}" + (f": {text}" if text else "")
+    return f"  {Path(source).name}, line {number}, in {code.co_name}" + (f": {text}" if text else "")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import heapq
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rosmini.errors import ROSInterruptException, ROSTimeMovedBackwardsException, RosminiError
+from rosmini.errors import ROSInterruptException, RosminiError, ROSTimeMovedBackwardsException
 from rosmini.time import Duration, Time
 
 if TYPE_CHECKING:
@@ -102,8 +102,7 @@ class Rate:
     def remaining(self) -> Duration:
         """Return how long :meth:`sleep` would sleep."""
         now = self._node.now()
-        if self._last > now:
-            self._last = now
+        self._last = min(self._last, now)
         return self.sleep_dur - (now - self._last)
 
     def sleep(self) -> None:
@@ -112,8 +111,7 @@ class Rate:
         Raises ``ROSInterruptException`` when the node shuts down, ``ROSTimeMovedBackwardsException`` when its clock jumps back.
         """
         now = self._node.now()
-        if self._last > now:
-            self._last = now
+        self._last = min(self._last, now)
         try:
             self._node.sleep(self.sleep_dur - (now - self._last))
         except ROSTimeMovedBackwardsException:
@@ -143,7 +141,13 @@ class Timer:
     """
 
     def __init__(
-        self, node: Node, period: Duration, callback: Callable[[TimerEvent], object], *, oneshot: bool = False, reset: bool = False
+        self,
+        node: Node,
+        period: Duration,
+        callback: Callable[[TimerEvent], object],
+        *,
+        oneshot: bool = False,
+        reset: bool = False,
     ) -> None:
         if period.to_nsec() <= 0:
             msg = f"a timer's period must be positive, not {period.to_sec()} s"
@@ -180,7 +184,11 @@ class Timer:
             if not self._running:
                 break
             real = self._node.now()
-            self._node.guarded(self._callback, TimerEvent(last_expected, last_real, expected, real, last_duration), what="timer")
+            self._node.guarded(
+                self._callback,
+                TimerEvent(last_expected, last_real, expected, real, last_duration),
+                what="timer",
+            )
             last_duration = (self._node.now() - real).to_sec()
             last_expected, last_real = expected, real
             if self._oneshot:

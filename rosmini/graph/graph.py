@@ -50,6 +50,7 @@ class Graph:
         rosout: run the node ``/rosout``, which ``roscore`` starts.
 
     Only the graph's creator drives it, with :meth:`run` or by any call that blocks.
+
     """
 
     def __init__(
@@ -91,7 +92,9 @@ class Graph:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.shutdown("the graph was closed")
 
     def _start_rosout(self) -> None:
@@ -262,7 +265,9 @@ class Graph:
         logger_class = message_class("roscpp/Logger")
 
         def listing(_: Any) -> Any:
-            return {"loggers": [logger_class(name=name, level=level) for name, level in node.logger.listing()]}
+            return {
+                "loggers": [logger_class(name=name, level=level) for name, level in node.logger.listing()]
+            }
 
         def change(request: Any) -> Any:
             if request.level.upper() not in LEVELS:

@@ -53,7 +53,7 @@ class InterruptGuard:
         noted, self._noted = self._noted, False
         return noted
 
-    def _handle(self, signum: int, frame: Any) -> None:
+    def _handle(self, _signum: int, _frame: Any) -> None:
         if self._noted:
             raise KeyboardInterrupt
         self._noted = True

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .scheduler import Scheduler
 
 
-class LaneExit(BaseException):  # noqa: N818 - a request to end, like SystemExit, not an error
+class LaneExit(BaseException):
     """Thrown into a lane that is asked to end, at the place where it blocks."""
 
 
@@ -127,7 +127,7 @@ class Lane:
             except LaneExit:
                 self.dead = True
                 tasks.clear()
-            except BaseException as error:  # noqa: BLE001 - a lane must never take the hub down with it
+            except BaseException as error:
                 scheduler.lane_failed(self, error)
         self._busy = False
         if self.dead:

@@ -80,7 +80,7 @@ class LiveDrive:
         try:
             if not scheduler.driven:
                 scheduler.run(until_ns=self._target())
-        except BaseException as error:  # noqa: BLE001 - there is no call to raise it at
+        except BaseException as error:
             self._failed(error)
         if self.running:
             self._handle = self._loop.call_later(SLICE_S, self._step)

@@ -19,20 +19,36 @@ def _fields(definition: str) -> list[str]:
 
 
 def describe_mismatch(
-    topic: str, publisher: str, publisher_class: Any, subscriber: str, their_type: str, their_md5: str, their_definition: str | None
+    topic: str,
+    publisher: str,
+    publisher_class: Any,
+    subscriber: str,
+    their_type: str,
+    their_md5: str,
+    their_definition: str | None,
 ) -> str:
     """Return the message of a ``TypeMismatch`` on ``topic``: both nodes, both types, the fields that differ, and what to do."""
-    my_type, my_md5 = publisher_class._type, publisher_class._md5sum  # noqa: SLF001 - the contract of message classes
+    my_type, my_md5 = publisher_class._type, publisher_class._md5sum
     lines = [
         f"{publisher} publishes {topic} as {my_type}, but {subscriber} subscribes to it as {their_type}: no message will arrive.",
     ]
     if my_type == their_type:
-        lines.append(f"  The definitions differ: md5 {my_md5} at the publisher, {their_md5} at the subscriber.")
+        lines.append(
+            f"  The definitions differ: md5 {my_md5} at the publisher, {their_md5} at the subscriber."
+        )
     if their_definition is not None:
-        changes = [line for line in ndiff(_fields(publisher_class._full_text), _fields(their_definition)) if line[0] in "+-"]  # noqa: SLF001
-        lines.append(f"  Fields (- only in {my_type}, + only in {their_type}):" if my_type != their_type else "  Fields (- publisher, + subscriber):")
+        changes = [
+            line
+            for line in ndiff(_fields(publisher_class._full_text), _fields(their_definition))
+            if line[0] in "+-"
+        ]
+        lines.append(
+            f"  Fields (- only in {my_type}, + only in {their_type}):"
+            if my_type != their_type
+            else "  Fields (- publisher, + subscriber):"
+        )
         lines += [f"    {change}" for change in changes[:12]]
-        if len(changes) > 12:  # noqa: PLR2004
+        if len(changes) > 12:
             lines.append(f"    ... and {len(changes) - 12} more")
     lines.append(
         "  Use the same type at both ends, or give one of them another topic name."

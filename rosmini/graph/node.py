@@ -16,18 +16,19 @@ heard hello
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import (
     DuplicateNode,
     ROSException,
     ROSInterruptException,
-    ROSTimeMovedBackwardsException,
     TypeMismatch,
 )
 from rosmini.names import Remappings, canonicalize, check_base_name, check_name, resolve
-from rosmini.time import Duration, Time
+from rosmini.time import Duration
 
+from .blocking_api import BlockingApi
 from .callbacks import describe_failure
 from .clock import GraphClock, Rate, Timer, TimerEvent, TopicClock
 from .lanes import Lane, LaneContext, Waiter
@@ -45,7 +46,7 @@ if TYPE_CHECKING:
     from .transport import Header, Sender, Triple
 
 
-class Node(ParameterApi):
+class Node(BlockingApi, ParameterApi):
     """A node of a :class:`~rosmini.graph.graph.Graph`; made by ``graph.node(name)`` or ``Node(name)``.
 
     Args:
@@ -56,6 +57,7 @@ class Node(ParameterApi):
         anonymous: append a number that makes the name unique.
 
     A node of the same name that already runs is shut down, as in ROS. Raises ``IllegalName``.
+
     """
 
     def __init__(
@@ -91,7 +93,6 @@ class Node(ParameterApi):
         self.services: dict[str, ServiceServer] = {}
         self._hooks: list[Callable[[], object]] = []
         self._waiters: dict[Waiter, type[Exception]] = {}
-        self._lanes: list[Lane] = []
         self._connections = 0
         self._parameter_callbacks: dict[str, list[Callable[[Any], object]]] = {}
         self._stopped = False
@@ -110,7 +111,7 @@ class Node(ParameterApi):
             graph.master.setParam(self.name, resolve("~" + key, self.namespace, self.name), value)
         publication = Publication(self, "/rosout", graph.log_class)
         self.publications["/rosout"] = publication
-        self._ask("registerPublisher", "/rosout", graph.log_class._type, self.uri)  # noqa: SLF001
+        self._ask("registerPublisher", "/rosout", graph.log_class._type, self.uri)
         graph.offer_logger_services(self)
         code, _, use_sim_time = graph.master.getParam(self.name, "/use_sim_time")
         if code == 1 and use_sim_time is True:
@@ -157,19 +158,23 @@ class Node(ParameterApi):
         Raises ``TypeMismatch`` when this node publishes the topic with another type.
         """
         return self.scheduler.on_hub(
-            lambda: self._publisher(self.resolve(topic), message_class, queue_size, latch, on_connect, on_disconnect)
+            lambda: self._publisher(
+                self.resolve(topic), message_class, queue_size, latch, on_connect, on_disconnect
+            )
         )
 
-    def _publisher(self, topic: str, cls: Any, queue_size: int | None, latch: bool, *callbacks: Any) -> Publisher:  # noqa: FBT001
+    def _publisher(
+        self, topic: str, cls: Any, queue_size: int | None, latch: bool, *callbacks: Any
+    ) -> Publisher:
         self._require_running(f"publish {topic}")
         publication = self.publications.get(topic)
         if publication is None:
             publication = self.publications[topic] = Publication(self, topic, cls)
             publication.latch, publication.queue_size = latch, queue_size or None
-            self._ask("registerPublisher", topic, cls._type, self.uri)  # noqa: SLF001
+            self._ask("registerPublisher", topic, cls._type, self.uri)
             self.graph.changed()
-        elif publication.message_class._type != cls._type:  # noqa: SLF001 - the contract of message classes
-            msg = f"{self.name} already publishes {topic} as {publication.message_class._type}, not {cls._type}: use another topic."  # noqa: SLF001
+        elif publication.message_class._type != cls._type:
+            msg = f"{self.name} already publishes {topic} as {publication.message_class._type}, not {cls._type}: use another topic."
             raise TypeMismatch(msg)
         else:
             publication.latch = publication.latch or latch
@@ -202,8 +207,8 @@ class Node(ParameterApi):
             fresh = subscription is None
             if subscription is None:
                 subscription = self.subscriptions[name] = Subscription(self, name, message_class)
-            elif message_class._type not in (subscription.message_class._type, "*"):  # noqa: SLF001
-                msg = f"{self.name} already subscribes to {name} as {subscription.message_class._type}, not {message_class._type}."  # noqa: SLF001
+            elif message_class._type not in (subscription.message_class._type, "*"):
+                msg = f"{self.name} already subscribes to {name} as {subscription.message_class._type}, not {message_class._type}."
                 raise TypeMismatch(msg)
             handle = Subscriber(
                 subscription,
@@ -216,7 +221,7 @@ class Node(ParameterApi):
                 receipt=receipt,
             )
             if fresh:
-                uris = self._ask("registerSubscriber", name, message_class._type, self.uri)  # noqa: SLF001
+                uris = self._ask("registerSubscriber", name, message_class._type, self.uri)
                 subscription.update_publishers(uris)
                 self.graph.changed()
             return handle
@@ -237,7 +242,9 @@ class Node(ParameterApi):
         self.graph.master.unregisterSubscriber(self.name, subscription.topic, self.uri)
         self.graph.changed()
 
-    def wait_for_message(self, topic: str, message_class: Any, timeout: float | None = None, *, numpy: bool = True) -> Any:
+    def wait_for_message(
+        self, topic: str, message_class: Any, timeout: float | None = None, *, numpy: bool = True
+    ) -> Any:
         """Block until one message arrives on ``topic`` and return it. Raises ``ROSException`` after ``timeout`` seconds."""
         name = self.resolve(topic)
         waiter = self.waiter(f"a message on {name}")
@@ -251,7 +258,9 @@ class Node(ParameterApi):
 
     # -- services ------------------------------------------------------------------------------------------------
 
-    def service(self, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True) -> ServiceServer:
+    def service(
+        self, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True
+    ) -> ServiceServer:
         """Offer a service: ``handler(request)`` returns the response. Raises ``ROSException`` if this node offers it already."""
 
         def make() -> ServiceServer:
@@ -260,7 +269,9 @@ class Node(ParameterApi):
             if resolved in self.services:
                 msg = f"service [{resolved}] is already offered by {self.name}: shut the first one down before offering it again"
                 raise ROSException(msg)
-            server = self.services[resolved] = ServiceServer(self, resolved, service_class, handler, numpy=numpy)
+            server = self.services[resolved] = ServiceServer(
+                self, resolved, service_class, handler, numpy=numpy
+            )
             uri = self.graph.transport.service_uri(self.uri)
             self._ask("registerService", resolved, uri, self.uri)
             self.graph.changed()
@@ -268,16 +279,19 @@ class Node(ParameterApi):
 
         return self.scheduler.on_hub(make)
 
-    def service_client(self, name: str, service_class: Any, *, persistent: bool = False, numpy: bool = True) -> ServiceClient:
+    def service_client(
+        self, name: str, service_class: Any, *, persistent: bool = False, numpy: bool = True
+    ) -> ServiceClient:
         """Return what calls a service, whether it is there yet or not."""
         return ServiceClient(self, self.resolve(name), service_class, persistent=persistent, numpy=numpy)
 
-    def drop_service(self, server: ServiceServer, reason: str) -> None:
+    def drop_service(self, server: ServiceServer) -> None:
         """Withdraw a service. For the server only."""
         if self.services.get(server.name) is server:
             del self.services[server.name]
-        self.graph.master.unregisterService(self.name, server.name, self.graph.transport.service_uri(self.uri))
-        server.close_sessions()
+        self.graph.master.unregisterService(
+            self.name, server.name, self.graph.transport.service_uri(self.uri)
+        )
         self.graph.changed()
 
     def wait_for_service(self, name: str, timeout: float | None = None) -> None:
@@ -290,55 +304,23 @@ class Node(ParameterApi):
             f"nobody offers {resolved}",
         )
 
-    # -- time ----------------------------------------------------------------------------------------------------
-
-    def now(self) -> Time:
-        """Return the node's time."""
-        return Time.from_nsec(self.clock.now_ns())
-
-    def sleep(self, duration: float | Duration) -> None:
-        """Block for seconds of the node's time; not at all for zero or less.
-
-        Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when its
-        clock jumps back.
-        """
-        span = duration.to_nsec() if isinstance(duration, Duration) else int(duration * 1e9)
-        if span <= 0:
-            if self._stopped:
-                raise ROSInterruptException(self._shutdown_message())
-            return
-        start = self.clock.now_ns()
-        if start == 0 and isinstance(self.clock, TopicClock):
-            self._wait_on_clock(1, "the first message on /clock")
-            start = self.clock.now_ns()
-        self._wait_on_clock(start + span, "time to pass")
-        now = self.clock.now_ns()
-        if now < start:
-            raise ROSTimeMovedBackwardsException((now - start) / 1e9)
-
-    def _wait_on_clock(self, when_ns: int, reason: str) -> None:
-        waiter = self.waiter(reason)
-        if isinstance(self.clock, GraphClock):
-            self.wait(waiter, (when_ns - self.clock.now_ns()) / 1e9, timeout_ns=when_ns - self.clock.now_ns())
-            return
-        cancel = self.scheduler.on_hub(lambda: self.clock.call_at(when_ns, waiter.wake))
-        try:
-            self.wait(waiter, None)
-        finally:
-            cancel()
+    # -- what runs by itself -------------------------------------------------------------------------------------
 
     def rate(self, hz: float, *, reset: bool = False) -> Rate:
         """Return what keeps a loop at ``hz`` turns a second."""
         return Rate(self, hz, reset=reset)
 
     def timer(
-        self, period: float | Duration, callback: Callable[[TimerEvent], object], *, oneshot: bool = False, reset: bool = False
+        self,
+        period: float | Duration,
+        callback: Callable[[TimerEvent], object],
+        *,
+        oneshot: bool = False,
+        reset: bool = False,
     ) -> Timer:
         """Call ``callback(event)`` every ``period`` seconds."""
         span = period if isinstance(period, Duration) else Duration.from_sec(period)
         return self.scheduler.on_hub(lambda: Timer(self, span, callback, oneshot=oneshot, reset=reset))
-
-    # -- blocking ------------------------------------------------------------------------------------------------
 
     def spawn(self, name: str, task: Callable[[], object] | None = None) -> Lane:
         """Return a lane of this node; ``task`` may block in it."""
@@ -351,76 +333,30 @@ class Node(ParameterApi):
         """Run ``task`` as this node's main program: it may sleep, wait and call services while the graph goes on."""
         return self.spawn(name or f"{self.name} {getattr(task, '__name__', 'task')}", task)
 
-    def waiter(self, reason: str) -> Waiter:
-        """Return something to wait for; ``reason`` completes "... was waiting for"."""
-        return self.scheduler.waiter(reason)
-
-    def wait(
-        self,
-        waiter: Waiter,
-        timeout: float | None = None,
-        *,
-        timeout_ns: int | None = None,
-        interrupt_error: type[Exception] = ROSInterruptException,
-    ) -> bool:
-        """Block until ``waiter`` is woken (True) or ``timeout`` seconds have passed (False).
-
-        Raises ``interrupt_error`` when the node shuts down meanwhile.
-        """
-        if self._stopped:
-            raise interrupt_error(self._shutdown_message())
-        if timeout is not None and timeout_ns is None:
-            timeout_ns = int(timeout * 1e9)
-        self._waiters[waiter] = interrupt_error
-        try:
-            return waiter.wait(timeout_ns)
-        finally:
-            self._waiters.pop(waiter, None)
-
-    def wait_until(self, condition: Callable[[], bool], timeout: float | None, reason: str, failure: str) -> None:
-        """Block until ``condition()`` holds, which is looked at whenever the graph changes.
-
-        Raises ``ROSException`` with ``failure`` after ``timeout`` seconds.
-        """
-        waiter = self.waiter(reason)
-
-        def begin() -> None:
-            self.graph.watch(condition, waiter)
-
-        self.scheduler.on_hub(begin)
-        if not self.wait(waiter, timeout):
-            waiter.wake()
-            msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure}"
-            raise ROSException(msg)
-
-    def spin(self) -> None:
-        """Block until the node is shut down; callbacks go on meanwhile."""
-        if not self._stopped:
-            waiter = self.waiter("spin")
-            self._waiters[waiter] = ROSInterruptException
-            try:
-                waiter.wait()
-            except ROSInterruptException:
-                return
-            finally:
-                self._waiters.pop(waiter, None)
-
     # -- callbacks that fail -------------------------------------------------------------------------------------
 
     def guarded(self, callback: Callable[..., object], *arguments: Any, what: str) -> None:
         """Call a user's callback; an error is reported and goes no further."""
         try:
             callback(*arguments)
-        except Exception as error:  # noqa: BLE001 - reported
+        except Exception as error:
             self.callback_failed(error, callback, what, None)
 
     def callback_failed(
-        self, error: Exception, callback: Callable[..., object], where: str, message: Any, *, service: bool = False
+        self,
+        error: Exception,
+        callback: Callable[..., object],
+        where: str,
+        message: Any,
+        *,
+        service: bool = False,
     ) -> None:
         """Report an exception that a callback let out, with the user's own frame, where it came from, and the message."""
         if self._stopped and isinstance(error, ROSInterruptException):
             return
-        self.graph.report(describe_failure(error, callback, where, message, self.name), self, raise_strict=not service)
+        self.graph.report(
+            describe_failure(error, callback, where, message, self.name), self, raise_strict=not service
+        )
 
     def _lane_error(self, error: BaseException) -> None:
         if isinstance(error, ROSInterruptException) and self._stopped:
@@ -450,10 +386,6 @@ class Node(ParameterApi):
         self.logger.log(LEVELS["FATAL"], str(text))
 
     # -- the end -------------------------------------------------------------------------------------------------
-
-    def is_shutdown(self) -> bool:
-        """Tell whether the node has been shut down."""
-        return self._stopped
 
     def on_shutdown(self, hook: Callable[[], object]) -> None:
         """Call ``hook()`` when the node shuts down, while it can still publish."""
@@ -501,9 +433,6 @@ class Node(ParameterApi):
         graph.transport.detach(self.uri)
         graph.remove_node(self)
 
-    def _shutdown_message(self) -> str:
-        return f"node {self.name} was shut down" + (f": {self.shutdown_reason}" if self.shutdown_reason else "")
-
     def _require_running(self, what: str) -> None:
         if self.shutdown_reason is not None:
             msg = f"{self._shutdown_message()}; it cannot {what} any more. Make a new node."
@@ -539,7 +468,10 @@ class Node(ParameterApi):
     def parameter_changed(self, key: str, value: Any) -> None:
         """Learn that a parameter to which this node subscribes has changed."""
         for callback in self._parameter_callbacks.get(canonicalize(key), ()):
-            self.spawn(f"{self.name} parameter {key}", lambda callback=callback: self.guarded(callback, value, what=f"parameter {key}"))
+            self.spawn(
+                f"{self.name} parameter {key}",
+                partial(self.guarded, callback, value, what=f"parameter {key}"),
+            )
 
     def connections_changed(self) -> None:
         """Learn that a connection opened or closed."""

@@ -54,7 +54,9 @@ class ParameterApi:
         """Return the global name that ``name`` means here."""
         raise AssertionError(name)  # pragma: no cover - the node's own method hides this one
 
-    def get_param(self, name: str, default: Any = _UNSET, *, expect: type | tuple[type, ...] | None = None) -> Any:
+    def get_param(
+        self, name: str, default: Any = _UNSET, *, expect: type | tuple[type, ...] | None = None
+    ) -> Any:
         """Return a parameter's value, or ``default`` if it is not set.
 
         With ``expect`` a value of another type is an error (an int is welcome where a float is expected). Raises

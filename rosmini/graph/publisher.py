@@ -30,9 +30,9 @@ class Publication:
         self._list: tuple[Sender, ...] = ()
         self._latched: Any = None
         self._warned = False
-        self._stamp = bool(message_class._has_header)  # noqa: SLF001 - the contract of message classes
-        self._freeze = message_class._freeze  # noqa: SLF001
-        self._plain = bool(message_class._plain)  # noqa: SLF001
+        self._stamp = bool(message_class._has_header)
+        self._freeze = message_class._freeze
+        self._plain = bool(message_class._plain)
 
     def send(self, message: Any) -> None:
         """Send ``message`` to every connection: a snapshot, taken now. From any thread.
@@ -90,27 +90,35 @@ class Publication:
         if wanted is None:
             msg = "Missing required 'md5sum' field"
             raise TransportInitError(msg)
-        mine, theirs = cls._type, header.get("type", "*")  # noqa: SLF001
-        if wanted not in ("*", cls._md5sum) or (theirs not in ("*", mine) and wanted != "*"):  # noqa: SLF001
+        mine, theirs = cls._type, header.get("type", "*")
+        if wanted not in ("*", cls._md5sum) or (theirs not in ("*", mine) and wanted != "*"):
             caller = header.get("callerid", "unknown")
             self.node.graph.report(
                 TypeMismatch(
-                    describe_mismatch(self.topic, self.node.name, cls, caller, theirs, wanted, header.get("message_definition"))
+                    describe_mismatch(
+                        self.topic,
+                        self.node.name,
+                        cls,
+                        caller,
+                        theirs,
+                        wanted,
+                        header.get("message_definition"),
+                    )
                 ),
                 self.node,
                 raise_strict=False,
             )
             msg = (
                 f"Client [{caller}] wants topic [{self.topic}] to have datatype/md5sum [{theirs}/{wanted}], "
-                f"but our version has [{mine}/{cls._md5sum}] Dropping connection."  # noqa: SLF001
+                f"but our version has [{mine}/{cls._md5sum}] Dropping connection."
             )
             raise TransportInitError(msg)
         self.add(sender)
         return {
             "callerid": self.node.name,
             "latching": "1" if self.latch else "0",
-            "md5sum": cls._md5sum,  # noqa: SLF001
-            "message_definition": cls._full_text,  # noqa: SLF001
+            "md5sum": cls._md5sum,
+            "message_definition": cls._full_text,
             "topic": self.topic,
             "type": mine,
         }
@@ -162,7 +170,7 @@ class Publisher:
                 self.connected(sender.destination)
 
     def __repr__(self) -> str:
-        return f"<Publisher {self.topic} [{self.message_class._type}] of {self.node.name}>"  # noqa: SLF001
+        return f"<Publisher {self.topic} [{self.message_class._type}] of {self.node.name}>"
 
     def publish(self, *args: Any, **fields: Any) -> None:
         """Publish a message, or the message made from the given field values.
@@ -193,8 +201,8 @@ class Publisher:
                 return given
             if hasattr(given, "_md5sum"):
                 msg = (
-                    f"{self.topic} carries {cls._type}, and publish() was given a {given._type}. "  # noqa: SLF001
-                    f"Publish a {cls._type}, or make the publisher with the type {given._type}."  # noqa: SLF001
+                    f"{self.topic} carries {cls._type}, and publish() was given a {given._type}. "
+                    f"Publish a {cls._type}, or make the publisher with the type {given._type}."
                 )
                 raise TypeError(msg)
         return cls(*args, **fields)

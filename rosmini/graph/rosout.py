@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from rosmini.time import Time
@@ -17,6 +18,10 @@ LEVELS = {"DEBUG": 1, "INFO": 2, "WARN": 4, "ERROR": 8, "FATAL": 16}
 """The levels of ``rosgraph_msgs/Log``."""
 
 NAMES = {value: name for name, value in LEVELS.items()}
+
+
+OWN = str(Path(__file__).resolve().parents[1]) + os.sep
+"""How the names of rosmini's own source files begin."""
 
 
 def source_of(filename: str) -> str:
@@ -80,7 +85,6 @@ class Logger:
 def _frame(depth: int) -> FrameType | None:
     """Return the frame ``depth`` calls up, leaving rosmini's own files out."""
     frame: FrameType | None = sys._getframe(depth)  # noqa: SLF001 - the documented way to find a caller
-    own = os.path.dirname(os.path.dirname(__file__)) + os.sep
-    while frame is not None and frame.f_back is not None and frame.f_code.co_filename.startswith(own):
+    while frame is not None and frame.f_back is not None and frame.f_code.co_filename.startswith(OWN):
         frame = frame.f_back
     return frame

@@ -98,6 +98,7 @@ class Scheduler:
     Args:
         simulated: jump from event to event instead of waiting for the clock on the wall.
         rate: in wall time, how many seconds of graph time pass in one second.
+
     """
 
     def __init__(self, *, simulated: bool = True, rate: float = 1.0) -> None:
@@ -217,7 +218,7 @@ class Scheduler:
         def work() -> None:
             try:
                 waiter.wake(function())
-            except BaseException as error:  # noqa: BLE001 - handed to whoever asked
+            except BaseException as error:
                 waiter.fail(error)
 
         lane = Lane(self, caller.name, node=caller.node, context=caller.context)
@@ -259,7 +260,7 @@ class Scheduler:
         def work() -> None:
             try:
                 waiter.wake(function())
-            except BaseException as error:  # noqa: BLE001 - handed to whoever asked
+            except BaseException as error:
                 waiter.fail(error)
             finally:
                 self.release()
@@ -414,7 +415,11 @@ class Scheduler:
 
     def waiting(self) -> tuple[Waiting, ...]:
         """Return the parked lanes and what each waits for, without the driver."""
-        return tuple(Waiting(lane.name, waiter.reason) for waiter, lane in self._parked.items() if lane is not self.root)
+        return tuple(
+            Waiting(lane.name, waiter.reason)
+            for waiter, lane in self._parked.items()
+            if lane is not self.root
+        )
 
     def close(self) -> None:
         """End every lane. The scheduler can be used again afterwards."""
@@ -459,7 +464,7 @@ class Scheduler:
                         self._advance()
             except KeyboardInterrupt:
                 self._interrupts.note()
-            except Exception as error:  # noqa: BLE001 - an error of an internal event belongs to the driver
+            except Exception as error:
                 self.raise_in_driver(error)
 
     def _check_until(self) -> None:

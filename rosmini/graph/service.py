@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from .node import Node
     from .transport import Header, ServiceLink
 
-Reply = "Callable[[Any, str | None], None]"
-
 
 class ServiceServer:
     """Answers calls of one service. Made by :meth:`Node.service <rosmini.graph.node.Node.service>`.
@@ -44,11 +42,11 @@ class ServiceServer:
         self._open = True
 
     def __repr__(self) -> str:
-        return f"<ServiceServer {self.name} [{self.service_class._type}] of {self.node.name}>"  # noqa: SLF001
+        return f"<ServiceServer {self.name} [{self.service_class._type}] of {self.node.name}>"
 
     def accept(self, header: Header) -> Session:
         """Take a client's connection. Raises ``TransportInitError`` for another type."""
-        wanted, mine = header.get("md5sum"), self.service_class._md5sum  # noqa: SLF001
+        wanted, mine = header.get("md5sum"), self.service_class._md5sum
         if wanted not in ("*", mine):
             msg = f"request from [{header.get('callerid', 'unknown')}]: md5sums do not match: [{wanted}] vs. [{mine}]"
             raise TransportInitError(msg)
@@ -58,11 +56,11 @@ class ServiceServer:
 
     def respond(self, request: Any) -> Any:
         """Return the frozen response to a frozen request. Raises ``ServiceException`` with the text that the client gets."""
-        response_class = self.service_class._response_class  # noqa: SLF001
+        response_class = self.service_class._response_class
         request_class = type(request)
-        thaw = request_class._thaw_numpy if self.numpy else request_class._thaw  # noqa: SLF001
+        thaw = request_class._thaw_numpy if self.numpy else request_class._thaw
         try:
-            answer = self.handler(request if request_class._plain else thaw(request))  # noqa: SLF001
+            answer = self.handler(request if request_class._plain else thaw(request))
         except ServiceException as error:  # how a handler refuses a request
             msg = f"service cannot process request: {error}"
             raise ServiceException(msg) from error
@@ -74,7 +72,7 @@ class ServiceServer:
             msg = f"error processing request: {error}"
             raise ServiceException(msg) from error
         try:
-            return response_class._freeze(_response_from(answer, response_class))  # noqa: SLF001
+            return response_class._freeze(_response_from(answer, response_class))
         except (ServiceException, SerializationError, TypeError) as error:
             msg = f"service cannot process request: {error}"
             self.node.logerr(f"{self.name}: {msg}")
@@ -84,12 +82,13 @@ class ServiceServer:
         """Stop to answer; callers that wait get an error. Harmless when repeated."""
         if self._open:
             self._open = False
-            self.node.drop_service(self, reason)
+            self.node.drop_service(self)
+            self.close_sessions(reason)
 
-    def close_sessions(self) -> None:
+    def close_sessions(self, reason: str) -> None:
         """Refuse what is queued and fail what is being answered."""
         for session in list(self.sessions):
-            session.abort()
+            session.abort(reason)
 
 
 def _response_from(answer: Any, response_class: Any) -> Any:
@@ -106,11 +105,11 @@ def _response_from(answer: Any, response_class: Any) -> Any:
         return response_class(**answer)
     if isinstance(answer, (list, tuple)):
         if len(answer) != len(slots):
-            msg = f"handler returned invalid value: {response_class._type} has {len(slots)} fields ({', '.join(slots)}), not {len(answer)}"  # noqa: SLF001
+            msg = f"handler returned invalid value: {response_class._type} has {len(slots)} fields ({', '.join(slots)}), not {len(answer)}"
             raise ServiceException(msg)
         return response_class(*answer)
     if len(slots) != 1:
-        msg = f"handler returned invalid value: {answer!r} is no {response_class._type} ({', '.join(slots) or 'it has no fields'})"  # noqa: SLF001
+        msg = f"handler returned invalid value: {answer!r} is no {response_class._type} ({', '.join(slots) or 'it has no fields'})"
         raise ServiceException(msg)
     return response_class(answer)
 
@@ -124,9 +123,9 @@ class Session:
         self.client = client
         self.header: Header = {
             "callerid": node.name,
-            "md5sum": server.service_class._md5sum,  # noqa: SLF001
+            "md5sum": server.service_class._md5sum,
             "service": server.name,
-            "type": server.service_class._type,  # noqa: SLF001
+            "type": server.service_class._type,
         }
         self._lane = node.spawn(f"{node.name} service {server.name}")
         self._pending: list[Callable[[Any, str | None], None]] = []
@@ -152,11 +151,14 @@ class Session:
         if self in self.server.sessions:
             self.server.sessions.remove(self)
 
-    def abort(self) -> None:
+    def abort(self, reason: str) -> None:
         """Fail what is under way because the server goes away."""
         pending, self._pending = self._pending, []
+        problem = "transport error completing service call: the server was shut down" + (
+            f" ({reason})" if reason else ""
+        )
         for reply in pending:
-            reply(None, "transport error completing service call: the server was shut down")
+            reply(None, problem)
         self.close()
 
 
@@ -179,7 +181,7 @@ class ServiceClient:
         self._closed = False
 
     def __repr__(self) -> str:
-        return f"<ServiceClient {self.name} [{self.service_class._type}] of {self.node.name}>"  # noqa: SLF001
+        return f"<ServiceClient {self.name} [{self.service_class._type}] of {self.node.name}>"
 
     def __call__(self, *args: Any, **fields: Any) -> Any:
         """Call the service; see :meth:`call`."""
@@ -190,12 +192,12 @@ class ServiceClient:
 
         Raises ``ServiceException`` when there is no server, when its handler fails, or when it goes away meanwhile.
         """
-        request_class = self.service_class._request_class  # noqa: SLF001
+        request_class = self.service_class._request_class
         if len(args) == 1 and not fields and isinstance(args[0], request_class):
             request = args[0]
         else:
             request = request_class(*args, **fields)
-        frozen = request_class._freeze(request)  # noqa: SLF001
+        frozen = request_class._freeze(request)
         return self.node.scheduler.on_hub(lambda: self._call(frozen))
 
     def _call(self, frozen: Any) -> Any:
@@ -217,12 +219,16 @@ class ServiceClient:
         if problem is not None:
             if self.persistent and problem.startswith("transport error"):
                 self.close()
-            msg = problem if problem.startswith("transport error") else f"service [{self.name}] responded with an error: {problem}"
+            msg = (
+                problem
+                if problem.startswith("transport error")
+                else f"service [{self.name}] responded with an error: {problem}"
+            )
             raise ServiceException(msg)
         cls = type(response)
-        if cls._plain:  # noqa: SLF001
+        if cls._plain:
             return response
-        return cls._thaw_numpy(response) if self._numpy else cls._thaw(response)  # noqa: SLF001
+        return cls._thaw_numpy(response) if self._numpy else cls._thaw(response)
 
     def _connect(self) -> ServiceLink:
         if self._closed:
@@ -241,17 +247,17 @@ class ServiceClient:
         cls = self.service_class
         header = {
             "callerid": node.name,
-            "md5sum": cls._md5sum,  # noqa: SLF001
+            "md5sum": cls._md5sum,
             "service": self.name,
-            "type": cls._type,  # noqa: SLF001
+            "type": cls._type,
             "persistent": "1" if self.persistent else "0",
         }
         try:
             link = node.graph.transport.connect_service(uri, header, cls)
         except TransportInitError as error:
             server = node.graph.service_class_at(uri, self.name)
-            theirs = "another type" if server is None else server._type  # noqa: SLF001
-            msg = f"service [{self.name}] is a {theirs}, and was called as a {cls._type}: {error}. Use the server's type."  # noqa: SLF001
+            theirs = "another type" if server is None else server._type
+            msg = f"service [{self.name}] is a {theirs}, and was called as a {cls._type}: {error}. Use the server's type."
             raise ServiceException(msg) from error
         except TransportException as error:
             msg = f"unable to connect to service [{self.name}]: {error}"

@@ -1,5 +1,6 @@
 """The slave API: what each node answers to the Master, to other nodes and to tools (http://wiki.ros.org/ROS/Slave_API)."""
 
+# ruff: noqa: ARG002 - every call has a caller_id, whether it needs one or not
 from __future__ import annotations
 
 import os
@@ -42,10 +43,17 @@ class SlaveApi:
                 return [-1, f"{method} invoked with the wrong arguments: {error}", 0]
             raise
 
-    def getBusStats(self, caller_id: str) -> Triple:  # noqa: N802 - ROS's name, like those below
+    def getBusStats(self, caller_id: str) -> Triple:
         """Return counts of what went over each connection: [publish stats, subscribe stats, service stats]."""
         publish = [
-            [topic, 0, [[number, 0, getattr(sender, "sent", 0), True] for number, sender in publication.senders.items()]]
+            [
+                topic,
+                0,
+                [
+                    [number, 0, getattr(sender, "sent", 0), True]
+                    for number, sender in publication.senders.items()
+                ],
+            ]
             for topic, publication in self._node.publications.items()
         ]
         subscribe = [
@@ -54,11 +62,19 @@ class SlaveApi:
         ]
         return [1, "", [publish, subscribe, []]]
 
-    def getBusInfo(self, caller_id: str) -> Triple:  # noqa: N802
+    def getBusInfo(self, caller_id: str) -> Triple:
         """Return one row per connection: [id, destination, direction, transport, topic, connected, description]."""
         protocol = self._node.graph.transport.protocol
         rows: list[list[Any]] = [
-            [number, sender.destination, "o", protocol, topic, True, f"{protocol} connection to [{sender.destination}]"]
+            [
+                number,
+                sender.destination,
+                "o",
+                protocol,
+                topic,
+                True,
+                f"{protocol} connection to [{sender.destination}]",
+            ]
             for topic, publication in self._node.publications.items()
             for number, sender in publication.senders.items()
         ]
@@ -69,7 +85,7 @@ class SlaveApi:
         ]
         return [1, "bus info", rows]
 
-    def getMasterUri(self, caller_id: str) -> Triple:  # noqa: N802
+    def getMasterUri(self, caller_id: str) -> Triple:
         """Return the URI of the node's Master."""
         uri = self._node.graph.master_uri
         return [1, uri, uri]
@@ -79,33 +95,33 @@ class SlaveApi:
         self._node.shutdown_requested(caller_id, msg)
         return [1, "shutdown", 0]
 
-    def getPid(self, caller_id: str) -> Triple:  # noqa: N802
+    def getPid(self, caller_id: str) -> Triple:
         """Return the process id."""
         return [1, "", os.getpid()]
 
-    def getSubscriptions(self, caller_id: str) -> Triple:  # noqa: N802
+    def getSubscriptions(self, caller_id: str) -> Triple:
         """Return [topic, type] pairs."""
-        pairs = [[topic, item.message_class._type] for topic, item in self._node.subscriptions.items()]  # noqa: SLF001
+        pairs = [[topic, item.message_class._type] for topic, item in self._node.subscriptions.items()]
         return [1, "subscriptions", pairs]
 
-    def getPublications(self, caller_id: str) -> Triple:  # noqa: N802
+    def getPublications(self, caller_id: str) -> Triple:
         """Return [topic, type] pairs."""
-        pairs = [[topic, item.message_class._type] for topic, item in self._node.publications.items()]  # noqa: SLF001
+        pairs = [[topic, item.message_class._type] for topic, item in self._node.publications.items()]
         return [1, "publications", pairs]
 
-    def paramUpdate(self, caller_id: str, parameter_key: str, parameter_value: Any) -> Triple:  # noqa: N802
+    def paramUpdate(self, caller_id: str, parameter_key: str, parameter_value: Any) -> Triple:
         """Learn that a parameter to which the node subscribes has changed."""
         self._node.parameter_changed(parameter_key, parameter_value)
         return [1, "", 0]
 
-    def publisherUpdate(self, caller_id: str, topic: str, publishers: list[str]) -> Triple:  # noqa: N802
+    def publisherUpdate(self, caller_id: str, topic: str, publishers: list[str]) -> Triple:
         """Learn who publishes a topic now."""
         subscription = self._node.subscriptions.get(topic)
         if subscription is not None:
             subscription.update_publishers(publishers)
         return [1, "", 0]
 
-    def requestTopic(self, caller_id: str, topic: str, protocols: list[list[Any]]) -> Triple:  # noqa: N802
+    def requestTopic(self, caller_id: str, topic: str, protocols: list[list[Any]]) -> Triple:
         """Tell a subscriber how to connect to a topic that this node publishes."""
         node = self._node
         if topic not in node.publications:

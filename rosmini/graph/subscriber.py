@@ -52,11 +52,12 @@ class Connection:
             code, status, parameters = transport.call(
                 self.uri, "requestTopic", node.name, subscription.topic, [[transport.protocol]]
             )
-            if code != 1:
-                raise TransportInitError(status)
-            self.header, self._close_link = transport.connect_topic(parameters, self._request(), self)
+            if code == 1:
+                self.header, self._close_link = transport.connect_topic(parameters, self._request(), self)
+            else:
+                self._refused(TransportInitError(status))
+                return
         except TransportInitError as error:
-            subscription.forget(self)
             self._refused(error)
             return
         except TransportException:
@@ -64,7 +65,7 @@ class Connection:
             return
         self.peer = self.header.get("callerid", "")
         self.is_open = True
-        if self.message_class is None or self.message_class._type == "*":  # noqa: SLF001
+        if self.message_class is None or self.message_class._type == "*":
             self.message_class = node.graph.type_of_header(self.header, self.message_class)
         for handle in subscription.handles:
             handle.connected(self.peer)
@@ -75,27 +76,28 @@ class Connection:
         cls = subscription.message_class
         return {
             "callerid": subscription.node.name,
-            "md5sum": cls._md5sum,  # noqa: SLF001 - the contract of message classes
-            "message_definition": cls._full_text,  # noqa: SLF001
+            "md5sum": cls._md5sum,
+            "message_definition": cls._full_text,
             "topic": subscription.topic,
-            "type": cls._type,  # noqa: SLF001
+            "type": cls._type,
             "tcp_nodelay": "0",
         }
 
     def _refused(self, error: TransportInitError) -> None:
         subscription = self.subscription
+        subscription.forget(self)
         node = subscription.node
         published = node.graph.publisher_class(self.uri, subscription.topic)
-        if published is not None and published._md5sum != subscription.message_class._md5sum:  # noqa: SLF001
+        if published is not None and published._md5sum != subscription.message_class._md5sum:
             cls = subscription.message_class
             text = describe_mismatch(
                 subscription.topic,
                 node.graph.node_name_of(self.uri),
                 published,
                 node.name,
-                cls._type,  # noqa: SLF001
-                cls._md5sum,  # noqa: SLF001
-                cls._full_text,  # noqa: SLF001
+                cls._type,
+                cls._md5sum,
+                cls._full_text,
             )
         else:
             text = f"{subscription.topic}: the publisher at {self.uri} refused the connection: {error}"
@@ -136,7 +138,7 @@ class Connection:
                     else:
                         message = frozen if first else self._private(frozen)
                     first = False
-                    message._connection_header = self.header  # noqa: SLF001
+                    message._connection_header = self.header
                     for callback in callbacks:
                         self._call(callback, message)
         finally:
@@ -148,20 +150,20 @@ class Connection:
     def _call(self, callback: _Callback, message: Any) -> None:
         try:
             callback.function(message, *callback.arguments)
-        except Exception as error:  # noqa: BLE001 - a callback's error must not end the connection
+        except Exception as error:
             subscription = self.subscription
             subscription.node.callback_failed(error, callback.function, subscription.topic, message)
 
     def _private(self, frozen: Any) -> Any:
         cls = type(frozen)
-        return cls._freeze(frozen) if cls._plain else frozen  # noqa: SLF001
+        return cls._freeze(frozen) if cls._plain else frozen
 
     def replay(self, callback: _Callback, thaw: Callable[[Any], Any] | None) -> None:
         """Give a late callback the message that the publisher latched."""
         if self._last is not None:
             frozen = self._private(self._last)
             message = frozen if thaw is None else thaw(frozen)
-            message._connection_header = self.header  # noqa: SLF001
+            message._connection_header = self.header
             self._lane.submit(lambda: self._call(callback, message))
 
     def closed(self) -> None:
@@ -234,7 +236,9 @@ class Subscription:
         self.queue_size = None if not all(sizes) else max(size for size in sizes if size)
         self._groups = {}
 
-    def groups(self, message_class: Any) -> tuple[tuple[Callable[[Any], Any] | None, tuple[_Callback, ...]], ...]:
+    def groups(
+        self, message_class: Any
+    ) -> tuple[tuple[Callable[[Any], Any] | None, tuple[_Callback, ...]], ...]:
         """Return the callbacks by the way in which they want their message: (thaw, callbacks) pairs."""
         found = self._groups.get(message_class)
         if found is None:
@@ -242,7 +246,9 @@ class Subscription:
             for handle in self.handles:
                 if handle.callback is not None:
                     by_thaw.setdefault(handle.thaw_for(message_class), []).append(handle.callback)
-            found = self._groups[message_class] = tuple((thaw, tuple(callbacks)) for thaw, callbacks in by_thaw.items())
+            found = self._groups[message_class] = tuple(
+                (thaw, tuple(callbacks)) for thaw, callbacks in by_thaw.items()
+            )
         return found
 
     def close(self) -> None:
@@ -283,15 +289,15 @@ class Subscriber:
         subscription.add(self)
 
     def __repr__(self) -> str:
-        return f"<Subscriber {self.topic} [{self.message_class._type}] of {self.node.name}>"  # noqa: SLF001
+        return f"<Subscriber {self.topic} [{self.message_class._type}] of {self.node.name}>"
 
     def thaw_for(self, message_class: Any) -> Callable[[Any], Any] | None:
         """Return how a frozen message becomes this subscriber's own; None: as it is."""
         if self._receipt is not None:
             return self._receipt(message_class)
-        if message_class._plain:  # noqa: SLF001 - the contract of message classes
+        if message_class._plain:
             return None
-        thaw: Callable[[Any], Any] = message_class._thaw_numpy if self._numpy else message_class._thaw  # noqa: SLF001
+        thaw: Callable[[Any], Any] = message_class._thaw_numpy if self._numpy else message_class._thaw
         return thaw
 
     def num_connections(self) -> int:

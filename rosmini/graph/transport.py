@@ -110,7 +110,9 @@ class Transport(Protocol):
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
         """Call a method of a node's slave API; may block. Raises ``TransportException`` when nobody answers."""
 
-    def connect_topic(self, parameters: list[Any], header: Header, receiver: Receiver) -> tuple[Header, Callable[[], None]]:
+    def connect_topic(
+        self, parameters: list[Any], header: Header, receiver: Receiver
+    ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection; may block. Return the publisher's header and a function that closes it."""
 
     def connect_service(self, service_uri: str, header: Header, service_class: Any) -> ServiceLink:
@@ -120,13 +122,20 @@ class Transport(Protocol):
 class LocalSender:
     """Hands messages to a receiver in the same process at the next event of the queue."""
 
-    __slots__ = ("_closed", "_on_closed", "_queue", "_receiver", "_scheduler", "_size", "destination", "dropped", "sent")
+    __slots__ = (
+        "_closed",
+        "_queue",
+        "_receiver",
+        "_scheduler",
+        "destination",
+        "dropped",
+        "sent",
+    )
 
     def __init__(self, scheduler: Scheduler, receiver: Receiver, destination: str) -> None:
         self._scheduler = scheduler
         self._receiver = receiver
         self._queue: deque[Any] = deque()
-        self._size: int | None = None
         self._closed = False
         self.destination = destination
         self.sent = 0
@@ -224,12 +233,14 @@ class LocalTransport:
         """Call a method of a node's slave API."""
         return self.endpoint(uri).slave_call(method, *arguments)
 
-    def connect_topic(self, parameters: list[Any], header: Header, receiver: Receiver) -> tuple[Header, Callable[[], None]]:
+    def connect_topic(
+        self, parameters: list[Any], header: Header, receiver: Receiver
+    ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection."""
         sender = LocalSender(self._scheduler, receiver, header["callerid"])
         reply = self.endpoint(parameters[1]).accept_subscriber(header, sender)
         return reply, sender.drop
 
-    def connect_service(self, service_uri: str, header: Header, service_class: Any) -> ServiceLink:
+    def connect_service(self, service_uri: str, header: Header, service_class: Any) -> ServiceLink:  # noqa: ARG002 - the seam's
         """Open a service connection."""
         return LocalServiceLink(self.endpoint(service_uri).accept_client(header))

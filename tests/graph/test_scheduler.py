@@ -341,7 +341,7 @@ def test_closing_ends_the_lanes_and_nothing_is_left(scheduler: Scheduler) -> Non
     scheduler.run(until=lambda: lane.waiting_for is not None)
     scheduler.close()
     assert lane.dead
-    del big, lane
+    big = lane = None
     gc.collect()
     assert alive() is None
 

@@ -1,0 +1,135 @@
+"""The part of a node that blocks: sleeping, waiting, spinning."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rosmini.errors import ROSException, ROSInterruptException, ROSTimeMovedBackwardsException
+from rosmini.time import Duration, Time
+
+from .clock import GraphClock, TopicClock
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .graph import Graph
+    from .lanes import Waiter
+    from .scheduler import Scheduler
+
+
+class BlockingApi:
+    """Time and waiting, as a :class:`~rosmini.graph.node.Node` offers them."""
+
+    name: str
+    graph: Graph
+    scheduler: Scheduler
+    clock: GraphClock | TopicClock
+    shutdown_reason: str | None
+    _stopped: bool
+    _waiters: dict[Waiter, type[Exception]]
+
+    # -- time ----------------------------------------------------------------------------------------------------
+
+    def now(self) -> Time:
+        """Return the node's time."""
+        return Time.from_nsec(self.clock.now_ns())
+
+    def sleep(self, duration: float | Duration) -> None:
+        """Block for seconds of the node's time; not at all for zero or less.
+
+        Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when its
+        clock jumps back.
+        """
+        span = duration.to_nsec() if isinstance(duration, Duration) else int(duration * 1e9)
+        if span <= 0:
+            if self._stopped:
+                raise ROSInterruptException(self._shutdown_message())
+            return
+        start = self.clock.now_ns()
+        if start == 0 and isinstance(self.clock, TopicClock):
+            self._wait_on_clock(1, "the first message on /clock")
+            start = self.clock.now_ns()
+        self._wait_on_clock(start + span, "time to pass")
+        now = self.clock.now_ns()
+        if now < start:
+            raise ROSTimeMovedBackwardsException((now - start) / 1e9)
+
+    def _wait_on_clock(self, when_ns: int, reason: str) -> None:
+        waiter = self.waiter(reason)
+        if isinstance(self.clock, GraphClock):
+            self.wait(waiter, (when_ns - self.clock.now_ns()) / 1e9, timeout_ns=when_ns - self.clock.now_ns())
+            return
+        cancel = self.scheduler.on_hub(lambda: self.clock.call_at(when_ns, waiter.wake))
+        try:
+            self.wait(waiter, None)
+        finally:
+            cancel()
+
+    # -- blocking ------------------------------------------------------------------------------------------------
+
+    def waiter(self, reason: str) -> Waiter:
+        """Return something to wait for; ``reason`` completes "... was waiting for"."""
+        return self.scheduler.waiter(reason)
+
+    def wait(
+        self,
+        waiter: Waiter,
+        timeout: float | None = None,
+        *,
+        timeout_ns: int | None = None,
+        interrupt_error: type[Exception] = ROSInterruptException,
+    ) -> bool:
+        """Block until ``waiter`` is woken (True) or ``timeout`` seconds have passed (False).
+
+        Raises ``interrupt_error`` when the node shuts down meanwhile.
+        """
+        if self._stopped:
+            raise interrupt_error(self._shutdown_message())
+        if timeout is not None and timeout_ns is None:
+            timeout_ns = int(timeout * 1e9)
+        self._waiters[waiter] = interrupt_error
+        try:
+            return waiter.wait(timeout_ns)
+        finally:
+            self._waiters.pop(waiter, None)
+
+    def wait_until(
+        self, condition: Callable[[], bool], timeout: float | None, reason: str, failure: str
+    ) -> None:
+        """Block until ``condition()`` holds, which is looked at whenever the graph changes.
+
+        Raises ``ROSException`` with ``failure`` after ``timeout`` seconds.
+        """
+        waiter = self.waiter(reason)
+
+        def begin() -> None:
+            self.graph.watch(condition, waiter)
+
+        self.scheduler.on_hub(begin)
+        if not self.wait(waiter, timeout):
+            waiter.wake()
+            msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure}"
+            raise ROSException(msg)
+
+    def spin(self) -> None:
+        """Block until the node is shut down; callbacks go on meanwhile."""
+        if not self._stopped:
+            waiter = self.waiter("spin")
+            self._waiters[waiter] = ROSInterruptException
+            try:
+                waiter.wait()
+            except ROSInterruptException:
+                return
+            finally:
+                self._waiters.pop(waiter, None)
+
+    # -- the end -------------------------------------------------------------------------------------------------
+
+    def is_shutdown(self) -> bool:
+        """Tell whether the node has been shut down."""
+        return self._stopped
+
+    def _shutdown_message(self) -> str:
+        return f"node {self.name} was shut down" + (
+            f": {self.shutdown_reason}" if self.shutdown_reason else ""
+        )
