@@ -46,7 +46,7 @@ from .streams import OutputSink, ScriptOutput
 from .ticks import TICK
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from rosmini.graph.lanes import Lane, Waiter
     from rosmini.graph.scheduler import Scheduler
@@ -63,6 +63,7 @@ class ScriptContext:
         feed: its standard input.
         seed: what its random numbers start from in simulated time.
         folders: where else its modules may be, after its own folder.
+        modules: the client library: modules by the names under which the script imports them.
 
     """
 
@@ -76,6 +77,7 @@ class ScriptContext:
         feed: Feed,
         seed: str = "",
         folders: Sequence[str] = (),
+        modules: Mapping[str, ModuleType] | None = None,
         name: str | None = None,
     ) -> None:
         self.scheduler = scheduler
@@ -90,17 +92,17 @@ class ScriptContext:
         self.ended = False
         self.failed_in_callback = False
         self._sink = sink
-        self._setup_modules(folders)
+        self._setup_modules(folders, modules or {})
         self._setup_swapped(feed)
         self._setup_threads()
 
-    def _setup_modules(self, folders: Sequence[str]) -> None:
+    def _setup_modules(self, folders: Sequence[str], modules: Mapping[str, ModuleType]) -> None:
         own = [] if self.filename.startswith("<") else [str(Path(self.filename).absolute().parent)]
         self._own_folders = (*own, *folders)
         self._host_path = frozenset(sys.path)
         self._folders: tuple[str, ...] = ()
         self._folders_for: list[str] = []
-        self.importer = Importer(self)
+        self.importer = Importer(self, modules)
         self.builtins_module = make_builtins_module(self)
         self.builtins = self.builtins_module.__dict__
         self.builtins[TICK] = self._make_tick()

@@ -3,7 +3,7 @@
 Each script has its own ``__import__`` in its builtins. Modules beside the script (or in a folder that it added to
 ``sys.path``) are loaded for this script alone, with ticks in their loops; a few modules of the standard library that
 keep state for the whole process or block (``threading``, ``time``, ``random``, ``logging``, ...) are replaced by shims or
-by private copies; everything else is the host's, imported while the script's context is put aside, so
+by private copies; ``rospy`` (given by whoever runs the script) and the messages are rosmini's; everything else is the host's, imported while the script's context is put aside, so
 that nothing of the script sticks to it.
 """
 
@@ -23,6 +23,9 @@ from importlib.machinery import (
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from rosmini.errors import RosminiError
+from rosmini.msgs.registry import registry
+
 from .shims import BUILDERS, PRIVATE_COPIES, finish_copy
 from .source import compile_script
 
@@ -36,13 +39,18 @@ _NEVER_LOCAL = frozenset(sys.builtin_module_names) | {"rosmini", "builtins", "os
 """Names that are loaded before any script, so that a file beside it cannot hide them."""
 
 
+_MESSAGES = "rosmini.msgs."
+_LIKE_MESSAGES = ("_msgs", "_msg", "_srvs", "_srv", "_interfaces")
+
+
 class Importer:
     """The modules of one script, and its ``__import__``."""
 
-    def __init__(self, context: ScriptContext) -> None:
+    def __init__(self, context: ScriptContext, given: Mapping[str, ModuleType]) -> None:
         self._context = context
+        self._given = given
         self.local: dict[str, ModuleType] = {}
-        self.private: dict[str, ModuleType] = {}
+        self.private: dict[str, ModuleType] = dict(given)
         self._finders: dict[str, FileFinder] = {}
         self._hosted: set[str] = set()
         self._hosted_for: tuple[str, ...] = ()
@@ -89,6 +97,8 @@ class Importer:
             module = self._copy(name)
         elif parent_name in self.local:
             module = self._load_local_child(name, parent)
+        elif parent_name in self._given or parent.__name__.startswith(_MESSAGES):
+            return self._message_module(name)
         else:
             return self._host_module(name, parent if parent_name in self.private else None)
         setattr(parent, child, module)
@@ -105,7 +115,7 @@ class Importer:
             return False
         if top in self.private or top in self.local or top in BUILDERS or top in PRIVATE_COPIES:
             return True
-        if self._local_spec(top) is not None:
+        if self._local_spec(top) is not None or self._defines_messages(top):
             return True
         if top in sys.modules:
             self._hosted.add(top)
@@ -123,7 +133,25 @@ class Importer:
             return module
         if name in PRIVATE_COPIES:
             return self._copy(name)
+        if self._defines_messages(name):
+            return self._message_module(name)
         return self._host_module(name, None)
+
+    def _defines_messages(self, package: str) -> bool:
+        if package in sys.stdlib_module_names:
+            return False
+        known = registry()
+        return bool(known.messages(package) or known.services(package))
+
+    def _message_module(self, name: str) -> ModuleType:
+        """``std_msgs.msg``, from :mod:`rosmini.msgs`, also where a ROS is installed: ours goes with our rospy."""
+        try:
+            module = self.private[name] = importlib.import_module(_MESSAGES + name)
+        except ModuleNotFoundError as error:
+            if isinstance(error, RosminiError):
+                raise
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name) from None
+        return module
 
     def _local_spec(self, name: str) -> ModuleSpec | None:
         """Where the script's own folders have the top-level module ``name``; None if they have not."""
@@ -179,8 +207,13 @@ class Importer:
         module = sys.modules.get(name)
         if module is not None and not (fromlist and hasattr(module, "__path__")):
             return self._real_import(name, globals, locals, fromlist or ())
-        with self._context.put_aside():
-            found = self._real_import(name, globals, locals, fromlist or ())
+        try:
+            with self._context.put_aside():
+                found = self._real_import(name, globals, locals, fromlist or ())
+        except ModuleNotFoundError as error:
+            if error.name == name and name.endswith(_LIKE_MESSAGES):
+                self._message_module(name)  # raises an error that suggests the nearest package
+            raise
         self._context.after_import()
         return found
 

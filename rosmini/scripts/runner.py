@@ -19,7 +19,8 @@ from .stdin import make_feed
 from .streams import OutputSink
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from types import ModuleType
 
     from rosmini.graph import RunReport
 
@@ -238,6 +239,7 @@ def run_scripts(
     prefix: bool = True,
     grace: float = 3.0,
     folders: Sequence[str] = (),
+    modules: Mapping[str, ModuleType] | None = None,
 ) -> RunResult:
     """Run scripts written for rospy as nodes of one graph, and return how it ended.
 
@@ -255,6 +257,7 @@ def run_scripts(
         prefix: put ``[name]`` before each line.
         grace: how many seconds of graph time a script has to end after it was asked to.
         folders: where the scripts' modules may be, besides the folder of each.
+        modules: the client library, by the names under which scripts import it; rosmini's rospy if not given.
 
     Raises:
         ScriptError: a script is not there or is not Python.
@@ -263,6 +266,10 @@ def run_scripts(
     if not specs:
         raise ScriptError("no script was given")
     sources = [_read(spec) for spec in specs]
+    if modules is None:
+        from rosmini.rospy.importer import modules as rospy_modules
+
+        modules = rospy_modules()
     with _graph_for_run(graph, simulated=simulated, rate=rate, seed=seed) as used:
         sink = OutputSink(stdout or sys.stdout, stderr or sys.stderr, prefix=prefix)
         feed = make_feed(used.scheduler, stdin)
@@ -277,6 +284,7 @@ def run_scripts(
                 feed=feed,
                 seed=f"{seed}/{number}/{spec.path.replace(os.sep, '/').rpartition('/')[2]}",
                 folders=folders,
+                modules=modules,
             )
             scripts.append(_Script(context, source))
         run = _Run(used, scripts, grace)

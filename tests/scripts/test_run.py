@@ -109,21 +109,17 @@ def test_traceback_has_the_users_frames_only(run, tmp_path):
     )
     spec = run.file(tmp_path, "node.py", "import helper\n\ndef main():\n    helper.work(1)\n\nmain()\n")
     ran = run(spec, prefix=False)
-    assert (
-        re.sub(r'".*[/\\]', '"', ran.text).splitlines()
-        == [
-            "Traceback (most recent call last):",
-            '  File "node.py", line 6, in <module>',
-            "    main()",
-            '  File "node.py", line 4, in main',
-            "    helper.work(1)",
-            '  File "helper.py", line 4, in work',
-            "    raise KeyError(n)  # here",
-            "    ^^^^^^^^^^^^^^^^^",
-            "KeyError: 2",
-        ]
-        or "    ^^^^^^^^^^^^^^^^^" not in ran.text
-    )
+    shown = [re.sub(r'".*[/\\]', '"', line) for line in ran.lines if line.strip(" ^~")]
+    assert shown == [
+        "Traceback (most recent call last):",
+        '  File "node.py", line 6, in <module>',
+        "    main()",
+        '  File "node.py", line 4, in main',
+        "    helper.work(1)",
+        '  File "helper.py", line 4, in work',
+        "    raise KeyError(n)  # here",
+        "KeyError: 2",
+    ]
     assert ran.status == 1
 
 
