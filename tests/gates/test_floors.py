@@ -48,6 +48,7 @@ def test_the_floors_hold(checkout):
         ("errors.py", "from rosmini.graph import Graph"),
         ("graph/__init__.py", "def f():\n    import rosmini.viz"),
         ("msgs/__init__.py", "from rosmini.cli import main"),
+        ("graph/lanes.py", "from rosmini.graph import scheduler"),
         ("without_a_floor.py", "x = 1"),
     ],
 )
