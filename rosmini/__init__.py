@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .errors import RosminiError
     from .graph import Graph, Node, default_graph, set_default_graph
-    from .msgs import install, uninstall
+    from .rospy import install, uninstall
     from .time import Duration, Time
 
 __version__ = "0.1.0"
@@ -25,9 +25,9 @@ _HOMES = {
     "RosminiError": "rosmini.errors",
     "Time": "rosmini.time",
     "default_graph": "rosmini.graph",
-    "install": "rosmini.msgs",
+    "install": "rosmini.rospy",
     "set_default_graph": "rosmini.graph",
-    "uninstall": "rosmini.msgs",
+    "uninstall": "rosmini.rospy",
 }
 
 __all__ = [

@@ -1,0 +1,75 @@
+"""``rosgraph.masterapi``: the Master's API with unpacked answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rosmini.errors import RosminiError
+from rosmini.graph import default_graph
+from rosmini.names import resolve_for
+
+__all__ = [
+    "Error",
+    "Failure",
+    "Master",
+    "MasterError",
+    "MasterException",
+    "MasterFailure",
+    "ROSMasterException",
+    "is_online",
+]
+
+
+class MasterException(RosminiError):
+    """The Master did not do what it was asked for."""
+
+
+class MasterFailure(MasterException):
+    """The Master failed; its state may be wrong."""
+
+
+class MasterError(MasterException):
+    """The Master refused a call because of its arguments."""
+
+
+ROSMasterException = MasterException
+Error = MasterError
+Failure = MasterFailure
+
+
+class Master:
+    """The Master, asked in the name of ``caller_id``.
+
+    Methods are those of the Master API (http://wiki.ros.org/ROS/Master_API), such as ``getSystemState()``; they return the value of the answer.
+    Raises ``MasterError`` when the Master refuses, ``MasterFailure`` when it fails.
+    """
+
+    def __init__(self, caller_id: str, master_uri: str | None = None) -> None:
+        self.caller_id = resolve_for(caller_id, "/").rstrip("/") or "/"
+        self.master_uri = master_uri or default_graph().master_uri
+
+    def is_online(self) -> bool:
+        """Tell whether there is a Master: always, in a process that has its own."""
+        return True
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        method: Callable[..., Any] | None = (
+            None if name.startswith("_") else getattr(default_graph().master, name, None)
+        )
+        if method is None:
+            raise AttributeError(f"the Master has no method {name}", name=name, obj=self)
+        asked = method
+
+        def call(*args: Any) -> Any:
+            code, status, value = asked(self.caller_id, *args)
+            if code == 1:
+                return value
+            raise (MasterError if code == -1 else MasterFailure)(status)
+
+        return call
+
+
+def is_online(master_uri: str | None = None) -> bool:
+    """Tell whether there is a Master: always, in a process that has its own."""
+    return Master("rosgraph", master_uri).is_online()

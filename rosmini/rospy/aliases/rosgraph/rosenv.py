@@ -1,0 +1,19 @@
+"""``rosgraph.rosenv``: where the Master is."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rosmini.graph import default_graph
+
+__all__ = ["get_master_uri"]
+
+ROS_MASTER_URI = "ROS_MASTER_URI"
+ROS_NAMESPACE = "ROS_NAMESPACE"
+ROS_HOSTNAME = "ROS_HOSTNAME"
+ROS_IP = "ROS_IP"
+
+
+def get_master_uri(env: Any = None, argv: Any = None) -> str:  # noqa: ARG001 - rosgraph's signature; there is one Master here
+    """Return the URI of this process's Master."""
+    return default_graph().master_uri

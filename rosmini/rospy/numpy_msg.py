@@ -1,0 +1,33 @@
+"""``numpy_msg(Type)``: messages whose numeric arrays are numpy arrays (http://wiki.ros.org/rospy_tutorials/Tutorials/numpy)."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+__all__ = ["numpy_msg"]
+
+
+@cache
+def numpy_msg(msg_type: Any) -> Any:
+    """Return a class of ``msg_type`` that subscribers get with numpy arrays (read-only ones) where there are numbers."""
+    thaw = msg_type._thaw_genpy_numpy  # noqa: SLF001 - the contract of message classes
+
+    def receive(frozen: Any) -> Any:
+        message = thaw(frozen)
+        message.__class__ = made
+        return message
+
+    made: Any = type(
+        "Numpy_" + msg_type._type.replace("/", "__"),
+        (msg_type,),
+        {
+            "__slots__": (),
+            "__doc__": msg_type.__doc__,
+            "__module__": __name__,
+            "_plain_type": msg_type,
+            "_receive": staticmethod(receive),
+        },
+    )
+    made.__slots__ = msg_type.__slots__  # scripts expect to find the field names here
+    return made

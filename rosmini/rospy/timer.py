@@ -1,0 +1,107 @@
+"""Sleeping and timers: http://wiki.ros.org/rospy/Overview/Time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rosmini import time as base
+from rosmini.graph import clock
+
+from .rostime import Duration, Time
+from .session import any_node, require_node
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["Rate", "Timer", "TimerEvent", "sleep"]
+
+
+def sleep(duration: float | base.Duration) -> None:
+    """Sleep for seconds of the node's time; not at all for zero or less.
+
+    Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when ``/clock``
+    jumps back.
+    """
+    any_node().sleep(duration)
+
+
+class Rate(clock.Rate):
+    """Keeps a loop at ``hz`` turns a second: call :meth:`sleep` at the end of each turn.
+
+    Raises ``ROSInitException`` before ``init_node``.
+    """
+
+    def __init__(self, hz: float, reset: bool = False) -> None:
+        super().__init__(require_node("rospy.Rate"), hz, reset=reset)
+        self.sleep_dur = Duration(self.sleep_dur.secs, self.sleep_dur.nsecs)
+
+
+class TimerEvent:
+    """What a timer's callback is given: when it was due and when it ran, for this call and for the one before.
+
+    Times are ``rospy.Time`` (None before the second call), ``last_duration`` is how many seconds the last callback took.
+    """
+
+    def __init__(
+        self,
+        last_expected: Time | None,
+        last_real: Time | None,
+        current_expected: Time,
+        current_real: Time,
+        last_duration: float | None,
+    ) -> None:
+        self.last_expected = last_expected
+        self.last_real = last_real
+        self.current_expected = current_expected
+        self.current_real = current_real
+        self.last_duration = last_duration
+
+
+class Timer:
+    """Calls ``callback(event)`` every ``period``, once only with ``oneshot``.
+
+    With ``reset`` a clock that jumps back restarts the cycle. Raises ``ROSInitException`` before ``init_node``.
+    """
+
+    def __init__(
+        self,
+        period: base.Duration | float,
+        callback: Callable[[TimerEvent], object],
+        oneshot: bool = False,
+        reset: bool = False,
+    ) -> None:
+        def call(event: clock.TimerEvent) -> None:
+            callback(
+                TimerEvent(
+                    _own(event.last_expected),
+                    _own(event.last_real),
+                    Time(event.current_expected.secs, event.current_expected.nsecs),
+                    Time(event.current_real.secs, event.current_real.nsecs),
+                    event.last_duration,
+                )
+            )
+
+        call.__name__ = getattr(callback, "__name__", "callback")
+        call.__qualname__ = getattr(callback, "__qualname__", call.__name__)
+        self.daemon = True
+        self._node = require_node("rospy.Timer")
+        self._timer = self._node.timer(period, call, oneshot=oneshot, reset=reset)
+
+    def shutdown(self) -> None:
+        """Stop the timer: no callback starts after this."""
+        self._timer.shutdown()
+
+    def is_alive(self) -> bool:
+        """Tell whether callbacks may still come."""
+        return self._timer.is_alive()
+
+    def join(self, timeout: float | None = None) -> None:
+        """Block until the timer has ended, or for ``timeout`` seconds."""
+        scheduler = self._node.scheduler
+        end = None if timeout is None else scheduler.now_ns() + int(timeout * 1e9)
+        while self.is_alive() and (end is None or scheduler.now_ns() < end):
+            scheduler.sleep_until(scheduler.now_ns() + 1_000_000, "a timer to end")
+
+
+def _own(when: base.Time | None) -> Time | None:
+    return None if when is None else Time(when.secs, when.nsecs)

@@ -1,0 +1,313 @@
+"""init_node, names, shutdown."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+
+import pytest
+
+from rosmini import rospy
+from rosmini.errors import IllegalName
+from rosmini.graph import default_graph
+from rosmini.msgs.std_msgs.msg import String
+
+
+def test_a_node_has_a_name_a_namespace_and_a_uri(programs):
+    def main():
+        before = rospy.get_name(), rospy.get_namespace(), rospy.get_node_uri(), rospy.core.is_initialized()
+        rospy.init_node("talker")
+        return before, (rospy.get_name(), rospy.get_caller_id(), rospy.get_namespace())
+
+    before, after = programs(main)
+    assert before == ("/unnamed", "/", None, False)
+    assert after == ("/talker", "/talker", "/")
+    assert default_graph().nodes["/talker"].uri
+
+
+def test_arguments_rename_and_remap(programs):
+    def main():
+        rospy.init_node("talker")
+        return (
+            rospy.get_name(),
+            rospy.get_namespace(),
+            rospy.resolve_name("chatter"),
+            rospy.resolve_name("~x"),
+            rospy.resolve_name(""),
+            rospy.resolve_name("a", "/other/node"),
+            rospy.remap_name("chatter"),
+            rospy.remap_name("unmapped"),
+            rospy.get_param("~rate"),
+            rospy.myargv(["prog", "a:=b", "-v", "_x:=1"]),
+        )
+
+    got = programs(main, arguments=("__name:=speaker", "__ns:=robot1", "chatter:=news", "_rate:=10"))
+    assert got == (
+        "/robot1/speaker",
+        "/robot1/",
+        "/robot1/news",
+        "/robot1/speaker/x",
+        "/robot1/",
+        "/other/a",
+        "/robot1/news",
+        "unmapped",
+        10,
+        ["prog", "-v"],
+    )
+
+
+def test_argv_of_init_node_replaces_that_of_the_program(programs):
+    def main():
+        rospy.init_node("talker", argv=["x", "chatter:=/elsewhere"])
+        return rospy.resolve_name("chatter")
+
+    assert programs(main, arguments=("chatter:=/here",)) == "/elsewhere"
+
+
+def test_the_environment_gives_a_namespace(programs, monkeypatch):
+    monkeypatch.setenv("ROS_NAMESPACE", "fleet")
+
+    def main():
+        early = rospy.get_namespace(), rospy.resolve_name("scan")
+        rospy.init_node("talker")
+        return early, rospy.get_name()
+
+    assert programs(main) == (("/fleet/", "/fleet/scan"), "/fleet/talker")
+
+
+def test_anonymous_nodes_have_different_names(programs):
+    def main():
+        rospy.init_node("talker", anonymous=True)
+        return rospy.get_name()
+
+    names = {programs(main) for _ in range(3)}
+    assert len(names) == 3
+    assert all(re.fullmatch(r"/talker_\d+_\d+", name) for name in names)
+
+
+@pytest.mark.parametrize("name", ["", None, "a/b", "/talker", "my-node", "1st"])
+def test_an_illegal_name_is_a_value_error(programs, name):
+    with pytest.raises(ValueError) as caught:
+        programs(lambda: rospy.init_node(name))
+    assert isinstance(caught.value, IllegalName)
+    if name == "a/b":
+        assert "namespaces are not allowed in node names" in str(caught.value)
+    if name == "my-node":
+        assert "my-node" in str(caught.value)
+        assert "\n      ^" in str(caught.value)
+
+
+def test_a_second_init_node_must_be_the_same(programs):
+    def main():
+        rospy.init_node("talker", log_level=rospy.DEBUG)
+        rospy.init_node("talker", log_level=rospy.DEBUG)
+        with pytest.raises(
+            rospy.ROSException, match=r"already been called with different arguments.*one node|One script"
+        ):
+            rospy.init_node("other")
+        with pytest.raises(rospy.ROSException, match="different arguments"):
+            rospy.init_node("talker")
+        return rospy.get_name()
+
+    assert programs(main) == "/talker"
+
+
+def test_the_main_program_has_a_node_too(graph):
+    rospy.init_node("notebook")
+    assert rospy.get_name() == "/notebook"
+    with pytest.raises(rospy.ROSException, match="object API"):
+        rospy.init_node("another")
+    rospy.signal_shutdown("done")
+    assert rospy.is_shutdown()
+    rospy.init_node("another")
+    assert rospy.get_name() == "/another"
+    assert not rospy.is_shutdown()
+
+
+def test_callbacks_know_their_node(programs):
+    def other():
+        rospy.init_node("other")
+        rospy.spin()
+
+    def main():
+        rospy.init_node("main")
+        names = []
+        publisher = rospy.Publisher("t", String, queue_size=1, latch=True)
+        publisher.publish("x")
+        rospy.Subscriber("t", String, lambda _: names.append(rospy.get_name()))
+        rospy.Timer(rospy.Duration(0.1), lambda _: names.append(rospy.get_name()), oneshot=True)
+        rospy.sleep(0.5)
+        return names
+
+    assert programs(other, main) == ["/main", "/main"]
+
+
+def test_an_object_api_node_is_the_node_of_its_callbacks(graph):
+    node = graph.node("objects")
+    names = []
+    node.run(lambda: names.append((rospy.get_name(), rospy.get_time() > 0)))
+    graph.run(0.1)
+    assert names == [("/objects", True)]
+
+
+BLOCKING = {
+    "Rate": lambda: rospy.Rate(10),
+    "Timer": lambda: rospy.Timer(rospy.Duration(1), print),
+    "now": rospy.Time.now,
+    "get_time": rospy.get_time,
+    "get_rostime": rospy.get_rostime,
+    "spin": rospy.spin,
+    "wait_for_message": lambda: rospy.wait_for_message("chatter", String),
+}
+
+
+@pytest.mark.parametrize("name", BLOCKING)
+def test_what_needs_a_node_says_so(sim_programs, name):
+    with pytest.raises(rospy.ROSInitException, match=r"rospy\.init_node\("):
+        sim_programs(BLOCKING[name])
+
+
+def test_a_duplicate_name_ends_the_older_node(programs):
+    def old():
+        rospy.init_node("twin")
+        rospy.spin()
+        return rospy.is_shutdown()
+
+    def new():
+        rospy.sleep(0.1)
+        rospy.init_node("twin")
+        rospy.sleep(0.5)
+        return rospy.is_shutdown()
+
+    first = programs.start(old)
+    assert programs(new) is False
+    assert first.result is True
+
+
+# -- the end -----------------------------------------------------------------------------------------------------
+
+
+def test_shutdown_runs_hooks_in_order_while_one_can_still_publish(programs):
+    heard = []
+
+    def listener():
+        rospy.init_node("listener")
+        rospy.Subscriber("stop", String, lambda message: heard.append(message.data))
+        rospy.spin()
+
+    def main():
+        early = []
+        rospy.on_shutdown(lambda: early.append("before init_node"))
+        rospy.init_node("main")
+        publisher = rospy.Publisher("stop", String, queue_size=1)
+        rospy.sleep(0.3)
+        states = []
+        rospy.on_shutdown(lambda: (early.append("first"), publisher.publish("stop")))
+        rospy.on_shutdown(lambda: states.append((rospy.is_shutdown_requested(), rospy.is_shutdown())))
+        rospy.core.add_preshutdown_hook(lambda reason: early.append(f"pre: {reason}"))
+        rospy.core.add_shutdown_hook(lambda reason: early.append(f"last: {reason}"))
+        assert not rospy.is_shutdown_requested()
+        rospy.signal_shutdown("done")
+        rospy.signal_shutdown("again")
+        assert rospy.is_shutdown()
+        rospy.on_shutdown(lambda: early.append("at once"))
+        return early, states
+
+    early, states = programs(listener, main)
+    assert early == ["before init_node", "first", "pre: done", "last: done", "at once"]
+    assert states == [(True, False)]
+    programs.graph.run(0.1)
+    assert heard == ["stop"]
+
+
+def test_a_hook_that_raises_does_not_stop_the_others(programs, log):
+    done = []
+
+    def bad():
+        raise ValueError("bad hook")
+
+    def main():
+        rospy.init_node("main")
+        rospy.on_shutdown(bad)
+        rospy.on_shutdown(lambda: done.append(1))
+        rospy.signal_shutdown("")
+
+    programs(main)
+    assert done == [1]
+    assert "bad hook" in log.read().err
+
+
+def test_a_hook_must_be_callable(programs):
+    with pytest.raises(TypeError, match="function or another callable"):
+        programs(lambda: rospy.on_shutdown("no"))
+
+
+@pytest.mark.parametrize("what", ["sleep", "rate", "wait_for_message", "wait_for_service", "spin"])
+def test_shutdown_ends_what_blocks(programs, what):
+    def main():
+        rospy.init_node("main")
+        rospy.Timer(rospy.Duration(0.2), lambda _: rospy.signal_shutdown("enough"), oneshot=True)
+        blocking = {
+            "sleep": lambda: rospy.sleep(100),
+            "rate": lambda: rospy.Rate(0.01).sleep(),
+            "wait_for_message": lambda: rospy.wait_for_message("nothing", String),
+            "wait_for_service": lambda: rospy.wait_for_service("nothing"),
+            "spin": rospy.spin,
+        }
+        if what == "spin":
+            blocking[what]()
+        else:
+            with pytest.raises(rospy.ROSInterruptException, match="enough"):
+                blocking[what]()
+        return rospy.is_shutdown()
+
+    assert programs(main)
+
+
+def test_signal_shutdown_before_init_node(programs):
+    def main():
+        rospy.signal_shutdown("early")
+        assert rospy.is_shutdown()
+        rospy.spin()
+        with pytest.raises(rospy.ROSInitException, match="too late"):
+            rospy.init_node("late")
+
+    programs(main)
+
+
+def test_the_runner_is_told_of_the_node_and_of_its_end(programs):
+    def main():
+        rospy.init_node("main")
+        rospy.spin()
+
+    program = programs.start(main)
+    programs.graph.run(0.1)
+    assert (program.node.name, program.node_name) == ("/main", "/main")
+    for end in program.at_shutdown:
+        end("the run is over")
+    programs.graph.run(0.1)
+    assert program.done
+    assert program.node.shutdown_reason == "the run is over"
+
+
+PROGRAM = """
+import rosmini
+rosmini.install(shadow=True)
+import rospy
+from std_msgs.msg import String
+rosmini.set_default_graph(rosmini.Graph(simulated=False))
+rospy.init_node("plain")
+rospy.on_shutdown(lambda: print("hook", rospy.get_name()))
+rospy.Subscriber("t", String, lambda m: print("heard", m.data))
+publisher = rospy.Publisher("t", String, queue_size=1, latch=True)
+publisher.publish("x")
+rospy.sleep(0.05)
+"""
+
+
+def test_the_hooks_of_a_plain_program_run_at_its_end():
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert (done.stdout.splitlines(), done.stderr, done.returncode) == (["heard x", "hook /plain"], "", 0)
