@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from rosmini.errors import TransportException, TransportInitError, TypeMismatch
 
@@ -22,6 +22,9 @@ class _Callback(NamedTuple):
     arguments: tuple[Any, ...]
 
 
+Groups: TypeAlias = "tuple[tuple[Callable[[Any], Any] | None, tuple[_Callback, ...]], ...]"
+
+
 class Connection:
     """A subscription's link to one publisher: its queue and the lane in which callbacks run."""
 
@@ -34,6 +37,7 @@ class Connection:
         self.message_class = subscription.message_class
         self.header: Header = {}
         self.received = 0
+        self.groups: Groups = ()
         self.dropped = 0
         self.is_open = False
         self._gone = False
@@ -123,40 +127,49 @@ class Connection:
     def _drain(self) -> None:
         """Call the callbacks for what is queued. In the connection's lane."""
         incoming = self._incoming
-        subscription = self.subscription
-        keep = self.header.get("latching") == "1"
+        header = self.header
+        keep = header.get("latching") == "1"
         try:
             while incoming:
                 frozen = incoming.popleft()
                 self.received += 1
                 if keep:
                     self._last = self._private(frozen)
-                first = True
-                for thaw, callbacks in subscription.groups(self.message_class):
+                message = None
+                for thaw, callbacks in self.groups or self._regroup():
                     if thaw is not None:
                         message = thaw(frozen)
                     else:
-                        message = frozen if first else self._private(frozen)
-                    first = False
-                    message._connection_header = self.header
+                        message = frozen if message is None else self._private(frozen)
+                    message._connection_header = header
                     for callback in callbacks:
-                        self._call(callback, message)
+                        try:
+                            callback.function(message, *callback.arguments)
+                        except Exception as error:
+                            self._failed(error, callback, message)
         finally:
             self._scheduled = False
             if incoming and not self._gone:
                 self._scheduled = True
                 self._lane.submit(self._drain)
 
+    def _regroup(self) -> Groups:
+        self.groups = self.subscription.groups(self.message_class)
+        return self.groups
+
+    def _failed(self, error: Exception, callback: _Callback, message: Any) -> None:
+        subscription = self.subscription
+        subscription.node.callback_failed(error, callback.function, subscription.topic, message)
+
     def _call(self, callback: _Callback, message: Any) -> None:
         try:
             callback.function(message, *callback.arguments)
         except Exception as error:
-            subscription = self.subscription
-            subscription.node.callback_failed(error, callback.function, subscription.topic, message)
+            self._failed(error, callback, message)
 
     def _private(self, frozen: Any) -> Any:
         cls = type(frozen)
-        return cls._freeze(frozen) if cls._plain else frozen
+        return cls._thaw(frozen) if cls._plain else frozen
 
     def replay(self, callback: _Callback, thaw: Callable[[Any], Any] | None) -> None:
         """Give a late callback the message that the publisher latched."""
@@ -199,14 +212,19 @@ class Subscription:
         self.message_class = message_class
         self.handles: list[Subscriber] = []
         self.connections: dict[str, Connection] = {}
+        self._leaving: list[Connection] = []
         self.queue_size: int | None = None
-        self._groups: dict[Any, tuple[tuple[Callable[[Any], Any] | None, tuple[_Callback, ...]], ...]] = {}
 
     def update_publishers(self, uris: Iterable[str]) -> None:
         """Connect to new publishers and leave those that are gone: what ``publisherUpdate`` asks for."""
         wanted = list(dict.fromkeys(uris))
         for uri in [uri for uri in self.connections if uri not in wanted]:
-            self.connections.pop(uri).close()
+            # The publisher closes the connection after its last message, which may still be on its way.
+            connection = self.connections.pop(uri)
+            if connection.is_open:
+                self._leaving.append(connection)
+            else:
+                connection.close()
         for uri in wanted:
             if uri not in self.connections:
                 self.connections[uri] = Connection(self, uri)
@@ -215,6 +233,8 @@ class Subscription:
         """Drop a connection that is closed or was refused."""
         if self.connections.get(connection.uri) is connection:
             del self.connections[connection.uri]
+        elif connection in self._leaving:
+            self._leaving.remove(connection)
 
     def add(self, handle: Subscriber) -> None:
         """Add a subscriber of this node; it gets what connected publishers latched."""
@@ -233,29 +253,24 @@ class Subscription:
 
     def _changed(self) -> None:
         sizes = [handle.queue_size for handle in self.handles]
-        self.queue_size = None if not all(sizes) else max(size for size in sizes if size)
-        self._groups = {}
+        self.queue_size = None if not all(sizes) else max((size for size in sizes if size), default=None)
+        for connection in (*self.connections.values(), *self._leaving):
+            connection.groups = ()
 
-    def groups(
-        self, message_class: Any
-    ) -> tuple[tuple[Callable[[Any], Any] | None, tuple[_Callback, ...]], ...]:
+    def groups(self, message_class: Any) -> Groups:
         """Return the callbacks by the way in which they want their message: (thaw, callbacks) pairs."""
-        found = self._groups.get(message_class)
-        if found is None:
-            by_thaw: dict[Callable[[Any], Any] | None, list[_Callback]] = {}
-            for handle in self.handles:
-                if handle.callback is not None:
-                    by_thaw.setdefault(handle.thaw_for(message_class), []).append(handle.callback)
-            found = self._groups[message_class] = tuple(
-                (thaw, tuple(callbacks)) for thaw, callbacks in by_thaw.items()
-            )
-        return found
+        by_thaw: dict[Callable[[Any], Any] | None, list[_Callback]] = {}
+        for handle in self.handles:
+            if handle.callback is not None:
+                by_thaw.setdefault(handle.thaw_for(message_class), []).append(handle.callback)
+        return tuple((thaw, tuple(callbacks)) for thaw, callbacks in by_thaw.items())
 
     def close(self) -> None:
         """Close all connections."""
-        for connection in list(self.connections.values()):
+        for connection in [*self.connections.values(), *self._leaving]:
             connection.close()
         self.connections.clear()
+        self._leaving.clear()
 
 
 class Subscriber:
