@@ -219,7 +219,7 @@ def test_redirected_output_and_pickles(run, tmp_path):
         text = io.StringIO()
         with contextlib.redirect_stdout(text):
             print("inside")
-            time.sleep(0.001)
+            time.sleep(0.02)
             print("still")
         print(repr(text.getvalue()))
         print(pickle.loads(pickle.dumps(Point(3))).x, pickle.loads(pickle.dumps(Mine(4))), inspect.getsource(Point).split(':')[0])

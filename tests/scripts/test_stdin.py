@@ -29,10 +29,10 @@ def test_input_and_readline(run):
     ]
 
 
-def test_timed_input_leaves_the_others_running(run):
-    ran = run(
-        run.text("ask", "print('got', input('? '))"),
-        run.text("tick", "import time\nfor i in range(2):\n    time.sleep(0.004)\n    print(i)"),
+def test_timed_input_leaves_the_others_running(sim):
+    ran = sim(
+        sim.text("ask", "print('got', input('? '))"),
+        sim.text("tick", "import time\nfor i in range(2):\n    time.sleep(0.004)\n    print(i)"),
         stdin=[(0.006, "yes\n")],
     )
     assert [line for line in ran.lines if line.startswith("[tick]")] == ["[tick] 0", "[tick] 1"]
@@ -59,7 +59,7 @@ print(''.join(keys))
 
 
 def test_keyboard_script_with_supplied_keys(run):
-    assert run(KEYS, stdin=[(0, "ii"), (0.006, ","), (0.012, "q")]).lines == [
+    assert run(KEYS, stdin=[(0, "ii"), (0.03, ","), (0.06, "q")]).lines == [
         "[script] ii.,.q".replace("q", "")
     ]
 
@@ -93,7 +93,7 @@ def test_a_real_pipe_parks_only_the_reader(run):
                 run.text("ask", "print('got', input())\nprint(repr(input()))"),
                 run.text(
                     "tell",
-                    f"import os, time\ntime.sleep(0.002)\nprint('tell')\nos.write({write}, b'one\\n\\xc3\\xa4\\n')\nos.close({write})",
+                    f"import os, time\ntime.sleep(0.02)\nprint('tell')\nos.write({write}, b'one\\n\\xc3\\xa4\\n')\nos.close({write})",
                 ),
                 run.text("late", "import time\ntime.sleep(0.001)\nprint('late')"),
                 stdin=stream,
