@@ -40,28 +40,31 @@ class BlockingApi:
         Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when its
         clock jumps back.
         """
-        span = duration.to_nsec() if isinstance(duration, Duration) else int(duration * 1e9)
+        self.sleep_ns(duration.to_nsec() if isinstance(duration, Duration) else int(duration * 1e9))
+
+    def sleep_ns(self, span: int) -> None:
+        """Block for nanoseconds of the node's time; see :meth:`sleep`."""
+        if self._stopped:
+            raise ROSInterruptException(self._shutdown_message())
         if span <= 0:
-            if self._stopped:
-                raise ROSInterruptException(self._shutdown_message())
             return
-        start = self.clock.now_ns()
-        if start == 0 and isinstance(self.clock, TopicClock):
-            self._wait_on_clock(1, "the first message on /clock")
-            start = self.clock.now_ns()
-        self._wait_on_clock(start + span, "time to pass")
-        now = self.clock.now_ns()
+        clock = self.clock
+        if isinstance(clock, GraphClock):
+            self.wait(self.scheduler.waiter("time to pass"), timeout_ns=span)
+            return
+        if clock.now_ns() == 0:
+            self._wait_on_topic(clock, 1, "the first message on /clock")
+        start = clock.now_ns()
+        self._wait_on_topic(clock, start + span, "time to pass")
+        now = clock.now_ns()
         if now < start:
             raise ROSTimeMovedBackwardsException((now - start) / 1e9)
 
-    def _wait_on_clock(self, when_ns: int, reason: str) -> None:
+    def _wait_on_topic(self, clock: TopicClock, when_ns: int, reason: str) -> None:
         waiter = self.waiter(reason)
-        if isinstance(self.clock, GraphClock):
-            self.wait(waiter, (when_ns - self.clock.now_ns()) / 1e9, timeout_ns=when_ns - self.clock.now_ns())
-            return
-        cancel = self.scheduler.on_hub(lambda: self.clock.call_at(when_ns, waiter.wake))
+        cancel = self.scheduler.on_hub(lambda: clock.call_at(when_ns, waiter.wake))
         try:
-            self.wait(waiter, None)
+            self.wait(waiter)
         finally:
             cancel()
 
@@ -94,11 +97,11 @@ class BlockingApi:
             self._waiters.pop(waiter, None)
 
     def wait_until(
-        self, condition: Callable[[], bool], timeout: float | None, reason: str, failure: str
+        self, condition: Callable[[], bool], timeout: float | None, reason: str, failure: Callable[[], str]
     ) -> None:
         """Block until ``condition()`` holds, which is looked at whenever the graph changes.
 
-        Raises ``ROSException`` with ``failure`` after ``timeout`` seconds.
+        Raises ``ROSException`` with the text ``failure()`` after ``timeout`` seconds.
         """
         waiter = self.waiter(reason)
 
@@ -108,7 +111,7 @@ class BlockingApi:
         self.scheduler.on_hub(begin)
         if not self.wait(waiter, timeout):
             waiter.wake()
-            msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure}"
+            msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure()}"
             raise ROSException(msg)
 
     def spin(self) -> None:

@@ -96,32 +96,44 @@ class Rate:
             raise RosminiError(msg)
         self._node = node
         self._reset = reset
-        self._last = node.now()
-        self.sleep_dur = Duration.from_nsec(int(1e9 / hz))
+        self._last = node.clock.now_ns()
+        self._period = int(1e9 / hz)
+
+    @property
+    def sleep_dur(self) -> Duration:
+        """How long a turn is."""
+        return Duration.from_nsec(self._period)
+
+    @sleep_dur.setter
+    def sleep_dur(self, duration: Duration) -> None:
+        self._period = duration.to_nsec()
 
     def remaining(self) -> Duration:
         """Return how long :meth:`sleep` would sleep."""
-        now = self._node.now()
+        return Duration.from_nsec(self._left(self._node.clock.now_ns()))
+
+    def _left(self, now: int) -> int:
         self._last = min(self._last, now)
-        return self.sleep_dur - (now - self._last)
+        return self._last + self._period - now
 
     def sleep(self) -> None:
         """Sleep to the end of this turn; after a turn that took too long, start afresh.
 
         Raises ``ROSInterruptException`` when the node shuts down, ``ROSTimeMovedBackwardsException`` when its clock jumps back.
         """
-        now = self._node.now()
-        self._last = min(self._last, now)
+        node = self._node
+        clock = node.clock
         try:
-            self._node.sleep(self.sleep_dur - (now - self._last))
+            node.sleep_ns(self._left(clock.now_ns()))
         except ROSTimeMovedBackwardsException:
             if not self._reset:
                 raise
-            self._last = self._node.now()
+            self._last = clock.now_ns()
             return
-        self._last = self._last + self.sleep_dur
-        if self._node.now() - self._last > self.sleep_dur * 2:
-            self._last = self._node.now()
+        self._last += self._period
+        now = clock.now_ns()
+        if now - self._last > 2 * self._period:
+            self._last = now
 
 
 class TimerEvent(NamedTuple):

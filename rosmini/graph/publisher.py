@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import count
+from threading import get_ident
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ROSException, TransportInitError, TypeMismatch
@@ -22,17 +24,35 @@ class Publication:
         self.node = node
         self.topic = topic
         self.message_class = message_class
-        self.latch = False
+        self._latch = False
         self.queue_size: int | None = None
         self.handles: list[Publisher] = []
         self.senders: dict[int, Sender] = {}
         self.sent = 0
+        self._numbers = count(1)
+        self._scheduler = node.scheduler
         self._list: tuple[Sender, ...] = ()
+        self._only: Callable[[Any, int | None], None] | None = None
         self._latched: Any = None
         self._warned = False
         self._stamp = bool(message_class._has_header)
         self._freeze = message_class._freeze
         self._plain = bool(message_class._plain)
+
+    @property
+    def latch(self) -> bool:
+        """Whether late subscribers get the last message."""
+        return self._latch
+
+    @latch.setter
+    def latch(self, latch: bool) -> None:
+        self._latch = latch
+        self._connections_changed()
+
+    def _connections_changed(self) -> None:
+        """Note the senders, and the way of most messages: one sender and nothing to keep."""
+        self._list = tuple(self.senders.values())
+        self._only = self._list[0].send if len(self._list) == 1 and not self._latch else None
 
     def send(self, message: Any) -> None:
         """Send ``message`` to every connection: a snapshot, taken now. From any thread.
@@ -40,19 +60,23 @@ class Publication:
         Raises ``SerializationError``, which names the field, when the message holds what its type cannot hold.
         """
         if self._stamp:
-            message.header.seq = self.sent + 1
             if message.header.frame_id is None:
                 message.header.frame_id = "0"
+            if self._list:  # rospy numbers only what somebody gets
+                message.header.seq = next(self._numbers)
         frozen = self._freeze(message)
-        scheduler = self.node.scheduler
-        if scheduler.is_hub_thread():
-            self._send(frozen)
-        else:
+        scheduler = self._scheduler
+        if get_ident() != scheduler.thread:
             scheduler.call_soon_threadsafe(lambda: self._send(frozen))
+        elif self._only is not None:
+            self.sent += 1
+            self._only(frozen, self.queue_size)
+        else:
+            self._send(frozen)
 
     def _send(self, frozen: Any) -> None:
         self.sent += 1
-        if self.latch:
+        if self._latch:
             self._latched = self._copy(frozen)
         senders = self._list
         if not senders:
@@ -72,7 +96,7 @@ class Publication:
 
     def _copy(self, frozen: Any) -> Any:
         """Return a frozen message of which one receiver may become the owner."""
-        return self._freeze(frozen) if self._plain else frozen
+        return self.message_class._thaw(frozen) if self._plain else frozen
 
     def _warn_unheard(self) -> None:
         self._warned = True
@@ -125,28 +149,33 @@ class Publication:
 
     def add(self, sender: Sender) -> None:
         """Add a connection and send it what is latched."""
-        self.senders[self.node.next_connection_id()] = sender
-        self._list = tuple(self.senders.values())
+        number = self.node.next_connection_id()
+        self.senders[number] = sender
+        sender.on_closed = lambda: self.remove(number)
+        self._connections_changed()
         if self._latched is not None:
-            sender.send(self._copy(self._latched), None)
+            latched = self._latched
+            if self._stamp:
+                latched = self._freeze(latched)
+                latched.header.seq = next(self._numbers)
+            sender.send(self._copy(latched), None)
         for handle in self.handles:
             handle.connected(sender.destination)
 
-    def remove(self, destination: str) -> None:
-        """Forget the connections to the node ``destination``."""
-        gone = [key for key, sender in self.senders.items() if sender.destination == destination]
-        for key in gone:
-            del self.senders[key]
-        self._list = tuple(self.senders.values())
-        for handle in self.handles if gone else ():
-            handle.disconnected(destination)
+    def remove(self, number: int) -> None:
+        """Forget a connection that its subscriber closed."""
+        sender = self.senders.pop(number, None)
+        if sender is not None:
+            self._connections_changed()
+            for handle in self.handles:
+                handle.disconnected(sender.destination)
 
     def close(self) -> None:
         """Close all connections."""
         for sender in self._list:
             sender.close()
         self.senders.clear()
-        self._list = ()
+        self._connections_changed()
 
 
 class Publisher:
@@ -230,7 +259,7 @@ class Publisher:
             lambda: self.num_connections() >= count,
             timeout,
             f"{count} subscriber{'s' * (count != 1)} of {self.topic}",
-            f"{self.num_connections()} of {count} subscribers of {self.topic} are connected",
+            lambda: f"{self.num_connections()} of {count} subscribers of {self.topic} are connected",
         )
 
     def unregister(self) -> None:

@@ -11,10 +11,8 @@ therefore costs a function call, not a switch.
 
 from __future__ import annotations
 
-import contextvars
 import heapq
 import queue
-import sys
 import threading
 import time
 from collections import deque
@@ -28,6 +26,7 @@ from rosmini.errors import GraphEnded, RosminiError
 
 from .interrupts import InterruptGuard
 from .lanes import Lane, LaneContext, LaneExit, Waiter
+from .notebook import CellOutput, kernel_shell
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -58,9 +57,12 @@ class Waiting:
         return f"{self.lane} was waiting for {self.reason}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RunReport:
-    """How a run ended: ``reason`` is "time", "condition", "drained" or "stopped"; ``now`` is the graph time in seconds."""
+    """How a run ended: ``reason`` is "time", "condition", "drained" or "stopped"; ``now`` is the graph time in seconds.
+
+    Its text tells what was waited for only when nothing is left to happen: after a run of some seconds nodes always wait.
+    """
 
     reason: str
     now: float
@@ -74,8 +76,11 @@ class RunReport:
             "stopped": "it was stopped",
         }[self.reason]
         lines = [f"the run ended at {self.now:.3f} s: {why}"]
-        lines += [f"  {waiting}" for waiting in self.waiting]
+        if self.reason == "drained":
+            lines += [f"  {waiting}" for waiting in self.waiting]
         return "\n".join(lines)
+
+    __repr__ = __str__
 
 
 class Timer:
@@ -118,7 +123,7 @@ class Scheduler:
         self._inbox: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
         self._holds = 0
         self._hold_lock = threading.Lock()
-        self._thread = threading.get_ident()
+        self.thread = threading.get_ident()
         self._idle: list[greenlet] = []
         self._parked: dict[Waiter, Lane] = {}
         self._thread_lanes: dict[int, Lane] = {}
@@ -129,8 +134,8 @@ class Scheduler:
         self._context: LaneContext | None = None
         self._root_waiter: Waiter | None = None
         self._until: Callable[[], bool] | None = None
-        self._carry_context = "ipykernel" in sys.modules
-        self._py_context: contextvars.Context | None = None
+        shell = kernel_shell()
+        self._output = None if shell is None else CellOutput(shell)
         self._interrupts = InterruptGuard(self._wake_hub)
 
     # -- time ----------------------------------------------------------------------------------------------------
@@ -150,7 +155,7 @@ class Scheduler:
 
     def call_soon(self, callback: Callable[[], object]) -> None:
         """Call ``callback`` after what is already due now. It must not block: code that may goes into a lane."""
-        if threading.get_ident() == self._thread:
+        if threading.get_ident() == self.thread:
             self.ready.append(callback)
         else:
             self._inbox.put(callback)
@@ -163,12 +168,12 @@ class Scheduler:
 
     def is_hub_thread(self) -> bool:
         """Tell whether the caller is in the thread that runs the queue."""
-        return threading.get_ident() == self._thread
+        return threading.get_ident() == self.thread
 
     def current(self) -> Lane:
         """Return the caller's lane: the main program's own when it is in none."""
         ident = threading.get_ident()
-        if ident == self._thread:
+        if ident == self.thread:
             return self._current
         return self._thread_lanes.get(ident, self.root)
 
@@ -238,7 +243,7 @@ class Scheduler:
         self._ticks -= weight
         if self._ticks <= 0:
             self._ticks = TICKS_PER_YIELD
-            if threading.get_ident() == self._thread:
+            if threading.get_ident() == self.thread:
                 self._yield()
 
     def _yield(self) -> None:
@@ -286,12 +291,12 @@ class Scheduler:
     def may_park(self) -> bool:
         """Tell whether the caller may be parked: it is in the hub's thread, or the hub is free to move to its own."""
         ident = threading.get_ident()
-        if ident == self._thread:
+        if ident == self.thread:
             return True
         if self._root_waiter is not None or self._parked or ident in self._thread_lanes:
             return False
         self._idle.clear()
-        self._thread = ident
+        self.thread = ident
         return True
 
     def park(self, waiter: Waiter) -> None:
@@ -304,7 +309,10 @@ class Scheduler:
         lane._waiter = waiter  # noqa: SLF001
         self._parked[waiter] = lane
         try:
-            self._switch(self._idle.pop() if self._idle else greenlet(self._loop))
+            worker = self._idle.pop() if self._idle else greenlet(self._loop)
+            if self._output is not None:
+                self._output.lend(worker)
+            worker.switch()
         finally:
             del self._parked[waiter]
             waiter._greenlet = None  # noqa: SLF001
@@ -312,29 +320,20 @@ class Scheduler:
             self.enter_lane(lane)
             if is_root:
                 self._end_drive()
+            elif self._output is not None:
+                self._output.arrive()
         if is_root and self._interrupts.take():
-            raise KeyboardInterrupt
+            raise self._interruption()
 
     def _start_drive(self, waiter: Waiter) -> None:
         self._root_waiter = waiter
         self._interrupts.arm()
-        if self._carry_context:
-            self._py_context = contextvars.copy_context()
+        if self._output is not None:
+            self._output.begin()
 
     def _end_drive(self) -> None:
         self._root_waiter = None
-        self._py_context = None
         self._interrupts.disarm()
-
-    def _switch(self, target: greenlet) -> None:
-        """Switch to ``target``; in Jupyter its output belongs to the cell that drives."""
-        if self._py_context is not None and target is not self._root_greenlet():
-            target.gr_context = self._py_context.copy()
-        target.switch()
-
-    def _root_greenlet(self) -> greenlet | None:
-        waiter = self._root_waiter
-        return None if waiter is None else waiter._greenlet  # noqa: SLF001
 
     # -- called by lanes and waiters -----------------------------------------------------------------------------
 
@@ -367,6 +366,8 @@ class Scheduler:
 
     def raise_in_driver(self, error: BaseException) -> None:
         """Raise ``error`` at the call that drives the queue."""
+        if self._output is not None:
+            self._output.shorten(error)
         if self._root_waiter is not None:
             self._root_waiter.fail(error)
         else:
@@ -432,8 +433,22 @@ class Scheduler:
                 if not any(lane is not self.root for lane in self._parked.values()):
                     break
                 self.run(until_ns=self.now_ns())
+            self._end_workers()
         self.ready.clear()
         self._heap.clear()
+
+    def _end_workers(self) -> None:
+        """End the idle greenlets: the garbage collector does not see what a suspended one refers to."""
+        while self._idle:
+            worker = self._idle.pop()
+            worker.parent = getcurrent()  # where it returns to when it has ended
+            worker.throw()
+
+    def _interruption(self) -> KeyboardInterrupt:
+        error = KeyboardInterrupt()
+        if self._output is not None:
+            self._output.shorten(error)
+        return error
 
     def _wake_hub(self) -> None:
         self._inbox.put(None)
@@ -453,7 +468,7 @@ class Scheduler:
                         parked = ready.popleft()()
                         if parked.__class__ is greenlet:
                             self._idle.append(getcurrent())
-                            self._switch(parked)
+                            parked.switch()
                         if self._until is not None:
                             self._check_until()
                     if self._until is not None:
@@ -476,7 +491,7 @@ class Scheduler:
     def _take_inbox(self) -> None:
         root = self._root_waiter
         if root is not None and not root.done and self._interrupts.take():
-            root.fail(KeyboardInterrupt())
+            root.fail(self._interruption())
         inbox = self._inbox
         while not inbox.empty():
             item = inbox.get()

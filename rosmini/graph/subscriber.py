@@ -49,6 +49,8 @@ class Connection:
 
     def _open(self) -> None:
         """Ask the publisher for the topic and connect to it. In the connection's lane."""
+        if self._gone:
+            return
         subscription = self.subscription
         node = subscription.node
         transport = node.graph.transport
@@ -66,6 +68,9 @@ class Connection:
             return
         except TransportException:
             subscription.forget(self)  # the publisher went away meanwhile; the Master will say so
+            return
+        if self._gone:  # left while the connection was being made
+            self._close_link()
             return
         self.peer = self.header.get("callerid", "")
         self.is_open = True
@@ -188,8 +193,6 @@ class Connection:
         """Close the connection: callbacks that have not started do not come."""
         self._incoming.clear()
         if self._close_link is not None:
-            node = self.subscription.node
-            node.graph.tell_publisher_gone(self.uri, self.subscription.topic, node.name)
             self._close_link()
         self._shut()
 
