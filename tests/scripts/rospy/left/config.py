@@ -1,0 +1,2 @@
+SIDE = 'left'
+SEED = 1

@@ -1,0 +1,2 @@
+SIDE = 'right'
+SEED = 2

@@ -1,0 +1,203 @@
+"""Scripts as students write them for rospy, unmodified, several at once, in simulated and in wall time."""
+
+from pathlib import Path
+
+import pytest
+
+from rosmini.scripts import ScriptSpec
+
+HERE = Path(__file__).parent / "rospy"
+
+
+def spec(name, *args):
+    return ScriptSpec(str(HERE / name), args)
+
+
+@pytest.fixture
+def start(run):
+    """Run scripts by name; in wall time for at most 20 s, which no test needs."""
+
+    def start(*specs, **options):
+        wanted = [item if isinstance(item, ScriptSpec) else spec(item) for item in specs]
+        return run(*wanted, **{"duration": 20, **options})
+
+    return start
+
+
+def said_by(ran, name):
+    return [line.removeprefix(f"[{name}] ") for line in ran.lines if line.startswith(f"[{name}] ")]
+
+
+def test_talker_and_listener(start):
+    ran = start("talker.py", "listener.py")
+    assert said_by(ran, "listener") == ["heard hello 0", "heard hello 1", "heard hello 2", "done"]
+    assert ran.result.reason == "ended"
+    assert ran.status == 0
+
+
+def test_remapping_and_private_parameters(start):
+    ran = start(
+        spec("talker.py", "chatter:=/news", "__name:=reporter", "_rate:=200"),
+        spec("listener.py", "chatter:=news", "__ns:=/"),
+        spec("listener.py", "__name:=deaf", "chatter:=/elsewhere"),
+        duration=0.5,
+    )
+    assert said_by(ran, "listener")[-1] == "done"
+    assert said_by(ran, "deaf") == ["done"]
+    assert ran.result.reason == "time"
+    assert ran.status == 0
+
+
+def test_straight_line_without_a_sleep(start):
+    ran = start("straight_line.py", "motor.py")
+    assert any("arrived True" in line for line in ran.lines)
+    assert said_by(ran, "motor") == ["stopped"]
+    assert ran.status == 0
+
+
+def test_spinning_until_something_came(start):
+    ran = start("wait_for_got.py", "talker.py")
+    assert said_by(ran, "waiter") == ["got hello 0"]
+    assert ran.result.reason == "ended"
+
+
+def test_add_two_ints(start):
+    ran = start("add_two_ints_server.py", spec("add_two_ints_client.py", "40", "2"), duration=0.5)
+    assert said_by(ran, "add_two_ints_server") == ["Returning [40 + 2 = 42]"]
+    assert said_by(ran, "add_two_ints_client") == ["40 + 2 = 42"]
+    assert ran.status == 0
+
+
+def test_add_two_ints_without_arguments(start):
+    ran = start("add_two_ints_client.py")
+    assert said_by(ran, "add_two_ints_client") == ["add_two_ints_client.py [x y]"]
+    assert ran.status == 1
+
+
+def test_a_service_from_a_callback(start):
+    ran = start("service_in_callback.py")
+    assert said_by(ran, "relay") == ["a True 1", "b True 2"]
+    assert ran.status == 0
+
+
+def test_a_node_that_calls_itself(start):
+    assert said_by(start("calls_itself.py"), "self_caller") == ["outer got inner"]
+
+
+def test_input_and_arguments(start):
+    ran = start(
+        spec("ask.py", "--unit", "cm", "word", "goal:=/target"),
+        "talker.py",
+        "listener.py",
+        stdin=[(0.05, "1.5\n"), (0.1, "2\n")],
+    )
+    assert ran.lines[-1].endswith("3.5 cm ['word'] /asker /target")
+    assert said_by(ran, "listener")[-1] == "done"
+    assert ran.result.reason == "ended"
+
+
+def test_spin_in_a_thread(start):
+    ran = start("spin_thread.py", "talker.py")
+    assert said_by(ran, "spinner") == ["['hello 0', 'hello 1', 'hello 2']", "spin has returned"]
+    assert ran.result.reason == "ended"
+
+
+def test_keyboard_teleoperation(start):
+    keys = [(0.1 + 0.05 * number, key) for number, key in enumerate("i,jk\x03")]
+    ran = start("teleop.py", "robot.py", stdin=keys)
+    assert said_by(ran, "robot") == ["1 0", "-1 0", "0 1", "0 0"]
+    assert ran.status == 0
+    assert ran.result.reason == "ended"
+
+
+def test_shutdown_hook_at_the_end_of_the_duration(start):
+    ran = start("shutdown_hook.py", duration=0.02)
+    assert said_by(ran, "hooked")[-1] == "stopping the robot"
+    assert ran.status == 0
+
+
+def test_shutdown_hook_at_ctrl_c(start, run):
+    import signal
+
+    import rosmini.rospy
+
+    ctrl_c = run.text(
+        "ctrl_c", "import host_signal, time\ntime.sleep(0.02)\nhost_signal.raise_signal(host_signal.SIGINT)"
+    )
+    modules = {**rosmini.rospy.modules(), "host_signal": signal}
+    ran = start("shutdown_hook.py", "listener.py", ctrl_c, modules=modules)
+    assert ran.result.reason == "interrupted"
+    assert said_by(ran, "hooked")[-1] == "stopping the robot"
+    assert said_by(ran, "listener") == ["done"]
+    assert ran.status == 0
+
+
+def test_sys_exit_runs_the_hooks(start):
+    ran = start("exits.py", "calls_itself.py")
+    text = said_by(ran, "exits")
+    assert "no map" in text[0]
+    assert text[1:] == ["hook"]
+    assert ran.result.statuses == (3, 0)
+    assert said_by(ran, "self_caller") == ["outer got inner"]
+
+
+def test_modules_and_seeds_of_their_own(start):
+    import random
+
+    ran = start("left/left.py", "right/right.py")
+    for side, seed in (("left", 1), ("right", 2)):
+        own = random.Random(seed)
+        assert said_by(ran, f"node_{side}") == [f"{side} {[own.randint(0, 999) for _ in range(3)]}"]
+
+
+def test_writing_into_received_messages(start):
+    ran = start("laser.py", spec("vandal.py", "one"), spec("vandal.py", "two"))
+    for name in ("one", "two"):
+        assert said_by(ran, name) == ["[1.0, 2.0, 3.5] base_scan"]
+    assert said_by(ran, "laser") == ["[7.0, 2.0, 3.5] base_scan 0.0"]
+
+
+def test_never_calling_rospy_again(start):
+    ran = start("never_again.py", "talker.py")
+    assert said_by(ran, "busy") == ["three messages came in between"]
+    assert ran.result.reason == "ended"
+
+
+def test_all_at_once(start):
+    """Every script that ends by itself, in one process and one graph."""
+    ran = start(
+        "talker.py",
+        "listener.py",
+        "wait_for_got.py",
+        "never_again.py",
+        "spin_thread.py",
+        "straight_line.py",
+        "motor.py",
+        "calls_itself.py",
+        "service_in_callback.py",
+        "left/left.py",
+        "right/right.py",
+        "laser.py",
+        spec("vandal.py", "one"),
+        spec("vandal.py", "two"),
+    )
+    assert ran.result.reason == "ended"
+    assert ran.status == 0
+    assert said_by(ran, "motor") == ["stopped"]
+
+
+def test_the_same_output_on_each_run(sim):
+    specs = [
+        spec(name)
+        for name in (
+            "talker.py",
+            "listener.py",
+            "spin_thread.py",
+            "left/left.py",
+            "straight_line.py",
+            "motor.py",
+        )
+    ]
+    first = sim(*specs, duration=2).text
+    assert first
+    assert sim(*specs, duration=2).text == first
