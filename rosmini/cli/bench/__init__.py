@@ -1,0 +1,150 @@
+"""`rosmini bench`: measure rosmini, and beside it, in the same run, real ROS where it is installed.
+
+Each figure is the median of several rounds in which rosmini and its peer take turns, so that a machine that slows down slows both.
+Nothing is judged: a figure depends on the machine, the ratio much less.
+"""
+
+from __future__ import annotations
+
+import json
+import platform
+import statistics
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rosmini.errors import RosminiError
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable, Iterable
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One row of the table: medians of ``ours`` and of the ``peer`` (None where there is none)."""
+
+    name: str
+    unit: str
+    ours: float
+    peer: float | None
+    peer_name: str
+    rounds: int
+    more_is_better: bool = True
+
+    @property
+    def ratio(self) -> float | None:
+        """How many times better than the peer, or None without one."""
+        if self.peer is None or not self.ours or not self.peer:
+            return None
+        return self.ours / self.peer if self.more_is_better else self.peer / self.ours
+
+
+@dataclass(frozen=True)
+class Measure:
+    """Something to measure: two functions that run it once and return the figure."""
+
+    name: str
+    unit: str
+    ours: Callable[[], float]
+    peer: Callable[[], float] | None = None
+    peer_name: str = "rospy"
+    more_is_better: bool = True
+
+    def run(self, rounds: int) -> Figure:
+        """Measure ``rounds`` times, taking turns."""
+        ours: list[float] = []
+        peer: list[float] = []
+        for _ in range(rounds):
+            ours.append(self.ours())
+            if self.peer is not None:
+                peer.append(self.peer())
+        return Figure(
+            self.name,
+            self.unit,
+            statistics.median(ours),
+            statistics.median(peer) if peer else None,
+            self.peer_name,
+            rounds,
+            self.more_is_better,
+        )
+
+
+def table(figures: Iterable[Figure]) -> str:
+    """Return the figures as an aligned text table."""
+    rows = [("what", "rosmini", "peer", "", "times better")]
+    for figure in figures:
+        ratio = figure.ratio
+        rows.append(
+            (
+                f"{figure.name} [{figure.unit}]",
+                f"{figure.ours:,.3g}" if figure.ours < 100 else f"{figure.ours:,.0f}",
+                "-"
+                if figure.peer is None
+                else f"{figure.peer:,.3g}"
+                if figure.peer < 100
+                else f"{figure.peer:,.0f}",
+                "" if figure.peer is None else figure.peer_name,
+                "-" if ratio is None else f"{ratio:.1f}",
+            )
+        )
+    widths = [max(len(row[column]) for row in rows) for column in range(5)]
+    return "\n".join(
+        f"{row[0]:<{widths[0]}}  {row[1]:>{widths[1]}}  {row[2]:>{widths[2]}} {row[3]:<{widths[3]}}  {row[4]:>{widths[4]}}".rstrip()
+        for row in rows
+    )
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
+    """Add the subcommand's parser."""
+    parser = subparsers.add_parser(
+        "bench", help="measure rosmini, and real ROS where it is installed", description=__doc__
+    )
+    parser.add_argument(
+        "--rounds", type=int, default=3, metavar="N", help="rounds of which the median is shown (default: 3)"
+    )
+    parser.add_argument(
+        "--scale",
+        type=float,
+        default=1.0,
+        metavar="F",
+        help="do F times the usual work in a round (default: 1)",
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures to FILE, too")
+    parser.add_argument("--no-peer", action="store_true", help="do not measure real ROS beside it")
+    return parser
+
+
+def main(args: argparse.Namespace) -> int:
+    """Measure and print."""
+    from .graph import measures
+    from .peer import find_rospy
+
+    if args.rounds < 1 or not args.scale > 0:
+        msg = "--rounds takes a whole number from 1 and --scale a positive one"
+        raise RosminiError(msg)
+    rospy = None if args.no_peer else find_rospy()
+    if rospy is None and not args.no_peer:
+        print("real ROS is not installed here: no peer")
+    figures = []
+    try:
+        for measure in measures(rospy, args.scale):
+            figures.append(measure.run(args.rounds))
+            print(".", end="", flush=True)
+    finally:
+        print()
+        if rospy is not None:
+            rospy.close()
+    print(table(figures))
+    if args.json is not None:
+        machine = {
+            "machine": platform.machine(),
+            "system": platform.system(),
+            "python": platform.python_version(),
+        }
+        rows = [{**asdict(figure), "ratio": figure.ratio} for figure in figures]
+        args.json.write_text(
+            json.dumps({"machine": machine, "figures": rows}, indent=2) + "\n", encoding="utf-8"
+        )
+        print(f"written to {args.json}")
+    return 0

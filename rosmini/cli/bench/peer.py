@@ -1,0 +1,109 @@
+"""Real ROS as a peer: its own roscore on a free loopback port, and two processes that talk."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import socket
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+from rosmini.errors import RosminiError
+
+SYSTEM_PYTHON = "/usr/bin/python3"
+"""Debian's and Ubuntu's packages of ROS are for the system's own Python."""
+
+NODE = Path(__file__).with_name("rospy_node.py")
+TIMEOUT_S = 120
+
+
+def find_rospy() -> Rospy | None:
+    """Return the real rospy with a running roscore, or None where it is not installed."""
+    if shutil.which("roscore") is None or not Path(SYSTEM_PYTHON).exists():
+        return None
+    if (
+        subprocess.run([SYSTEM_PYTHON, "-c", "import rospy"], capture_output=True, check=False).returncode
+        != 0
+    ):
+        return None
+    return Rospy(SYSTEM_PYTHON)
+
+
+class Rospy:
+    """A roscore and what is measured with it."""
+
+    def __init__(self, python: str) -> None:
+        self.python = python
+        self._home = tempfile.mkdtemp(prefix="rosmini-bench-")
+        port = _free_port()
+        self._env = {
+            **{
+                key: value
+                for key, value in os.environ.items()
+                if key not in ("PYTHONPATH", "VIRTUAL_ENV", "PYTHONHOME")
+            },
+            "ROS_MASTER_URI": f"http://127.0.0.1:{port}",
+            "ROS_IP": "127.0.0.1",
+            "ROS_HOME": self._home,
+        }
+        self._core = subprocess.Popen(
+            ["roscore", "-p", str(port)], env=self._env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+        self._wait_for_port(port)
+
+    def _wait_for_port(self, port: int) -> None:
+        deadline = time.monotonic() + TIMEOUT_S
+        while time.monotonic() < deadline and self._core.poll() is None:
+            with socket.socket() as probe:
+                if probe.connect_ex(("127.0.0.1", port)) == 0:
+                    return
+            time.sleep(0.05)
+        self.close()
+        msg = f"roscore did not answer on port {port} within {TIMEOUT_S} s"
+        raise RosminiError(msg)
+
+    def measure(self, function: str, *arguments: int) -> float:
+        """Run ``function`` of :mod:`rospy_node` in a listening and a talking process; return the listener's figure."""
+        words = [function, *(str(argument) for argument in arguments)]
+        listener = self._start("listener", words)
+        talker = self._start("talker", words)
+        try:
+            output, _ = listener.communicate(timeout=TIMEOUT_S)
+            talker.communicate(timeout=TIMEOUT_S)
+        except subprocess.TimeoutExpired as error:
+            msg = f"the rospy peer of {function} took more than {TIMEOUT_S} s"
+            raise RosminiError(msg) from error
+        finally:
+            for process in (listener, talker):
+                process.kill()
+                process.wait()
+        if listener.returncode != 0:
+            msg = f"the rospy peer of {function} failed:\n{output}"
+            raise RosminiError(msg)
+        return float(json.loads(output.splitlines()[-1]))
+
+    def _start(self, role: str, words: list[str]) -> subprocess.Popen[str]:
+        command = [self.python, str(NODE), role, *words]
+        return subprocess.Popen(
+            command, env=self._env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+
+    def close(self) -> None:
+        """Stop roscore and remove its files."""
+        self._core.terminate()
+        try:
+            self._core.wait(10)
+        except subprocess.TimeoutExpired:
+            self._core.kill()
+            self._core.wait()
+        shutil.rmtree(self._home, ignore_errors=True)
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port: int = probe.getsockname()[1]
+        return port

@@ -1,0 +1,84 @@
+"""The benchmarks run and check what their subscribers received; how fast they are is not judged."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import TYPE_CHECKING
+
+import pytest
+
+from rosmini.cli.bench import Figure, Measure, graph, table
+from rosmini.cli.bench.peer import find_rospy
+from rosmini.cli.main import main
+from rosmini.errors import RosminiError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "figures.json"
+    assert main(["bench", "--no-peer", "--rounds", "1", "--scale", "0.001", "--json", str(file)]) == 0
+    written = json.loads(file.read_text())
+    shown = capsys.readouterr().out
+    assert len(written["figures"]) == len(list(graph.measures(None, 1)))
+    for row in written["figures"]:
+        assert row["ours"] > 0
+        assert row["peer"] is None
+        assert row["name"] in shown
+
+
+@pytest.mark.ros
+def test_real_rospy_is_measured_beside_it() -> None:
+    rospy = find_rospy()
+    if rospy is None:
+        assert os.environ.get("ROSMINI_REQUIRE_ROS") != "1", "real ROS is required here"
+        pytest.skip("real ROS is not installed")
+    try:
+        figures = [measure.run(1) for measure in graph.measures(rospy, 0.001)]
+    finally:
+        rospy.close()
+    compared = [figure for figure in figures if figure.peer is not None]
+    assert len(compared) >= 5
+    assert all(figure.peer and figure.peer > 0 for figure in compared)
+
+
+def test_a_figure_is_the_median_and_the_two_take_turns() -> None:
+    order: list[str] = []
+    ours, peer = iter([5.0, 1.0, 3.0]), iter([1.0, 1.0, 9.0])
+
+    def mine() -> float:
+        order.append("ours")
+        return next(ours)
+
+    def theirs() -> float:
+        order.append("peer")
+        return next(peer)
+
+    figure = Measure("thing", "1/s", mine, theirs).run(3)
+    assert (figure.ours, figure.peer, figure.ratio) == (3.0, 1.0, 3.0)
+    assert order == ["ours", "peer"] * 3
+
+
+def test_less_can_be_better() -> None:
+    figure = Figure("latency", "us", 2.0, 10.0, "rospy", 1, more_is_better=False)
+    assert figure.ratio == 5.0
+    assert "5.0" in table([figure]).splitlines()[1]
+
+
+def test_a_subscriber_that_misses_something_gives_no_figure(monkeypatch: pytest.MonkeyPatch) -> None:
+    connected = graph._connected
+    monkeypatch.setattr(
+        graph,
+        "_connected",
+        lambda kind, callback: connected(kind, lambda message: (callback(message), callback(message))),
+    )
+    with pytest.raises(RosminiError, match="lost or changed"):
+        graph.string_throughput(100, 100)
+
+
+@pytest.mark.parametrize("words", [["--rounds", "0"], ["--scale", "0"], ["--scale", "nan"]])
+def test_wrong_options_are_refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bench", "--no-peer", *words]) != 0
+    assert "whole number" in capsys.readouterr().err
