@@ -23,6 +23,14 @@ def test_every_notebook_is_in_the_contents(root):
     assert listed == {f"notebooks/{path.stem}" for path in (root / "notebooks").glob("*.ipynb")}
 
 
+def test_every_notebook_is_a_link_on_the_roadmap(root):
+    roadmap = (root / "book" / "roadmap.md").read_text(encoding="utf-8")
+    missing = [
+        path.stem for path in (root / "notebooks").glob("*.ipynb") if f"notebooks/{path.stem}" not in roadmap
+    ]
+    assert missing == []
+
+
 def test_every_prose_page_is_in_the_contents(root):
     pages = (path.relative_to(root) for path in (root / "book").rglob("*.md") if "_build" not in path.parts)
     assert {page.with_suffix("").as_posix() for page in pages} <= set(toc_pages(root))
