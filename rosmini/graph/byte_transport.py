@@ -94,6 +94,7 @@ class _ByteSender:
         self._queue: deque[Any] = deque()
         self._dropped = False
         self.destination = destination
+        self.on_closed: Callable[[], None] = lambda: None
         self.sent = 0
 
     def send(self, frozen: Any, size: int | None) -> None:
@@ -132,7 +133,9 @@ class _ByteSender:
         )
 
     def drop(self) -> None:
-        self._dropped = True
+        if not self._dropped:
+            self._dropped = True
+            self.on_closed()
 
 
 class _ByteServiceLink:

@@ -301,7 +301,7 @@ class Node(BlockingApi, ParameterApi):
             lambda: self.graph.master.lookupService(self.name, resolved)[0] == 1,
             timeout,
             f"the service {resolved} to be offered",
-            f"nobody offers {resolved}",
+            lambda: f"nobody offers {resolved}",
         )
 
     # -- what runs by itself -------------------------------------------------------------------------------------

@@ -73,7 +73,7 @@ class ServiceServer:
             raise ServiceException(msg) from error
         try:
             return response_class._freeze(_response_from(answer, response_class))
-        except (ServiceException, SerializationError, TypeError) as error:
+        except (ServiceException, SerializationError, TypeError, AttributeError) as error:
             msg = f"service cannot process request: {error}"
             self.node.logerr(f"{self.name}: {msg}")
             raise ServiceException(msg) from error
@@ -129,9 +129,13 @@ class Session:
         }
         self._lane = node.spawn(f"{node.name} service {server.name}")
         self._pending: list[Callable[[Any, str | None], None]] = []
+        self._gone: str | None = None
 
     def handle(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
         """Answer a request in the session's lane."""
+        if self._gone is not None:
+            reply(None, self._gone)
+            return
         self._pending.append(reply)
         self._lane.submit(lambda: self._answer(request, reply))
 
@@ -154,11 +158,10 @@ class Session:
     def abort(self, reason: str) -> None:
         """Fail what is under way because the server goes away."""
         pending, self._pending = self._pending, []
-        problem = "transport error completing service call: the server was shut down" + (
-            f" ({reason})" if reason else ""
-        )
+        why = f" ({reason})" if reason else ""
+        self._gone = f"transport error completing service call: the server was shut down{why}"
         for reply in pending:
-            reply(None, problem)
+            reply(None, self._gone)
         self.close()
 
 

@@ -93,6 +93,8 @@ class Connection:
         }
 
     def _refused(self, error: TransportInitError) -> None:
+        if self._gone:
+            return  # this end left while the connection was being made
         subscription = self.subscription
         subscription.forget(self)
         node = subscription.node

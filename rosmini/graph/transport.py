@@ -31,6 +31,8 @@ class Sender(Protocol):
     """The publisher's end of a topic connection."""
 
     destination: str
+    on_closed: Callable[[], None]
+    """Set by the publisher; called in the hub's thread when the subscriber has closed the connection."""
 
     def send(self, frozen: Any, size: int | None) -> None:
         """Send a frozen message that now belongs to the connection; ``size`` bounds the queue (None: no bound)."""
@@ -119,6 +121,10 @@ class Transport(Protocol):
         """Open a service connection; may block. Raises ``TransportInitError`` when it is refused."""
 
 
+def _nothing() -> None:
+    """Do nothing: what is called when nobody has asked to be."""
+
+
 class LocalSender:
     """Hands messages to a receiver in the same process at the next event of the queue."""
 
@@ -129,6 +135,7 @@ class LocalSender:
         "_scheduler",
         "destination",
         "dropped",
+        "on_closed",
         "sent",
     )
 
@@ -138,6 +145,7 @@ class LocalSender:
         self._queue: deque[Any] = deque()
         self._closed = False
         self.destination = destination
+        self.on_closed: Callable[[], None] = _nothing
         self.sent = 0
         self.dropped = 0
 
@@ -168,8 +176,10 @@ class LocalSender:
             self._receiver.closed()
 
     def drop(self) -> None:
-        """Close from the subscriber's side: nothing more arrives."""
-        self._closed = True
+        """Close from the subscriber's side: nothing more arrives, and the publisher is told."""
+        if not self._closed:
+            self._closed = True
+            self.on_closed()
 
 
 class LocalServiceLink:
