@@ -33,7 +33,24 @@ class Rate(clock.Rate):
 
     def __init__(self, hz: float, reset: bool = False) -> None:
         super().__init__(require_node("rospy.Rate"), hz, reset=reset)
-        self.sleep_dur = Duration(self.sleep_dur.secs, self.sleep_dur.nsecs)
+
+    @property
+    def sleep_dur(self) -> Duration:
+        """How long a turn is."""
+        return Duration.from_nsec(self._period)
+
+    @sleep_dur.setter
+    def sleep_dur(self, duration: base.Duration) -> None:
+        self._period = duration.to_nsec()
+
+    def remaining(self) -> Duration:
+        """Return how long :meth:`sleep` would sleep."""
+        return Duration.from_nsec(super().remaining().to_nsec())
+
+    @property
+    def last_time(self) -> Time:
+        """When this turn began."""
+        return Time.from_nsec(self._last)
 
 
 class TimerEvent:
