@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from rosmini.time import Time
 
+from .clock import TopicClock
+
 if TYPE_CHECKING:
     from types import FrameType
 
@@ -48,7 +50,12 @@ class Logger:
             return
         node = self._node
         now = node.now()
-        self.console(level, f"[{NAMES[level]}] [{now.secs}.{now.nsecs // 1000:06d}]: {text}")
+        shown = _shown(now)
+        if isinstance(node.clock, TopicClock):
+            shown = (
+                f"{_shown(node.graph.now())}, {shown}"  # rospy's way: the wall's time, then that of /clock
+            )
+        self.console(level, f"[{NAMES[level]}] [{shown}]: {text}")
         publication = node.publications.get("/rosout")
         if publication is not None:
             frame = _frame(depth + 1)
@@ -80,6 +87,10 @@ class Logger:
     def listing(self) -> list[tuple[str, str]]:
         """Return (logger, level) pairs."""
         return [(name, NAMES[level]) for name, level in self.levels.items()]
+
+
+def _shown(when: Time) -> str:
+    return f"{when.secs}.{when.nsecs // 1000:06d}"
 
 
 def _frame(depth: int) -> FrameType | None:
