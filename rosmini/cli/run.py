@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
+import threading
 from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError
@@ -122,6 +124,9 @@ def main(args: argparse.Namespace) -> int:
     specs = scripts_in(words)
     from rosmini.scripts import run_scripts
 
+    if threading.current_thread() is threading.main_thread():
+        # roslaunch and process managers end a node with SIGTERM; rospy shuts down on it as on Ctrl-C.
+        signal.signal(signal.SIGTERM, lambda _number, _frame: signal.raise_signal(signal.SIGINT))
     simulated = not args.wall_time and (args.sim_time or args.duration is not None)
     result = run_scripts(specs, simulated=simulated, duration=args.duration)
     tell(result)

@@ -125,13 +125,12 @@ class ScriptContext:
             "stdout": self.stdout,
             "stderr": self.stderr,
         }
-        self._host: dict[str, Any] = {}
+        self._host: Any = None
         self._entered = False
         self._environ = ScriptEnviron()
         self._filters = list(warnings.filters)
         self._replaced: dict[str, ModuleType | None] = {}
         self._numpy: NumpyRandom | None = None
-        self.after_import()
 
     def _setup_threads(self) -> None:
         self._blocked: dict[Lane, Waiter] = {}
@@ -158,12 +157,11 @@ class ScriptContext:
 
     def enter(self) -> None:
         """Make the process look like this script's."""
-        host, own = self._host, self._own
-        for name in ("argv", "stdin", "stdout", "stderr"):
-            host[name] = getattr(sys, name)
-            setattr(sys, name, own[name])
-        host["environ"], os.environ = os.environ, self._environ
-        host["filters"], warnings.filters = warnings.filters, self._filters
+        own = self._own
+        self._host = (sys.argv, sys.stdin, sys.stdout, sys.stderr, os.environ, warnings.filters)
+        sys.argv, sys.stdin = own["argv"], own["stdin"]
+        sys.stdout, sys.stderr = own["stdout"], own["stderr"]
+        os.environ, warnings.filters = self._environ, self._filters
         self._entered = True
         self._put_module("__main__", self.main_module)
         for name, module in self.importer.local.items():
@@ -173,14 +171,13 @@ class ScriptContext:
 
     def leave(self) -> None:
         """Put back what was there before, and keep what the script changed."""
-        host, own = self._host, self._own
-        for name in ("argv", "stdin", "stdout", "stderr"):
-            own[name] = getattr(sys, name)
-            setattr(sys, name, host[name])
-        os.environ = host["environ"]  # noqa: B003 - the host's own object
-        self._filters, warnings.filters = warnings.filters, host["filters"]  # type: ignore[assignment]
+        own = self._own
+        own["argv"], own["stdin"] = sys.argv, sys.stdin
+        own["stdout"], own["stderr"] = sys.stdout, sys.stderr
+        self._filters = warnings.filters
+        sys.argv, sys.stdin, sys.stdout, sys.stderr, os.environ, warnings.filters = self._host
+        self._host = None
         self._entered = False
-        host.clear()
         for name in list(self._replaced):
             self._take_module(name)
         if self._numpy is not None:
@@ -198,9 +195,11 @@ class ScriptContext:
         finally:
             self.enter()
 
-    def after_import(self) -> None:
-        """Take care of numpy's random generator as soon as numpy is there."""
-        if self._numpy is None and "numpy" in sys.modules and self.scheduler.is_hub_thread():
+    def after_import(self, name: str) -> None:
+        """Take care of numpy's random generator once the script has imported a package (``name``) that may use it."""
+        if self._numpy is not None or "numpy" not in sys.modules or not self.scheduler.is_hub_thread():
+            return
+        if name.partition(".")[0] not in sys.stdlib_module_names:
             with self.put_aside():
                 self._numpy = NumpyRandom(self)
 

@@ -206,6 +206,7 @@ class Importer:
     ) -> ModuleType:
         module = sys.modules.get(name)
         if module is not None and not (fromlist and hasattr(module, "__path__")):
+            self._context.after_import(name)
             return self._real_import(name, globals, locals, fromlist or ())
         try:
             with self._context.put_aside():
@@ -214,13 +215,13 @@ class Importer:
             if error.name == name and name.endswith(_LIKE_MESSAGES):
                 self._message_module(name)  # raises an error that suggests the nearest package
             raise
-        self._context.after_import()
+        self._context.after_import(name)
         return found
 
     def _host_module(self, name: str, private_parent: ModuleType | None) -> ModuleType:
         with self._context.put_aside():
             module = importlib.import_module(name)
-        self._context.after_import()
+        self._context.after_import(name)
         if private_parent is not None:
             setattr(private_parent, name.rpartition(".")[2], module)
         return module

@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy  # noqa: F401 - adds warning filters when it is imported
+import numpy as np  # noqa: F401 - adds warning filters when it is imported
 import pytest
 
 from rosmini.scripts import RunResult, ScriptSpec, run_scripts

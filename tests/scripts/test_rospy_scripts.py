@@ -166,7 +166,7 @@ def test_never_calling_rospy_again(start):
 def test_all_at_once(start):
     """Every script that ends by itself, in one process and one graph."""
     ran = start(
-        "talker.py",
+        spec("talker.py", "_listeners:=4"),
         "listener.py",
         "wait_for_got.py",
         "never_again.py",

@@ -4,7 +4,6 @@ import io
 import os
 import re
 import signal
-import threading
 import time
 
 import pytest

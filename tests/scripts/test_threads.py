@@ -18,7 +18,7 @@ def test_threads_run_and_are_joined(run):
             def run(self):
                 time.sleep(self.n / 1000.0)
                 print("thread", self.n, threading.current_thread() is self)
-        threads = [PublishThread(n) for n in (20, 1)]
+        threads = [PublishThread(n) for n in (30, 10)]
         for t in threads:
             t.daemon = True
             t.start()
@@ -33,8 +33,8 @@ def test_threads_run_and_are_joined(run):
     assert lines(ran) == [
         "[True, True] 3 True",
         "True",
-        "thread 1 True",
-        "thread 20 True",
+        "thread 10 True",
+        "thread 30 True",
         "[False, False] 1 True",
         "MainThread True True",
     ]

@@ -43,7 +43,7 @@ class NumpyRandom:
 
         seed = None
         if context.scheduler.simulated:
-            seed = list(f"{context.seed}".encode())
+            seed = list(f"script {context.seed}".encode())
         self._namespace = vars(random)
         self._inner = vars(sys.modules["numpy.random.mtrand"])
         state = random.RandomState(seed)
@@ -63,13 +63,11 @@ class NumpyRandom:
 
             self._own["default_rng"] = default_rng
         self._inner_own = {"_rand": state}
-        self._host: dict[str, Any] = {}
-        self._inner_host: dict[str, Any] = {}
+        self._host = {name: self._namespace[name] for name in self._own}
+        self._inner_host = {name: self._inner[name] for name in self._inner_own}
 
     def enter(self) -> None:
         """Put the script's functions in place."""
-        self._host = {name: self._namespace[name] for name in self._own}
-        self._inner_host = {name: self._inner[name] for name in self._inner_own}
         self._namespace.update(self._own)
         self._inner.update(self._inner_own)
 

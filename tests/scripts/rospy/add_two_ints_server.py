@@ -11,8 +11,8 @@ def handle_add_two_ints(req):
 
 
 def serve():
-    rospy.init_node('add_two_ints_server')
-    rospy.Service('add_two_ints', AddTwoInts, handle_add_two_ints)
+    rospy.init_node("add_two_ints_server")
+    rospy.Service("add_two_ints", AddTwoInts, handle_add_two_ints)
     rospy.spin()
 
 

@@ -10,10 +10,10 @@ def drive(msg):
     if msg.linear.x > 0:
         moving = True
     elif moving:
-        print('stopped')
-        rospy.signal_shutdown('')
+        print("stopped")
+        rospy.signal_shutdown("")
 
 
-rospy.init_node('motor')
-rospy.Subscriber('cmd_vel', Twist, drive)
+rospy.init_node("motor")
+rospy.Subscriber("cmd_vel", Twist, drive)
 rospy.spin()

@@ -3,12 +3,12 @@
 import rospy
 from std_msgs.msg import String
 
-rospy.init_node('busy')
+rospy.init_node("busy")
 count = []
-rospy.Subscriber('chatter', String, lambda msg: count.append(msg.data))
+rospy.Subscriber("chatter", String, lambda msg: count.append(msg.data))
 total = 0
 while True:
     total += 1
     if len(count) == 3:
         break
-print('three messages came in between')
+print("three messages came in between")

@@ -10,12 +10,12 @@ def command(msg):
     global last
     now = (msg.linear.x, msg.angular.z)
     if now != last:
-        print('%g %g' % now)
+        print("%g %g" % now)
         if now == (0.0, 0.0):
-            rospy.signal_shutdown('stopped')
+            rospy.signal_shutdown("stopped")
     last = now
 
 
-rospy.init_node('robot')
-rospy.Subscriber('cmd_vel', Twist, command)
+rospy.init_node("robot")
+rospy.Subscriber("cmd_vel", Twist, command)
 rospy.spin()

@@ -2,13 +2,13 @@
 import rospy
 from geometry_msgs.msg import Twist
 
-rospy.init_node('hooked')
-pub = rospy.Publisher('cmd_vel', Twist, queue_size=1)
+rospy.init_node("hooked")
+pub = rospy.Publisher("cmd_vel", Twist, queue_size=1)
 
 
 def stop():
     pub.publish(Twist())
-    print('stopping the robot')
+    print("stopping the robot")
 
 
 rospy.on_shutdown(stop)

@@ -7,10 +7,12 @@ SPEED, DISTANCE = 0.5, 0.01
 
 
 def move():
-    rospy.init_node('straight_line', anonymous=True)
-    velocity = rospy.Publisher('/cmd_vel', Twist, queue_size=10)
+    rospy.init_node("straight_line", anonymous=True)
+    velocity = rospy.Publisher("/cmd_vel", Twist, queue_size=10)
     msg = Twist()
     msg.linear.x = SPEED
+    while velocity.get_num_connections() == 0:
+        pass
     start = rospy.Time.now().to_sec()
     driven = 0
     turns = 0
@@ -21,7 +23,7 @@ def move():
         turns += 1
     msg.linear.x = 0
     velocity.publish(msg)
-    print('arrived', turns > 1)
+    print("arrived", turns > 1)
 
 
 move()

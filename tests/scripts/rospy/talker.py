@@ -4,17 +4,17 @@ from std_msgs.msg import String
 
 
 def talk():
-    rospy.init_node('talker')
-    pub = rospy.Publisher('chatter', String, queue_size=10)
-    rate = rospy.Rate(rospy.get_param('~rate', 100))
-    while pub.get_num_connections() == 0 and not rospy.is_shutdown():
+    rospy.init_node("talker")
+    pub = rospy.Publisher("chatter", String, queue_size=10)
+    rate = rospy.Rate(rospy.get_param("~rate", 100))
+    while pub.get_num_connections() < rospy.get_param("~listeners", 1) and not rospy.is_shutdown():
         rate.sleep()
     for number in range(3):
-        pub.publish('hello %d' % number)
+        pub.publish("hello %d" % number)
         rate.sleep()
 
 
-if __name__ == '__main__':
+if __name__ == "__main__":
     try:
         talk()
     except rospy.ROSInterruptException:

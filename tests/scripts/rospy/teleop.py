@@ -11,13 +11,13 @@ import tty
 import rospy
 from geometry_msgs.msg import Twist
 
-MOVES = {'i': (1, 0), ',': (-1, 0), 'j': (0, 1), 'l': (0, -1), 'k': (0, 0)}
+MOVES = {"i": (1, 0), ",": (-1, 0), "j": (0, 1), "l": (0, -1), "k": (0, 0)}
 
 
 class PublishThread(threading.Thread):
     def __init__(self, rate):
         super(PublishThread, self).__init__()
-        self.publisher = rospy.Publisher('cmd_vel', Twist, queue_size=1)
+        self.publisher = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         self.x = self.th = 0.0
         self.condition = threading.Condition()
         self.done = False
@@ -60,14 +60,14 @@ class PublishThread(threading.Thread):
 def get_key(settings, timeout):
     tty.setraw(sys.stdin.fileno())
     rlist, _, _ = select.select([sys.stdin], [], [], timeout)
-    key = sys.stdin.read(1) if rlist else ''
+    key = sys.stdin.read(1) if rlist else ""
     termios.tcsetattr(sys.stdin, termios.TCSADRAIN, settings)
     return key
 
 
 if __name__ == "__main__":
     settings = termios.tcgetattr(sys.stdin)
-    rospy.init_node('teleop')
+    rospy.init_node("teleop")
     thread = PublishThread(rospy.get_param("~repeat_rate", 0.0))
     try:
         thread.wait_for_subscribers()
@@ -75,7 +75,7 @@ if __name__ == "__main__":
             key = get_key(settings, rospy.get_param("~key_timeout", 0.005))
             if key in MOVES:
                 thread.update(*MOVES[key])
-            elif key == '\x03':
+            elif key == "\x03":
                 break
     except Exception as e:
         print(e)

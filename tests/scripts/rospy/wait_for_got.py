@@ -10,8 +10,8 @@ def callback(msg):
     got = msg.data
 
 
-rospy.init_node('waiter')
-rospy.Subscriber('chatter', String, callback)
+rospy.init_node("waiter")
+rospy.Subscriber("chatter", String, callback)
 while not got:
     pass
-print('got', got)
+print("got", got)

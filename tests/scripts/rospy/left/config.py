@@ -1,2 +1,2 @@
-SIDE = 'left'
+SIDE = "left"
 SEED = 1

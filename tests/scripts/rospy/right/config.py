@@ -1,2 +1,2 @@
-SIDE = 'right'
+SIDE = "right"
 SEED = 2

@@ -6,7 +6,7 @@ import rospy
 import config
 
 random.seed(config.SEED)
-rospy.init_node('node_' + config.SIDE)
+rospy.init_node("node_" + config.SIDE)
 rate = rospy.Rate(500)
 numbers = []
 for _ in range(3):
@@ -16,6 +16,7 @@ for _ in range(3):
 
 def late():
     from config import SIDE
+
     return SIDE
 
 
