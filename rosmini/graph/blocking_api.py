@@ -26,7 +26,7 @@ class BlockingApi:
     clock: GraphClock | TopicClock
     shutdown_reason: str | None
     _stopped: bool
-    _waiters: dict[Waiter, type[Exception]]
+    _waiters: dict[Waiter, None]
 
     # -- time ----------------------------------------------------------------------------------------------------
 
@@ -80,17 +80,16 @@ class BlockingApi:
         timeout: float | None = None,
         *,
         timeout_ns: int | None = None,
-        interrupt_error: type[Exception] = ROSInterruptException,
     ) -> bool:
         """Block until ``waiter`` is woken (True) or ``timeout`` seconds have passed (False).
 
-        Raises ``interrupt_error`` when the node shuts down meanwhile.
+        Raises ``ROSInterruptException`` when the node shuts down meanwhile.
         """
         if self._stopped:
-            raise interrupt_error(self._shutdown_message())
+            raise ROSInterruptException(self._shutdown_message())
         if timeout is not None and timeout_ns is None:
             timeout_ns = int(timeout * 1e9)
-        self._waiters[waiter] = interrupt_error
+        self._waiters[waiter] = None
         try:
             return waiter.wait(timeout_ns)
         finally:
@@ -118,7 +117,7 @@ class BlockingApi:
         """Block until the node is shut down; callbacks go on meanwhile."""
         if not self._stopped:
             waiter = self.waiter("spin")
-            self._waiters[waiter] = ROSInterruptException
+            self._waiters[waiter] = None
             try:
                 waiter.wait()
             except ROSInterruptException:

@@ -20,9 +20,11 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import (
+    CallbackError,
     DuplicateNode,
     ROSException,
     ROSInterruptException,
+    ServiceException,
     TypeMismatch,
 )
 from rosmini.names import Remappings, canonicalize, check_base_name, check_name, resolve
@@ -92,7 +94,7 @@ class Node(BlockingApi, ParameterApi):
         self.subscriptions: dict[str, Subscription] = {}
         self.services: dict[str, ServiceServer] = {}
         self._hooks: list[Callable[[], object]] = []
-        self._waiters: dict[Waiter, type[Exception]] = {}
+        self._waiters: dict[Waiter, None] = {}
         self._connections = 0
         self._parameter_callbacks: dict[str, list[Callable[[Any], object]]] = {}
         self._stopped = False
@@ -352,16 +354,21 @@ class Node(BlockingApi, ParameterApi):
         service: bool = False,
     ) -> None:
         """Report an exception that a callback let out, with the user's own frame, where it came from, and the message."""
-        if self._stopped and isinstance(error, ROSInterruptException):
+        if self._ended_by_shutdown(error):
             return
         self.graph.report(
             describe_failure(error, callback, where, message, self.name), self, raise_strict=not service
         )
 
     def _lane_error(self, error: BaseException) -> None:
-        if isinstance(error, ROSInterruptException) and self._stopped:
-            return
-        self.graph.report(error, self)
+        if not self._ended_by_shutdown(error):
+            self.graph.report(error, self)
+
+    def _ended_by_shutdown(self, error: BaseException) -> bool:
+        """Tell whether an error only says that the node, or the whole graph with the servers in it, ends."""
+        if isinstance(error, ServiceException):
+            return self.graph.closing
+        return self._stopped and isinstance(error, ROSInterruptException)
 
     # -- logging -------------------------------------------------------------------------------------------------
 
@@ -410,12 +417,11 @@ class Node(BlockingApi, ParameterApi):
         if self.shutdown_reason is not None:
             return
         self.shutdown_reason = reason
-        for hook in self._hooks:
-            self.guarded(hook, what="shutdown hook")
+        problem = self._run_hooks()
         self._stopped = True
         graph, master = self.graph, self.graph.master
-        for waiter, error in list(self._waiters.items()):
-            waiter.fail(error(self._shutdown_message()))
+        for waiter in list(self._waiters):
+            waiter.fail(ROSInterruptException(self._shutdown_message()))
         for server in list(self.services.values()):
             server.shutdown(reason)
         for topic, subscription in self.subscriptions.items():
@@ -432,6 +438,18 @@ class Node(BlockingApi, ParameterApi):
             self.clock.close()
         graph.transport.detach(self.uri)
         graph.remove_node(self)
+        if problem is not None:
+            raise problem
+
+    def _run_hooks(self) -> CallbackError | None:
+        """Run the shutdown hooks, all of them; return the first error that is to be raised here."""
+        problem = None
+        for hook in self._hooks:
+            try:
+                self.guarded(hook, what="shutdown hook")
+            except CallbackError as error:
+                problem = problem or error
+        return problem
 
     def _require_running(self, what: str) -> None:
         if self.shutdown_reason is not None:

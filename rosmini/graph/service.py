@@ -193,7 +193,8 @@ class ServiceClient:
     def call(self, *args: Any, **fields: Any) -> Any:
         """Send a request and block until the response is there.
 
-        Raises ``ServiceException`` when there is no server, when its handler fails, or when it goes away meanwhile.
+        Raises ``ServiceException`` when there is no server, when its handler fails, or when it goes away meanwhile;
+        ``ROSInterruptException`` when this node is shut down meanwhile.
         """
         request_class = self.service_class._request_class
         if len(args) == 1 and not fields and isinstance(args[0], request_class):
@@ -214,7 +215,7 @@ class ServiceClient:
 
         try:
             link.call(frozen, reply)
-            self.node.wait(waiter, None, interrupt_error=ServiceException)
+            self.node.wait(waiter)
         finally:
             if not self.persistent:
                 link.close()

@@ -6,7 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from rosmini.errors import GraphEnded, ROSException, SerializationError, ServiceException
+from rosmini.errors import (
+    GraphEnded,
+    ROSException,
+    ROSInterruptException,
+    SerializationError,
+    ServiceException,
+)
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
 from rosmini.msgs.std_msgs.msg import Int32
 from rosmini.msgs.std_srvs.srv import Empty, SetBool, Trigger
@@ -253,7 +259,7 @@ def test_a_server_that_goes_away_during_a_call_fails_it(graph: Graph, who: str) 
     assert "maintenance" in failures[0]
 
 
-def test_a_client_that_is_shut_down_during_a_call_gets_an_error(graph: Graph) -> None:
+def test_a_client_that_is_shut_down_during_a_call_is_interrupted_as_in_rospy(graph: Graph) -> None:
     server = graph.node("server")
     server.service("slow", ADD, lambda _: server.sleep(1e6))
     client, failures = graph.node("client"), []
@@ -261,7 +267,7 @@ def test_a_client_that_is_shut_down_during_a_call_gets_an_error(graph: Graph) ->
     def main() -> None:
         try:
             client.service_client("slow", ADD)(1, 2)
-        except ServiceException as error:
+        except ROSInterruptException as error:
             failures.append(str(error))
 
     client.run(main)
