@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import zlib
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError, TransportInitError
@@ -14,6 +15,7 @@ from rosmini.time import Time
 from .lanes import Lane, Waiter
 from .master import Master
 from .node import Node
+from .notebook import kernel_shell
 from .notices import Notices
 from .rosout import LEVELS
 from .scheduler import RunReport, Scheduler
@@ -68,11 +70,15 @@ class Graph:
         self.simulated = simulated
         self.seed = seed
         self.strict = strict
-        self.notebook = "ipykernel" in sys.modules
+        self.notebook = kernel_shell() is not None
+        if self.notebook:
+            self.scheduler.ask_driver = self._run_errand
         self.master_uri = "http://localhost:11311/"
         self.master = Master(self.master_uri, Notices(self))
         self.transport: Transport = (transport or LocalTransport)(self.scheduler)
         self.nodes: dict[str, Node] = {}
+        self.closing = False
+        """True while the whole graph shuts down."""
         self.log_class = message_class("rosgraph_msgs/Log")
         self.clock_class = message_class("rosgraph_msgs/Clock")
         self._by_uri: dict[str, Node] = {}
@@ -121,12 +127,24 @@ class Graph:
 
         Call ``stop()`` on the result to end that. Raises ``RosminiError`` where no event loop runs: use :meth:`run` in a program.
         """
-        from .live import LiveDrive, kernel_loop
+        from .live import LiveDrive
+        from .notebook import kernel_loop
 
+        loop = kernel_loop()
         if self._live is not None:
             self._live.stop()
-        self._live = LiveDrive(self, kernel_loop(), rate=rate)
+        self._live = LiveDrive(self, loop, rate=rate)
         return self._live
+
+    @property
+    def is_live(self) -> bool:
+        """True while the graph goes on by itself after :meth:`live`."""
+        return self._live is not None and self._live.running
+
+    def _run_errand(self, waiter: Waiter) -> Callable[[], None]:
+        from .live import Errand
+
+        return Errand(self, waiter).complain
 
     def node(self, name: str, **options: Any) -> Node:
         """Start a node; the options are those of :class:`Node`."""
@@ -139,11 +157,24 @@ class Graph:
     def _shutdown(self, reason: str) -> None:
         if self._live is not None:
             self._live.stop()
-        for node in reversed(list(self.nodes.values())):
-            node.shutdown(reason)
-        if self.scheduler.current() is self.scheduler.root:
-            self.scheduler.run(until_ns=self.scheduler.now_ns())
-        self.scheduler.close()
+        scheduler = self.scheduler
+        self.closing = True
+        steps: list[Callable[[], object]] = [
+            partial(node.shutdown, reason) for node in reversed(list(self.nodes.values()))
+        ]
+        if scheduler.current() is scheduler.root:
+            steps.append(lambda: scheduler.run(until_ns=scheduler.now_ns()))
+        problems: list[Exception] = []
+        for step in [*steps, scheduler.close]:
+            try:
+                step()
+            except Exception as error:  # what one node does at its end must not keep another up
+                problems.append(error)
+        self.closing = False
+        for problem in problems[1:]:
+            self.report(problem, None, raise_strict=False)
+        if problems:
+            raise problems[0]
 
     def rng(self, name: str) -> np.random.Generator:
         """Return a random generator of its own for ``name``: the same on each run, and whoever else draws from another."""
@@ -155,9 +186,9 @@ class Graph:
 
     def report(self, error: BaseException, node: Node | None, *, raise_strict: bool = True) -> None:
         """Tell the user of a problem: raised where the graph is driven if it is strict, and logged if not."""
-        if self.strict and raise_strict:
-            self.scheduler.raise_in_driver(error)
-        elif node is not None:
+        if self.strict and raise_strict and self.scheduler.raise_in_driver(error):
+            return
+        if node is not None:
             node.logerr(error)
         else:
             sys.stderr.write(f"[ERROR] {error}\n")
@@ -204,13 +235,6 @@ class Graph:
             if node.services.get(service) and self.transport.service_uri(node.uri) == uri:
                 return node.services[service].service_class
         return None
-
-    def tell_publisher_gone(self, uri: str, topic: str, subscriber: str) -> None:
-        """Let a publisher in this process know that a subscriber left, as a closed socket would."""
-        node = self._by_uri.get(uri)
-        publication = None if node is None else node.publications.get(topic)
-        if publication is not None:
-            publication.remove(subscriber)
 
     def who_publishes(self, topic: str) -> str:
         """Return a clause that says who publishes a topic."""

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from .scheduler import Scheduler
 
 
+PATIENCE_S = 2.0
+"""After how long a call that waits in another thread asks why."""
+
+
 class LaneExit(BaseException):
     """Thrown into a lane that is asked to end, at the place where it blocks."""
 
@@ -182,6 +186,12 @@ class Waiter:
             self._queued = True
             scheduler.ready.append(self._resume)
 
+    @property
+    def settled(self) -> bool:
+        """True when a thread that waited goes on: woken, failed or timed out."""
+        event = self._event
+        return self.done or event is None or event.is_set()
+
     def _resume(self) -> greenlet | None:
         """Return the code to go on with; the loop switches to it, and then holds nothing of this waiter."""
         self._queued = False
@@ -231,13 +241,19 @@ class Waiter:
         try:
             if self.done:
                 return
-            if timeout_ns is None:
-                event.wait()
-            elif scheduler.simulated:
+            limit = None
+            if timeout_ns is not None and scheduler.simulated:
                 when = scheduler.now_ns() + timeout_ns
                 scheduler.call_soon_threadsafe(lambda: scheduler.call_at(when, self._timed_out))
-                event.wait()
-            else:
-                event.wait(timeout_ns / 1e9 / scheduler.rate)
+            elif timeout_ns is not None:
+                limit = timeout_ns / 1e9 / scheduler.rate
+            if scheduler.ask_driver is not None:
+                complain = scheduler.ask_driver(self)
+                patience = PATIENCE_S if limit is None else min(limit, PATIENCE_S)
+                if event.wait(patience):
+                    return
+                limit = None if limit is None else limit - patience
+                complain()
+            event.wait(limit)
         finally:
             self._event = None

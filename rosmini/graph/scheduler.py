@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from greenlet import getcurrent, greenlet
 
-from rosmini.errors import GraphEnded, RosminiError
+from rosmini.errors import GraphEnded, ROSInterruptException, RosminiError
 
 from .interrupts import InterruptGuard
 from .lanes import Lane, LaneContext, LaneExit, Waiter
@@ -114,6 +114,8 @@ class Scheduler:
         self.rate = rate
         self.trace: Callable[[int, str], None] | None = None
         self.on_error: Callable[[Lane, BaseException], None] | None = None
+        self.ask_driver: Callable[[Waiter], Callable[[], None]] | None = None
+        """Finds who drives while another thread waits; what it returns is called when that takes long."""
         self.ready: deque[Callable[[], object]] = deque()
         self._now = SIMULATED_START_NS
         self._wall_start = time.time_ns()
@@ -170,6 +172,10 @@ class Scheduler:
         """Tell whether the caller is in the thread that runs the queue."""
         return threading.get_ident() == self.thread
 
+    def is_in_main_thread(self) -> bool:
+        """Tell whether the queue runs in the process's main thread."""
+        return self.thread == threading.main_thread().ident
+
     def current(self) -> Lane:
         """Return the caller's lane: the main program's own when it is in none."""
         ident = threading.get_ident()
@@ -223,6 +229,9 @@ class Scheduler:
         def work() -> None:
             try:
                 waiter.wake(function())
+            except LaneExit as error:
+                waiter.fail(ROSInterruptException(str(error)))
+                raise
             except BaseException as error:
                 waiter.fail(error)
 
@@ -295,6 +304,8 @@ class Scheduler:
             return True
         if self._root_waiter is not None or self._parked or ident in self._thread_lanes:
             return False
+        if self._output is not None and self.is_in_main_thread():
+            return False  # the kernel's main thread may be in the middle of something, and will drive when it is asked to
         self._idle.clear()
         self.thread = ident
         return True
@@ -364,14 +375,17 @@ class Scheduler:
         else:
             self.raise_in_driver(error)
 
-    def raise_in_driver(self, error: BaseException) -> None:
-        """Raise ``error`` at the call that drives the queue."""
+    def raise_in_driver(self, error: BaseException) -> bool:
+        """Raise ``error`` at the call that drives the queue; return False when that already ends for another reason."""
         if self._output is not None:
             self._output.shorten(error)
-        if self._root_waiter is not None:
-            self._root_waiter.fail(error)
-        else:
+        waiter = self._root_waiter
+        if waiter is None:
             raise error
+        if waiter.done:
+            return False
+        waiter.fail(error)
+        return True
 
     # -- driving -------------------------------------------------------------------------------------------------
 
@@ -405,6 +419,11 @@ class Scheduler:
             if timer is not None:
                 timer.cancel()
         return self._report(waiter.value)
+
+    def quiet(self) -> bool:
+        """Tell whether there is nothing to do at this moment."""
+        heap = self._heap
+        return not self.ready and self._inbox.empty() and not (heap and heap[0][0] <= self.now_ns())
 
     def stop(self) -> None:
         """End the current :meth:`run`, from any thread or lane."""
@@ -466,7 +485,7 @@ class Scheduler:
                         if not ready:  # another worker went on while this one was idle
                             break
                         parked = ready.popleft()()
-                        if parked.__class__ is greenlet:
+                        if isinstance(parked, greenlet):
                             self._idle.append(getcurrent())
                             parked.switch()
                         if self._until is not None:
@@ -521,7 +540,7 @@ class Scheduler:
                 self._now = heap[0][0]
                 self._instant = 0
             elif self._root_waiter is not None and not self._root_waiter.done:
-                self._root_waiter.fail(GraphEnded(self._ended_message()))
+                self._root_waiter.fail(self.ended(self._root_waiter.reason))
             return
         timeout = 0.2  # Python on Windows notices Ctrl-C only between waits
         if heap and not self.simulated:
@@ -534,10 +553,9 @@ class Scheduler:
             if item is not None:
                 self.ready.append(item)
 
-    def _ended_message(self) -> str:
-        waiter = self._root_waiter
-        reason = waiter.reason if waiter is not None else "the graph"
+    def ended(self, reason: str) -> GraphEnded:
+        """Return the error of who waited for ``reason`` when nothing is left to happen."""
         lines = [f"waited for {reason}, but nothing is left to happen in simulated time"]
         lines += [f"  {waiting}" for waiting in self.waiting()]
         lines.append("Start the node that should answer before waiting for it, or give a timeout.")
-        return "\n".join(lines)
+        return GraphEnded("\n".join(lines))
