@@ -63,7 +63,10 @@ class Logger:
 
     def console(self, level: int, line: str) -> None:
         """Write a line: warnings and worse to standard error, as rospy does, and in a notebook all to standard output."""
-        stream: TextIO = sys.stdout if level <= LEVELS["INFO"] or self._node.graph.notebook else sys.stderr
+        name = "stdout" if level <= LEVELS["INFO"] or self._node.graph.notebook else "stderr"
+        # A script's real thread does not see the script's streams in `sys`, which belong to whoever the graph is running.
+        own = getattr(self._node.scheduler.current().context, "get_own", None)
+        stream: TextIO = getattr(sys, name) if own is None else own(name)
         stream.write(line + "\n")
 
     def _message(self, level: int, text: str, now: Time, frame: FrameType | None) -> Any:

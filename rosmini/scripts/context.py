@@ -128,7 +128,7 @@ class ScriptContext:
         self._host: Any = None
         self._entered = False
         self._environ = ScriptEnviron()
-        self._filters = list(warnings.filters)
+        self._filters: Any = list(warnings.filters)
         self._replaced: dict[str, ModuleType | None] = {}
         self._numpy: NumpyRandom | None = None
 

@@ -163,6 +163,22 @@ def test_never_calling_rospy_again(start):
     assert ran.result.reason == "ended"
 
 
+def test_threads_log_under_their_own_name(start, run):
+    source = """
+    import rospy, threading
+    rospy.init_node("threaded")
+    def work():
+        rospy.sleep(0.005)
+        rospy.logwarn("from a thread of " + rospy.get_name())
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    """
+    ran = start(run.text("a", source, "__name:=one"), run.text("b", source, "__name:=two"))
+    for name in ("one", "two"):
+        assert said_by(ran, name)[0].endswith(f"from a thread of /{name}")
+
+
 def test_all_at_once(start):
     """Every script that ends by itself, in one process and one graph."""
     ran = start(
