@@ -6,7 +6,7 @@ import sys
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini import time as base
-from rosmini.errors import IllegalName, ROSException, ROSInitException
+from rosmini.errors import IllegalName, ROSException, ROSInitException, ROSInterruptException
 from rosmini.graph import Node
 from rosmini.graph.rosout import NAMES
 from rosmini.names import Remappings
@@ -220,6 +220,8 @@ def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration
     node = require_node(f"waiting for a message on {topic}")
     check_message_class(topic_type)
     name = node.resolve(topic)
+    if node.is_shutdown():
+        raise ROSInterruptException(f"waiting for a message on {name}: node {node.name} was shut down")
     waiter = node.waiter(f"a message on {name}")
     subscriber = node.subscriber(
         topic, registered_class(topic_type), waiter.wake, numpy=False, receipt=receipt_of(topic_type)
