@@ -61,13 +61,17 @@ def _strip(shown: traceback.TracebackException, error: BaseException) -> None:
     ):
         if part is not None and source is not None:
             _strip(part, source)
+    # A cause inside rosmini says nothing that the error's own message does not.
+    if shown.__cause__ is not None and not shown.__cause__.stack and not shown.__cause__.__cause__:
+        shown.__cause__ = None
+        shown.__suppress_context__ = True
     if isinstance(error, BaseExceptionGroup):
         for part, source in zip(shown.exceptions or (), error.exceptions, strict=False):
             _strip(part, source)
 
 
 def _ours(filename: str) -> bool:
-    return filename.startswith((_PACKAGE, "<frozen importlib"))
+    return filename.startswith((_PACKAGE, "<frozen importlib", "<freeze of", "<thaw of"))
 
 
 def _hint(error: BaseException) -> str:

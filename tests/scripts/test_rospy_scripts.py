@@ -179,6 +179,23 @@ def test_threads_log_under_their_own_name(start, run):
         assert said_by(ran, name)[0].endswith(f"from a thread of /{name}")
 
 
+def test_a_wrong_message_shows_the_users_line_only(start, run):
+    source = """
+    import rospy
+    from std_msgs.msg import String
+    rospy.init_node("wrong")
+    publisher = rospy.Publisher("chatter", String, queue_size=1, latch=True)
+    publisher.publish(3)
+    """
+    ran = start(run.text("a", source))
+    text = [line for line in said_by(ran, "wrong") if line.strip(" ^~")]
+    assert text[0] == "Traceback (most recent call last):"
+    assert text[1:3] == ['  File "<a>", line 6, in <module>', "    publisher.publish(3)"]
+    assert "field data must be of type str, not 3" in text[3]
+    assert len(text) == 4
+    assert ran.status == 1
+
+
 def test_all_at_once(start):
     """Every script that ends by itself, in one process and one graph."""
     ran = start(
