@@ -14,7 +14,7 @@ from rosmini.names import Remappings
 from .core import add_client_shutdown_hook
 from .logs import DEBUG, ERROR, FATAL, INFO, WARN
 from .msproxy import MasterProxy, published_topics
-from .session import Session, any_node, current_node, current_session, require_node
+from .session import Session, answer_interrupt, any_node, current_node, current_session, require_node
 from .topics import check_message_class, receipt_of, registered_class
 
 if TYPE_CHECKING:
@@ -185,11 +185,10 @@ def spin() -> None:
         )
     try:
         node.spin()
-    except KeyboardInterrupt:
-        # In a notebook an interrupt ends the cell and leaves the node alone.
-        if not current_session().is_main or node.graph.notebook:
-            raise
-        node.shutdown("keyboard interrupt")
+    except KeyboardInterrupt as error:
+        if isinstance(answer_interrupt(node, error), ROSInterruptException):
+            return
+        raise
 
 
 def on_shutdown(h: Callable[[], object]) -> None:
@@ -232,6 +231,8 @@ def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration
             raise ROSException(
                 f"timeout exceeded while waiting for message on topic {name}: nothing came in {limit:g} s; {node.graph.who_publishes(name)}"
             )
+    except KeyboardInterrupt as error:
+        raise answer_interrupt(node, error) from None
     finally:
         subscriber.unregister()
     return waiter.value

@@ -15,7 +15,7 @@ from rosmini.errors import (
 )
 from rosmini.msgs.message import Message
 
-from .session import any_node, current_node, current_session
+from .session import answer_interrupt, any_node, current_node, current_session
 from .topics import DEFAULT_BUFF_SIZE, resolve_early
 
 if TYPE_CHECKING:
@@ -34,7 +34,11 @@ def wait_for_service(service: str, timeout: float | base.Duration | None = None)
     limit = timeout.to_sec() if isinstance(timeout, base.Duration) else timeout
     if limit == 0:
         raise ValueError("timeout must be non-zero: leave it out to wait for ever")
-    any_node().wait_for_service(service, limit)
+    node = any_node()
+    try:
+        node.wait_for_service(service, limit)
+    except KeyboardInterrupt as error:
+        raise answer_interrupt(node, error) from None
 
 
 def _check_service_class(service_class: Any) -> None:

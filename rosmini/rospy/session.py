@@ -14,7 +14,7 @@ import sys
 import weakref
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ROSInitException
+from rosmini.errors import ROSInitException, ROSInterruptException
 from rosmini.graph import Graph, Node, default_graph
 from rosmini.graph.lanes import LaneContext
 from rosmini.names import Remappings, canonicalize
@@ -160,6 +160,20 @@ def current_node() -> Node | None:
 def any_node() -> Node:
     """Return the caller's node, or the unnamed caller before ``init_node``."""
     return current_node() or current_session().unnamed()
+
+
+def answer_interrupt(node: Node, error: KeyboardInterrupt) -> BaseException:
+    """Return what a blocking call raises at Ctrl-C.
+
+    In a program of its own rospy answers it by shutting the node down, unless ``init_node`` was told to leave signals alone;
+    in a notebook it ends the cell and nothing else, and scripts run by rosmini get it from their runner.
+    """
+    session = current_session()
+    signals = session.arguments is not None and not session.arguments[-1]
+    if isinstance(error, ROSInterruptException) or not session.is_main or node.graph.notebook or not signals:
+        return error
+    session.shutdown("signal-2")
+    return ROSInterruptException(f"ROS shutdown request: Ctrl-C ended node {node.name}")
 
 
 def require_node(what: str) -> Node:

@@ -8,7 +8,7 @@ from rosmini import time as base
 from rosmini.graph import clock
 
 from .rostime import Duration, Time
-from .session import any_node, require_node
+from .session import answer_interrupt, any_node, require_node
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +22,11 @@ def sleep(duration: float | base.Duration) -> None:
     Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when ``/clock``
     jumps back.
     """
-    any_node().sleep(duration)
+    node = any_node()
+    try:
+        node.sleep(duration)
+    except KeyboardInterrupt as error:
+        raise answer_interrupt(node, error) from None
 
 
 class Rate(clock.Rate):
@@ -46,6 +50,16 @@ class Rate(clock.Rate):
     def remaining(self) -> Duration:
         """Return how long :meth:`sleep` would sleep."""
         return Duration.from_nsec(super().remaining().to_nsec())
+
+    def sleep(self) -> None:
+        """Sleep to the end of this turn; after a turn that took too long, start afresh.
+
+        Raises ``ROSInterruptException`` when the node shuts down, ``ROSTimeMovedBackwardsException`` when ``/clock`` jumps back.
+        """
+        try:
+            super().sleep()
+        except KeyboardInterrupt as error:
+            raise answer_interrupt(self._node, error) from None
 
     @property
     def last_time(self) -> Time:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import threading
 
 import pytest
 
-from rosmini import rospy
+from rosmini import Graph, rospy, set_default_graph
 from rosmini.errors import IllegalName
 from rosmini.graph import default_graph
 from rosmini.msgs.std_msgs.msg import String
@@ -311,3 +312,71 @@ def test_the_hooks_of_a_plain_program_run_at_its_end():
         [sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=False, timeout=60
     )
     assert (done.stdout.splitlines(), done.stderr, done.returncode) == (["heard x", "hook /plain"], "", 0)
+
+
+INTERRUPTED = """
+import signal
+import rosmini
+rosmini.install(shadow=True)
+import rospy
+rosmini.set_default_graph(rosmini.Graph(simulated=False))
+rospy.init_node("plain", disable_signals={disabled})
+rospy.on_shutdown(lambda: print("hook"))
+rospy.Timer(rospy.Duration(0.05), lambda _: signal.raise_signal(signal.SIGINT), oneshot=True)
+try:
+    {call}
+except rospy.ROSInterruptException:
+    print("ended", rospy.is_shutdown())
+except KeyboardInterrupt:
+    print("interrupted", rospy.is_shutdown())
+else:
+    print("returned", rospy.is_shutdown())
+"""
+
+
+@pytest.mark.parametrize(
+    ("call", "disabled", "lines"),
+    [
+        ("rospy.spin()", False, ["hook", "returned True"]),
+        ("rospy.sleep(10)", False, ["hook", "ended True"]),
+        ("rospy.Rate(0.1).sleep()", False, ["hook", "ended True"]),
+        ("rospy.sleep(10)", True, ["interrupted False", "hook"]),
+    ],
+)
+def test_ctrl_c_shuts_the_node_of_a_plain_program_down(call, disabled, lines):
+    program = INTERRUPTED.format(call=call, disabled=disabled)
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert (done.stdout.splitlines(), done.stderr) == (lines, "")
+
+
+def test_real_threads_know_the_node_of_the_main_program():
+    graph = Graph(simulated=False, strict=False)
+    set_default_graph(graph)
+    try:
+        rospy.init_node("plain")
+        heard, names = [], []
+        rospy.Subscriber("t", String, lambda message: heard.append((message.data, rospy.get_name())))
+        publisher = rospy.Publisher("t", String, queue_size=5)
+        rospy.sleep(0.05)
+
+        def work():
+            for count in range(3):
+                publisher.publish(str(count))
+                names.append(rospy.get_name())
+                rospy.sleep(0.01)
+            rospy.signal_shutdown("done")
+
+        threads = [threading.Thread(target=work), threading.Thread(target=rospy.spin)]
+        # Started while the main program drives, so that it is certain who does.
+        rospy.Timer(rospy.Duration(0.01), lambda _: [thread.start() for thread in threads], oneshot=True)
+        rospy.spin()
+        for thread in threads:
+            thread.join(5)
+            assert not thread.is_alive()
+        assert names == ["/plain"] * 3
+        assert heard == [(str(count), "/plain") for count in range(3)]
+    finally:
+        graph.shutdown("the test is over")
+        set_default_graph(None)
