@@ -485,11 +485,16 @@ class Node(BlockingApi, ParameterApi):
 
     def parameter_changed(self, key: str, value: Any) -> None:
         """Learn that a parameter to which this node subscribes has changed."""
-        for callback in self._parameter_callbacks.get(canonicalize(key), ()):
-            self.spawn(
-                f"{self.name} parameter {key}",
-                partial(self.guarded, callback, value, what=f"parameter {key}"),
-            )
+        changed = canonicalize(key)
+        for name, callbacks in self._parameter_callbacks.items():
+            if name != changed and not changed.startswith(name.rstrip("/") + "/"):
+                continue
+            now = value if name == changed else self.get_param(name, {})
+            for callback in callbacks:
+                self.spawn(
+                    f"{self.name} parameter {name}",
+                    partial(self.guarded, callback, now, what=f"parameter {name}"),
+                )
 
     def connections_changed(self) -> None:
         """Learn that a connection opened or closed."""

@@ -17,15 +17,21 @@ _UNSET: Any = object()
 
 def check_value(name: str, value: Any) -> Any:
     """Return ``value`` as the Parameter Server can hold it. Raises ``ParameterError``, which says where the value is wrong."""
-    if isinstance(value, (bool, str, bytes)):
+    if hasattr(value, "tolist"):  # numpy scalars and arrays
+        return check_value(name, value.tolist())
+    if isinstance(value, bool):
         return value
+    if isinstance(value, str):
+        return str.__str__(value)  # an enumeration's member is its value
+    if isinstance(value, bytes):
+        return bytes(value)
+    if isinstance(value, float):
+        return float.__float__(value)
     if isinstance(value, int):
         if not -(2**31) <= value < 2**31:
             msg = f"parameter {name}: {value} does not fit into the 32 bits of a ROS parameter; store it as a float or a string"
             raise ParameterError(msg)
-        return value
-    if isinstance(value, float):
-        return value
+        return int(value)
     if isinstance(value, dict):
         for key in value:
             if not isinstance(key, str):
@@ -34,8 +40,6 @@ def check_value(name: str, value: Any) -> Any:
         return {key: check_value(f"{name.rstrip('/')}/{key}", item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
         return [check_value(f"{name}[{index}]", item) for index, item in enumerate(value)]
-    if hasattr(value, "tolist"):  # numpy scalars and arrays
-        return check_value(name, value.tolist())
     msg = (
         f"parameter {name}: a {type(value).__name__} cannot be stored ({value!r}). "
         "Parameters are bool, int, float, str, bytes, lists of these, and dictionaries with string keys."
@@ -82,7 +86,8 @@ class ParameterApi:
                 raise ParameterError(msg)
             return value
         wanted = " or ".join(kind.__name__ for kind in kinds)
-        msg = f"parameter {name} is the {type(value).__name__} {value!r}, and a {wanted} is needed. Set it again: set_param({name!r}, ...)."
+        article = "an" if wanted.startswith("int") else "a"
+        msg = f"parameter {name} is the {type(value).__name__} {value!r}, and {article} {wanted} is needed. Set it again: set_param({name!r}, ...)."
         raise ParameterError(msg)
 
     def _not_set(self, name: str, resolved: str) -> str:
@@ -124,7 +129,10 @@ class ParameterApi:
         return sorted(self.graph.master.getParamNames(self.name)[2])
 
     def on_param(self, name: str, callback: Callable[[Any], object]) -> Any:
-        """Call ``callback(value)`` when a parameter changes; return its value now (``{}`` when it is not set)."""
+        """Call ``callback(value)`` when a parameter, or anything in a tree of them, changes; return its value now.
+
+        ``{}`` stands for a parameter that is not set, as in ROS.
+        """
         resolved = self.resolve(name)
         self._parameter_callbacks.setdefault(resolved, []).append(callback)
         return self.graph.master.subscribeParam(self.name, self._uri(), resolved)[2]

@@ -92,8 +92,8 @@ def test_a_long_message_is_shown_in_part(graph: Graph) -> None:
         raise ValueError("broken")
 
     graph.node("node").subscriber("path", Twist, bad)
-    from rosmini.msgs.nav_msgs.msg import Path
     from rosmini.msgs.geometry_msgs.msg import PoseStamped
+    from rosmini.msgs.nav_msgs.msg import Path
 
     graph.node("other").subscriber("long", Path, bad)
     publisher = graph.node("talker").publisher("long", Path)

@@ -276,7 +276,7 @@ def test_a_lane_that_ignores_the_interrupt_is_ended_with_the_graph(graph: Graph)
         while True:
             try:
                 node.waiter("nothing at all").wait(int(LONG * 1e9))
-            except Exception:  # noqa: PERF203
+            except Exception:
                 continue
 
     node.run(main)

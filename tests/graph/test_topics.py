@@ -704,17 +704,20 @@ def test_a_subscriber_may_take_any_type(graph: Graph) -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_closed_graph_is_collected_with_all_that_was_in_it(kind: str) -> None:
+    def use(graph: Graph, node: Node) -> None:
+        node.subscriber("t", String, lambda _: node.sleep(1000.0))
+        connected(node, "t", String).publish("x")
+        node.timer(1.0, lambda _: None)
+        node.run(node.spin)
+        node.run(lambda: node.wait_for_message("never", String))
+        node.on_shutdown(lambda: None)
+        graph.run(3.0)
+        assert len(graph.scheduler.waiting()) >= 4
+        close(graph)
+
     graph = make(kind)
     node = graph.node("node")
-    node.subscriber("t", String, lambda _: node.sleep(1000.0))
-    connected(node, "t", String).publish("x")
-    node.timer(1.0, lambda _: None)
-    node.run(node.spin)
-    node.run(lambda: node.wait_for_message("never", String))
-    node.on_shutdown(lambda: None)
-    graph.run(3.0)
-    assert len(graph.scheduler.waiting()) >= 4
-    close(graph)
+    use(graph, node)
     graph_gone, node_gone = weakref.ref(graph), weakref.ref(node)
     del graph, node
     gc.collect()
