@@ -82,6 +82,11 @@ class RunReport:
 
     __repr__ = __str__
 
+    def _ipython_display_(self) -> None:
+        """Say nothing at the end of a notebook cell about a run that went on for as long as it was asked to."""
+        if self.reason != "time":
+            print(self)
+
 
 class Timer:
     """A call in the future that can be taken back."""
