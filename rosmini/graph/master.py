@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import functools
 import os
+import threading
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Protocol
 
@@ -142,7 +143,8 @@ def _api(
                 return failed(-1, "caller_id must be a string")
             try:
                 checked = [check(value, caller) for check, value in zip(checks, rest, strict=True)]
-                return call(self, caller, *checked)
+                with self._lock:
+                    return call(self, caller, *checked)
             except _Invalid as error:
                 return failed(-1, str(error))
             except ParameterError as error:
@@ -214,6 +216,7 @@ class Master:
     def __init__(self, uri: str, notifier: Notifier, parameters: ParameterTree | None = None) -> None:
         self.uri = uri
         self.shutdown_reason: str | None = None
+        self._lock = threading.RLock()  # nodes in real threads call too
         self._notifier = notifier
         self._parameters = ParameterTree() if parameters is None else parameters
         self._nodes: dict[str, _Registered] = {}

@@ -1,0 +1,203 @@
+"""Real threads in wall time: they publish, subscribe, call services and wait, while the main program drives."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from rosmini.errors import ROSException
+from rosmini.graph import Graph
+from rosmini.graph.byte_transport import ByteTransport
+from rosmini.graph.transport import LocalTransport
+from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
+from rosmini.msgs.std_msgs.msg import Header, Int32, String
+
+from .conftest import KINDS, WALL_RATE, close, make, until
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+
+@pytest.fixture(params=[kind for kind in KINDS if kind.endswith("wall")])
+def graph(request: pytest.FixtureRequest) -> Iterator[Graph]:
+    """A graph in wall time."""
+    graph = make(request.param)
+    yield graph
+    close(graph)
+
+
+def in_thread(graph: Graph, work: Callable[[], object]) -> list[Any]:
+    """Run ``work`` in a real thread, drive the graph until it is done, and return its results (a value, or an error)."""
+    result: list[Any] = []
+
+    def target() -> None:
+        try:
+            result.append(work())
+        except Exception as error:
+            result.append(error)
+
+    thread = threading.Thread(target=target, daemon=True)
+    graph.scheduler.call_soon(thread.start)
+    until(graph, lambda: result)
+    thread.join()
+    return result
+
+
+def start(graph: Graph, workers: list[threading.Thread]) -> None:
+    """Start threads while the main program drives the graph."""
+    for worker in workers:
+        worker.daemon = True
+        graph.scheduler.call_soon(worker.start)
+    until(graph, lambda: all(worker.ident for worker in workers))
+
+
+def test_a_thread_publishes_in_order(graph: Graph) -> None:
+    heard: list[int] = []
+    graph.node("listener").subscriber("n", Int32, lambda message: heard.append(message.data))
+    publisher = graph.node("talker").publisher("n", Int32, queue_size=None)
+
+    def work() -> None:
+        publisher.wait_for_subscribers()
+        for number in range(200):
+            publisher.publish(number)
+
+    assert in_thread(graph, work) == [None]
+    until(graph, lambda: len(heard) == 200)
+    assert heard == list(range(200))
+
+
+def test_what_a_thread_published_is_a_snapshot_with_its_own_number(graph: Graph) -> None:
+    heard: list[Any] = []
+    graph.node("listener").subscriber("h", Header, heard.append)
+    from rosmini.msgs.geometry_msgs.msg import PointStamped
+
+    graph.node("other").subscriber("p", PointStamped, heard.append)
+    publisher = graph.node("talker").publisher("p", PointStamped, queue_size=None)
+
+    def work() -> None:
+        publisher.wait_for_subscribers()
+        message = PointStamped()
+        for number in range(20):
+            message.point.x = float(number)
+            publisher.publish(message)
+
+    assert in_thread(graph, work) == [None]
+    until(graph, lambda: len(heard) == 20)
+    assert [message.point.x for message in heard] == [float(number) for number in range(20)]
+    assert [message.header.seq for message in heard] == list(range(1, 21))
+
+
+def test_a_thread_may_do_all_that_a_node_does(graph: Graph) -> None:
+    server = graph.node("server")
+    server.service("add", AddTwoInts, lambda request: request.a + request.b)
+
+    def work() -> list[Any]:
+        node = graph.node("made_in_a_thread")
+        node.wait_for_service("add")
+        total = node.service_client("add", AddTwoInts)(1, 2).sum
+        node.set_param("p", total)
+        heard: list[str] = []
+        subscriber = node.subscriber("t", String, lambda message: heard.append(message.data))
+        publisher = node.publisher("t", String, latch=True)
+        publisher.publish("hello")
+        message = node.wait_for_message("t", String, timeout=1000.0)
+        start = node.now()
+        node.sleep(2.0)
+        slept = (node.now() - start).to_sec()
+        subscriber.unregister()
+        value = node.get_param("p")
+        node.shutdown("done")
+        return [total, message.data, slept >= 2.0, value, heard, node.is_shutdown()]
+
+    assert in_thread(graph, work) == [[3, "hello", True, 3, ["hello"], True]]
+
+
+def test_errors_reach_the_thread(graph: Graph) -> None:
+    node = graph.node("node")
+    (error,) = in_thread(graph, lambda: node.wait_for_message("never", String, timeout=1.0))
+    assert isinstance(error, ROSException)
+    assert "nobody publishes it" in str(error)
+
+
+def test_threads_may_spin_and_end_with_their_node(graph: Graph) -> None:
+    node, ended = graph.node("node"), []
+
+    def work() -> None:
+        node.spin()
+        ended.append(node.shutdown_reason)
+
+    spinners = [threading.Thread(target=work) for _ in range(3)]
+    start(graph, spinners)
+    assert ended == []
+    node.shutdown("enough")
+    until(graph, lambda: len(ended) == 3)
+    for spinner in spinners:
+        spinner.join(10)
+    assert ended == ["enough"] * 3
+
+
+def test_several_threads_call_one_service_at_once(graph: Graph) -> None:
+    server = graph.node("server")
+
+    def handler(request: Any) -> int:
+        server.sleep(1.0)
+        return request.a + request.b
+
+    server.service("add", AddTwoInts, handler)
+    node, sums = graph.node("client"), []
+    workers = [
+        threading.Thread(
+            target=lambda number=number: sums.append(node.service_client("add", AddTwoInts)(number, 1).sum)
+        )
+        for number in range(8)
+    ]
+    start(graph, workers)
+    until(graph, lambda: len(sums) == 8)
+    for worker in workers:
+        worker.join(10)
+    assert sorted(sums) == list(range(1, 9))
+
+
+def test_a_thread_may_drive_a_graph_that_nobody_else_drives() -> None:
+    results: list[Any] = []
+
+    def work() -> None:
+        with Graph() as graph:
+            heard: list[str] = []
+            graph.node("listener").subscriber("t", String, lambda message: heard.append(message.data))
+            publisher = graph.node("talker").publisher("t", String)
+            publisher.wait_for_subscribers()
+            publisher.publish("x")
+            graph.run(1.0)
+            results.append(heard)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join(10)
+    assert results == [["x"]]
+
+
+@pytest.mark.parametrize("transport", [LocalTransport, ByteTransport])
+def test_the_parameter_server_bears_several_threads(transport: Any) -> None:
+    graph = Graph(simulated=False, rate=WALL_RATE, transport=transport)
+    node, problems = graph.node("node"), []
+
+    def work(number: int) -> None:
+        try:
+            for turn in range(100):
+                node.set_param(f"/tree{number}/{turn}", turn)
+                node.param_names()
+                node.get_param("/")
+        except Exception as error:
+            problems.append(error)
+
+    workers = [threading.Thread(target=work, args=(f"_{number}",)) for number in range(4)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join(15)
+    assert problems == []
+    assert len([name for name in node.param_names() if name.startswith("/tree")]) == 400
+    close(graph)
