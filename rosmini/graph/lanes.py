@@ -11,6 +11,8 @@ import threading
 from collections import deque
 from typing import TYPE_CHECKING, Any, Protocol
 
+from greenlet import GreenletExit
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -131,6 +133,9 @@ class Lane:
             except LaneExit:
                 self.dead = True
                 tasks.clear()
+            except GreenletExit:  # nobody holds the graph any more: it must not go on while it is swept away
+                self.dead = True
+                raise
             except BaseException as error:
                 scheduler.lane_failed(self, error)
         self._busy = False

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from greenlet import getcurrent, greenlet
+from greenlet import GreenletExit, getcurrent, greenlet
 
 from rosmini.errors import GraphEnded, ROSInterruptException, RosminiError
 
@@ -234,8 +234,8 @@ class Scheduler:
         def work() -> None:
             try:
                 waiter.wake(function())
-            except LaneExit as error:
-                waiter.fail(ROSInterruptException(str(error)))
+            except (LaneExit, GreenletExit):
+                waiter.fail(ROSInterruptException("the graph was closed"))
                 raise
             except BaseException as error:
                 waiter.fail(error)

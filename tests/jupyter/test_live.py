@@ -1,0 +1,183 @@
+"""A graph that goes on by itself while cells, widgets and other threads talk to it."""
+
+from __future__ import annotations
+
+import pytest
+
+
+def live(kernel, code="drive = graph.live()"):
+    return kernel.ok(code)
+
+
+def test_a_live_graph_goes_on_between_cells_and_writes_into_the_cell_that_started_it(kernel):
+    cell = live(kernel, "drive = graph.live()\ntimer = talker.timer(0.02, lambda event: pub.publish('tick'))")
+    kernel.until(lambda: cell.stdout.count("heard tick") > 3, "ticks between cells")
+    other = kernel.ok(
+        "pub.publish('mine'); listener.sleep(0.05)"
+    )  # a cell that blocks drives the graph itself
+    assert "heard mine" in other.stdout
+    kernel.ok("await asyncio.sleep(0.1)")
+    before = cell.stdout.count("tick")
+    kernel.until(lambda: cell.stdout.count("tick") > before + 3, "ticks after the other cells")
+    stopped = kernel.ok(
+        "drive.stop()\nn = len(heard)\nawait asyncio.sleep(0.1)\nprint(len(heard) == n, graph.is_live)"
+    )
+    assert stopped.stdout == "True False\n"
+
+
+def test_a_widgets_message_reaches_a_live_graph(kernel):
+    cell = live(
+        kernel,
+        """
+def opened(comm, message):
+    comm.on_msg(lambda message: pub.publish(message["content"]["data"]["word"]))
+get_ipython().kernel.comm_manager.register_target("pad", opened)
+drive = graph.live()
+""",
+    )
+    kernel.comm("pad", kind="comm_open", comm_id="pad1")
+    kernel.comm("pad", {"word": "from a widget"}, comm_id="pad1")
+    kernel.until(lambda: "heard from a widget" in cell.stdout, "the message")
+    kernel.comm("pad", {"word": "on a subshell"}, comm_id="pad1", subshell=kernel.subshell())
+    kernel.until(lambda: "heard on a subshell" in cell.stdout, "the message")
+    kernel.comm("pad", kind="comm_close", comm_id="pad1")
+
+
+def test_an_error_of_a_callback_is_shown_once_and_stops_a_live_graph(kernel):
+    kernel.ok(
+        "def broken(message):\n    1 / 0\nlistener.subscriber('chatter', String, broken)\nlistener.sleep(0.01)"
+    )
+    cell = live(kernel)
+    kernel.ok("pub.publish('x')")
+    kernel.until(lambda: cell.errors, "the error")
+    assert cell.errors == ["CallbackError"]
+    assert "----> 2     1 / 0" in cell.tracebacks[0]
+    assert "The live graph was stopped. Call live() to go on" in cell.tracebacks[0]
+    assert "rosmini" not in cell.tracebacks[0]
+    assert kernel.ok("print(graph.is_live, drive)").stdout == "False <live graph, 1 s a second, stopped>\n"
+    kernel.ok("graph.strict = False")
+    again = live(kernel)
+    kernel.ok("pub.publish('y'); pub.publish('z')")
+    kernel.until(
+        lambda: "heard z" in again.stdout and again.stdout.count("broken of /listener") == 2, "the log"
+    )
+    assert kernel.ok("print(graph.is_live); drive.stop()").stdout == "True\n"
+
+
+def test_an_interrupt_between_cells_stops_a_live_graph_and_one_of_a_cell_does_not(kernel):
+    cell = live(kernel)
+    busy = kernel.send("print('now', flush=True)\ntime.sleep(1000)")
+    kernel.until(lambda: busy.stdout, "the start")
+    kernel.interrupt()
+    kernel.until(lambda: busy.idle, "the end")
+    assert busy.errors == ["KeyboardInterrupt"]
+    kernel.ok("pub.publish('still live')")
+    kernel.until(lambda: "heard still live" in cell.stdout, "the message")
+    kernel.interrupt()
+    kernel.until(lambda: cell.stderr, "the notice")
+    assert cell.stderr == "The live graph was stopped by an interrupt. Call live() to go on.\n"
+    assert (
+        kernel.ok("pub.publish('after'); graph.run(0.01); print(graph.is_live)").stdout
+        == "heard after\nFalse\n"
+    )
+
+
+def test_a_callback_that_hangs_in_a_live_graph_is_ended_by_two_interrupts(kernel):
+    kernel.ok(
+        """
+def hang(message):
+    while message.data == "hang":
+        if graph.scheduler._interrupts.pending() and "noted" not in heard:
+            heard.append("noted")
+            print("noted", flush=True)
+listener.subscriber("chatter", String, hang)
+listener.sleep(0.01)
+"""
+    )
+    cell = live(kernel)
+    kernel.ok("pub.publish('hang')")
+    kernel.until(lambda: "heard hang" in cell.stdout, "the start")
+    kernel.interrupt()
+    kernel.until(lambda: "noted" in cell.stdout, "the first signal")
+    kernel.interrupt()
+    kernel.until(lambda: "stopped by an interrupt" in cell.stderr, "the end")
+    assert kernel.ok("print(graph.is_live); graph.run(0.01);").stdout == "False\n"
+
+
+def test_live_needs_an_event_loop():
+    from rosmini import Graph
+    from rosmini.errors import RosminiError
+
+    graph = Graph()
+    with pytest.raises(RosminiError, match="needs an event loop"):
+        graph.live()
+    graph.shutdown()
+
+
+CALLS = "pub.publish('from a subshell')\nprint(add(1, 2).sum)\nstart = talker.now()\ntalker.sleep(0.05)\nprint((talker.now() - start).to_sec() >= 0.05)"
+
+
+@pytest.mark.parametrize("state", ["idle", "live", "driving", "busy"])
+def test_calls_from_a_subshell_get_through(kernel, state):
+    kernel.ok(
+        "talker.timer(0.01, lambda event: None)\nlistener.sleep(0.02)"
+    )  # a parked lane, as real graphs have
+    busy = None
+    if state == "live":
+        live(kernel)
+    elif state == "driving":
+        busy = kernel.send("print('now', flush=True)\ngraph.run(until=lambda: 'done' in heard)")
+    elif state == "busy":
+        busy = kernel.send("gate = threading.Event()\nprint('now', flush=True)\ngate.wait()")
+    if busy is not None:
+        kernel.until(lambda: "now" in busy.stdout, "the start")
+    subshell = kernel.subshell()
+    cell = kernel.send(CALLS, subshell)
+    if state == "busy":
+        # The cell keeps the main thread and does not drive: the call says so, waits, and goes on after it.
+        kernel.until(lambda: "the cell that runs does not drive it" in cell.stderr, "the notice")
+        kernel.run("gate.set()", kernel.subshell())
+    kernel.until(lambda: cell.idle and cell.reply, "the end")
+    assert cell.errors == []
+    # Where nobody else drives, the blocking call is what drives, and gets the output.
+    heard = "heard from a subshell\n" if state in ("idle", "busy") else ""
+    assert cell.stdout == f"{heard}3\nTrue\n"
+    if state == "driving":
+        kernel.run("pub.publish('done')", subshell)
+    if busy is not None:
+        kernel.until(lambda: busy.idle, "the end of the other cell")
+        assert busy.errors == []
+    assert "from a subshell" in kernel.ok("print(heard)").stdout
+
+
+def test_errors_and_endless_waits_of_a_subshell_end_there(kernel):
+    subshell = kernel.subshell()
+    cell = kernel.run("talker.wait_for_message('nothing', String, timeout=0.05)", subshell)
+    assert cell.errors == ["ROSException"]
+    cell = kernel.run("talker.service_client('nothing', AddTwoInts)(1, 2)", subshell)
+    assert cell.errors == ["ServiceException"]
+    kernel.ok(
+        "def broken(message):\n    1 / 0\nlistener.subscriber('chatter', String, broken)\nlistener.sleep(0.01)"
+    )
+    cell = kernel.run("pub.publish('x')\ntalker.sleep(0.05)", subshell)  # the call that drives
+    assert cell.errors == ["CallbackError"]
+    assert kernel.ok("print(add(1, 2).sum)").stdout == "3\n"
+
+
+@pytest.mark.parametrize("kernel", [True], indirect=True, ids=["simulated"])
+def test_a_subshell_hears_that_nothing_can_happen_any_more(kernel):
+    cell = kernel.run("talker.wait_for_message('nothing', String)", kernel.subshell())
+    assert cell.errors == ["GraphEnded"]
+
+
+def test_a_graph_that_a_widgets_thread_made_is_refused_to_cells_while_it_has_parked_lanes(kernel):
+    subshell = kernel.subshell()
+    made = kernel.run(
+        "theirs = Graph(); node = theirs.node('n'); node.timer(0.1, lambda event: None); theirs.run(0.15);",
+        subshell,
+    )
+    assert made.errors == []
+    cell = kernel.run("node.sleep(0.1)")
+    assert cell.errors == ["RosminiError"]
+    assert "Make the graph in a cell" in cell.tracebacks[0]
+    kernel.run("theirs.shutdown()", subshell)
