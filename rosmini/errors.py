@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
+    from types import TracebackType
 
 __all__ = [
     "CallbackError",
@@ -46,6 +47,10 @@ __all__ = [
 
 class RosminiError(Exception):
     """The base of every error in rosmini."""
+
+    def _render_traceback_(self) -> list[str]:
+        """What IPython shows."""
+        return short_traceback(self)
 
 
 # ---- rospy's names (http://docs.ros.org/en/noetic/api/rospy/html/rospy.exceptions-module.html) ----
@@ -195,3 +200,48 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
     found = [candidate for score, candidate in ranked if score <= min(-0.7, best + 0.1)][:limit]
     listed = found[0] if len(found) == 1 else f"{', '.join(found[:-1])} or {found[-1]}"
     return f"did you mean {listed}?"
+
+
+def short_traceback(error: BaseException) -> list[str]:
+    """The traceback of ``error`` and of its causes as IPython shows it, without the frames of rosmini.
+
+    What is no error of ours keeps those in which it was raised: there it may be a fault of ours.
+    """
+    from IPython import get_ipython
+
+    chain: list[tuple[BaseException, TracebackType | None]] = []
+    link: BaseException | None = error
+    while link is not None and all(link is not seen for seen, _ in chain):
+        chain.append((link, link.__traceback__))
+        link = link.__cause__ or (None if link.__suppress_context__ else link.__context__)
+    try:
+        for link, trace in chain:
+            link.__traceback__ = _without_our_frames(
+                trace, keep_last=not isinstance(link, (RosminiError, KeyboardInterrupt))
+            )
+        lines: list[str] = get_ipython().InteractiveTB.structured_traceback(
+            type(error), error, error.__traceback__, tb_offset=0
+        )
+        return lines
+    finally:
+        for link, trace in chain:
+            link.__traceback__ = trace
+
+
+def _without_our_frames(trace: TracebackType | None, *, keep_last: bool) -> TracebackType | None:
+    from pathlib import Path
+    from types import TracebackType
+
+    ours = Path(__file__).parent
+    entries: list[TracebackType] = []
+    while trace is not None:
+        entries.append(trace)
+        trace = trace.tb_next
+    result: TracebackType | None = None
+    for entry in reversed(entries):
+        file = Path(entry.tb_frame.f_code.co_filename)
+        users = not file.is_relative_to(ours) and file.parts[-3:] != ("IPython", "core", "interactiveshell.py")
+        if users or keep_last:
+            result = TracebackType(result, entry.tb_frame, entry.tb_lasti, entry.tb_lineno)
+        keep_last = keep_last and not users
+    return result
