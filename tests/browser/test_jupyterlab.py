@@ -1,0 +1,170 @@
+"""A live graph in a real JupyterLab: a button that publishes, between cells and while a cell is busy."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+TOKEN = "rosmini-test"
+
+CELLS = [
+    """
+import threading, time
+import ipywidgets
+from rosmini import Graph
+from rosmini.msgs.std_msgs.msg import String
+graph = Graph(simulated=False)
+talker, listener = graph.node("talker"), graph.node("listener")
+pub = talker.publisher("chatter", String)
+heard = []
+def hear(message):
+    heard.append(message.data)
+    print(f"heard click {len(heard)}", flush=True)
+listener.subscriber("chatter", String, hear)
+pub.wait_for_subscribers()
+drive = graph.live()
+""",
+    """
+threads = []
+def click(button):
+    threads.append(threading.current_thread() is threading.main_thread())
+    pub.publish("click")
+button = ipywidgets.Button(description="Publish")
+button.on_click(click)
+# ipykernel 7.4 answers a comm where it was last used; others leave the choice to JupyterLab, which takes a subshell.
+vars(button.comm).pop("_reply_subshell_id", None)
+button
+""",
+    "graph.run(until=lambda: len(heard) == 2); print('driven', len(heard))",
+    "while len(threads) < 3: time.sleep(0.01)\nprint('busy', len(heard))",
+    "talker.sleep(0.1); print('in the end', len(heard), threads[1:])",
+]
+
+
+def notebook(cells):
+    return {
+        "cells": [
+            {
+                "cell_type": "code",
+                "execution_count": None,
+                "id": f"c{i}",
+                "metadata": {},
+                "outputs": [],
+                "source": source.strip(),
+            }
+            for i, source in enumerate(cells)
+        ],
+        "metadata": {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+
+
+def free_port() -> int:
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        return listener.getsockname()[1]
+
+
+@pytest.fixture
+def lab(tmp_path):
+    """The address of a JupyterLab with `live.ipynb`, with settings and runtime files of its own; its end is the kernel's."""
+    (tmp_path / "work").mkdir()
+    (tmp_path / "work" / "live.ipynb").write_text(json.dumps(notebook(CELLS)), encoding="utf-8")
+    port = free_port()
+    own = {
+        name: str(tmp_path / name.lower())
+        for name in (
+            "JUPYTER_CONFIG_DIR",
+            "JUPYTER_DATA_DIR",
+            "JUPYTER_RUNTIME_DIR",
+            "JUPYTERLAB_SETTINGS_DIR",
+            "JUPYTERLAB_WORKSPACES_DIR",
+            "IPYTHONDIR",
+        )
+    }
+    arguments = [
+        f"--ServerApp.root_dir={tmp_path / 'work'}",
+        "--ServerApp.ip=127.0.0.1",
+        f"--ServerApp.port={port}",
+        "--ServerApp.port_retries=0",
+        f"--IdentityProvider.token={TOKEN}",
+        "--LabApp.news_url=None",
+        "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
+        "--no-browser",
+        "--allow-root",
+    ]
+    with (tmp_path / "lab.log").open("wb") as log:
+        server = subprocess.Popen(
+            [sys.executable, "-m", "jupyterlab", *arguments],
+            env=os.environ | own,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+        )
+    address = f"http://127.0.0.1:{port}"
+    try:
+        for _ in range(300):
+            try:
+                urllib.request.urlopen(f"{address}/api?token={TOKEN}", timeout=5).close()
+                break
+            except OSError:
+                assert server.poll() is None, (tmp_path / "lab.log").read_text()
+                time.sleep(0.1)
+        yield f"{address}/lab/tree/live.ipynb?token={TOKEN}"
+    finally:
+        server.terminate()
+        try:
+            server.wait(20)
+        except subprocess.TimeoutExpired:
+            server.kill()
+            server.wait()
+
+
+def test_a_button_publishes_between_cells_and_while_a_cell_is_busy(lab, chromium, shared_tmp):
+    page = chromium.new_page(viewport={"width": 1280, "height": 1400})
+    page.set_default_timeout(20_000)
+    page.goto(lab)
+    cells = page.locator(".jp-Notebook .jp-CodeCell")
+    cells.nth(len(CELLS) - 1).wait_for()
+    page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
+
+    def run(number: int) -> None:
+        cells.nth(number).locator(".jp-InputArea-editor").click()
+        page.keyboard.press("Control+Enter")
+        cells.nth(number).locator(".jp-InputPrompt", has_text=re.compile(r"\[[*\d]+\]")).first.wait_for()
+
+    def says(number: int, text: str) -> None:
+        cells.nth(number).locator(".jp-OutputArea-output", has_text=text).first.wait_for()
+
+    try:
+        run(0)
+        run(1)
+        button = page.locator("button.jupyter-button", has_text="Publish")
+        button.wait_for()
+        button.click()
+        says(0, "heard click 1")  # no cell runs: in the cell that called live()
+        run(2)
+        page.locator(".jp-Notebook-ExecutionIndicator[data-status='busy']").wait_for(state="attached")
+        button.click()
+        says(2, "heard click 2")  # the cell that drives
+        says(2, "driven 2")
+        run(3)
+        page.locator(".jp-Notebook-ExecutionIndicator[data-status='busy']").wait_for(state="attached")
+        button.click()  # handled in a subshell thread, while the main thread neither drives nor comes back
+        says(3, "busy 2")
+        says(0, "heard click 3")
+        run(4)
+        says(4, "in the end 3 [False, False]")
+    finally:
+        page.screenshot(path=shared_tmp / "jupyterlab.png", full_page=True)
+        page.close()
