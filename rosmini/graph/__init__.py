@@ -7,7 +7,8 @@ from .graph import Graph, default_graph, set_default_graph
 from .lanes import Lane, LaneContext, LaneExit, Waiter
 from .node import Node
 from .publisher import Publisher
-from .scheduler import RunReport, Scheduler, Waiting
+from .report import RunReport, Waiting
+from .scheduler import Scheduler
 from .service import ServiceClient, ServiceServer
 from .subscriber import Subscriber
 

@@ -17,8 +17,9 @@ from .master import Master
 from .node import Node
 from .notebook import kernel_shell
 from .notices import Notices
+from .report import RunReport
 from .rosout import LEVELS
-from .scheduler import RunReport, Scheduler
+from .scheduler import Scheduler
 from .transport import LocalTransport
 
 if TYPE_CHECKING:

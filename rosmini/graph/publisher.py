@@ -102,7 +102,7 @@ class Publication:
         self._warned = True
         if self.topic == "/rosout" or self.node.graph.quiet_topic(self.topic):
             return
-        self.node.loginfo(
+        self.node.logwarn(
             f"published on {self.topic} while nobody was connected: the message is lost. Connections take a moment: call "
             "wait_for_subscribers() first, or publish with latch=True if late subscribers need the last message."
         )

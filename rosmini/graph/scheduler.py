@@ -11,25 +11,28 @@ therefore costs a function call, not a switch.
 
 from __future__ import annotations
 
-import heapq
 import queue
 import threading
 import time
 from collections import deque
-from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from greenlet import GreenletExit, getcurrent, greenlet
+from greenlet import getcurrent, greenlet
 
-from rosmini.errors import GraphEnded, ROSInterruptException, RosminiError
+from rosmini.errors import GraphEnded, RosminiError
 
+from . import threads
+from .events import TimedEvents
 from .interrupts import InterruptGuard
 from .lanes import Lane, LaneContext, LaneExit, Waiter
 from .notebook import CellOutput, kernel_shell
+from .report import RunReport, Waiting
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from .events import Timer
 
 T = TypeVar("T")
 
@@ -44,62 +47,6 @@ TICK_QUANTUM_NS = 1_000_000
 
 EVENTS_PER_INSTANT = 100_000
 """So many events at one instant of simulated time are taken for a ping-pong, and time moves on by a quantum."""
-
-
-@dataclass(frozen=True)
-class Waiting:
-    """A lane that was still parked when a run ended, and what for."""
-
-    lane: str
-    reason: str
-
-    def __str__(self) -> str:
-        return f"{self.lane} was waiting for {self.reason}"
-
-
-@dataclass(frozen=True, repr=False)
-class RunReport:
-    """How a run ended: ``reason`` is "time", "condition", "drained" or "stopped"; ``now`` is the graph time in seconds.
-
-    Its text tells what was waited for only when nothing is left to happen: after a run of some seconds nodes always wait.
-    """
-
-    reason: str
-    now: float
-    waiting: tuple[Waiting, ...] = ()
-
-    def __str__(self) -> str:
-        why = {
-            "time": "the time is over",
-            "condition": "the condition holds",
-            "drained": "nothing is left to happen",
-            "stopped": "it was stopped",
-        }[self.reason]
-        lines = [f"the run ended at {self.now:.3f} s: {why}"]
-        if self.reason == "drained":
-            lines += [f"  {waiting}" for waiting in self.waiting]
-        return "\n".join(lines)
-
-    __repr__ = __str__
-
-    def _ipython_display_(self) -> None:
-        """Say nothing at the end of a notebook cell about a run that went on for as long as it was asked to."""
-        if self.reason != "time":
-            print(self)
-
-
-class Timer:
-    """A call in the future that can be taken back."""
-
-    __slots__ = ("callback", "when_ns")
-
-    def __init__(self, when_ns: int, callback: Callable[[], object]) -> None:
-        self.when_ns = when_ns
-        self.callback: Callable[[], object] | None = callback
-
-    def cancel(self) -> None:
-        """Do not call. Harmless when it was called already."""
-        self.callback = None
 
 
 class Scheduler:
@@ -125,11 +72,11 @@ class Scheduler:
         self._now = SIMULATED_START_NS
         self._wall_start = time.time_ns()
         self._mono_start = time.monotonic_ns()
-        self._heap: list[tuple[int, int, Timer]] = []
-        self._sequence = 0
+        self._timed = TimedEvents()
         self._inbox: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
         self._holds = 0
         self._hold_lock = threading.Lock()
+        self._owner_lock = threading.Lock()
         self.thread = threading.get_ident()
         self._idle: list[greenlet] = []
         self._parked: dict[Waiter, Lane] = {}
@@ -155,10 +102,7 @@ class Scheduler:
 
     def call_at(self, when_ns: int, callback: Callable[[], object]) -> Timer:
         """Call ``callback`` at graph time ``when_ns`` (at once when that is over). Only from the hub's thread."""
-        timer = Timer(when_ns, callback)
-        self._sequence += 1
-        heapq.heappush(self._heap, (when_ns, self._sequence, timer))
-        return timer
+        return self._timed.add(when_ns, callback)
 
     def call_soon(self, callback: Callable[[], object]) -> None:
         """Call ``callback`` after what is already due now. It must not block: code that may goes into a lane."""
@@ -226,24 +170,7 @@ class Scheduler:
 
     def on_hub(self, function: Callable[[], T]) -> T:
         """Return ``function()``, run in the hub's thread, in a lane with the caller's node and context."""
-        if self.may_park():
-            return function()
-        waiter = self.waiter("the thread that runs the graph")
-        caller = self.current()
-
-        def work() -> None:
-            try:
-                waiter.wake(function())
-            except (LaneExit, GreenletExit):
-                waiter.fail(ROSInterruptException("the graph was closed"))
-                raise
-            except BaseException as error:
-                waiter.fail(error)
-
-        lane = Lane(self, caller.name, node=caller.node, context=caller.context)
-        self.call_soon_threadsafe(lambda: lane.submit(work))
-        waiter.wait()
-        return cast("T", waiter.value)
+        return function() if self.may_park() else threads.on_hub(self, function)
 
     # -- blocking ------------------------------------------------------------------------------------------------
 
@@ -271,22 +198,7 @@ class Scheduler:
 
     def in_thread(self, function: Callable[[], T]) -> T:
         """Run a blocking call of the operating system in a helper thread while the caller is parked."""
-        if not self.is_hub_thread():
-            return function()
-        waiter = self.waiter("the operating system")
-        self.hold()
-
-        def work() -> None:
-            try:
-                waiter.wake(function())
-            except BaseException as error:
-                waiter.fail(error)
-            finally:
-                self.release()
-
-        threading.Thread(target=work, name="rosmini-helper", daemon=True).start()
-        waiter.wait()
-        return cast("T", waiter.value)
+        return threads.in_thread(self, function) if self.is_hub_thread() else function()
 
     def hold(self) -> None:
         """Say that something is under way outside the queue: simulated time stands still until :meth:`release`."""
@@ -304,15 +216,17 @@ class Scheduler:
 
     def may_park(self) -> bool:
         """Tell whether the caller may be parked: it is in the hub's thread, or the hub is free to move to its own."""
-        ident = threading.get_ident()
-        if ident == self.thread:
-            return True
-        if self._root_waiter is not None or self._parked or ident in self._thread_lanes:
-            return False
+        return self.is_hub_thread() or self._take_over(threading.get_ident())
+
+    def _take_over(self, ident: int) -> bool:
+        """Move the hub to the calling thread, if nothing of it is bound to the other one."""
         if self._output is not None and self.is_in_main_thread():
             return False  # the kernel's main thread may be in the middle of something, and will drive when it is asked to
-        self._idle.clear()
-        self.thread = ident
+        with self._owner_lock:
+            if self._root_waiter is not None or self._parked or ident in self._thread_lanes:
+                return False
+            self._idle.clear()
+            self.thread = ident
         return True
 
     def park(self, waiter: Waiter) -> None:
@@ -342,7 +256,11 @@ class Scheduler:
             raise self._interruption()
 
     def _start_drive(self, waiter: Waiter) -> None:
-        self._root_waiter = waiter
+        with self._owner_lock:
+            if not self.is_hub_thread():
+                msg = "two threads began to drive the graph at the same moment; let one of them drive, and the others call it"
+                raise RosminiError(msg)
+            self._root_waiter = waiter
         self._interrupts.arm()
         if self._output is not None:
             self._output.begin()
@@ -427,8 +345,8 @@ class Scheduler:
 
     def quiet(self) -> bool:
         """Tell whether there is nothing to do at this moment."""
-        heap = self._heap
-        return not self.ready and self._inbox.empty() and not (heap and heap[0][0] <= self.now_ns())
+        due = self._timed.next_ns()
+        return not self.ready and self._inbox.empty() and (due is None or due > self.now_ns())
 
     def stop(self) -> None:
         """End the current :meth:`run`, from any thread or lane."""
@@ -459,7 +377,7 @@ class Scheduler:
                 self.run(until_ns=self.now_ns())
             self._end_workers()
         self.ready.clear()
-        self._heap.clear()
+        self._timed.clear()
 
     def _end_workers(self) -> None:
         """End the idle greenlets: the garbage collector does not see what a suspended one refers to."""
@@ -523,33 +441,26 @@ class Scheduler:
                 self.ready.append(item)
 
     def _take_due(self) -> None:
-        heap = self._heap
-        if not heap:
+        if not self._timed:
             return
         if self.simulated and self._instant > EVENTS_PER_INSTANT:
             self._now += TICK_QUANTUM_NS
             self._instant = 0
-        now = self.now_ns()
-        while heap and heap[0][0] <= now:
-            callback = heapq.heappop(heap)[2].callback
-            if callback is not None:
-                self.ready.append(callback)
+        self._timed.take_due(self.now_ns(), self.ready)
 
     def _advance(self) -> None:
         """Nothing is due: go on to the next event, or wait for it, or end."""
-        heap = self._heap
-        while heap and heap[0][2].callback is None:
-            heapq.heappop(heap)
+        due = self._timed.next_ns()
         if self.simulated and not self._holds:
-            if heap:
-                self._now = heap[0][0]
+            if due is not None:
+                self._now = due
                 self._instant = 0
             elif self._root_waiter is not None and not self._root_waiter.done:
                 self._root_waiter.fail(self.ended(self._root_waiter.reason))
             return
         timeout = 0.2  # Python on Windows notices Ctrl-C only between waits
-        if heap and not self.simulated:
-            timeout = min(timeout, (heap[0][0] - self.now_ns()) / 1e9 / self.rate)
+        if due is not None and not self.simulated:
+            timeout = min(timeout, (due - self.now_ns()) / 1e9 / self.rate)
         if timeout > 0:
             try:
                 item = self._inbox.get(timeout=timeout)

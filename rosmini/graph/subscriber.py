@@ -217,19 +217,17 @@ class Subscription:
         self.message_class = message_class
         self.handles: list[Subscriber] = []
         self.connections: dict[str, Connection] = {}
-        self._leaving: list[Connection] = []
         self.queue_size: int | None = None
 
     def update_publishers(self, uris: Iterable[str]) -> None:
-        """Connect to new publishers and leave those that are gone: what ``publisherUpdate`` asks for."""
+        """Connect to new publishers: what ``publisherUpdate`` asks for.
+
+        As in rospy an open connection outlives its registration: the publisher closes it after its last message,
+        which may still be on its way.
+        """
         wanted = list(dict.fromkeys(uris))
-        for uri in [uri for uri in self.connections if uri not in wanted]:
-            # The publisher closes the connection after its last message, which may still be on its way.
-            connection = self.connections.pop(uri)
-            if connection.is_open:
-                self._leaving.append(connection)
-            else:
-                connection.close()
+        for uri in [uri for uri, link in self.connections.items() if uri not in wanted and not link.is_open]:
+            self.connections.pop(uri).close()
         for uri in wanted:
             if uri not in self.connections:
                 self.connections[uri] = Connection(self, uri)
@@ -238,8 +236,6 @@ class Subscription:
         """Drop a connection that is closed or was refused."""
         if self.connections.get(connection.uri) is connection:
             del self.connections[connection.uri]
-        elif connection in self._leaving:
-            self._leaving.remove(connection)
 
     def add(self, handle: Subscriber) -> None:
         """Add a subscriber of this node; it gets what connected publishers latched."""
@@ -259,7 +255,7 @@ class Subscription:
     def _changed(self) -> None:
         sizes = [handle.queue_size for handle in self.handles]
         self.queue_size = None if not all(sizes) else max((size for size in sizes if size), default=None)
-        for connection in (*self.connections.values(), *self._leaving):
+        for connection in self.connections.values():
             connection.groups = ()
 
     def groups(self, message_class: Any) -> Groups:
@@ -272,10 +268,9 @@ class Subscription:
 
     def close(self) -> None:
         """Close all connections."""
-        for connection in [*self.connections.values(), *self._leaving]:
+        for connection in list(self.connections.values()):
             connection.close()
         self.connections.clear()
-        self._leaving.clear()
 
 
 class Subscriber:

@@ -733,3 +733,18 @@ def test_a_graph_can_be_used_again_after_it_was_shut_down(build: Callable[..., G
         connected(graph.node("talker"), "t", String).publish("x")
         until(graph, lambda heard=heard: heard)
         close(graph)
+
+
+def test_an_open_connection_outlives_its_registration_and_is_not_doubled(graph: Graph) -> None:
+    talker, listener = graph.node("talker"), graph.node("listener")
+    heard: list[str] = []
+    listener.subscriber("chatter", String, lambda message: heard.append(message.data))
+    publisher = connected(talker, "chatter", String)
+    for uris in ([], [talker.uri], [talker.uri]):
+        listener.slave.publisherUpdate("/master", "/chatter", uris)
+        settle(graph)
+        publisher.publish("still here")
+    until(graph, lambda: len(heard) >= 3)
+    settle(graph)
+    assert heard == ["still here"] * 3
+    assert publisher.num_connections() == 1

@@ -1,0 +1,73 @@
+"""Calls in the future, ordered by time and, at one time, by the order in which they were asked for."""
+
+from __future__ import annotations
+
+import heapq
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections import deque
+    from collections.abc import Callable
+
+SWEEP_FROM = 1_024
+"""From so many entries on, those that were taken back are thrown out now and then."""
+
+
+class Timer:
+    """A call in the future that can be taken back."""
+
+    __slots__ = ("callback", "when_ns")
+
+    def __init__(self, when_ns: int, callback: Callable[[], object]) -> None:
+        self.when_ns = when_ns
+        self.callback: Callable[[], object] | None = callback
+
+    def cancel(self) -> None:
+        """Do not call. Harmless when it was called already."""
+        self.callback = None
+
+
+class TimedEvents:
+    """The timers that have not been called."""
+
+    def __init__(self) -> None:
+        self._heap: list[tuple[int, int, Timer]] = []
+        self._sequence = 0
+        self._sweep_at = SWEEP_FROM
+
+    def __len__(self) -> int:
+        return len(self._heap)
+
+    def add(self, when_ns: int, callback: Callable[[], object]) -> Timer:
+        """Note a call at ``when_ns``."""
+        timer = Timer(when_ns, callback)
+        self._sequence += 1
+        heapq.heappush(self._heap, (when_ns, self._sequence, timer))
+        if len(self._heap) >= self._sweep_at:
+            self._sweep()
+        return timer
+
+    def _sweep(self) -> None:
+        """Throw out what was taken back: a wait with a long timeout that ends early leaves such an entry."""
+        self._heap = [entry for entry in self._heap if entry[2].callback is not None]
+        heapq.heapify(self._heap)
+        self._sweep_at = max(SWEEP_FROM, 2 * len(self._heap))
+
+    def take_due(self, now_ns: int, ready: deque[Callable[[], object]]) -> None:
+        """Move the calls that are due into ``ready``."""
+        heap = self._heap
+        while heap and heap[0][0] <= now_ns:
+            callback = heapq.heappop(heap)[2].callback
+            if callback is not None:
+                ready.append(callback)
+
+    def next_ns(self) -> int | None:
+        """Return the time of the next call, or None."""
+        heap = self._heap
+        while heap and heap[0][2].callback is None:
+            heapq.heappop(heap)
+        return heap[0][0] if heap else None
+
+    def clear(self) -> None:
+        """Forget all."""
+        self._heap.clear()
