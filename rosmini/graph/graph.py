@@ -20,6 +20,7 @@ from .notices import Notices
 from .report import RunReport
 from .rosout import LEVELS
 from .scheduler import Scheduler
+from .show import show
 from .transport import LocalTransport
 
 if TYPE_CHECKING:
@@ -183,6 +184,17 @@ class Graph:
 
         return np.random.default_rng([self.seed, zlib.crc32(name.encode())])
 
+    def show(self, **options: Any) -> Any:
+        """Return a picture of the graph, as the tool ``rqt_graph`` draws it; the options are those of ``rosmini.viz.rqt_graph``."""
+        return show("computation_graph", self, **options)
+
+    @property
+    def unreachable(self) -> tuple[str, ...]:
+        """The nodes that the Master knows and that do not answer: they ended without a word."""
+        state = self.master.getSystemState("/graph")[2]
+        names = dict.fromkeys(name for part in state for _, holders in part for name in holders)
+        return tuple(name for name in names if self.master.lookupNode("/graph", name)[2] not in self._by_uri)
+
     # -- errors --------------------------------------------------------------------------------------------------
 
     def report(self, error: BaseException, node: Node | None, *, raise_strict: bool = True) -> None:
@@ -276,10 +288,6 @@ class Graph:
             else:
                 still.append((condition, waiter))
         self._watched = still
-
-    def has_uri(self, uri: str) -> bool:
-        """Tell whether the node at ``uri`` runs in this process."""
-        return uri in self._by_uri
 
     # -- services that every node offers -------------------------------------------------------------------------
 

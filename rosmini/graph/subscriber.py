@@ -58,11 +58,12 @@ class Connection:
             code, status, parameters = transport.call(
                 self.uri, "requestTopic", node.name, subscription.topic, [[transport.protocol]]
             )
-            if code == 1:
-                self.header, self._close_link = transport.connect_topic(parameters, self._request(), self)
-            else:
-                self._refused(TransportInitError(status))
+            if code == -1:  # the publisher has left the topic meanwhile
+                subscription.forget(self)
                 return
+            if code != 1:
+                raise TransportInitError(status)
+            self.header, self._close_link = transport.connect_topic(parameters, self._request(), self)
         except TransportInitError as error:
             self._refused(error)
             return
@@ -101,18 +102,22 @@ class Connection:
         published = node.graph.publisher_class(self.uri, subscription.topic)
         if published is not None and published._md5sum != subscription.message_class._md5sum:
             cls = subscription.message_class
-            text = describe_mismatch(
-                subscription.topic,
-                node.graph.node_name_of(self.uri),
-                published,
-                node.name,
-                cls._type,
-                cls._md5sum,
-                cls._full_text,
+            problem: Exception = TypeMismatch(
+                describe_mismatch(
+                    subscription.topic,
+                    node.graph.node_name_of(self.uri),
+                    published,
+                    node.name,
+                    cls._type,
+                    cls._md5sum,
+                    cls._full_text,
+                )
             )
         else:
-            text = f"{subscription.topic}: the publisher at {self.uri} refused the connection: {error}"
-        problem = TypeMismatch(text)
+            who = node.graph.node_name_of(self.uri)
+            problem = TransportInitError(
+                f"{who} refused the connection of {node.name} to {subscription.topic}: {error}"
+            )
         problem.__cause__ = error
         node.graph.report(problem, node)
 

@@ -1,0 +1,47 @@
+"""What a graph as a whole offers beside its nodes."""
+
+from __future__ import annotations
+
+import pytest
+
+from rosmini.errors import TransportInitError
+from rosmini.graph import Graph
+from rosmini.msgs.std_msgs.msg import String
+
+
+def test_a_graph_shows_itself() -> None:
+    graph = Graph()
+    graph.node("talker").publisher("chatter", String)
+    graph.node("listener").subscriber("chatter", String)
+    assert "/talker -> /chatter [std_msgs/String] -> /listener" in repr(graph.show())
+    assert "talker" in graph.show(title="Two nodes").alt
+
+
+def test_a_registered_node_that_does_not_answer_is_unreachable() -> None:
+    graph = Graph()
+    graph.node("talker").publisher("chatter", String)
+    graph.master.registerPublisher("/ghost", "/chatter", "std_msgs/String", "http://nobody:1/")
+    assert graph.unreachable == ("/ghost",)
+    assert "/ghost does not answer" in repr(graph.show(mode="nodes_topics_all", hide=("debug",)))
+
+
+def test_a_refusal_for_another_reason_than_the_type_says_who_and_why() -> None:
+    graph = Graph()
+    talker, listener = graph.node("talker"), graph.node("listener")
+    talker.publisher("chatter", String)
+    listener.subscriber("chatter", String)
+    talker.slave_call = lambda *arguments: [0, "no supported protocol implementations", []]  # type: ignore[method-assign]
+    with pytest.raises(
+        TransportInitError, match=r"/talker refused the connection of /listener to /chatter: no supported"
+    ):
+        graph.run(0.1)
+
+
+def test_a_publisher_that_left_before_the_connection_was_made_is_no_error() -> None:
+    graph = Graph()
+    talker, listener = graph.node("talker"), graph.node("listener")
+    publisher = talker.publisher("chatter", String)
+    subscriber = listener.subscriber("chatter", String)
+    publisher.unregister()
+    assert graph.run(0.1).reason == "time"
+    assert subscriber.num_connections() == 0
