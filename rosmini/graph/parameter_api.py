@@ -6,9 +6,12 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ParameterError, ParameterNotSet, nearest
+from rosmini.names import resolve
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from rosmini.names import Remappings
 
     from .graph import Graph
 
@@ -51,12 +54,14 @@ class ParameterApi:
     """The part of a node that reads and writes parameters."""
 
     name: str
+    namespace: str
+    remappings: Remappings
     graph: Graph
     _parameter_callbacks: dict[str, list[Callable[[Any], object]]]
 
-    def resolve(self, name: str) -> str:
-        """Return the global name that ``name`` means here."""
-        raise AssertionError(name)  # pragma: no cover - the node's own method hides this one
+    def resolve_parameter(self, name: str) -> str:
+        """Return the global name that a parameter's ``name`` means here; as in rospy its characters are not checked."""
+        return resolve(name, self.namespace, self.name, self.remappings, what="parameter name", check=False)
 
     def get_param(
         self, name: str, default: Any = _UNSET, *, expect: type | tuple[type, ...] | None = None
@@ -66,7 +71,7 @@ class ParameterApi:
         With ``expect`` a value of another type is an error (an int is welcome where a float is expected). Raises
         ``ParameterNotSet``, which names parameters with a similar name and other namespaces that have this one.
         """
-        resolved = self.resolve(name)
+        resolved = self.resolve_parameter(name)
         code, _, value = self.graph.master.getParam(self.name, resolved)
         if code != 1:
             if default is not _UNSET:
@@ -104,18 +109,18 @@ class ParameterApi:
 
     def set_param(self, name: str, value: Any) -> None:
         """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` for what ROS cannot hold."""
-        resolved = self.resolve(name)
+        resolved = self.resolve_parameter(name)
         code, status, _ = self.graph.master.setParam(self.name, resolved, check_value(resolved, value))
         if code != 1:
             raise ParameterError(status)
 
     def has_param(self, name: str) -> bool:
         """Tell whether a parameter, or a tree of them, is set."""
-        return bool(self.graph.master.hasParam(self.name, self.resolve(name))[2])
+        return bool(self.graph.master.hasParam(self.name, self.resolve_parameter(name))[2])
 
     def delete_param(self, name: str) -> None:
         """Delete a parameter or a tree. Raises ``ParameterNotSet``."""
-        resolved = self.resolve(name)
+        resolved = self.resolve_parameter(name)
         if self.graph.master.deleteParam(self.name, resolved)[0] != 1:
             raise ParameterNotSet(self._not_set(name, resolved))
 
@@ -133,7 +138,7 @@ class ParameterApi:
 
         ``{}`` stands for a parameter that is not set, as in ROS.
         """
-        resolved = self.resolve(name)
+        resolved = self.resolve_parameter(name)
         self._parameter_callbacks.setdefault(resolved, []).append(callback)
         return self.graph.master.subscribeParam(self.name, self._uri(), resolved)[2]
 

@@ -264,6 +264,9 @@ class Publisher:
 
     def unregister(self) -> None:
         """Stop to publish. The topic is left when the node's last publisher of it has gone. Harmless when repeated."""
+        self.node.scheduler.on_hub(self._unregister)
+
+    def _unregister(self) -> None:
         publication, self._publication = self._publication, None
         if publication is not None:
             publication.handles.remove(self)

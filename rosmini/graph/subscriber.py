@@ -329,6 +329,9 @@ class Subscriber:
 
     def unregister(self) -> None:
         """Stop to receive. The topic is left when the node's last subscriber of it has gone. Harmless when repeated."""
+        self.node.scheduler.on_hub(self._unregister)
+
+    def _unregister(self) -> None:
         subscription, self._subscription = self._subscription, None
         if subscription is not None:
             subscription.remove(self)

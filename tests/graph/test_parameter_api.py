@@ -219,3 +219,10 @@ def test_a_node_hears_when_a_whole_tree_is_set(graph: Graph) -> None:
     other.set_param("/robotics", {"speed": 3})
     settle(graph)
     assert heard == [2]
+
+
+def test_a_parameters_name_may_have_characters_that_a_topics_may_not(graph: Graph) -> None:
+    node = graph.node("node")
+    node.set_param("~my-gain", 2.5)
+    assert node.get_param("/node/my-gain") == 2.5
+    assert graph.node("other").get_param("node/my-gain") == 2.5

@@ -201,3 +201,26 @@ def test_the_parameter_server_bears_several_threads(transport: Any) -> None:
     assert problems == []
     assert len([name for name in node.param_names() if name.startswith("/tree")]) == 400
     close(graph)
+
+
+def test_a_real_thread_leaves_topics_in_the_graphs_thread() -> None:
+    graph = Graph(simulated=False)
+    talker, listener = graph.node("talker"), graph.node("listener")
+    publisher, subscriber = talker.publisher("chatter", String), listener.subscriber("chatter", String)
+    publisher.wait_for_subscribers()
+    left: list[int] = []
+    dropped_in: list[int | None] = []
+    talker.drop_publication = lambda publication: dropped_in.append(threading.get_ident())  # type: ignore[method-assign]
+
+    def leave() -> None:
+        subscriber.unregister()
+        publisher.unregister()
+        left.append(1)
+
+    thread = threading.Thread(target=leave)
+    thread.start()
+    graph.run(10, until=lambda: bool(left))
+    thread.join()
+    assert dropped_in == [threading.get_ident()]
+    assert graph.master.getSystemState("/x")[2][1] == [["/rosout", ["/rosout"]]]
+    graph.shutdown()
