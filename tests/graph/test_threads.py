@@ -218,7 +218,7 @@ def test_a_real_thread_leaves_topics_in_the_graphs_thread() -> None:
         left.append(1)
 
     thread = threading.Thread(target=leave)
-    thread.start()
+    graph.scheduler.call_soon(thread.start)
     graph.run(10, until=lambda: bool(left))
     thread.join()
     assert dropped_in == [threading.get_ident()]
