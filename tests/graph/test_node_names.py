@@ -91,8 +91,6 @@ def test_an_illegal_node_name_is_refused(simulated: Graph, name: str) -> None:
         lambda node: node.subscriber("my-topic", String),
         lambda node: node.service("my-topic", Empty, lambda _: None),
         lambda node: node.service_client("my-topic", Empty),
-        lambda node: node.get_param("my-topic"),
-        lambda node: node.set_param("my-topic", 1),
         lambda node: node.wait_for_message("my-topic", String),
     ],
 )
