@@ -65,14 +65,18 @@ class _Wire:
     def __init__(self, scheduler: Scheduler, name: str) -> None:
         self._scheduler = scheduler
         self._queue: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
+        self._closed = False
         self._thread = threading.Thread(target=self._read, name=f"rosmini-wire {name}", daemon=True)
         self._thread.start()
 
     def carry(self, job: Callable[[], None]) -> None:
-        self._scheduler.hold()
-        self._queue.put(job)
+        """Have ``job`` done by the thread; what is sent to a closed wire is lost. In the hub's thread."""
+        if not self._closed:
+            self._scheduler.hold()
+            self._queue.put(job)
 
     def close(self) -> None:
+        self._closed = True
         self._queue.put(None)
         self._thread.join()
 
@@ -224,7 +228,7 @@ class ByteTransport:
         return cast("Triple", xmlrpc.client.loads(reply)[0][0])
 
     def connect_topic(
-        self, parameters: list[Any], header: Header, receiver: Receiver
+        self, caller: str, parameters: list[Any], header: Header, receiver: Receiver
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection by exchanging headers; blocks."""
         request = encode_header(header)
@@ -232,14 +236,16 @@ class ByteTransport:
 
         def serve(endpoint: Endpoint) -> bytes:
             fields = decode_header(request)
-            sender = _ByteSender(self, self._wire_of(fields["callerid"]), receiver, fields["callerid"])
+            sender = _ByteSender(self, self._wire_of(caller), receiver, fields["callerid"])
             made.append(sender)
             return encode_header(endpoint.accept_subscriber(fields, sender))
 
         reply = decode_header(self._ask(parameters[1], serve))
         return reply, made[0].drop
 
-    def connect_service(self, service_uri: str, header: Header, service_class: Any) -> _ByteServiceLink:
+    def connect_service(
+        self, caller: str, service_uri: str, header: Header, service_class: Any
+    ) -> _ByteServiceLink:
         """Open a service connection by exchanging headers; blocks."""
         request = encode_header(header)
 
@@ -248,14 +254,14 @@ class ByteTransport:
 
         uri = service_uri.replace("rosrpc://", "http://") + "/"
         session = self._ask(uri, serve)
-        return _ByteServiceLink(self, self._wire_of(header["callerid"]), session, service_class)
+        return _ByteServiceLink(self, self._wire_of(caller), session, service_class)
 
-    def _wire_of(self, name: str) -> _Wire:
-        for endpoint, wire in self._endpoints.values():
-            if endpoint.name == name:
-                return wire
-        msg = f"{name} has no connection to the graph any more"
-        raise TransportInitError(msg)
+    def _wire_of(self, caller: str) -> _Wire:
+        found = self._endpoints.get(caller)
+        if found is None:
+            msg = f"the node at {caller} has no connection to the graph any more"
+            raise TransportInitError(msg)
+        return found[1]
 
     def _ask(self, uri: str, serve: Callable[[Endpoint], Any]) -> Any:
         """Have ``serve`` run in the hub's thread on behalf of the node's own; park the caller meanwhile."""

@@ -257,7 +257,7 @@ class ServiceClient:
             "persistent": "1" if self.persistent else "0",
         }
         try:
-            link = node.graph.transport.connect_service(uri, header, cls)
+            link = node.graph.transport.connect_service(node.uri, uri, header, cls)
         except TransportInitError as error:
             server = node.graph.service_class_at(uri, self.name)
             theirs = "another type" if server is None else server._type

@@ -63,7 +63,9 @@ class Connection:
                 return
             if code != 1:
                 raise TransportInitError(status)
-            self.header, self._close_link = transport.connect_topic(parameters, self._request(), self)
+            self.header, self._close_link = transport.connect_topic(
+                node.uri, parameters, self._request(), self
+            )
         except TransportInitError as error:
             self._refused(error)
             return

@@ -113,12 +113,17 @@ class Transport(Protocol):
         """Call a method of a node's slave API; may block. Raises ``TransportException`` when nobody answers."""
 
     def connect_topic(
-        self, parameters: list[Any], header: Header, receiver: Receiver
+        self, caller: str, parameters: list[Any], header: Header, receiver: Receiver
     ) -> tuple[Header, Callable[[], None]]:
-        """Open a topic connection; may block. Return the publisher's header and a function that closes it."""
+        """Open a topic connection of the node at ``caller``; may block.
 
-    def connect_service(self, service_uri: str, header: Header, service_class: Any) -> ServiceLink:
-        """Open a service connection; may block. Raises ``TransportInitError`` when it is refused."""
+        Return the publisher's header and a function that closes the connection. Raises ``TransportInitError`` when it is refused.
+        """
+
+    def connect_service(
+        self, caller: str, service_uri: str, header: Header, service_class: Any
+    ) -> ServiceLink:
+        """Open a service connection of the node at ``caller``; may block. Raises ``TransportInitError`` when it is refused."""
 
 
 def _nothing() -> None:
@@ -244,13 +249,23 @@ class LocalTransport:
         return self.endpoint(uri).slave_call(method, *arguments)
 
     def connect_topic(
-        self, parameters: list[Any], header: Header, receiver: Receiver
+        self,
+        caller: str,  # noqa: ARG002 - the seam's
+        parameters: list[Any],
+        header: Header,
+        receiver: Receiver,
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection."""
         sender = LocalSender(self._scheduler, receiver, header["callerid"])
         reply = self.endpoint(parameters[1]).accept_subscriber(header, sender)
         return reply, sender.drop
 
-    def connect_service(self, service_uri: str, header: Header, service_class: Any) -> ServiceLink:  # noqa: ARG002 - the seam's
+    def connect_service(
+        self,
+        caller: str,  # noqa: ARG002 - the seam's
+        service_uri: str,
+        header: Header,
+        service_class: Any,  # noqa: ARG002 - the seam's
+    ) -> ServiceLink:
         """Open a service connection."""
         return LocalServiceLink(self.endpoint(service_uri).accept_client(header))

@@ -188,6 +188,7 @@ def built_page(tmp_path_factory) -> str:
     import nbformat
     from myst_nb.core import render
     from sphinx.application import Sphinx
+    from sphinx.util.docutils import docutils_namespace
 
     source = tmp_path_factory.mktemp("page")
     outputs = []
@@ -202,7 +203,7 @@ def built_page(tmp_path_factory) -> str:
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
     nbformat.write(notebook, source / "index.ipynb")
     confoverrides = {"extensions": ["myst_nb"], "nb_execution_mode": "off"}
-    with pytest.MonkeyPatch.context() as patch:
+    with pytest.MonkeyPatch.context() as patch, docutils_namespace():
         patch.setattr(render, "load_mime_renders", lambda: [AltText])  # as its entry point makes it
         app = Sphinx(
             source, None, source / "out", source / "trees", "html",

@@ -18,6 +18,8 @@ SYSTEM_PYTHON = "/usr/bin/python3"
 
 NODE = Path(__file__).with_name("rospy_node.py")
 TIMEOUT_S = 120
+START_S = 40
+ATTEMPTS = 3
 
 
 def find_rospy() -> Rospy | None:
@@ -38,32 +40,42 @@ class Rospy:
     def __init__(self, python: str) -> None:
         self.python = python
         self._home = tempfile.mkdtemp(prefix="rosmini-bench-")
-        port = _free_port()
         self._env = {
             **{
                 key: value
                 for key, value in os.environ.items()
                 if key not in ("PYTHONPATH", "VIRTUAL_ENV", "PYTHONHOME")
             },
-            "ROS_MASTER_URI": f"http://127.0.0.1:{port}",
             "ROS_IP": "127.0.0.1",
             "ROS_HOME": self._home,
         }
-        self._core = subprocess.Popen(
-            ["roscore", "-p", str(port)], env=self._env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        for _ in range(ATTEMPTS):
+            port = _free_port()
+            self._env["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
+            self._core = subprocess.Popen(
+                ["roscore", "-p", str(port)],
+                env=self._env,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+            if self._answers(port):
+                return
+            self._stop()
+        shutil.rmtree(self._home, ignore_errors=True)
+        msg = (
+            f"roscore did not answer in {ATTEMPTS} attempts of {START_S} s; try it by hand: roscore -p 11399"
         )
-        self._wait_for_port(port)
+        raise RosminiError(msg)
 
-    def _wait_for_port(self, port: int) -> None:
-        deadline = time.monotonic() + TIMEOUT_S
+    def _answers(self, port: int) -> bool:
+        """Wait until the Master answers; False if roscore ends first (somebody else took the port) or takes too long."""
+        deadline = time.monotonic() + START_S
         while time.monotonic() < deadline and self._core.poll() is None:
             with socket.socket() as probe:
                 if probe.connect_ex(("127.0.0.1", port)) == 0:
-                    return
+                    return True
             time.sleep(0.05)
-        self.close()
-        msg = f"roscore did not answer on port {port} within {TIMEOUT_S} s"
-        raise RosminiError(msg)
+        return False
 
     def measure(self, function: str, *arguments: int) -> float:
         """Run ``function`` of :mod:`rospy_node` in a listening and a talking process; return the listener's figure."""
@@ -93,13 +105,16 @@ class Rospy:
 
     def close(self) -> None:
         """Stop roscore and remove its files."""
+        self._stop()
+        shutil.rmtree(self._home, ignore_errors=True)
+
+    def _stop(self) -> None:
         self._core.terminate()
         try:
             self._core.wait(10)
         except subprocess.TimeoutExpired:
             self._core.kill()
             self._core.wait()
-        shutil.rmtree(self._home, ignore_errors=True)
 
 
 def _free_port() -> int:
