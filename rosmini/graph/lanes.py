@@ -211,7 +211,7 @@ class Waiter:
         scheduler = self._scheduler
         if self.done:
             return self._outcome()
-        if scheduler.may_park():
+        if scheduler.may_wait():
             timer = None
             if timeout_ns is not None:
                 timer = scheduler.call_at(scheduler.now_ns() + timeout_ns, self._timed_out)
@@ -252,13 +252,10 @@ class Waiter:
                 scheduler.call_soon_threadsafe(lambda: scheduler.call_at(when, self._timed_out))
             elif timeout_ns is not None:
                 limit = timeout_ns / 1e9 / scheduler.rate
-            if scheduler.ask_driver is not None:
-                complain = scheduler.ask_driver(self)
-                patience = PATIENCE_S if limit is None else min(limit, PATIENCE_S)
-                if event.wait(patience):
-                    return
-                limit = None if limit is None else limit - patience
+            complain = scheduler.ask_driver(self)
+            patience = PATIENCE_S if limit is None else min(limit, PATIENCE_S)
+            if not event.wait(patience):
                 complain()
-            event.wait(limit)
+                event.wait(None if limit is None else limit - patience)
         finally:
             self._event = None

@@ -82,9 +82,7 @@ class Node(BlockingApi, ParameterApi):
         if not isinstance(remappings, Remappings):
             remappings = Remappings(remappings or {})
         self.remappings = remappings
-        if remappings.namespace is not None:
-            namespace = remappings.namespace
-        self.namespace = canonicalize("/" + check_name(namespace, "namespace"))
+        self.namespace = canonicalize("/" + check_name(remappings.namespace or namespace, "namespace"))
         base = check_base_name(remappings.node_name or name)
         if anonymous and remappings.node_name is None:
             base = graph.anonymous_name(base)

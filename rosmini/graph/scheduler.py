@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from .events import Timer
 
 T = TypeVar("T")
+E = TypeVar("E", bound=BaseException)
 
 SIMULATED_START_NS = 1_000 * 10**9
 """Where simulated time starts: not at zero, because ``Time(0)`` means "the latest"."""
@@ -66,7 +67,7 @@ class Scheduler:
         self.rate = rate
         self.trace: Callable[[int, str], None] | None = None
         self.on_error: Callable[[Lane, BaseException], None] | None = None
-        self.ask_driver: Callable[[Waiter], Callable[[], None]] | None = None
+        self.ask_driver: Callable[[Waiter], Callable[[], None]] = partial(threads.complaint, self)
         """Finds who drives while another thread waits; what it returns is called when that takes long."""
         self.ready: deque[Callable[[], object]] = deque()
         self._now = SIMULATED_START_NS
@@ -90,7 +91,7 @@ class Scheduler:
         self._until: Callable[[], bool] | None = None
         shell = kernel_shell()
         self._output = None if shell is None else CellOutput(shell)
-        self._interrupts = InterruptGuard(self._wake_hub)
+        self._interrupts = InterruptGuard(lambda: self._inbox.put(None))
 
     # -- time ----------------------------------------------------------------------------------------------------
 
@@ -214,6 +215,16 @@ class Scheduler:
 
         self._inbox.put(let_go)
 
+    def may_wait(self) -> bool:
+        """Tell whether the caller may be parked for as long as it takes.
+
+        In simulated time only the thread that made the graph lets time pass, while it lives: the sequence of events must not depend on who was faster.
+        """
+        return self.is_hub_thread() or (not (self.simulated and self._owner_lives()) and self.may_park())
+
+    def _owner_lives(self) -> bool:
+        return any(thread.ident == self.thread for thread in threading.enumerate())
+
     def may_park(self) -> bool:
         """Tell whether the caller may be parked: it is in the hub's thread, or the hub is free to move to its own."""
         return self.is_hub_thread() or self._take_over(threading.get_ident())
@@ -223,11 +234,21 @@ class Scheduler:
         if self._output is not None and self.is_in_main_thread():
             return False  # the kernel's main thread may be in the middle of something, and will drive when it is asked to
         with self._owner_lock:
-            if self._root_waiter is not None or self._parked or ident in self._thread_lanes:
+            if not self._owner_lives():
+                self._abandon()
+            elif self._root_waiter is not None or self._parked or ident in self._thread_lanes:
                 return False
             self._idle.clear()
             self.thread = ident
         return True
+
+    def _abandon(self) -> None:
+        """Give up what was parked in a thread that has ended: nobody can go on with it."""
+        for waiter, lane in self._parked.items():
+            waiter._greenlet = None  # noqa: SLF001
+            lane.dead = True
+        self._parked.clear()
+        self._root_waiter = None
 
     def park(self, waiter: Waiter) -> None:
         """Leave the caller parked until ``waiter`` resumes it, and run the queue meanwhile. For waiters only."""
@@ -268,6 +289,8 @@ class Scheduler:
     def _end_drive(self) -> None:
         self._root_waiter = None
         self._interrupts.disarm()
+        if not self.is_in_main_thread():
+            self._end_workers()  # no other thread could use them
 
     # -- called by lanes and waiters -----------------------------------------------------------------------------
 
@@ -300,14 +323,12 @@ class Scheduler:
 
     def raise_in_driver(self, error: BaseException) -> bool:
         """Raise ``error`` at the call that drives the queue; return False when that already ends for another reason."""
-        if self._output is not None:
-            self._output.shorten(error)
         waiter = self._root_waiter
         if waiter is None:
-            raise error
+            raise self._shortened(error)
         if waiter.done:
             return False
-        waiter.fail(error)
+        waiter.fail(self._shortened(error))
         return True
 
     # -- driving -------------------------------------------------------------------------------------------------
@@ -318,10 +339,12 @@ class Scheduler:
         return self._root_waiter is not None
 
     def run(self, until_ns: int | None = None, until: Callable[[], bool] | None = None) -> RunReport:
-        """Drive the queue until graph time ``until_ns``, until ``until()`` is true, or until nothing is left to happen.
+        """Drive the queue until graph time ``until_ns``, until ``until()`` is true, or (in simulated time) until nothing is left.
 
-        Only from the main program or a notebook cell. In wall time "nothing left" never comes by itself.
+        Only from the main program or a notebook cell.
         """
+        if self.current() is self.root and not self.may_park() and not self.simulated:
+            return threads.run_beside(self, until_ns, until)
         if self._current is not self.root or not self.may_park():
             msg = (
                 "run() was called from inside the graph (a callback or a script); only the main program drives it. "
@@ -329,19 +352,19 @@ class Scheduler:
             )
             raise RosminiError(msg)
         if until is not None and until():
-            return self._report("condition")
+            return self.report("condition")
         waiter = self.waiter("the end of the run")
         timer = None if until_ns is None else self.call_at(until_ns, partial(waiter.wake, "time"))
         self._until = until
         try:
             waiter.wait()
         except GraphEnded:
-            return self._report("drained")
+            return self.report("drained")
         finally:
             self._until = None
             if timer is not None:
                 timer.cancel()
-        return self._report(waiter.value)
+        return self.report(waiter.value)
 
     def quiet(self) -> bool:
         """Tell whether there is nothing to do at this moment."""
@@ -353,7 +376,8 @@ class Scheduler:
         if self._root_waiter is not None:
             self._root_waiter.wake("stopped")
 
-    def _report(self, reason: str) -> RunReport:
+    def report(self, reason: str) -> RunReport:
+        """Return how things stand at the end of a run."""
         return RunReport(reason, self.now_ns() / 1e9, self.waiting())
 
     def waiting(self) -> tuple[Waiting, ...]:
@@ -387,13 +411,12 @@ class Scheduler:
             worker.throw()
 
     def _interruption(self) -> KeyboardInterrupt:
-        error = KeyboardInterrupt()
+        return self._shortened(KeyboardInterrupt())
+
+    def _shortened(self, error: E) -> E:
         if self._output is not None:
             self._output.shorten(error)
         return error
-
-    def _wake_hub(self) -> None:
-        self._inbox.put(None)
 
     # -- the loop ------------------------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from typing import TYPE_CHECKING, TypeVar, cast
 
@@ -14,9 +15,14 @@ from .lanes import Lane, LaneExit
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from .lanes import Waiter
+    from .report import RunReport
     from .scheduler import Scheduler
 
 T = TypeVar("T")
+
+LOOK_S = 0.005
+"""How often a run beside another thread's looks whether it is over."""
 
 
 def on_hub(scheduler: Scheduler, function: Callable[[], T]) -> T:
@@ -37,6 +43,41 @@ def on_hub(scheduler: Scheduler, function: Callable[[], T]) -> T:
     scheduler.call_soon_threadsafe(lambda: lane.submit(work))
     waiter.wait()
     return cast("T", waiter.value)
+
+
+def complaint(scheduler: Scheduler, waiter: Waiter) -> Callable[[], None]:
+    """Return what says on standard error that the calling thread waits for somebody to drive the graph, if nobody does."""
+    name = threading.current_thread().name
+
+    def complain() -> None:
+        if not scheduler.driven:
+            sys.stderr.write(
+                f"{name} waits for {waiter.reason}, and the graph stands still: nobody drives it. "
+                "Call graph.run(), or anything that blocks, in the thread that made the graph.\n"
+            )
+
+    return complain
+
+
+def run_beside(scheduler: Scheduler, until_ns: int | None, until: Callable[[], bool] | None) -> RunReport:
+    """Do what ``run`` does in wall time while another thread drives: wait for the time or the condition."""
+    waiter = scheduler.waiter("the end of the run")
+
+    def look() -> None:
+        if until is not None and until():
+            waiter.wake("condition")
+        elif until_ns is not None and scheduler.now_ns() >= until_ns:
+            waiter.wake("time")
+        elif not waiter.done:
+            soon = scheduler.now_ns() + int(LOOK_S * 1e9 * scheduler.rate)
+            scheduler.call_at(soon if until_ns is None else min(soon, until_ns), look)
+
+    scheduler.call_soon_threadsafe(look)
+    try:
+        waiter.wait()
+    finally:
+        waiter.wake("stopped")
+    return scheduler.report(waiter.value)
 
 
 def in_thread(scheduler: Scheduler, function: Callable[[], T]) -> T:

@@ -224,3 +224,61 @@ def test_a_real_thread_leaves_topics_in_the_graphs_thread() -> None:
     assert dropped_in == [threading.get_ident()]
     assert graph.master.getSystemState("/x")[2][1] == [["/rosout", ["/rosout"]]]
     graph.shutdown()
+
+
+def test_the_main_program_runs_beside_a_thread_that_drives() -> None:
+    graph = Graph(simulated=False, rate=WALL_RATE)
+    talker = graph.node("talker")
+    seen: list[str] = []
+    graph.node("listener").subscriber("chatter", String, lambda message: seen.append(message.data))
+    publisher = talker.publisher("chatter", String)
+    publisher.wait_for_subscribers()
+    talker.timer(1.0, lambda event: publisher.publish("tick"))
+    thread = threading.Thread(target=talker.spin)
+    thread.start()
+    while not graph.scheduler.driven:  # the thread has nothing else to do
+        pass
+    assert graph.run(20.0).reason == "time"
+    assert graph.run(4000.0, until=lambda: len(seen) >= 30).reason == "condition"
+    talker.shutdown("over")
+    thread.join(20)
+    assert not thread.is_alive()
+    graph.shutdown()
+
+
+def test_in_simulated_time_a_thread_leaves_the_driving_to_who_made_the_graph() -> None:
+    graph = Graph()
+    node = graph.node("node")
+    woke: list[float] = []
+
+    def sleep() -> None:
+        node.sleep(1.0)
+        woke.append(node.now().to_sec())
+
+    thread = threading.Thread(target=sleep)
+    thread.start()
+    graph.run(5.0, until=lambda: bool(woke))
+    while thread.is_alive() and not woke:
+        graph.run(1.0)
+    thread.join(20)
+    assert woke
+    assert graph.scheduler.is_hub_thread()
+    graph.shutdown()
+
+
+def test_a_thread_that_waits_for_a_driver_says_so(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("rosmini.graph.lanes.PATIENCE_S", 0.01)
+    graph = Graph()
+    node = graph.node("node")
+    thread = threading.Thread(target=lambda: node.sleep(1.0), name="camera")
+    thread.start()
+    said = ""
+    while "camera waits for" not in said and thread.is_alive():
+        said += capsys.readouterr().err
+    assert "Call graph.run()" in said
+    while thread.is_alive():
+        graph.run(0.1)
+    thread.join()
+    graph.shutdown()

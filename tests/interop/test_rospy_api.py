@@ -12,6 +12,7 @@ import re
 import shutil
 import socket
 import subprocess
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -61,10 +62,22 @@ def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]
         stderr=subprocess.DEVNULL,
     )
     try:
+        wait_for(port)
         yield found
     finally:
         process.terminate()
         process.wait(10)
+
+
+def wait_for(port: int) -> None:
+    """Block until somebody answers at a port."""
+    deadline = time.monotonic() + 60
+    while True:
+        with socket.socket() as probe:
+            if probe.connect_ex(("127.0.0.1", port)) == 0:
+                return
+        assert time.monotonic() < deadline, "rosmaster does not answer"
+        time.sleep(0.05)
 
 
 def environment(uri: str, home: Path) -> dict[str, str]:

@@ -1,5 +1,6 @@
 """Scripts as students write them for rospy, unmodified, several at once, in simulated and in wall time."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -57,7 +58,9 @@ def test_straight_line_without_a_sleep(start):
 
 def test_spinning_until_something_came(start):
     ran = start("wait_for_got.py", "talker.py")
-    assert said_by(ran, "waiter") == ["got hello 0"]
+    (line,) = said_by(ran, "waiter")
+    # On a busy machine more than one has come before its next turn.
+    assert re.fullmatch(r"got hello [012]", line)
     assert ran.result.reason == "ended"
 
 

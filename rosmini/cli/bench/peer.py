@@ -46,6 +46,8 @@ class Rospy:
                 for key, value in os.environ.items()
                 if key not in ("PYTHONPATH", "VIRTUAL_ENV", "PYTHONHOME")
             },
+            # A virtual environment may hold programs of the same name (rospkg brings a rosversion).
+            "PATH": os.pathsep.join(["/usr/bin", "/bin", os.environ.get("PATH", "")]),
             "ROS_IP": "127.0.0.1",
             "ROS_HOME": self._home,
         }
