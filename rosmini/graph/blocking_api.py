@@ -35,7 +35,7 @@ class BlockingApi:
         return Time.from_nsec(self.clock.now_ns())
 
     def sleep(self, duration: float | Duration) -> None:
-        """Block for seconds of the node's time; not at all for zero or less.
+        """Block for seconds of the node's time; for zero or less, only let the others have their turn.
 
         Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when its
         clock jumps back.
@@ -44,6 +44,8 @@ class BlockingApi:
 
     def sleep_ns(self, span: int) -> None:
         """Block for nanoseconds of the node's time; see :meth:`sleep`."""
+        if span <= 0 and not self._stopped:
+            self.scheduler.give_way()  # a loop that cannot keep its rate must not keep the others waiting
         if self._stopped:
             raise ROSInterruptException(self._shutdown_message())
         if span <= 0:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import ROSInterruptException, RosminiError
 
 from .notebook import kernel_loop, kernel_shell
+from .report import ended
 
 if TYPE_CHECKING:
     import asyncio
@@ -189,7 +190,7 @@ class Errand(LoopDrive):
         if self.graph.is_live:
             return SLICE_S
         if self._drive(until=self.over) == "drained" and not self.over():
-            self._waiter.fail(self.graph.scheduler.ended(self._waiter.reason))
+            self._waiter.fail(ended(self._waiter.reason, self.graph.scheduler.waiting()))
         return 0 if self.graph.simulated else SLICE_S
 
     def _failed(self, error: BaseException) -> None:

@@ -3,6 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rosmini.errors import GraphEnded
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 
 @dataclass(frozen=True)
@@ -45,3 +51,11 @@ class RunReport:
         """Say nothing at the end of a notebook cell about a run that went on for as long as it was asked to."""
         if self.reason != "time":
             print(self)
+
+
+def ended(reason: str, waiting: Iterable[Waiting]) -> GraphEnded:
+    """Return the error of who waited for ``reason`` when nothing is left to happen."""
+    lines = [f"waited for {reason}, but nothing is left to happen in simulated time"]
+    lines += [f"  {lane}" for lane in waiting]
+    lines.append("Start the node that should answer before waiting for it, or give a timeout.")
+    return GraphEnded("\n".join(lines))

@@ -27,7 +27,7 @@ from .events import TimedEvents
 from .interrupts import InterruptGuard
 from .lanes import Lane, LaneContext, LaneExit, Waiter
 from .notebook import CellOutput, kernel_shell
-from .report import RunReport, Waiting
+from .report import RunReport, Waiting, ended
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -123,7 +123,7 @@ class Scheduler:
         return threading.get_ident() == self.thread
 
     def is_in_main_thread(self) -> bool:
-        """Tell whether the queue runs in the process's main thread."""
+        """Tell whether the queue runs in the main thread."""
         return self.thread == threading.main_thread().ident
 
     def current(self) -> Lane:
@@ -191,11 +191,18 @@ class Scheduler:
     def _yield(self) -> None:
         if self.simulated:
             self.sleep_until(self._now + TICK_QUANTUM_NS, "its turn in a polling loop")
-            return
-        waiter = Waiter(self, "its turn in a polling loop")
-        waiter.done = waiter._queued = True  # noqa: SLF001 - one class in two files
-        self._inbox.put(lambda: self.ready.append(waiter._resume))  # noqa: SLF001
-        self.park(waiter)
+        else:
+            self.give_way()
+
+    def give_way(self) -> None:
+        """Let everything else that is due run before the caller goes on. A real thread needs no such thing."""
+        if self.is_hub_thread():
+            waiter = Waiter(self, "its turn")
+            waiter.done = waiter._queued = True  # noqa: SLF001 - one class in two files
+            self._inbox.put(lambda: self.ready.append(waiter._resume))  # noqa: SLF001
+            self.park(waiter)
+            if self._current.dead:
+                raise LaneExit(f"lane {self._current.name} was asked to end")
 
     def in_thread(self, function: Callable[[], T]) -> T:
         """Run a blocking call of the operating system in a helper thread while the caller is parked."""
@@ -479,7 +486,7 @@ class Scheduler:
                 self._now = due
                 self._instant = 0
             elif self._root_waiter is not None and not self._root_waiter.done:
-                self._root_waiter.fail(self.ended(self._root_waiter.reason))
+                self._root_waiter.fail(ended(self._root_waiter.reason, self.waiting()))
             return
         timeout = 0.2  # Python on Windows notices Ctrl-C only between waits
         if due is not None and not self.simulated:
@@ -491,10 +498,3 @@ class Scheduler:
                 return
             if item is not None:
                 self.ready.append(item)
-
-    def ended(self, reason: str) -> GraphEnded:
-        """Return the error of who waited for ``reason`` when nothing is left to happen."""
-        lines = [f"waited for {reason}, but nothing is left to happen in simulated time"]
-        lines += [f"  {waiting}" for waiting in self.waiting()]
-        lines.append("Start the node that should answer before waiting for it, or give a timeout.")
-        return GraphEnded("\n".join(lines))

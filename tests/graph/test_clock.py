@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from rosmini.errors import GraphEnded, ROSInterruptException, RosminiError, ROSTimeMovedBackwardsException
+from rosmini.graph.transport import LocalTransport
 from rosmini.msgs.rosgraph_msgs.msg import Clock
+from rosmini.msgs.std_msgs.msg import String
 from rosmini.time import Duration, Time
 
 from .conftest import settle, until
@@ -34,13 +36,15 @@ def test_sleeping_takes_its_time(graph: Graph, span: Any) -> None:
 
 
 @pytest.mark.parametrize("span", [0, 0.0, -1.0, Duration(-5), Duration(0)])
-def test_sleeping_for_nothing_or_less_does_not_block(simulated: Graph, span: Any) -> None:
+def test_sleeping_for_nothing_or_less_takes_no_time_and_lets_the_others_run(
+    simulated: Graph, span: Any
+) -> None:
     node, start = simulated.node("node"), simulated.now()
     seen: list[int] = []
     simulated.scheduler.call_soon(lambda: seen.append(1))
     node.sleep(span)
     assert simulated.now() == start
-    assert seen == []
+    assert seen == [1]
 
 
 # -- Rate --------------------------------------------------------------------------------------------------------
@@ -300,3 +304,26 @@ def test_a_shutdown_ends_a_sleep_on_a_clock_that_stands_still(graph: Graph) -> N
     node.shutdown("enough")
     until(graph, lambda: ended)
     assert ended == ["node /node was shut down: enough"]
+
+
+def test_a_loop_that_cannot_keep_its_rate_lets_the_others_run(graph: Graph) -> None:
+    talker, listener = graph.node("talker"), graph.node("listener")
+    heard: list[str] = []
+    listener.subscriber("chatter", String, lambda message: heard.append(message.data))
+    publisher = talker.publisher("chatter", String)
+    publisher.wait_for_subscribers()
+    counts: list[int] = []
+
+    def hurry() -> None:
+        for number in range(5):
+            publisher.publish(str(number))
+            talker.sleep(-1.0)  # what a rate does that is late
+            talker.sleep(0.0)
+            counts.append(len(heard))
+
+    lane = talker.run(hurry)
+    until(graph, lambda: lane.idle)
+    settle(graph)
+    assert heard == ["0", "1", "2", "3", "4"]
+    if isinstance(graph.transport, LocalTransport):  # on the other the bytes are still under way
+        assert counts == [1, 2, 3, 4, 5]
