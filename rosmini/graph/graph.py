@@ -323,8 +323,9 @@ def default_graph() -> Graph:
     return _default["graph"]
 
 
-def set_default_graph(graph: Graph | None) -> None:
-    """Make ``graph`` the default one; None: the next call of :func:`default_graph` makes a new one."""
-    _default.clear()
+def set_default_graph(graph: Graph | None) -> Graph | None:
+    """Make ``graph`` the default one and return what was it before; None: :func:`default_graph` makes a new one when asked."""
+    before = _default.pop("graph", None)
     if graph is not None:
         _default["graph"] = graph
+    return before

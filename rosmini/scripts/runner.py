@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TextIO
 
 from rosmini.errors import ROSInterruptException, ScriptError
-from rosmini.graph import Graph, LaneExit
-from rosmini.graph import graph as graph_module
+from rosmini.graph import Graph, LaneExit, set_default_graph
 
 from .context import ScriptContext
 from .failures import user_traceback
@@ -328,11 +327,10 @@ def _graph_for_run(graph: Graph | None, *, simulated: bool, rate: float, seed: i
     own = graph is None
     if graph is None:
         graph = Graph(simulated=simulated, rate=rate, seed=seed, strict=False)
-    before = graph_module._default.get("graph")  # noqa: SLF001 - asking default_graph() would make one
-    graph_module.set_default_graph(graph)
+    before = set_default_graph(graph)
     try:
         yield graph
     finally:
         if own:
             graph.shutdown("the run is over")
-        graph_module.set_default_graph(before)
+        set_default_graph(before)
