@@ -16,8 +16,12 @@ def test_threads_run_and_are_joined(run):
                 super(PublishThread, self).__init__()
                 self.n = n
             def run(self):
-                time.sleep(self.n / 1000.0)
+                go.wait()
+                if self.n == 30:
+                    threads[1].join()
+                time.sleep(0.001)
                 print("thread", self.n, threading.current_thread() is self)
+        go = threading.Event()
         threads = [PublishThread(n) for n in (30, 10)]
         for t in threads:
             t.daemon = True
@@ -25,6 +29,7 @@ def test_threads_run_and_are_joined(run):
         print([t.is_alive() for t in threads], threading.active_count(), isinstance(threads[0], threading.Thread))
         threads[0].join(0.0001)
         print(threads[0].is_alive())
+        go.set()
         for t in threads: t.join()
         print([t.is_alive() for t in threads], threading.active_count(), threading.current_thread() is threading.main_thread())
         print(threading.current_thread().name, threads[0].daemon, threads[0].getName() == threads[0].name)
