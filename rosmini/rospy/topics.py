@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import warnings
+from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import IllegalName, ROSException, ROSSerializationException, SerializationError
@@ -73,7 +74,7 @@ def resolve_early(name: Any, what: str) -> str:
     return current_session().unnamed().resolve(name)
 
 
-class Topic:
+class Topic(ABC):
     """What publishers and subscribers have in common."""
 
     def __init__(self, name: str, data_class: Any) -> None:
@@ -101,8 +102,9 @@ class Topic:
         if not self._unregistered:
             self._register(node)
 
+    @abstractmethod
     def _register(self, node: Node) -> None:
-        raise AssertionError(node)  # pragma: no cover - both kinds of topics have their own
+        """Make the node's own publisher or subscriber."""
 
     def get_num_connections(self) -> int:
         """Return to how many nodes this topic is connected."""
