@@ -21,8 +21,15 @@ class _Callback(NamedTuple):
     function: Callable[..., object]
     arguments: tuple[Any, ...]
 
+    def caller(self) -> Callable[[Any], object]:
+        """Return what calls the user's function with a message."""
+        function, arguments = self.function, self.arguments
+        return (lambda message: function(message, *arguments)) if arguments else function
 
-Groups: TypeAlias = "tuple[tuple[Callable[[Any], Any] | None, tuple[_Callback, ...]], ...]"
+
+Groups: TypeAlias = (
+    "tuple[tuple[Callable[[Any], Any] | None, tuple[tuple[Callable[[Any], object], _Callback], ...]], ...]"
+)
 
 
 class Connection:
@@ -156,9 +163,9 @@ class Connection:
                     else:
                         message = frozen if message is None else self._private(frozen)
                     message._connection_header = header
-                    for callback in callbacks:
+                    for call, callback in callbacks:
                         try:
-                            callback.function(message, *callback.arguments)
+                            call(message)
                         except Exception as error:
                             self._failed(error, callback, message)
         finally:
@@ -177,7 +184,7 @@ class Connection:
 
     def _call(self, callback: _Callback, message: Any) -> None:
         try:
-            callback.function(message, *callback.arguments)
+            callback.caller()(message)
         except Exception as error:
             self._failed(error, callback, message)
 
@@ -266,12 +273,15 @@ class Subscription:
             connection.groups = ()
 
     def groups(self, message_class: Any) -> Groups:
-        """Return the callbacks by the way in which they want their message: (thaw, callbacks) pairs."""
+        """Return the callbacks, each with what calls it, by the way in which they want their message."""
         by_thaw: dict[Callable[[Any], Any] | None, list[_Callback]] = {}
         for handle in self.handles:
             if handle.callback is not None:
                 by_thaw.setdefault(handle.thaw_for(message_class), []).append(handle.callback)
-        return tuple((thaw, tuple(callbacks)) for thaw, callbacks in by_thaw.items())
+        return tuple(
+            (thaw, tuple((callback.caller(), callback) for callback in callbacks))
+            for thaw, callbacks in by_thaw.items()
+        )
 
     def close(self) -> None:
         """Close all connections."""
