@@ -11,10 +11,11 @@ import queue
 import struct
 import threading
 import xmlrpc.client
-from collections import deque
 from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.errors import DeserializationError, TransportException, TransportInitError
+
+from .transport import LocalSender
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -88,27 +89,14 @@ class _Wire:
                 self._scheduler.release()
 
 
-class _ByteSender:
-    """The publisher's end of a connection."""
+class _ByteSender(LocalSender):
+    """The publisher's end of a connection: what its queue lets go is carried as bytes."""
 
-    def __init__(self, transport: ByteTransport, wire: _Wire, receiver: Receiver, destination: str) -> None:
-        self._scheduler = transport.scheduler
+    __slots__ = ("_wire",)
+
+    def __init__(self, scheduler: Scheduler, wire: _Wire, receiver: Receiver, destination: str) -> None:
+        super().__init__(scheduler, receiver, destination)
         self._wire = wire
-        self._receiver = receiver
-        self._queue: deque[Any] = deque()
-        self._dropped = False
-        self.destination = destination
-        self.on_closed: Callable[[], None] = lambda: None
-        self.sent = 0
-
-    def send(self, frozen: Any, size: int | None) -> None:
-        waiting = self._queue
-        if not waiting:
-            self._scheduler.ready.append(self._flush)
-        elif size is not None and len(waiting) >= size:
-            waiting.popleft()
-        waiting.append(frozen)
-        self.sent += 1
 
     def _flush(self) -> None:
         packets = [frozen._encode(frozen) for frozen in self._queue]
@@ -121,25 +109,14 @@ class _ByteSender:
         messages = [cls._decode(packet) for packet in packets]
 
         def deliver() -> None:
-            if not self._dropped:
+            if not self._closed:
                 self._receiver.deliver(messages)
 
         self._scheduler.call_soon_threadsafe(deliver)
 
-    def close(self) -> None:
-        def tell() -> None:
-            if not self._dropped:
-                self._dropped = True
-                self._receiver.closed()
-
-        self._scheduler.ready.append(
-            lambda: self._wire.carry(lambda: self._scheduler.call_soon_threadsafe(tell))
-        )
-
-    def drop(self) -> None:
-        if not self._dropped:
-            self._dropped = True
-            self.on_closed()
+    def _close(self) -> None:
+        tell = super()._close
+        self._wire.carry(lambda: self._scheduler.call_soon_threadsafe(tell))
 
 
 class _ByteServiceLink:
@@ -236,7 +213,7 @@ class ByteTransport:
 
         def serve(endpoint: Endpoint) -> bytes:
             fields = decode_header(request)
-            sender = _ByteSender(self, self._wire_of(caller), receiver, fields["callerid"])
+            sender = _ByteSender(self.scheduler, self._wire_of(caller), receiver, fields["callerid"])
             made.append(sender)
             return encode_header(endpoint.accept_subscriber(fields, sender))
 

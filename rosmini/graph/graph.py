@@ -7,7 +7,7 @@ import zlib
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError, TransportInitError
+from rosmini.errors import RosminiError
 from rosmini.msgs import message_class, service_class
 from rosmini.names import AnonymousNames
 from rosmini.time import Time
@@ -208,10 +208,6 @@ class Graph:
 
     def _lane_failed(self, lane: Lane, error: BaseException) -> None:
         self.report(error, lane.node)
-
-    def refusal(self, text: str) -> TransportInitError:
-        """Return the error with which a node refuses a connection."""
-        return TransportInitError(text)
 
     # -- nodes ---------------------------------------------------------------------------------------------------
 

@@ -25,6 +25,7 @@ from rosmini.errors import (
     ROSException,
     ROSInterruptException,
     ServiceException,
+    TransportInitError,
     TypeMismatch,
 )
 from rosmini.names import Remappings, canonicalize, check_base_name, check_name, resolve
@@ -464,7 +465,7 @@ class Node(BlockingApi, ParameterApi):
         """Take a subscriber's connection."""
         publication = self.publications.get(header.get("topic", ""))
         if publication is None:
-            raise self.graph.refusal(
+            raise TransportInitError(
                 f"[{self.name}] is not a publisher of [{header.get('topic')}]. Topics are {self.slave.getPublications('')[2]}"
             )
         return publication.accept(header, sender)
@@ -473,7 +474,7 @@ class Node(BlockingApi, ParameterApi):
         """Take a service client's connection."""
         server = self.services.get(header.get("service", ""))
         if server is None:
-            raise self.graph.refusal(f"[{self.name}] is not a provider of [{header.get('service')}]")
+            raise TransportInitError(f"[{self.name}] is not a provider of [{header.get('service')}]")
         return server.accept(header)
 
     def next_connection_id(self) -> int:

@@ -90,7 +90,6 @@ class ScriptContext:
         self.exit_calls: list[tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]] = []
         self.handlers: dict[int, Any] = {}
         self.ended = False
-        self.failed_in_callback = False
         self._sink = sink
         self._setup_modules(folders, modules or {})
         self._setup_swapped(feed)
@@ -379,7 +378,6 @@ class ScriptContext:
 
     def lane_failed(self, error: BaseException) -> None:
         """Report an exception that a lane of the script let out."""
-        self.failed_in_callback = True
         self.stderr.write(user_traceback(error))
 
     def end(self) -> None:
