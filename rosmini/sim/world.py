@@ -88,7 +88,8 @@ class Obstacle:
             return np.empty((0, 2))
         x, y, theta = self.pose
         c, s = math.cos(theta), math.sin(theta)
-        return self.shape.outline @ np.array([[c, s], [-s, c]]) + (x, y)
+        turned: NDArray[np.float64] = self.shape.outline @ np.array([[c, s], [-s, c]]) + (x, y)
+        return turned
 
 
 def edges(outline: NDArray[np.float64]) -> NDArray[np.float64]:
