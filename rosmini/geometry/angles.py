@@ -1,0 +1,80 @@
+"""Angles, and the quaternions that messages hold them in.
+
+The first two functions have the names and the meaning of the ROS package `angles` (http://wiki.ros.org/angles). An angle that is
+infinite becomes nan.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import GeometryError
+
+Floats = NDArray[np.float64]
+
+TURN = 2 * math.pi
+
+
+@overload
+def normalize_angle(angle: float) -> float: ...
+@overload
+def normalize_angle(angle: Floats) -> Floats: ...
+def normalize_angle(angle: float | Floats) -> float | Floats:
+    """The same direction in (-pi, pi]: a number for a number, an array for an array.
+
+    No digit is lost: the remainder of a division by 2 pi is exact, and so is the turn that is then taken off or added.
+
+    >>> normalize_angle(1.5 * math.pi) == -math.pi / 2
+    True
+    """
+    if isinstance(angle, np.ndarray):
+        with np.errstate(invalid="ignore"):
+            rest = np.asarray(np.fmod(angle, TURN))
+        rest[rest > math.pi] -= TURN
+        rest[rest <= -math.pi] += TURN
+        return rest
+    if math.isinf(angle):
+        return math.nan
+    left = math.fmod(angle, TURN)
+    if left > math.pi:
+        return left - TURN
+    return left + TURN if left <= -math.pi else left
+
+
+@overload
+def shortest_angular_distance(start: float, end: float) -> float: ...
+@overload
+def shortest_angular_distance(start: Floats, end: float | Floats) -> Floats: ...
+@overload
+def shortest_angular_distance(start: float, end: Floats) -> Floats: ...
+def shortest_angular_distance(start: float | Floats, end: float | Floats) -> float | Floats:
+    """By how much to turn from `start` to `end`, in (-pi, pi]; numbers, or arrays that numpy can broadcast.
+
+    >>> round(shortest_angular_distance(3.0, -3.0), 3)
+    0.283
+    """
+    return normalize_angle(end - start)
+
+
+def quaternion_from_yaw(yaw: float) -> tuple[float, float, float, float]:
+    """The rotation by `yaw` about z as x, y, z, w, the order of `geometry_msgs/Quaternion`."""
+    return (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
+
+
+def yaw_from_quaternion(x: float, y: float, z: float, w: float) -> float:
+    """The yaw of a rotation, in [-pi, pi]: the angle about z when it is taken apart into yaw, then pitch, then roll.
+
+    The quaternion need not have length 1. One of length 0, which an empty message holds, is no rotation: `GeometryError`.
+    """
+    square = x * x + y * y + z * z + w * w
+    if not 0 < square < math.inf:
+        msg = (
+            f"x={x}, y={y}, z={z}, w={w} is no rotation; a quaternion has a length, and no rotation at all is x=y=z=0, w=1 "
+            "(a new geometry_msgs/Quaternion has w=0)"
+        )
+        raise GeometryError(msg)
+    return math.atan2(2 * (w * z + x * y), w * w + x * x - y * y - z * z)
