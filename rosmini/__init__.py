@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .errors import RosminiError
     from .graph import Graph, Node, default_graph, set_default_graph
     from .rospy import install, uninstall
+    from .scripts import rosrun
     from .time import Duration, Time
 
 __version__ = "0.1.0"
@@ -26,6 +27,7 @@ _HOMES = {
     "Time": "rosmini.time",
     "default_graph": "rosmini.graph",
     "install": "rosmini.rospy",
+    "rosrun": "rosmini.scripts",
     "set_default_graph": "rosmini.graph",
     "uninstall": "rosmini.rospy",
 }
@@ -38,6 +40,7 @@ __all__ = [
     "Time",
     "default_graph",
     "install",
+    "rosrun",
     "set_default_graph",
     "uninstall",
 ]

@@ -1,24 +1,32 @@
-"""`rosmini run`: scripts written for rospy, unmodified, as nodes of one graph."""
+"""`rosmini run`: scripts written for rospy, unmodified, and what packages have, as nodes of one graph."""
 
 from __future__ import annotations
 
 import argparse
+import re
 import signal
 import sys
 import threading
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError
+from rosmini.packages import PackageIndex
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from rosmini.scripts import RunResult, ScriptSpec
+    from rosmini.scripts import NodeSpec, RunResult, ScriptSpec
 
-USAGE = "rosmini run [options] SCRIPT [args] [+ SCRIPT [args] ...] [options]"
+USAGE = "rosmini run [options] NODE [args] [+ NODE [args] ...] [options]"
+
+EXECUTABLE = re.compile(r"(?P<package>[A-Za-z][\w-]*)/(?P<executable>[^/\\]+)")
 
 EPILOG = """\
-The options of `rosmini run` stand before the first script or at the very end. Anything else belongs to the script
+NODE is the file of a script, or PACKAGE/EXECUTABLE: a script in a package on ROS_PACKAGE_PATH, or a node that rosmini
+brings, such as rosmini_sim/simulator. These are shut down when all scripts have ended.
+
+The options of `rosmini run` stand before the first node or at the very end. Anything else belongs to the node
 before it, remappings (chatter:=/news, __name:=talker2, _rate:=5) included. If a script has to get an argument at the end that looks like an option of
 `rosmini run`, put a lone `--` after it: `rosmini run plot.py --duration 5 --`. For an argument that is a
 plus sign, write `++`.
@@ -26,7 +34,7 @@ plus sign, write `++`.
 In simulated time everything happens as fast as the machine allows, and in the same order on each run. In wall time
 one second takes a second. Ctrl-C asks the nodes to shut down; a second one ends them at once.
 
-The exit status is that of the first script that failed, else 0.
+The exit status is that of the first node that failed, else 0.
 """
 
 
@@ -60,7 +68,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Add `run`."""
     parser = subparsers.add_parser(
         "run",
-        help="run scripts written for rospy as nodes of one graph",
+        help="run scripts written for rospy, and nodes by name, as nodes of one graph",
         description=__doc__,
         usage=USAGE,
         epilog=EPILOG,
@@ -68,7 +76,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     add_options(parser)
     parser.add_argument(
-        "words", nargs=argparse.REMAINDER, metavar="SCRIPT [args]", help="the scripts, with + between them"
+        "words", nargs=argparse.REMAINDER, metavar="NODE [args]", help="the nodes, with + between them"
     )
     return parser
 
@@ -90,13 +98,11 @@ def split_options(words: Sequence[str]) -> tuple[list[str], list[str]]:
     return list(words[:end]), list(words[end:])
 
 
-def scripts_in(words: Sequence[str]) -> list[ScriptSpec]:
-    """Split ``words`` at the plus signs into scripts with their arguments.
+def nodes_in(words: Sequence[str]) -> list[ScriptSpec | NodeSpec]:
+    """Split ``words`` at the plus signs into scripts and built-in nodes, with their arguments.
 
-    Raises `RosminiError` where a script is missing.
+    Raises `RosminiError` where one is missing, and if a package or an executable is not known.
     """
-    from rosmini.scripts import ScriptSpec
-
     groups: list[list[str]] = [[]]
     for word in words:
         if word == "+":
@@ -104,12 +110,26 @@ def scripts_in(words: Sequence[str]) -> list[ScriptSpec]:
         else:
             groups[-1].append("+" if word == "++" else word)
     if groups == [[]]:
-        raise RosminiError(f"no script was given.\nusage: {USAGE}")
+        raise RosminiError(f"no script and no node was given.\nusage: {USAGE}")
     if [] in groups:
         raise RosminiError(
-            "a script is missing before or after `+`; write `++` for an argument that is a plus sign"
+            "a script or a node is missing before or after `+`; write `++` for an argument that is a plus sign"
         )
-    return [ScriptSpec(group[0], tuple(group[1:])) for group in groups]
+    return [spec_of(group[0], tuple(group[1:])) for group in groups]
+
+
+def spec_of(name: str, args: tuple[str, ...]) -> ScriptSpec | NodeSpec:
+    """Return what ``name`` stands for: a file where there is one, else PACKAGE/EXECUTABLE if it has that form."""
+    from rosmini.scripts import NodeSpec, ScriptSpec
+    from rosmini.scripts.executables import find
+
+    words = EXECUTABLE.fullmatch(name)
+    if words is None or Path(name).exists():
+        return ScriptSpec(name, args)
+    if name.endswith(".py") and words["package"] not in PackageIndex():
+        return ScriptSpec(name, args)  # a file in a folder, which is not there
+    found = find(name)
+    return NodeSpec(found, args) if found.path is None else ScriptSpec(str(found.path), args)
 
 
 def main(args: argparse.Namespace) -> int:
@@ -121,7 +141,7 @@ def main(args: argparse.Namespace) -> int:
         args = parser.parse_args(trailing, argparse.Namespace(**vars(args)))
         if args.sim_time and args.wall_time:
             parser.error("--sim-time and --wall-time exclude each other")
-    specs = scripts_in(words)
+    specs = nodes_in(words)
     from rosmini.scripts import run_scripts
 
     if threading.current_thread() is threading.main_thread():

@@ -12,16 +12,18 @@ from rosmini.errors import ROSInterruptException, ScriptError
 from rosmini.graph import Graph, LaneExit, set_default_graph
 
 from .context import ScriptContext
+from .executables import BuiltIn
 from .failures import user_traceback
 from .source import Source, compile_script, forget_lines, read_script, remember_lines
 from .stdin import make_feed
-from .streams import OutputSink
+from .streams import OutputSink, ScriptOutput
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
     from types import ModuleType
 
     from rosmini.graph import RunReport
+    from rosmini.packages import Executable
 
 END_GRACE_S = 0.2
 """How long a script may take to end once it was thrown out of its last blocking call, in seconds of graph time."""
@@ -40,10 +42,18 @@ class ScriptSpec:
 
 
 @dataclass(frozen=True)
+class NodeSpec:
+    """A built-in node to run beside scripts, with its ROS arguments."""
+
+    executable: Executable
+    args: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class RunResult:
     """How a run ended.
 
-    ``status`` is that of the first script that failed, or 0; ``statuses`` has all, in the order in which they were given; ``reason`` is
+    ``status`` is that of the first that failed, or 0; ``statuses`` has those of the scripts and then those of the built-in nodes, each in the order given; ``reason`` is
     "ended" (all scripts have), "time" (the duration is over), "drained" (nothing is left to happen), "stopped" or "interrupted" (Ctrl-C).
     """
 
@@ -168,18 +178,26 @@ def _exit_status(request: SystemExit, context: ScriptContext) -> int:
 class _Run:
     """The scripts of one call of :func:`run_scripts`."""
 
-    def __init__(self, graph: Graph, scripts: Sequence[_Script], grace: float) -> None:
+    def __init__(
+        self, graph: Graph, scripts: Sequence[_Script], nodes: Sequence[BuiltIn], grace: float
+    ) -> None:
         self.graph = graph
         self.scheduler = graph.scheduler
         self.scripts = scripts
+        self.nodes = nodes
         self.grace = grace
 
     def over(self) -> bool:
-        return all(script.finished for script in self.scripts)
+        """Tell whether all scripts have ended, or, where there are only built-in nodes, all of these."""
+        if self.scripts:
+            return all(script.finished for script in self.scripts)
+        return all(node.ended for node in self.nodes)
 
     def drive(self, duration: float | None) -> tuple[str, RunReport | None]:
         """Let the scripts run; return why they stopped and the report."""
         until_ns = None if duration is None else self.scheduler.now_ns() + round(duration * 1e9)
+        for node in self.nodes:
+            node.start()
         for script in self.scripts:
             script.start()
         try:
@@ -209,6 +227,8 @@ class _Run:
             script.context.end()
             if not script.finished and script.context.main_lane is not None:
                 script.context.main_lane.kill()
+        for node in self.nodes:
+            node.end(why)
         self._go_on(END_GRACE_S, lambda: self.over() and not self._threads_left())
 
     def _threads_left(self) -> bool:
@@ -225,7 +245,7 @@ class _Run:
 
 
 def run_scripts(
-    specs: Sequence[ScriptSpec],
+    specs: Sequence[ScriptSpec | NodeSpec],
     *,
     simulated: bool = True,
     duration: float | None = None,
@@ -243,7 +263,8 @@ def run_scripts(
     """Run scripts written for rospy as nodes of one graph, and return how it ended.
 
     Args:
-        specs: the scripts; all are read before the first starts.
+        specs: the scripts, all of which are read before the first starts, and built-in nodes, which start before the scripts and are
+            shut down when these have ended.
         simulated: simulated time, or wall time (ignored with ``graph``).
         duration: end after so many seconds of graph time; None: when all have ended, or nothing is left to happen.
         graph: run in this graph, which stays as it is afterwards; a new one if not given.
@@ -264,7 +285,8 @@ def run_scripts(
     """
     if not specs:
         raise ScriptError("no script was given")
-    sources = [_read(spec) for spec in specs]
+    script_specs = [spec for spec in specs if isinstance(spec, ScriptSpec)]
+    sources = [_read(spec) for spec in script_specs]
     if modules is None:
         from rosmini.rospy.importer import modules as rospy_modules
 
@@ -273,8 +295,9 @@ def run_scripts(
         sink = OutputSink(stdout or sys.stdout, stderr or sys.stderr, prefix=prefix)
         feed = make_feed(used.scheduler, stdin)
         folder = os.getcwd()  # noqa: PTH109 - kept as it is, to go back
+        nodes = [_built_in(used, spec, sink) for spec in specs if isinstance(spec, NodeSpec)]
         scripts = []
-        for number, (spec, source) in enumerate(zip(specs, sources, strict=True)):
+        for number, (spec, source) in enumerate(zip(script_specs, sources, strict=True)):
             context = ScriptContext(
                 used.scheduler,
                 source.filename,
@@ -286,19 +309,19 @@ def run_scripts(
                 modules=modules,
             )
             scripts.append(_Script(context, source))
-        run = _Run(used, scripts, grace)
+        run = _Run(used, scripts, nodes, grace)
         try:
             reason, report = run.drive(duration)
             run.end(reason)
         finally:
             feed.close()
-            for spec, script in zip(specs, scripts, strict=True):
+            for spec, script in zip(script_specs, scripts, strict=True):
                 script.context.close()
                 if spec.source is not None:
                     forget_lines(script.source.filename)
             sink.flush()
             os.chdir(folder)
-    statuses = tuple(script.status for script in scripts)
+    statuses = (*(script.status for script in scripts), *(node.status for node in nodes))
     return RunResult(next(filter(None, statuses), 0), statuses, reason, report)
 
 
@@ -310,6 +333,11 @@ def run_source(text: str, args: Sequence[str] = (), *, name: str = "script", **o
     0
     """
     return run_scripts([ScriptSpec(name, tuple(args), source=text)], **options)
+
+
+def _built_in(graph: Graph, spec: NodeSpec, sink: OutputSink) -> BuiltIn:
+    stderr = ScriptOutput(sink, lambda: spec.executable.name, is_error=True)
+    return BuiltIn(graph, spec.executable, spec.args, lambda error: stderr.write(user_traceback(error)))
 
 
 def _read(spec: ScriptSpec) -> Source:

@@ -10,7 +10,7 @@ from rosmini.errors import RosminiError
 
 
 def test_scripts_and_arguments():
-    specs = command.scripts_in(["a.py", "x:=y", "++", "+", "b.py", "-v", "--", "z"])
+    specs = command.nodes_in(["a.py", "x:=y", "++", "+", "b.py", "-v", "--", "z"])
     assert [(spec.path, spec.args) for spec in specs] == [
         ("a.py", ("x:=y", "+")),
         ("b.py", ("-v", "--", "z")),
@@ -20,7 +20,7 @@ def test_scripts_and_arguments():
 @pytest.mark.parametrize("words", [[], ["+"], ["a.py", "+"], ["+", "a.py"], ["a.py", "+", "+", "b.py"]])
 def test_a_missing_script_is_an_error(words):
     with pytest.raises(RosminiError, match="script"):
-        command.scripts_in(words)
+        command.nodes_in(words)
 
 
 @pytest.mark.parametrize(
@@ -91,7 +91,7 @@ def test_errors_on_the_command_line(scripts, capsys):
     assert main(["run", str(scripts / "clok.py")]) == 1
     assert "did you mean clock.py?" in capsys.readouterr().err
     assert main(["run"]) == 1
-    assert "no script was given" in capsys.readouterr().err
+    assert "no script and no node was given" in capsys.readouterr().err
     for words in (
         ["--duration", "0", "a.py"],
         ["a.py", "--duration", "soon"],
@@ -106,7 +106,7 @@ def test_help_tells_where_options_stand(capsys):
     with pytest.raises(SystemExit):
         main(["run", "--help"])
     shown = capsys.readouterr().out
-    assert "before the first script or at the very end" in shown
+    assert "before the first node or at the very end" in shown
     assert "lone `--`" in shown
 
 

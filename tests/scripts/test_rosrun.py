@@ -1,0 +1,201 @@
+"""Executables by their ROS names: built-in nodes of an installed package, and scripts of a workspace."""
+
+import io
+
+import pytest
+
+from rosmini import Graph, rosrun, set_default_graph
+from rosmini.cli.main import main
+from rosmini.errors import RosminiError, ScriptError, UnknownPackage
+from rosmini.graph import Node
+from rosmini.msgs.std_msgs.msg import Int32
+from rosmini.scripts import NodeSpec, ScriptSpec, run_scripts
+from rosmini.scripts.executables import find
+
+NODES = """
+from rosmini.msgs.std_msgs.msg import Int32
+
+
+class Counter:
+    def __init__(self, node, step=1):
+        self.node = node
+        self.value = node.get_param("~start", 0)
+        self.publisher = node.publisher("count", Int32)
+        node.timer(node.get_param("~period", 1.0), self.tick)
+        self.step = int(step)
+
+    def tick(self, event):
+        self.value += self.step
+        self.publisher.publish(self.value)
+
+
+def patient(node):
+    return node.wait_for_message("count", Int32).data
+
+
+def broken(node):
+    node.publisher("count", Int32)
+    raise ValueError("no such thing")
+"""
+
+SCRIPT = """#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import Int32
+rospy.init_node("listener")
+for _ in range(3):
+    print("got", rospy.wait_for_message("count", Int32).data)
+"""
+
+
+@pytest.fixture
+def workspace(tmp_path, monkeypatch):
+    """A distribution with built-in nodes of the package `counting`, and a workspace with that package."""
+    site = tmp_path / "site"
+    info = site / "counting-1.0.dist-info"
+    info.mkdir(parents=True)
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: counting\nVersion: 1.0\n")
+    names = {"counter": "Counter", "patient": "patient", "broken": "broken"}
+    lines = [f"counting/{name} = counting_nodes:{target}" for name, target in names.items()]
+    (info / "entry_points.txt").write_text("\n".join(["[rosmini.nodes]", *lines]) + "\n")
+    (site / "counting_nodes.py").write_text(NODES)
+    monkeypatch.syspath_prepend(str(site))
+    scripts = tmp_path / "ws" / "counting" / "scripts"
+    scripts.mkdir(parents=True)
+    (scripts.parent / "package.xml").write_text(
+        "<package format='2'><name>counting</name><version>1.0.0</version><description>d</description>"
+        "<maintainer email='a@b.cd'>a</maintainer><license>Apache-2.0</license></package>"
+    )
+    (scripts / "listener.py").write_text(SCRIPT)
+    (scripts / "listener.py").chmod(0o755)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ws"))
+    yield scripts
+    import sys
+
+    sys.modules.pop("counting_nodes", None)
+
+
+@pytest.fixture
+def graph():
+    with Graph() as made:
+        before = set_default_graph(made)
+        yield made
+        set_default_graph(before)
+
+
+def heard(graph):
+    values = []
+    graph.node("ear").subscriber("/robot1/tally", Int32, lambda message: values.append(message.data))
+    return values
+
+
+@pytest.mark.usefixtures("workspace")
+def test_a_built_in_node_takes_ros_arguments_and_gives_its_object(graph):
+    values = heard(graph)
+    arguments = ["__name:=sheep", "__ns:=robot1", "_start:=10", "_period:=0.5", "count:=tally", "2"]
+    counter = rosrun("counting", "counter", *arguments)
+    assert isinstance(counter.node, Node)
+    assert counter.node.name == "/robot1/sheep"
+    assert graph.master.getParam("/me", "/robot1/sheep/start")[2] == 10
+    began = graph.now()
+    graph.run(1.7)
+    assert values == [12, 14, 16]
+    assert (graph.now() - began).to_sec() == pytest.approx(1.7)
+
+
+@pytest.mark.usefixtures("workspace")
+def test_starting_takes_no_time_unless_the_node_waits(graph):
+    began = graph.now()
+    rosrun("counting", "counter", graph=graph)
+    assert graph.now() == began
+    assert rosrun("counting", "patient", graph=graph) == 1
+    assert (graph.now() - began).to_sec() == pytest.approx(1.0)
+
+
+@pytest.mark.usefixtures("workspace")
+def test_what_a_node_raises_while_it_is_set_up_is_raised_and_the_node_ends(graph):
+    with pytest.raises(ValueError, match="no such thing"):
+        rosrun("counting", "broken", graph=graph)
+    assert "/broken" not in graph.nodes
+    publishers, _, services = graph.master.getSystemState("/me")[2]
+    assert all("/broken" not in holders for _, holders in (*publishers, *services))
+
+
+@pytest.mark.usefixtures("workspace")
+@pytest.mark.parametrize(
+    ("package", "executable", "arguments", "error", "says"),
+    [
+        ("countin", "counter", (), UnknownPackage, "did you mean counting"),
+        ("counting", "countr", (), ScriptError, "did you mean counter"),
+        ("counting", "counter", ("1", "2"), ScriptError, r"does not take the arguments \['1', '2'\]"),
+        ("counting", "counter", ("_start:=[",), RosminiError, "not YAML"),
+    ],
+)
+def test_bad_calls_say_what_is_there(graph, package, executable, arguments, error, says):
+    with pytest.raises(error, match=says):
+        rosrun(package, executable, *arguments, graph=graph)
+    assert set(graph.nodes) == {"/rosout"}
+
+
+@pytest.mark.usefixtures("workspace")
+def test_options_of_scripts_are_not_for_built_in_nodes(graph):
+    with pytest.raises(ScriptError, match='"_duration:=value"'):
+        rosrun("counting", "counter", graph=graph, duration=3)
+
+
+@pytest.mark.parametrize("name", ["counter", "a/b/c", "/counter", "counting/"])
+def test_names_have_two_parts(name):
+    with pytest.raises(ScriptError, match="PACKAGE/EXECUTABLE"):
+        find(name)
+
+
+@pytest.mark.usefixtures("workspace")
+def test_a_script_of_a_package_is_run_to_its_end(graph):
+    rosrun("counting", "counter", graph=graph)
+    out = io.StringIO()
+    result = rosrun("counting", "listener.py", graph=graph, stdout=out)
+    assert result.statuses == (0,)
+    assert out.getvalue() == "[listener] got 1\n[listener] got 2\n[listener] got 3\n"
+    assert "/counter" in graph.nodes
+
+
+@pytest.mark.usefixtures("workspace")
+def test_a_script_can_start_a_node():
+    source = (
+        "import rosmini\nc = rosmini.rosrun('counting', 'counter', '_start:=4')\nprint(c.value)\n" + SCRIPT
+    )
+    out = io.StringIO()
+    result = run_scripts([ScriptSpec("both", source=source)], stdout=out)
+    assert result.status == 0
+    assert out.getvalue().splitlines() == ["[both] 4", *(f"[listener] got {n}" for n in (5, 6, 7))]
+
+
+@pytest.mark.usefixtures("workspace")
+def test_built_in_nodes_run_beside_scripts_and_end_with_them(capsys, monkeypatch):
+    monkeypatch.setattr("sys.stdin", None)
+    words = ["counting/counter", "_start:=7", "+", "counting/listener.py"]
+    assert main(["run", "--sim-time", *words]) == 0
+    assert capsys.readouterr().out.splitlines() == [f"[listener] got {n}" for n in (8, 9, 10)]
+
+
+@pytest.mark.usefixtures("workspace")
+def test_only_built_in_nodes_run_for_the_duration(capsys, monkeypatch):
+    monkeypatch.setattr("sys.stdin", None)
+    out = io.StringIO()
+    result = run_scripts([NodeSpec(find("counting/counter"))], duration=5, stdout=out)
+    assert (result.reason, result.statuses, out.getvalue()) == ("time", (0,), "")
+
+
+@pytest.mark.usefixtures("workspace")
+def test_a_node_that_cannot_be_set_up_fails_the_run(capsys, monkeypatch):
+    monkeypatch.setattr("sys.stdin", None)
+    assert main(["run", "--sim-time", "counting/broken"]) == 1
+    shown = capsys.readouterr().err
+    assert "[broken] ValueError: no such thing" in shown
+    assert "rosmini/scripts" not in shown
+
+
+def test_unknown_names_on_the_command_line(capsys):
+    assert main(["run", "beginer_tutorials/simulator"]) == 1
+    assert "did you mean beginner_tutorials" in capsys.readouterr().err
+    assert main(["run", "nowhere/at_all.py"]) == 1
+    assert "at_all.py" in capsys.readouterr().err
