@@ -8,10 +8,13 @@ python -m rosmini.book.notebooks check NOTEBOOK ...     say what is wrong; exit 
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from rosmini.viz.form import BOOK, VARIABLE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -164,7 +167,10 @@ def clean(notebook: nbformat.NotebookNode) -> None:
 
 
 def execute(notebook: nbformat.NotebookNode, folder: Path) -> None:
-    """Run `notebook`, in place, in a new kernel in `folder`. Raises nbclient's `CellExecutionError` if a cell fails."""
+    """Run `notebook`, in place, in a new kernel in `folder`, with the display form of the book.
+
+    Raises nbclient's `CellExecutionError` if a cell fails.
+    """
     from nbclient import NotebookClient
 
     client = NotebookClient(
@@ -175,7 +181,7 @@ def execute(notebook: nbformat.NotebookNode, folder: Path) -> None:
         record_timing=False,
         coalesce_streams=True,
     )
-    client.execute()
+    client.execute(env=os.environ | {VARIABLE: BOOK})
 
 
 def on_each(action: str, paths: Sequence[Path]) -> int:

@@ -1,0 +1,65 @@
+"""Notebooks run with the display form of the book, whoever runs them; other tests do not."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import nbformat
+
+from rosmini.book import notebooks
+
+CELL = "import os; print(os.environ.get('ROSMINI_DISPLAY'))"
+
+
+def make(folder, name, printed):
+    stored = [nbformat.v4.new_output("stream", name="stdout", text=f"{printed}\n")]
+    cell = nbformat.v4.new_code_cell(CELL, execution_count=1, outputs=stored)
+    notebook = nbformat.v4.new_notebook(cells=[cell])
+    nbformat.write(notebook, folder / f"{name}.ipynb")
+    return notebook
+
+
+def test_nbval_runs_notebooks_in_the_form_of_the_book_and_leaves_other_tests_alone(tmp_path):
+    make(tmp_path, "a", "book")
+    (tmp_path / "test_b.py").write_text(
+        "import os\ndef test(): assert os.environ.get('ROSMINI_DISPLAY') == 'before'\n"
+    )
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "--nbval",
+        "--nbval-current-env",
+        "-p",
+        "no:cacheprovider",
+    ]
+    environment = os.environ | {"ROSMINI_DISPLAY": "before"}
+    done = {
+        plugin: subprocess.run(
+            [*command, *plugin, tmp_path],
+            check=False,
+            env=environment,
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+        )
+        for plugin in [("-p", "rosmini.book.pytest_plugin"), ()]
+    }
+    with_plugin, without = done.values()
+    assert "2 passed" in with_plugin.stdout, with_plugin.stdout
+    assert "1 failed, 1 passed" in without.stdout
+
+
+def test_the_project_loads_the_plugin(pytestconfig):
+    assert pytestconfig.pluginmanager.has_plugin("rosmini.book.pytest_plugin")
+
+
+def test_execute_runs_a_notebook_in_the_form_of_the_book(tmp_path, monkeypatch):
+    monkeypatch.delenv("ROSMINI_DISPLAY", raising=False)
+    notebook = make(tmp_path, "a", "")
+    notebooks.execute(notebook, tmp_path)
+    assert notebook.cells[0].outputs[0].text == "book\n"
+    assert "ROSMINI_DISPLAY" not in os.environ

@@ -1,0 +1,98 @@
+"""Pictures that move: their HTML in the book and alone, and what is refused."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import re
+
+import pytest
+
+from rosmini.book.pages import page_problems
+from rosmini.viz import ViewError
+from rosmini.viz import embed as module
+from rosmini.viz.embed import MESHCAT, asset_path, embed
+from rosmini.viz.form import book_form
+
+SCRIPT = "globalThis.test = {mount() {}};"
+GIVEN = {"title": "A run", "alt": "A robot <runs>.", "height": 300, "fallback_html": "<p>still</p>"}
+
+
+@pytest.fixture(autouse=True)
+def static(tmp_path, monkeypatch):
+    (tmp_path / "test.js").write_text(SCRIPT)
+    (tmp_path / "closing.js").write_text("'</script>'")
+    monkeypatch.setattr(module, "STATIC", tmp_path)
+
+
+def json_of(html):
+    return json.loads(re.search(r'<script type="application/json">(.*?)</script>', html, re.DOTALL)[1])
+
+
+@pytest.mark.parametrize(("value", "expected"), [("book", True), ("live", False), (None, False)])
+def test_the_environment_says_which_form(monkeypatch, value, expected):
+    if value is None:
+        monkeypatch.delenv("ROSMINI_DISPLAY", raising=False)
+    else:
+        monkeypatch.setenv("ROSMINI_DISPLAY", value)
+    assert book_form() is expected
+    html = embed(["test.js"], "test.mount", {}, **GIVEN)
+    assert html == embed(["test.js"], "test.mount", {}, book=expected, **GIVEN)
+    assert (SCRIPT in html) is not expected
+
+
+def test_the_book_form_names_the_scripts_and_the_live_form_carries_them():
+    book = embed(["test.js"], "test.mount", {"a": 1}, assets=[MESHCAT], book=True, **GIVEN)
+    live = embed(["test.js"], "test.mount", {"a": 1}, assets=[MESHCAT], book=False, **GIVEN)
+    assert '["test.js"]' in book
+    assert SCRIPT not in book
+    assert len(book) < 2500
+    assert SCRIPT in live
+    packed = json.loads(re.search(r"packed = (\{.*?\});", live)[1])
+    assert gzip.decompress(base64.b64decode(packed[MESHCAT])) == asset_path(MESHCAT).read_bytes()
+    for html in (book, live):
+        assert page_problems(html) == []
+        assert '<div class="rosmini-still"><p>still</p></div>' in html
+        assert 'aria-label="A run"' in html
+
+
+def test_data_come_back_whatever_is_in_them():
+    data = {"text": "</script><!-- \u2028 é", "bytes": b"\x00\xff", "list": [1.5, None]}
+    html = embed(["test.js"], "test.mount", data, book=True, **GIVEN)
+    assert json_of(html) == data | {"bytes": base64.b64encode(b"\x00\xff").decode()}
+    assert html.count("</script>") == 2
+
+
+def test_the_same_picture_has_the_same_mark_and_another_has_another():
+    def mark(data, **more):
+        return re.search(r'data-rosmini="(\w+)"', embed(["test.js"], "test.mount", data, **GIVEN, **more))[1]
+
+    assert mark({"a": 1}) == mark({"a": 1}, book=True)
+    assert mark({"a": 1}) != mark({"a": 2})
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"script_names": ["tset.js"]}, "no script 'tset.js'.*test.js"),
+        ({"script_names": ["../embed.py"]}, "no script"),
+        ({"script_names": ["closing.js"], "book": False}, "closing.js holds the end of a script element"),
+        ({"assets": ["other.js"]}, "no script 'other.js'"),
+        ({"call": "alert(1)"}, "not the name of a function"),
+        ({"alt": " "}, "needs alt text"),
+        ({"title": ""}, "needs a title"),
+        ({"fallback_html": ""}, "needs a still picture"),
+    ],
+)
+def test_what_is_refused(change, message):
+    given = {"script_names": ["test.js"], "call": "test.mount", "data": {}} | GIVEN | change
+    with pytest.raises(ViewError, match=message):
+        embed(**given)
+
+
+def test_data_that_json_cannot_hold_are_refused():
+    with pytest.raises(TypeError, match="a set in the data of a picture"):
+        embed(["test.js"], "test.mount", {"a": {1}}, **GIVEN)
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        embed(["test.js"], "test.mount", {"a": float("nan")}, **GIVEN)
