@@ -2,13 +2,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.errors import RosminiError
+from rosmini.geometry.angles import normalize_angle
+from rosmini.geometry.poses import compose, inverse
+from rosmini.graph.show import show
+
 from .models import RobotModel
 from .world import World
+
+Floats = NDArray[np.float64]
+
+
+class RecordingError(RosminiError, ValueError):
+    """There is no recording, or its arrays do not fit together; the message says which one, or what to run first."""
+
+
+class Drift(NamedTuple):
+    """How far odometry is off, as time goes by."""
+
+    position: Floats
+    """(n,) [m]"""
+    heading: Floats
+    """(n,) [rad] in (-pi, pi]: positive where odometry believes to have turned further to the left."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -16,19 +37,142 @@ class Recording:
     """A run of one robot. All times are seconds since the begin of the run, all poses x [m], y [m], heading [rad].
 
     `truth` and `odom` are sampled at `times`; each of them is in its own frame (`map` and `odom`), as the messages were.
+
+    Raises:
+        RecordingError: an array has another shape, holds something infinite or no number, or times do not increase.
+
     """
 
     world: World
     model: RobotModel
-    times: NDArray[np.float64]
-    """(n,)"""
-    truth: NDArray[np.float64]
-    """(n, 3): where the robot was."""
-    odom: NDArray[np.float64]
+    times: Floats
+    """(n,), increasing; n is at least 1."""
+    truth: Floats
+    """(n, 3): where the robot was; headings are not wrapped."""
+    odom: Floats
     """(n, 3): where its odometry said that it was; headings are not wrapped."""
-    commands: NDArray[np.float64]
+    commands: Floats
     """(m, 3): time, linear [m/s] and angular [rad/s] velocity of each command."""
-    scan_times: NDArray[np.float64]
+    scan_times: Floats
     """(k,)"""
-    scans: NDArray[np.float64]
+    scans: Floats
     """(k, beams): ranges [m], inf where nothing was hit; beam i looks at 2 pi i / beams from ahead, counter-clockwise."""
+
+    def __post_init__(self) -> None:
+        n, k, beams = len(self.times), len(self.scan_times), self.model.lidar.beams
+        if not n:
+            raise RecordingError("a recording needs at least one sample: truth and odom at one time")
+        wanted = {"times": (n,), "truth": (n, 3), "odom": (n, 3), "scan_times": (k,), "scans": (k, beams)}
+        wanted["commands"] = (len(self.commands), 3)
+        for name, shape in wanted.items():
+            array = getattr(self, name)
+            if array.shape != shape:
+                raise RecordingError(f"{name} of a recording must be an array {shape}, not {array.shape}")
+            bad = np.isnan(array) if name == "scans" else ~np.isfinite(array)
+            if bad.any():
+                place = ", ".join(str(i) for i in np.argwhere(bad)[0])
+                raise RecordingError(f"{name}[{place}] of a recording is {array[bad][0]}, which is no number")
+        for name in ("times", "scan_times"):
+            if (np.diff(getattr(self, name)) <= 0).any():
+                raise RecordingError(f"{name} of a recording must increase")
+
+    def __repr__(self) -> str:
+        return (
+            f"<Recording of {self.model.name} in {self.world.name}: {self.duration:.1f} s, {len(self.times)} poses, "
+            f"{len(self.scans)} scans, {len(self.commands)} commands>"
+        )
+
+    @property
+    def duration(self) -> float:
+        """How long the run was [s]."""
+        return float(self.times[-1] - self.times[0])
+
+    @property
+    def distance(self) -> float:
+        """How long the robot's way really was [m]."""
+        return float(np.linalg.norm(np.diff(self.truth[:, :2], axis=0), axis=1).sum())
+
+    def odom_in_map(self) -> Floats:
+        """Odometry (n, 3) in the frame of `truth`, laid so that both start with the same pose."""
+        return compose(compose(_pose(self.truth[0]), inverse(_pose(self.odom[0]))), self.odom)
+
+    def drift(self) -> Drift:
+        """The error of odometry relative to the start: how far it is from where the robot was, and how far it is turned."""
+        off = self.odom_in_map() - self.truth
+        return Drift(np.hypot(off[:, 0], off[:, 1]), normalize_angle(off[:, 2]))
+
+    def velocities(self) -> Floats:
+        """How the robot really drove, (n, 2): linear [m/s] and angular [rad/s] velocity at `times`.
+
+        Between two samples it is taken to drive an arc; at a sample, the velocity is the mean of those before and after it.
+        """
+        if len(self.times) < 2:
+            return np.zeros((1, 2))
+        steps, turns = np.diff(self.truth[:, :2], axis=0), np.diff(self.truth[:, 2])
+        towards = self.truth[:-1, 2] + turns / 2
+        chords = steps[:, 0] * np.cos(towards) + steps[:, 1] * np.sin(towards)
+        ways = np.column_stack([chords / np.sinc(turns / 2 / np.pi), turns])
+        between = ways / np.diff(self.times)[:, None]
+        padded = np.vstack([between[:1], between, between[-1:]])
+        mean: Floats = (padded[:-1] + padded[1:]) / 2
+        return mean
+
+    def pose_at(self, time: float) -> tuple[float, float, float]:
+        """Where the robot was at a time of the run; before its begin and after its end, where it was then."""
+        x, y, heading = (float(np.interp(time, self.times, column)) for column in self.truth.T)
+        return (x, y, heading)
+
+    def window(self, t0: float, t1: float) -> Recording:
+        """The part of the run from `t0` to `t1`; times stay what they were, and the command in force at `t0` is there.
+
+        Raises:
+            RecordingError: no sample lies between the two.
+
+        """
+        inside = (self.times >= t0) & (self.times <= t1)
+        if not inside.any():
+            raise RecordingError(
+                f"nothing was recorded from {t0} s to {t1} s: this recording goes from {self.times[0]:.2f} s to "
+                f"{self.times[-1]:.2f} s"
+            )
+        seen = (self.scan_times >= t0) & (self.scan_times <= t1)
+        return replace(
+            self,
+            times=self.times[inside],
+            truth=self.truth[inside],
+            odom=self.odom[inside],
+            commands=since(self.commands[self.commands[:, 0] <= t1], t0),
+            scan_times=self.scan_times[seen],
+            scans=self.scans[seen],
+        )
+
+    def show(self, **options: Any) -> Any:
+        """A picture of the run from above; the options are those of `rosmini.viz.recording_picture`."""
+        return show("recording", self, **options)
+
+    def plots(self, **options: Any) -> Any:
+        """Velocities and the error of odometry over time; the options are those of `rosmini.viz.recording_plots`."""
+        return show("recording_plots", self, **options)
+
+    def replay(self, **options: Any) -> Any:
+        """A player for the run, with play, pause, scrub and speed."""
+        return show("replay", self, **options)
+
+    def replay3d(self, **options: Any) -> Any:
+        """The run in three dimensions."""
+        return show("replay_3d", self, **options)
+
+
+def since(commands: Floats, begin: float) -> Floats:
+    """The commands (m, 3) from `begin` on, and before them the one that is in force then, as if it were given at `begin`."""
+    before = commands[commands[:, 0] < begin][-1:].copy()
+    after = commands[commands[:, 0] >= begin]
+    if len(after) and after[0, 0] == begin:
+        return after
+    before[:, 0] = begin
+    return np.vstack([before, after])
+
+
+def _pose(row: Floats) -> tuple[float, float, float]:
+    x, y, heading = row.tolist()
+    return (x, y, heading)

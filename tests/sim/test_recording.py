@@ -1,0 +1,134 @@
+"""What a recording says of a run, on runs that can be worked out by hand."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rosmini.geometry.poses import arc, compose
+from rosmini.sim.models import ImuModel, LidarModel, RobotModel
+from rosmini.sim.recording import Recording, RecordingError, since
+from rosmini.sim.world import World
+
+ROBOT = RobotModel(
+    name="square",
+    mass=1.0,
+    inertia=0.01,
+    wheel_radius=0.03,
+    wheel_separation=0.16,
+    max_linear=0.22,
+    max_angular=2.84,
+    wheel_acceleration=2.5,
+    ticks_per_turn=4096,
+    footprint=((-0.1, -0.09), (0.04, -0.09), (0.04, 0.09), (-0.1, 0.09)),
+    height=0.2,
+    lidar=LidarModel("four beams", (-0.03, 0.0, 0.17), 4, 5.0, 0.1, 3.5, 0.01),
+    imu=ImuModel((0.0, 0.0, 0.1), 200.0, 0.001, 0.01),
+)
+
+
+def recording(truth, odom=None, *, step=0.1, commands=(), scans=()) -> Recording:
+    """A run with the given poses, `step` seconds apart, and a scan every second one."""
+    truth = np.array(truth, dtype=float)
+    scans = np.array(scans, dtype=float).reshape(-1, 4)
+    return Recording(
+        World("void"),
+        ROBOT,
+        times=np.arange(len(truth)) * step,
+        truth=truth,
+        odom=truth if odom is None else np.array(odom, dtype=float),
+        commands=np.array(commands, dtype=float).reshape(-1, 3),
+        scan_times=np.arange(len(scans)) * 2 * step,
+        scans=scans,
+    )
+
+
+def test_duration_and_distance_are_those_of_the_real_way():
+    run = recording([(0, 0, 0), (3, 4, 0), (3, 4, 1), (3, 5, 1)], odom=np.zeros((4, 3)))
+    assert run.duration == pytest.approx(0.3)
+    assert run.distance == pytest.approx(6.0)
+    assert repr(run) == "<Recording of square in void: 0.3 s, 4 poses, 0 scans, 0 commands>"
+
+
+def test_drift_is_relative_to_the_start_in_whichever_frame_odometry_began():
+    truth = np.array([(1.0, 1.0, math.pi / 2), (1.0, 2.0, math.pi / 2), (1.0, 3.0, math.pi / 2)])
+    odom = np.array([(5.0, 5.0, 0.0), (6.0, 5.0, 0.0), (7.0, 5.1, 0.2)])
+    run = recording(truth, odom)
+    np.testing.assert_allclose(
+        run.odom_in_map(), [(1, 1, math.pi / 2), (1, 2, math.pi / 2), (0.9, 3, math.pi / 2 + 0.2)], atol=1e-12
+    )
+    np.testing.assert_allclose(run.drift().position, [0, 0, 0.1], atol=1e-12)
+    np.testing.assert_allclose(run.drift().heading, [0, 0, 0.2], atol=1e-12)
+
+
+@given(
+    st.tuples(st.floats(-9, 9), st.floats(-9, 9), st.floats(-9, 9)),
+    st.lists(st.tuples(st.floats(-9, 9), st.floats(-9, 9), st.floats(-9, 9)), min_size=1, max_size=5),
+)
+def test_odometry_that_is_the_truth_in_another_frame_has_no_drift(frame, poses):
+    odom = np.array(poses)
+    run = recording(compose(frame, odom), odom)
+    assert np.abs(run.drift().position).max() < 1e-9
+    assert np.abs(run.drift().heading).max() < 1e-9
+
+
+@given(st.floats(-0.3, 0.3), st.floats(-3, 3))
+def test_velocities_on_an_arc_are_those_that_were_driven(v, w):
+    truth = arc((1.0, 2.0, 3.0), v, w, np.arange(6) * 0.1)
+    np.testing.assert_allclose(recording(truth).velocities(), [(v, w)] * 6, atol=1e-9)
+
+
+def test_velocities_of_one_pose_are_zero():
+    assert recording([(1, 2, 3)]).velocities().tolist() == [[0, 0]]
+
+
+def test_the_pose_at_a_time_lies_between_the_samples():
+    run = recording([(0, 0, 3), (1, 2, 4)], step=1.0)
+    assert run.pose_at(0.5) == (0.5, 1.0, 3.5)
+    assert run.pose_at(9.0) == (1.0, 2.0, 4.0)
+
+
+def test_a_window_keeps_times_and_the_command_in_force():
+    run = recording(
+        [(x, 0, 0) for x in range(5)],
+        step=1.0,
+        commands=[(0, 0.1, 0), (1, 0.2, 0), (3, 0.3, 0), (4, 0.4, 0)],
+        scans=[[1, 2, 3, 4], [5, 6, 7, math.inf]],
+    )
+    part = run.window(1.5, 3.5)
+    assert part.times.tolist() == [2, 3]
+    assert part.truth[:, 0].tolist() == [2, 3]
+    assert part.commands.tolist() == [[1.5, 0.2, 0], [3, 0.3, 0]]
+    assert part.scan_times.tolist() == [2]
+    assert part.scans.tolist() == [[5, 6, 7, math.inf]]
+    assert part.distance == 1
+    with pytest.raises(RecordingError, match=r"from 7 s to 8 s: this recording goes from 0.00 s to 4.00 s"):
+        run.window(7, 8)
+
+
+def test_commands_since_a_command_are_that_one_and_the_later_ones():
+    commands = np.array([(1.0, 0.1, 0.0), (2.0, 0.2, 0.0)])
+    assert since(commands, 2.0).tolist() == [[2, 0.2, 0]]
+    assert since(commands, 0.0).tolist() == commands.tolist()
+    assert since(np.empty((0, 3)), 0.0).shape == (0, 3)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"times": np.empty(0)}, "at least one sample"),
+        ({"odom": np.zeros((3, 3))}, r"odom of a recording must be an array \(2, 3\), not \(3, 3\)"),
+        ({"scans": np.zeros((0, 360))}, r"scans of a recording must be an array \(0, 4\)"),
+        ({"truth": np.array([(0, 0, 0), (0, math.nan, 0)])}, r"truth\[1, 1\] of a recording is nan"),
+        ({"commands": np.array([(0, math.inf, 0)])}, r"commands\[0, 1\] of a recording is inf"),
+        ({"times": np.array([1.0, 1.0])}, "times of a recording must increase"),
+    ],
+)
+def test_arrays_that_do_not_fit_are_refused_by_name(change, message):
+    with pytest.raises(RecordingError, match=message):
+        replace(recording([(0, 0, 0), (1, 0, 0)]), **change)
