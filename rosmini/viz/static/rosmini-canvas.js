@@ -1,0 +1,299 @@
+/* Drawing a robot's world on a canvas: what the replay player and the teleoperation pad share.
+
+   A plain script that sets `globalThis.rosminiCanvas`; no framework, nothing fetched. Metres and radians, x to the
+   right, y up, angles counter-clockwise; a pose is [x, y, theta]. `scene` is what `rosmini.viz.replay.scene` makes.
+
+     fit(canvas, bounds, {maxHeight, margin})  a view: sizes the canvas (crisp on HiDPI), reads the theme, and maps
+                                               metres to pixels. Make a new one when `watch` says so.
+     watch(canvas, redraw) -> stop()           calls redraw() when the size, the theme or the medium (print) changes.
+     theme(element) -> {ink, blue, ...}        the palette that holds for an element.
+
+     clear(view)                               empties it and paints the ground with a line each metre.
+     world(view, scene)                        walls and obstacles, with the ground: clear() is not needed. Kept as a
+                                               bitmap in the view, so that each further call is one copy.
+     scan(view, robot, pose, ranges)           laser hits and what the laser sees, from the robot at `pose`. A range
+                                               that is not a finite number above 0 is a beam that hit nothing.
+     trail(view, points, {colour, dashed, count})   a line through [x, y, ...] points, the first `count` of them.
+     robot(view, robot, pose, {ghost})         the robot from above; a ghost is an outline: where odometry puts it.
+     scaleBar(view)                            how long a metre is.
+
+   A view has: context, width, height (CSS pixels), scale (pixels a metre), theme, x(metres), y(metres) to pixels, and
+   metres(px, py) -> [x, y] back. */
+
+(() => {
+  "use strict";
+
+  // rosmini/viz/style.py has these; a test keeps them equal. Pages with rosmini.css override them.
+  const LIGHT = {
+    "page": "#ffffff", "ink": "#1b2733", "muted": "#56636f", "line": "#5b6875", "group-fill": "#f4f6f8",
+    "group-line": "#9aa5af", "blue": "#0072b2", "orange": "#d97f00", "green": "#00865f", "vermilion": "#d55e00",
+    "purple": "#b85c93", "sky": "#3a9bd9",
+  };
+  const DARK = {
+    "page": "#14181e", "ink": "#e8edf2", "muted": "#a3afba", "line": "#93a1ae", "group-fill": "#1c222a",
+    "group-line": "#5c6a77", "blue": "#56b4e9", "orange": "#e69f00", "green": "#2fc79a", "vermilion": "#ff8f5c",
+    "purple": "#dd9dc0", "sky": "#8fd0f5",
+  };
+  const DARK_PAGES = 'html[data-theme="dark"], body[data-jp-theme-light="false"], body.vscode-dark';
+  const FONT = '"Helvetica Neue", Helvetica, Arial, "Liberation Sans", "DejaVu Sans", sans-serif';
+  const TURN = 2 * Math.PI;
+  const FOOT = 26; // pixels under the world, for the scale bar
+
+  let printing = false; // what a page looks like in print cannot be asked before it is printed
+  globalThis.addEventListener?.("beforeprint", () => { printing = true; });
+  globalThis.addEventListener?.("afterprint", () => { printing = false; });
+
+  function theme(element) {
+    if (printing || matchMedia("print").matches) return LIGHT;
+    const style = getComputedStyle(element);
+    const fallback = document.querySelector(DARK_PAGES) ? DARK : LIGHT;
+    return Object.fromEntries(
+      Object.keys(LIGHT).map((name) => [name, style.getPropertyValue(`--rosmini-${name}`).trim() || fallback[name]]),
+    );
+  }
+
+  function fit(canvas, bounds, { maxHeight = 520, margin = 0.15 } = {}) {
+    const [left, bottom, right, top] = [bounds[0] - margin, bounds[1] - margin, bounds[2] + margin, bounds[3] + margin];
+    canvas.style.display = "block";
+    canvas.style.width = "100%";
+    const width = canvas.clientWidth || 600;
+    const room = Math.min(maxHeight - FOOT, (width * (top - bottom)) / (right - left));
+    const height = Math.round(room + FOOT);
+    const ratio = globalThis.devicePixelRatio || 1;
+    canvas.style.height = `${height}px`;
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+    const context = canvas.getContext("2d");
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const scale = Math.min(width / (right - left), room / (top - bottom));
+    const [middleX, middleY] = [(left + right) / 2, (bottom + top) / 2];
+    return {
+      context, width, height, ratio, scale,
+      theme: theme(canvas),
+      x: (metres) => width / 2 + (metres - middleX) * scale,
+      y: (metres) => room / 2 - (metres - middleY) * scale,
+      metres: (px, py) => [middleX + (px - width / 2) / scale, middleY - (py - room / 2) / scale],
+    };
+  }
+
+  function watch(canvas, redraw) {
+    const print = matchMedia("print");
+    const density = matchMedia(`(resolution: ${globalThis.devicePixelRatio || 1}dppx)`);
+    const themes = new MutationObserver(redraw);
+    const filter = { attributes: true, attributeFilter: ["data-theme", "data-jp-theme-light", "class"] };
+    themes.observe(document.documentElement, filter);
+    themes.observe(document.body, filter);
+    let width = canvas.clientWidth;
+    const sizes = new ResizeObserver(() => {
+      // fit() sets the height itself: only a new width is news.
+      if (canvas.clientWidth === width) return;
+      width = canvas.clientWidth;
+      redraw();
+    });
+    sizes.observe(canvas);
+    for (const media of [print, density]) media.addEventListener("change", redraw);
+    for (const event of ["beforeprint", "afterprint"]) globalThis.addEventListener(event, redraw);
+    return () => {
+      themes.disconnect();
+      sizes.disconnect();
+      for (const media of [print, density]) media.removeEventListener("change", redraw);
+      for (const event of ["beforeprint", "afterprint"]) globalThis.removeEventListener(event, redraw);
+    };
+  }
+
+  function path(view, points, count = points.length) {
+    const { context } = view;
+    context.beginPath();
+    for (let i = 0; i < count; i += 1) context.lineTo(view.x(points[i][0]), view.y(points[i][1]));
+  }
+
+  function clear(view) {
+    const { context, theme: colours, width, height, scale } = view;
+    context.fillStyle = colours.page;
+    context.fillRect(0, 0, width, height);
+    const step = scale >= 12 ? 1 : scale >= 3 ? 5 : 20;
+    const [left, top] = view.metres(0, 0);
+    const [right, bottom] = view.metres(width, height);
+    context.beginPath();
+    for (let x = Math.ceil(left / step) * step; x <= right; x += step) {
+      context.moveTo(view.x(x), 0);
+      context.lineTo(view.x(x), height);
+    }
+    for (let y = Math.ceil(bottom / step) * step; y <= top; y += step) {
+      context.moveTo(0, view.y(y));
+      context.lineTo(width, view.y(y));
+    }
+    context.globalAlpha = 0.25;
+    context.lineWidth = 1;
+    context.strokeStyle = colours["group-line"];
+    context.stroke();
+    context.globalAlpha = 1;
+  }
+
+  function drawShape(view, shape) {
+    const { context, theme: colours } = view;
+    const solid = shape.colour === "wall";
+    const colour = solid ? colours.muted : (colours[shape.colour] ?? colours.line);
+    if (shape.kind === "disc") {
+      context.beginPath();
+      context.arc(view.x(shape.x), view.y(shape.y), shape.r * view.scale, 0, TURN);
+    } else {
+      path(view, shape.points);
+      context.closePath();
+    }
+    context.fillStyle = context.strokeStyle = colour;
+    context.globalAlpha = solid ? 1 : 0.32;
+    context.fill();
+    context.globalAlpha = 1;
+    context.lineWidth = 1.4;
+    context.stroke();
+  }
+
+  function world(view, scene) {
+    const { context, ratio, width, height } = view;
+    if (view.world?.scene !== scene) {
+      clear(view);
+      context.lineJoin = context.lineCap = "round";
+      for (const shape of scene.shapes) drawShape(view, shape);
+      context.beginPath();
+      for (const [x1, y1, x2, y2] of scene.segments) {
+        context.moveTo(view.x(x1), view.y(y1));
+        context.lineTo(view.x(x2), view.y(y2));
+      }
+      context.lineWidth = 2.5;
+      context.strokeStyle = view.theme.ink;
+      context.stroke();
+      const bitmap = document.createElement("canvas");
+      [bitmap.width, bitmap.height] = [Math.round(width * ratio), Math.round(height * ratio)];
+      bitmap.getContext("2d").drawImage(context.canvas, 0, 0);
+      view.world = { scene, bitmap };
+    } else {
+      context.drawImage(view.world.bitmap, 0, 0, width, height);
+    }
+  }
+
+  function scan(view, robot, pose, ranges) {
+    const { context, theme: colours, scale } = view;
+    const { x: mount, max } = robot.lidar;
+    const [x, y, theta] = pose;
+    const [originX, originY] = [x + mount * Math.cos(theta), y + mount * Math.sin(theta)];
+    const hits = [];
+    context.beginPath();
+    for (let i = 0; i < ranges.length; i += 1) {
+      const hit = ranges[i] > 0 && Number.isFinite(ranges[i]);
+      const range = hit ? ranges[i] : max;
+      const angle = theta + (TURN * i) / ranges.length;
+      const [px, py] = [view.x(originX + range * Math.cos(angle)), view.y(originY + range * Math.sin(angle))];
+      context.lineTo(px, py);
+      if (hit) hits.push(px, py);
+    }
+    context.closePath();
+    context.fillStyle = colours.vermilion;
+    context.globalAlpha = 0.11;
+    context.fill();
+    context.globalAlpha = 1;
+    const size = Math.max(1.6, Math.min(3, 0.03 * scale));
+    for (let i = 0; i < hits.length; i += 2) {
+      context.fillRect(hits[i] - size / 2, hits[i + 1] - size / 2, size, size);
+    }
+  }
+
+  function trail(view, points, { colour = "blue", dashed = false, count = points.length } = {}) {
+    const { context } = view;
+    path(view, points, Math.min(count, points.length));
+    context.setLineDash(dashed ? [6, 4] : []);
+    context.lineJoin = "round";
+    context.lineCap = "butt";
+    context.lineWidth = 2;
+    context.strokeStyle = view.theme[colour];
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  /* Plate, two wheels, the laser's turret and a nose, to scale but never under 12 pixels long, where none could be seen.
+     Below 26 pixels only what can still be told apart. */
+  function robot(view, model, pose, { ghost = false } = {}) {
+    const { context, theme: colours } = view;
+    const xs = model.footprint.map((corner) => corner[0]);
+    const [back, front] = [Math.min(...xs), Math.max(...xs)];
+    const size = Math.max((front - back) * view.scale, 12);
+    const small = size < 26;
+    const scale = size / (front - back);
+    context.save();
+    context.translate(view.x(pose[0]), view.y(pose[1]));
+    context.rotate(-pose[2]);
+    context.scale(scale, -scale); // from here on: metres, seen from base_footprint
+    const pixel = 1 / scale;
+    context.lineJoin = "round";
+    const outline = () => {
+      context.beginPath();
+      for (const [x, y] of model.footprint) context.lineTo(x, y);
+      context.closePath();
+    };
+    const nose = () => {
+      const length = Math.max(0.35 * (front - back), 7 * pixel);
+      context.beginPath();
+      context.moveTo(front + length, 0);
+      context.lineTo(front + 2 * pixel, 0.55 * length);
+      context.lineTo(front + 2 * pixel, -0.55 * length);
+      context.closePath();
+    };
+    if (ghost) {
+      context.strokeStyle = colours.orange;
+      context.lineWidth = 1.6 * pixel;
+      context.setLineDash([4 * pixel, 2.5 * pixel]);
+      outline();
+      context.stroke();
+      context.setLineDash([]);
+      nose();
+      context.stroke();
+      context.restore();
+      return;
+    }
+    const [radius, tread] = [model.wheel_radius ?? 0.033, 0.018];
+    context.fillStyle = colours.ink;
+    for (const side of [-1, 1]) {
+      context.fillRect(-radius, side * (model.wheel_separation / 2) - tread / 2, 2 * radius, tread);
+    }
+    outline();
+    context.fillStyle = colours.blue;
+    context.fill();
+    context.lineWidth = 1.5 * pixel;
+    context.strokeStyle = colours.page;
+    context.stroke();
+    nose();
+    context.fill();
+    context.beginPath();
+    context.arc(model.lidar.x, 0, small ? 0.25 * (front - back) : 0.035, 0, TURN);
+    context.fillStyle = small ? colours.page : colours.ink;
+    context.fill();
+    if (!small) {
+      context.beginPath();
+      context.arc(model.lidar.x, 0, 0.016, 0, TURN);
+      context.fillStyle = colours.vermilion;
+      context.fill();
+    }
+    context.restore();
+  }
+
+  function scaleBar(view) {
+    const { context, theme: colours, scale, width, height } = view;
+    const length = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100].find((metres) => metres * scale >= width / 9) ?? 200;
+    const [x, y, size] = [8, height - 6, length * scale];
+    const label = length < 1 ? `${Math.round(100 * length)} cm` : `${length} m`;
+    context.font = `12px ${FONT}`;
+    context.textBaseline = "bottom";
+    context.beginPath();
+    context.moveTo(x, y - 5);
+    context.lineTo(x, y);
+    context.lineTo(x + size, y);
+    context.lineTo(x + size, y - 5);
+    context.lineWidth = 1.5;
+    context.lineCap = "butt";
+    context.strokeStyle = context.fillStyle = colours.ink;
+    context.stroke();
+    context.fillText(label, x + 5, y - 2);
+  }
+
+  globalThis.rosminiCanvas = { fit, watch, theme, clear, world, scan, trail, robot, scaleBar };
+})();
