@@ -1,0 +1,155 @@
+"""What a flat laser sees: rays against line segments and discs.
+
+`raycast` does it in machine code where numba is installed, else with numpy, and both give the same ranges: they get the same directions and do the
+same arithmetic in the same order. `backend` tells which one it would be.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+import os
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rosmini.errors import RosminiError, nearest
+
+from . import raycast_numpy
+from .angles import normalize_angle
+from .errors import GeometryError
+
+Floats = NDArray[np.float64]
+
+VARIABLE = "ROSMINI_RAYCAST"
+"""The environment variable that chooses a backend where the caller does not."""
+
+BACKENDS = ("numba", "numpy")
+
+
+class BackendMissing(RosminiError):
+    """A backend was asked for by name that is not installed."""
+
+
+def raycast(
+    segments: ArrayLike,
+    discs: ArrayLike,
+    x: float,
+    y: float,
+    angle_min: float,
+    angle_increment: float,
+    count: int,
+    max_range: float,
+    *,
+    backend: str | None = None,
+) -> Floats:
+    """How far it is from (x, y) to the nearest thing in each of `count` directions (count,); inf if nothing is within `max_range`.
+
+    `segments` (n, 4) are walls without thickness, each x1, y1, x2, y2; `discs` (m, 3) are solid, each x, y, radius. Both may be empty. Ray
+    i looks to `angle_min + i * angle_increment`; the increment may be negative, and the rays may cover less or more than one turn. All of
+    it is in one frame, in metres and radians.
+
+    Ends belong to their segment, and 1 nm beyond them still counts, so no ray slips between two walls whose common corner was rounded. Of a wall
+    that a ray runs along it meets the near end. A sensor in or on a disc, or on a wall, sees 0 all around. A segment of no length is a point.
+
+    `backend` is "numba" or "numpy"; without it the environment variable `ROSMINI_RAYCAST` decides, and without that numba if it is installed.
+    Raises `GeometryError` for a number that is nan or infinite (`max_range` may be infinite), a negative radius, range or count or an array of
+    another shape, and `BackendMissing` for "numba" without numba.
+    """
+    walls, pillars = _table(segments, 4, "segments"), _table(discs, 3, "discs")
+    if len(pillars) and pillars[:, 2].min() < 0:
+        row = int(pillars[:, 2].argmin())
+        msg = f"disc {row} has the radius {pillars[row, 2]}; a radius is 0 or more"
+        raise GeometryError(msg)
+    if not math.isfinite(x + y + angle_min + angle_increment):
+        msg = f"a ray starts at a place and looks somewhere, not x={x}, y={y}, angle_min={angle_min}, angle_increment={angle_increment}"
+        raise GeometryError(msg)
+    if not (max_range >= 0 and count >= 0):
+        msg = f"max_range ({max_range}) and count ({count}) are 0 or more"
+        raise GeometryError(msg)
+    cast = _kernel(_chosen(backend))
+    ranges = np.full(count, np.inf)
+    if not count:
+        return ranges
+    step = normalize_angle(float(angle_increment))
+    angles = normalize_angle(float(angle_min)) + step * np.arange(count)
+    if step < 0:
+        angles = angles[::-1].copy()
+    cast(
+        walls,
+        pillars,
+        float(x),
+        float(y),
+        np.cos(angles),
+        np.sin(angles),
+        float(angles[0]),
+        abs(step),
+        float(max_range),
+        ranges,
+    )
+    return ranges[::-1].copy() if step < 0 else ranges
+
+
+def backend() -> str:
+    """The backend that `raycast` uses when it is not told: "numba" or "numpy". Imports numba, if it is installed."""
+    return _chosen(None)
+
+
+def _table(rows: ArrayLike, width: int, what: str) -> Floats:
+    """The rows as a finite, contiguous array (n, width)."""
+    table = np.ascontiguousarray(rows, dtype=np.float64)
+    if not table.size:
+        return table.reshape(0, width)
+    if table.ndim != 2 or table.shape[1] != width:
+        msg = f"{what} are an array (n, {width}), not {table.shape}"
+        raise GeometryError(msg)
+    # One number tells it nearly always, and faster than n.
+    if not math.isfinite(table.sum()) and not np.isfinite(table).all():
+        row = int(np.flatnonzero(~np.isfinite(table).all(axis=1))[0])
+        msg = f"row {row} of {what} is not finite: {table[row].tolist()}"
+        raise GeometryError(msg)
+    return table
+
+
+def _chosen(name: str | None) -> str:
+    wanted = name or os.environ.get(VARIABLE)
+    if not wanted:
+        return "numpy" if _numba() is None else "numba"
+    if wanted not in BACKENDS:
+        source = "" if name else f" (from the environment variable {VARIABLE})"
+        msg = f"there is no raycast backend {wanted!r}{source}; there are {' and '.join(BACKENDS)}. {nearest(wanted, BACKENDS)}"
+        raise GeometryError(msg.rstrip())
+    return wanted
+
+
+@cache
+def _numba() -> Any:
+    """The module with the compiled kernel, or None without numba."""
+    try:
+        import numba  # noqa: F401
+    except ModuleNotFoundError:
+        return None
+    except ImportError as error:  # numba refuses to work with a numpy that is newer than it knows
+        logging.getLogger(__name__).warning("numba cannot be used, numpy casts the rays instead: %s", error)
+        return None
+    from . import raycast_numba
+
+    return raycast_numba
+
+
+@cache
+def _kernel(name: str) -> Callable[..., None]:
+    if name == "numpy":
+        return raycast_numpy.cast
+    module = _numba()
+    if module is None:
+        msg = (
+            "the numba backend was asked for, but numba cannot be imported here. Install it (pip install numba), or leave the choice to "
+            f"rosmini: no backend argument, no environment variable {VARIABLE}; numpy gives the same ranges, slower"
+        )
+        raise BackendMissing(msg)
+    kernel: Callable[..., None] = module.compiled()
+    return kernel

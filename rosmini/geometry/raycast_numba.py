@@ -1,0 +1,162 @@
+"""The raycast in machine code: the loops of `rosmini.geometry.raycast_numpy`, where its geometry is explained.
+
+The functions here are plain Python. `compiled` makes machine code of them, at the first call in about a second, later from numba's cache. Scalars,
+explicit types and no slices keep that second from becoming ten.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .raycast_numpy import FLAT, MARGIN, NEAR, SLACK, TURN
+
+Floats = NDArray[np.float64]
+
+
+def cast(
+    segments: Floats,
+    discs: Floats,
+    x: float,
+    y: float,
+    cos: Floats,
+    sin: Floats,
+    first: float,
+    step: float,
+    max_range: float,
+    ranges: Floats,
+) -> None:
+    """As `rosmini.geometry.raycast_numpy.cast`."""
+    for n in range(segments.shape[0]):
+        x1, y1 = segments[n, 0] - x, segments[n, 1] - y
+        x2, y2 = segments[n, 2] - x, segments[n, 3] - y
+        cast_segment(x1, y1, x2, y2, cos, sin, first, step, max_range, ranges)
+    for n in range(discs.shape[0]):
+        cast_disc(discs[n, 0] - x, discs[n, 1] - y, discs[n, 2], cos, sin, first, step, max_range, ranges)
+
+
+def cast_segment(
+    x1: float,
+    y1: float,
+    x2: float,
+    y2: float,
+    cos: Floats,
+    sin: Floats,
+    first: float,
+    step: float,
+    max_range: float,
+    ranges: Floats,
+) -> None:
+    """`cast` for one segment that is seen from the sensor."""
+    far = max_range + SLACK
+    if max(x1, x2) < -far or min(x1, x2) > far or max(y1, y2) < -far or min(y1, y2) > far:
+        return
+    distance = segment_distance(x1, y1, x2, y2)
+    if distance > far:
+        return
+    begin, width = 0.0, math.inf
+    if distance >= NEAR and step >= FLAT:
+        sweep = math.atan2(x1 * y2 - y1 * x2, x1 * x2 + y1 * y2)
+        begin = before(math.atan2(y1, x1) + min(sweep, 0.0), first)
+        width = abs(sweep) + 2 * MARGIN
+    pitch, last = max(step, FLAT), len(ranges) - 1
+    while begin <= step * last:
+        for i in range(max(math.ceil(begin / pitch), 0), int(min((begin + width) / pitch, last)) + 1):
+            met = meet_segment(x1, y1, x2, y2, cos[i], sin[i])
+            if met < ranges[i] and met <= max_range:
+                ranges[i] = met
+        begin += TURN
+
+
+def cast_disc(
+    x: float,
+    y: float,
+    radius: float,
+    cos: Floats,
+    sin: Floats,
+    first: float,
+    step: float,
+    max_range: float,
+    ranges: Floats,
+) -> None:
+    """`cast` for one disc that is seen from the sensor."""
+    distance = math.sqrt(x * x + y * y)
+    if distance - radius <= SLACK:
+        for i in range(len(ranges)):
+            ranges[i] = 0.0
+        return
+    if distance - radius > max_range:
+        return
+    begin, width = 0.0, math.inf
+    if distance >= NEAR and step >= FLAT:
+        half = math.asin(radius / distance)
+        begin, width = before(math.atan2(y, x) - half, first), 2 * half + 2 * MARGIN
+    pitch, last = max(step, FLAT), len(ranges) - 1
+    while begin <= step * last:
+        for i in range(max(math.ceil(begin / pitch), 0), int(min((begin + width) / pitch, last)) + 1):
+            met = meet_disc(x, y, radius, cos[i], sin[i])
+            if met < ranges[i] and met <= max_range:
+                ranges[i] = met
+        begin += TURN
+
+
+def before(start: float, first: float) -> float:
+    """Where a sector begins, counted from the first ray, at the last time before that ray."""
+    begin = start - MARGIN - first
+    return begin - TURN * (math.floor(begin / TURN) + 1)
+
+
+def segment_distance(x1: float, y1: float, x2: float, y2: float) -> float:
+    """From the sensor to the nearest point of a segment."""
+    ex, ey = x2 - x1, y2 - y1
+    square = ex * ex + ey * ey
+    part = min(max(-(x1 * ex + y1 * ey) / square, 0.0), 1.0) if square > 0 else 0.0
+    px, py = x1 + part * ex, y1 + part * ey
+    return math.sqrt(px * px + py * py)
+
+
+def meet_segment(x1: float, y1: float, x2: float, y2: float, c: float, s: float) -> float:
+    """How far a ray to (c, s) goes until it meets a segment, or inf."""
+    k1, k2 = c * y1 - s * x1, c * y2 - s * x2
+    if min(k1, k2) > SLACK or max(k1, k2) < -SLACK:
+        return math.inf
+    a1, a2 = c * x1 + s * y1, c * x2 + s * y2
+    if max(abs(k1), abs(k2)) <= SLACK:
+        return max(min(a1, a2), 0.0) if max(a1, a2) >= -SLACK else math.inf
+    ahead = a1 + min(max(k1 / (k1 - k2), 0.0), 1.0) * (a2 - a1)
+    return max(ahead, 0.0) if ahead >= -SLACK else math.inf
+
+
+def meet_disc(x: float, y: float, radius: float, c: float, s: float) -> float:
+    """How far a ray to (c, s) goes until it meets a disc that the sensor is not in, or inf."""
+    aside, ahead = abs(c * y - s * x), c * x + s * y
+    if aside > radius or ahead <= 0:
+        return math.inf
+    return max(ahead - math.sqrt((radius - aside) * (radius + aside)), 0.0)
+
+
+@cache
+def compiled() -> Callable[..., None]:
+    """`cast` as machine code. Raises `ImportError` without numba."""
+    import numba
+    from numba.extending import register_jitable
+
+    for function in (cast_segment, cast_disc, before, segment_distance, meet_segment, meet_disc):
+        register_jitable(function)
+    number = numba.float64
+    table: Any = numba.types.Array(number, 2, "C", readonly=True)
+    read: Any = numba.types.Array(number, 1, "C", readonly=True)
+    signature = numba.void(table, table, number, number, read, read, number, number, number, number[::1])
+    try:
+        return numba.njit([signature], cache=True)(cast)
+    except Exception as error:
+        # A cache that can be neither written nor read (an installation for all users, a full disk, a broken file) costs
+        # a second at each start and no more. What is wrong with the code itself is raised again below.
+        logging.getLogger(__name__).info("numba cannot cache the raycast: %s", error)
+    return numba.njit([signature])(cast)

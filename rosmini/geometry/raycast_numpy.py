@@ -1,0 +1,145 @@
+"""The raycast with numpy: first who can meet whom, then all those pairs at once.
+
+A segment or disc is seen under a sector of directions. Only the pairs of it and the rays in its sector are looked at, some thousand instead of
+segments times rays. `rosmini.geometry.raycast_numba` does the same with loops; what is written here about the geometry holds there.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+TURN = 2 * math.pi
+
+SLACK = 1e-9
+"""By how much a ray may miss the end of a segment and still meet it, and a sensor a wall and still be on it [m]."""
+
+NEAR = 1e-3
+"""A segment nearer than this is tried with every ray [m]: its sector says little once `SLACK` is a part of it."""
+
+MARGIN = 1e-5
+"""What is added to a sector at either side [rad]: more than `SLACK` at the distance `NEAR`, and than what rounding can do."""
+
+FLAT = 1e-9
+"""Rays closer together than this are all tried [rad]."""
+
+BLOCK = 1 << 19
+"""How many pairs are looked at at once, lest a large world fill the memory."""
+
+
+def cast(
+    segments: Floats,
+    discs: Floats,
+    x: float,
+    y: float,
+    cos: Floats,
+    sin: Floats,
+    first: float,
+    step: float,
+    max_range: float,
+    ranges: Floats,
+) -> None:
+    """Lower `ranges` (count,) to what each ray meets within `max_range`.
+
+    Ray i starts at (x, y) and looks to (cos[i], sin[i]), which is the angle `first + i * step`; `step` is not negative.
+    """
+    cast_segments(segments - (x, y, x, y), cos, sin, first, step, max_range, ranges)
+    cast_discs(discs - (x, y, 0.0), cos, sin, first, step, max_range, ranges)
+
+
+def cast_segments(
+    segments: Floats, cos: Floats, sin: Floats, first: float, step: float, max_range: float, ranges: Floats
+) -> None:
+    """`cast` for segments that are seen from the sensor."""
+    distances = _distances(segments)
+    within = distances <= max_range + SLACK
+    segments, distances = segments[within], distances[within]
+    x1, y1, x2, y2 = segments.T
+    sweeps = np.arctan2(x1 * y2 - y1 * x2, x1 * x2 + y1 * y2)
+    starts = np.arctan2(y1, x1) + np.minimum(sweeps, 0)
+    for which, ray in _pairs(starts, np.abs(sweeps), distances < NEAR, first, step, len(ranges)):
+        c, s = cos[ray], sin[ray]
+        px, py, qx, qy = segments[which].T
+        # How far the ends lie to the left of the ray and ahead of the sensor. A common end of two segments gets the same
+        # numbers in both, so no ray passes between them.
+        k1, k2 = c * py - s * px, c * qy - s * qx
+        a1, a2 = c * px + s * py, c * qx + s * qy
+        touched = (np.minimum(k1, k2) <= SLACK) & (np.maximum(k1, k2) >= -SLACK)
+        along = (np.abs(k1) <= SLACK) & (np.abs(k2) <= SLACK)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            part = np.minimum(np.maximum(k1 / (k1 - k2), 0.0), 1.0)
+        ahead = np.where(along, np.minimum(a1, a2), a1 + part * (a2 - a1))
+        last = np.where(along, np.maximum(a1, a2), ahead)
+        ahead = np.maximum(ahead, 0.0)
+        met = touched & (last >= -SLACK) & (ahead <= max_range)
+        np.minimum.at(ranges, ray[met], ahead[met])
+
+
+def cast_discs(
+    discs: Floats, cos: Floats, sin: Floats, first: float, step: float, max_range: float, ranges: Floats
+) -> None:
+    """`cast` for discs that are seen from the sensor."""
+    distances = np.sqrt(discs[:, 0] * discs[:, 0] + discs[:, 1] * discs[:, 1])
+    gaps = distances - discs[:, 2]
+    if (gaps <= SLACK).any():
+        ranges[:] = 0.0
+        return
+    within = gaps <= max_range
+    discs, distances = discs[within], distances[within]
+    halves = np.arcsin(discs[:, 2] / distances)
+    starts = np.arctan2(discs[:, 1], discs[:, 0]) - halves
+    for which, ray in _pairs(starts, 2 * halves, distances < NEAR, first, step, len(ranges)):
+        c, s = cos[ray], sin[ray]
+        px, py, radius = discs[which].T
+        aside, ahead = np.abs(c * py - s * px), c * px + s * py
+        half_chord = np.sqrt(np.maximum((radius - aside) * (radius + aside), 0.0))
+        entry = ahead - half_chord
+        met = (aside <= radius) & (ahead > 0) & (entry <= max_range)
+        np.minimum.at(ranges, ray[met], np.maximum(entry[met], 0.0))
+
+
+def _distances(segments: Floats) -> Floats:
+    """From the origin to the nearest point of each segment (n,)."""
+    x1, y1, x2, y2 = segments.T
+    ex, ey = x2 - x1, y2 - y1
+    squares = ex * ex + ey * ey
+    with np.errstate(divide="ignore", invalid="ignore"):
+        part = np.where(squares > 0, -(x1 * ex + y1 * ey) / squares, 0.0)
+    part = np.minimum(np.maximum(part, 0.0), 1.0)
+    nearest: Floats = np.hypot(x1 + part * ex, y1 + part * ey)
+    return nearest
+
+
+def _pairs(
+    starts: Floats, widths: Floats, near: NDArray[np.bool_], first: float, step: float, count: int
+) -> Iterator[tuple[Ints, Ints]]:
+    """Pairs of a sector and a ray in it, as two arrays of indices.
+
+    The sectors go from `starts` counter-clockwise by `widths`; rays that go round more than once pass each of them more than once. What is
+    `near` is paired with every ray.
+    """
+    turns = int(step * (count - 1) // TURN) + 2
+    pitch = max(step, FLAT)
+    everywhere = near | (step < FLAT)
+    begins = starts - MARGIN - first
+    begins = np.where(everywhere, 0.0, begins - TURN * (np.floor(begins / TURN) + 1))
+    begins = begins[:, None] + TURN * np.arange(turns)
+    ends = begins + np.where(everywhere, np.inf, widths + 2 * MARGIN)[:, None]
+    low = np.maximum(np.ceil(begins / pitch), 0.0).ravel()
+    high = np.minimum(np.floor(ends / pitch), count - 1.0).ravel()
+    lengths = np.maximum(high - low + 1, 0.0).astype(np.int64)
+    upto = np.cumsum(lengths)
+    total = int(upto[-1]) if len(upto) else 0
+    cuts = [0, *np.searchsorted(upto, np.arange(BLOCK, total, BLOCK)).tolist(), len(upto)]
+    for begin, end in itertools.pairwise(cuts):
+        size = lengths[begin:end]
+        sectors = np.repeat(np.arange(begin, end) // turns, size)
+        shifts = low[begin:end].astype(np.int64) - (np.cumsum(size) - size)
+        yield sectors, np.arange(len(sectors)) + np.repeat(shifts, size)
