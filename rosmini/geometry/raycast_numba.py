@@ -15,9 +15,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .raycast_numpy import FLAT, MARGIN, NEAR, SLACK, TURN
-
 Floats = NDArray[np.float64]
+
+# These are compiled in, and numba's cache looks at the age of this file only.
+TURN = 2 * math.pi
+
+SLACK = 1e-9
+"""By how much a ray may miss the end of a segment and still meet it, and a sensor a wall and still be on it [m]."""
+
+NEAR = 1e-3
+"""A segment nearer than this is tried with every ray [m]: its sector says little once `SLACK` is a part of it."""
+
+MARGIN = 1e-5
+"""What is added to a sector at either side [rad]: more than `SLACK` at the distance `NEAR`, and than what rounding can do."""
+
+FLAT = 1e-9
+"""Rays closer together than this are all tried [rad]."""
 
 
 def cast(

@@ -7,28 +7,15 @@ segments times rays. `rosmini.geometry.raycast_numba` does the same with loops; 
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .raycast_numba import FLAT, MARGIN, NEAR, SLACK, TURN
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-
-TURN = 2 * math.pi
-
-SLACK = 1e-9
-"""By how much a ray may miss the end of a segment and still meet it, and a sensor a wall and still be on it [m]."""
-
-NEAR = 1e-3
-"""A segment nearer than this is tried with every ray [m]: its sector says little once `SLACK` is a part of it."""
-
-MARGIN = 1e-5
-"""What is added to a sector at either side [rad]: more than `SLACK` at the distance `NEAR`, and than what rounding can do."""
-
-FLAT = 1e-9
-"""Rays closer together than this are all tried [rad]."""
 
 BLOCK = 1 << 19
 """How many pairs are looked at at once, lest a large world fill the memory."""
