@@ -1,0 +1,104 @@
+"""The differential drive: from a commanded velocity to the way of the robot, in closed form.
+
+A wheel's rim has a speed u [m/s] and goes over to the wanted one at the rate a [m/s2], as fast as it can: a ramp. So nothing here depends on the
+step with which it is asked. With b the distance of the wheels, v and w the speed ahead [m/s] and to the left [rad/s]:
+
+    u_left = v - w b / 2,   u_right = v + w b / 2;   v = (u_left + u_right) / 2,   w = (u_right - u_left) / b
+
+(Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2011, section 3.2.) Headings are counter-clockwise and never wrapped.
+"""
+
+from __future__ import annotations
+
+import math
+
+from rosmini.geometry.poses import Pose, arc
+
+Phase = tuple[float, float, float]
+"""How long it lasts [s], and at which rates the left and the right rim change their speeds meanwhile [m/s2]."""
+
+# Gauss and Legendre's four points and weights on (0, 1).
+_NODES = (
+    (0.06943184420297371, 0.17392742256872692),
+    (0.33000947820757187, 0.32607257743127307),
+    (0.6699905217924281, 0.32607257743127307),
+    (0.9305681557970263, 0.17392742256872692),
+)
+
+PANEL = 0.25
+"""So far the robot turns [rad] within one panel of the quadrature; the error of four points is then under 1e-14 of the way."""
+
+
+def limited(v: float, w: float, max_linear: float, max_angular: float) -> tuple[float, float]:
+    """A commanded velocity, each part of it cut to what the robot can do: what TurtleBot3's firmware does."""
+    return (max(-max_linear, min(max_linear, v)), max(-max_angular, min(max_angular, w)))
+
+
+def rim_speeds(v: float, w: float, separation: float) -> tuple[float, float]:
+    """The speeds of the left and of the right wheel's rim [m/s]."""
+    half = w * separation / 2
+    return (v - half, v + half)
+
+
+def body_velocity(left: float, right: float, separation: float) -> tuple[float, float]:
+    """The speeds ahead [m/s] and to the left [rad/s] of a robot whose wheels roll."""
+    return ((left + right) / 2, (right - left) / separation)
+
+
+def ramp(speed: float, target: float, acceleration: float, dt: float) -> tuple[float, float]:
+    """The way [m] in `dt` seconds of what goes from `speed` to `target` [m/s] at `acceleration` [m/s2], and its speed then.
+
+    A stop from u takes u / a seconds and the way u^2 / 2a.
+
+    >>> ramp(0.22, 0.0, 1.0, 1.0)
+    (0.0242, 0.0)
+    """
+    needed = abs(target - speed) / acceleration
+    a = math.copysign(acceleration, target - speed)
+    if dt < needed:
+        return (speed * dt + a * dt * dt / 2, speed + a * dt)
+    return ((speed + target) / 2 * needed + target * (dt - needed), target)
+
+
+def phases(
+    left: float, right: float, left_target: float, right_target: float, acceleration: float, dt: float
+) -> list[Phase]:
+    """The `dt` seconds in which the rims go over to their targets, cut where one of them gets there: one to three phases."""
+    rises = (left_target - left, right_target - right)
+    ends = [abs(rise) / acceleration for rise in rises]
+    found: list[Phase] = []
+    begin = 0.0
+    for end in sorted({*(end for end in ends if end < dt), dt}):
+        if end > begin:
+            rates = [
+                math.copysign(acceleration, rise) if arrival > begin else 0.0
+                for rise, arrival in zip(rises, ends, strict=True)
+            ]
+            found.append((end - begin, rates[0], rates[1]))
+            begin = end
+    return found
+
+
+def unicycle(pose: Pose, v: float, w: float, dv: float, dw: float, dt: float) -> Pose:
+    """Where a robot is after `dt` seconds that has the speeds v + dv t ahead [m/s] and w + dw t to the left [rad/s].
+
+    With constant speeds that is an arc, without a turn a line, both exact. Else x is the integral of (v + dv t) cos(theta + w t + dw t^2 / 2), of
+    Fresnel's kind, which has no elementary form: Gauss and Legendre's quadrature, to the last digits.
+    """
+    if dv == 0 and dw == 0:
+        return arc(pose, v, w, dt)
+    x, y, theta = pose
+    if w == 0 and dw == 0:
+        way = v * dt + dv * dt * dt / 2
+        return (x + way * math.cos(theta), y + way * math.sin(theta), theta)
+    turned = w * dt + dw * dt * dt / 2
+    count = max(1, math.ceil(max(abs(w), abs(w + dw * dt)) * dt / PANEL))
+    step = dt / count
+    for panel in range(count):
+        for node, weight in _NODES:
+            t = (panel + node) * step
+            way = (v + dv * t) * weight * step
+            heading = theta + w * t + dw * t * t / 2
+            x += way * math.cos(heading)
+            y += way * math.sin(heading)
+    return (x, y, theta + turned)

@@ -1,0 +1,87 @@
+"""An inertial measurement unit: angular velocity, acceleration and heading of the place where it sits.
+
+At (x, y) from the middle of the axle, of a robot with the speed v ahead and w to the left and their rates dv and dw, the acceleration is
+
+    a_x = dv - x w^2 - y dw,   a_y = v w + x dw - y w^2,   a_z = g
+
+(a_z points up at rest: REP 145, https://www.ros.org/reps/rep-0145.html). To each comes white noise, and a bias that stays: a gyroscope that shows
+0.00001 rad/s at rest has turned by 2 degrees after an hour. The heading is the integral of what the gyroscope shows, from 0 on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .models import ImuModel
+
+GRAVITY = 9.80665
+"""Standard gravity [m/s2]."""
+
+BLOCK = 256
+"""So many samples' noise is drawn at once."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """How a robot moves at one moment: speeds ahead [m/s] and to the left [rad/s], and their rates."""
+
+    v: float
+    w: float
+    dv: float
+    dw: float
+
+
+def acceleration(x: float, y: float, v: float, w: float, dv: float, dw: float) -> tuple[float, float]:
+    """The acceleration ahead and to the left [m/s2] at the place (x, y) of a robot that moves so: the equations above."""
+    return (dv - x * w * w - y * dw, v * w + x * dw - y * w * w)
+
+
+class Imu:
+    """One unit with its biases. Sample k always gets the same noise, whether the samples before it were read or not."""
+
+    def __init__(self, model: ImuModel, rng: np.random.Generator, scale: float = 1.0) -> None:
+        self.model = model
+        self._rng = rng
+        self._scale = scale
+        gyro, accel = scale * model.gyro_bias, scale * model.accel_bias
+        self.bias: list[float] = (rng.standard_normal(6) * ([gyro] * 3 + [accel] * 3)).tolist()
+        self._noise: list[list[float]] = []
+        self._first = 0
+        self._deviations = np.array([model.gyro_noise] * 3 + [model.accel_noise] * 3) * scale
+        self._drift = 0.0
+        self._drifts: list[float] = []
+
+    def read(
+        self, number: int, v: float, w: float, dv: float, dw: float
+    ) -> tuple[float, float, float, float, float, float]:
+        """Sample `number`, counted from 0 and never backwards: angular velocities x, y, z [rad/s] and accelerations x, y, z [m/s2]."""
+        x, y, _ = self.model.mount
+        ax, ay = acceleration(x, y, v, w, dv, dw)
+        if not self._scale:
+            return (0.0, 0.0, w, ax, ay, GRAVITY)
+        n, b = self._sample(number), self.bias
+        return (
+            n[0] + b[0],
+            n[1] + b[1],
+            w + n[2] + b[2],
+            ax + n[3] + b[3],
+            ay + n[4] + b[4],
+            GRAVITY + n[5] + b[5],
+        )
+
+    def heading_error(self, number: int) -> float:
+        """By how much the integral of what the gyroscope showed, up to sample `number`, differs from the turn of the robot [rad]."""
+        if not self._scale:
+            return 0.0
+        self._sample(number)
+        return self._drifts[number - self._first] + self.bias[2] * number / self.model.rate
+
+    def _sample(self, number: int) -> list[float]:
+        while number >= self._first + len(self._noise):
+            self._first += len(self._noise)
+            block = self._rng.standard_normal((BLOCK, 6)) * self._deviations
+            drifts = self._drift + np.cumsum(block[:, 2]) / self.model.rate
+            self._noise, self._drifts, self._drift = block.tolist(), drifts.tolist(), float(drifts[-1])
+        return self._noise[number - self._first]

@@ -1,0 +1,145 @@
+"""From what a robot does and measures to the messages that say so. Each is made once and filled again and again: publishing takes a snapshot."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.poses import Pose
+from rosmini.msgs import message_class
+
+from .engine import Robot
+from .imu import Imu
+from .models import RobotModel
+from .odometry import Odometry
+
+Floats = NDArray[np.float64]
+
+ODOM, BASE, MAP, BASE_LINK = "odom", "base_footprint", "map", "base_link"
+"""REP 105's frames, and the one that TurtleBot3's firmware writes into its joint states."""
+
+WHEELS = ["wheel_left_joint", "wheel_right_joint"]
+
+UNMEASURED = 1e12
+POSE_COVARIANCE = (1e-5, 1e-5, UNMEASURED, UNMEASURED, UNMEASURED, 1e-3)
+"""Of x, y, z and the turns about them, as Gazebo's differential drive states them; the robot's firmware leaves them at 0."""
+
+ORIENTATION_COVARIANCE, GYRO_COVARIANCE, ACCEL_COVARIANCE = 0.0025, 0.02, 0.04
+"""As TurtleBot3's firmware states them."""
+
+
+def diagonal(values: tuple[float, ...]) -> list[float]:
+    """A matrix with these values on its diagonal, row by row, as messages hold covariances."""
+    flat: list[float] = np.diag(values).ravel().tolist()
+    return flat
+
+
+class Headed:
+    """A message with a header."""
+
+    def __init__(self, type_name: str, frame: str) -> None:
+        self.message: Any = message_class(type_name)()
+        self.message.header.frame_id = frame
+
+    def stamp(self, secs: int, nsecs: int) -> None:
+        """Say when it was so."""
+        stamp = self.message.header.stamp
+        stamp.secs, stamp.nsecs = secs, nsecs
+
+
+class OdometryMessage(Headed):
+    """`nav_msgs/Odometry`: a pose, and the speeds in the robot's own frame."""
+
+    def __init__(self, frame: str, child: str) -> None:
+        super().__init__("nav_msgs/Odometry", frame)
+        self.message.child_frame_id = child
+        self.message.pose.covariance = diagonal(POSE_COVARIANCE)
+        self.message.twist.covariance = diagonal(POSE_COVARIANCE)
+        self._position = self.message.pose.pose.position
+        self._orientation = self.message.pose.pose.orientation
+        self._linear, self._angular = self.message.twist.twist.linear, self.message.twist.twist.angular
+
+    def fill(self, pose: Pose, v: float, w: float) -> Any:
+        """Say where it is and how fast it goes."""
+        self._position.x, self._position.y = pose[0], pose[1]
+        half = pose[2] / 2
+        self._orientation.z, self._orientation.w = math.sin(half), math.cos(half)
+        self._linear.x, self._angular.z = v, w
+        return self.message
+
+
+class TransformMessage(Headed):
+    """`tf2_msgs/TFMessage` with one transform, from `odom` to `base_footprint`."""
+
+    def __init__(self, frame: str, child: str) -> None:
+        super().__init__("geometry_msgs/TransformStamped", frame)
+        self.message.child_frame_id = child
+        self._translation = self.message.transform.translation
+        self._rotation = self.message.transform.rotation
+        self._list = message_class("tf2_msgs/TFMessage")(transforms=[self.message])
+
+    def fill(self, pose: Pose) -> Any:
+        """Say where it is."""
+        self._translation.x, self._translation.y = pose[0], pose[1]
+        half = pose[2] / 2
+        self._rotation.z, self._rotation.w = math.sin(half), math.cos(half)
+        return self._list
+
+
+class JointStates(Headed):
+    """`sensor_msgs/JointState`: how far the wheels have turned, and how fast they do."""
+
+    def __init__(self) -> None:
+        super().__init__("sensor_msgs/JointState", BASE_LINK)
+        self.message.name = WHEELS
+
+    def fill(self, odometry: Odometry) -> Any:
+        """Say what the encoders showed."""
+        self.message.position = [odometry.left, odometry.right]
+        self.message.velocity = [odometry.left_rate, odometry.right_rate]
+        return self.message
+
+
+class ImuMessage(Headed):
+    """`sensor_msgs/Imu` (REP 145)."""
+
+    def __init__(self, frame: str) -> None:
+        super().__init__("sensor_msgs/Imu", frame)
+        message = self.message
+        message.orientation_covariance = diagonal((ORIENTATION_COVARIANCE,) * 3)
+        message.angular_velocity_covariance = diagonal((GYRO_COVARIANCE,) * 3)
+        message.linear_acceleration_covariance = diagonal((ACCEL_COVARIANCE,) * 3)
+        self._orientation = message.orientation
+        self._gyro, self._accel = message.angular_velocity, message.linear_acceleration
+
+    def fill(self, imu: Imu, number: int, robot: Robot) -> Any:
+        """Say what sample `number` shows."""
+        motion = robot.motion()
+        gyro, accel = self._gyro, self._accel
+        gyro.x, gyro.y, gyro.z, accel.x, accel.y, accel.z = imu.read(
+            number, motion.v, motion.w, motion.dv, motion.dw
+        )
+        half = (robot.pose[2] - robot.start[2] + imu.heading_error(number)) / 2
+        self._orientation.z, self._orientation.w = math.sin(half), math.cos(half)
+        return self.message
+
+
+class ScanMessage(Headed):
+    """`sensor_msgs/LaserScan`."""
+
+    def __init__(self, model: RobotModel) -> None:
+        lidar = model.lidar
+        super().__init__("sensor_msgs/LaserScan", lidar.frame)
+        message = self.message
+        message.angle_increment = 2 * math.pi / lidar.beams
+        message.angle_max = message.angle_increment * (lidar.beams - 1)
+        message.scan_time = 1 / lidar.rate
+        message.range_min, message.range_max = lidar.range_min, lidar.range_max
+
+    def fill(self, ranges: Floats) -> Any:
+        """Say what the laser measured."""
+        self.message.ranges = ranges
+        return self.message
