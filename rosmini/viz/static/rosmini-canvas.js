@@ -11,8 +11,9 @@
      clear(view)                               empties it and paints the ground with a line each metre.
      world(view, scene)                        walls and obstacles, with the ground: clear() is not needed. Kept as a
                                                bitmap in the view, so that each further call is one copy.
-     scan(view, robot, pose, ranges)           laser hits and what the laser sees, from the robot at `pose`. A range
-                                               that is not a finite number above 0 is a beam that hit nothing.
+     scan(view, robot, pose, ranges)           laser hits and what the laser sees, from the robot at `pose`. A beam
+                                               that hit nothing is Infinity, null or 0; one that hit what is too near to
+                                               be measured is -Infinity (REP 117).
      trail(view, points, {colour, dashed, count})   a line through [x, y, ...] points, the first `count` of them.
      robot(view, robot, pose, {ghost})         the robot from above; a ghost is an outline: where odometry puts it.
      scaleBar(view)                            how long a metre is.
@@ -37,6 +38,8 @@
   const DARK_PAGES = 'html[data-theme="dark"], body[data-jp-theme-light="false"], body.vscode-dark';
   const FONT = '"Helvetica Neue", Helvetica, Arial, "Liberation Sans", "DejaVu Sans", sans-serif';
   const TURN = 2 * Math.PI;
+  const LEAST_ROBOT = 16; // pixels
+  const TREAD = 0.55; // how wide a wheel is, in its radius
   const FOOT = 26; // pixels under the world, for the scale bar
 
   let printing = false; // what a page looks like in print cannot be asked before it is printed
@@ -161,7 +164,7 @@
         context.lineTo(view.x(x2), view.y(y2));
       }
       context.lineWidth = 2.5;
-      context.strokeStyle = view.theme.ink;
+      context.strokeStyle = view.theme.muted;
       context.stroke();
       const bitmap = document.createElement("canvas");
       [bitmap.width, bitmap.height] = [Math.round(width * ratio), Math.round(height * ratio)];
@@ -181,7 +184,7 @@
     context.beginPath();
     for (let i = 0; i < ranges.length; i += 1) {
       const hit = ranges[i] > 0 && Number.isFinite(ranges[i]);
-      const range = hit ? ranges[i] : max;
+      const range = hit ? ranges[i] : ranges[i] === -Infinity ? 0 : max;
       const angle = theta + (TURN * i) / ranges.length;
       const [px, py] = [view.x(originX + range * Math.cos(angle)), view.y(originY + range * Math.sin(angle))];
       context.lineTo(px, py);
@@ -192,10 +195,13 @@
     context.globalAlpha = 0.11;
     context.fill();
     context.globalAlpha = 1;
-    const size = Math.max(1.6, Math.min(3, 0.03 * scale));
+    const size = Math.max(1, Math.min(1.8, 0.014 * scale));
+    context.beginPath();
     for (let i = 0; i < hits.length; i += 2) {
-      context.fillRect(hits[i] - size / 2, hits[i + 1] - size / 2, size, size);
+      context.moveTo(hits[i] + size, hits[i + 1]);
+      context.arc(hits[i], hits[i + 1], size, 0, TURN);
     }
+    context.fill();
   }
 
   function trail(view, points, { colour = "blue", dashed = false, count = points.length } = {}) {
@@ -210,75 +216,63 @@
     context.setLineDash([]);
   }
 
-  /* Plate, two wheels, the laser's turret and a nose, to scale but never under 12 pixels long, where none could be seen.
-     Below 26 pixels only what can still be told apart. */
+  /* Plate, wheels, laser and a nose, to scale but never under 16 pixels long, where none of them could be seen. */
   function robot(view, model, pose, { ghost = false } = {}) {
     const { context, theme: colours } = view;
     const xs = model.footprint.map((corner) => corner[0]);
     const [back, front] = [Math.min(...xs), Math.max(...xs)];
-    const size = Math.max((front - back) * view.scale, 12);
-    const small = size < 26;
-    const scale = size / (front - back);
+    const length = front - back;
+    const scale = Math.max(view.scale, LEAST_ROBOT / length);
+    const pixel = 1 / scale;
     context.save();
     context.translate(view.x(pose[0]), view.y(pose[1]));
     context.rotate(-pose[2]);
     context.scale(scale, -scale); // from here on: metres, seen from base_footprint
-    const pixel = 1 / scale;
     context.lineJoin = "round";
-    const outline = () => {
-      context.beginPath();
-      for (const [x, y] of model.footprint) context.lineTo(x, y);
-      context.closePath();
-    };
-    const nose = () => {
-      const length = Math.max(0.35 * (front - back), 7 * pixel);
-      context.beginPath();
-      context.moveTo(front + length, 0);
-      context.lineTo(front + 2 * pixel, 0.55 * length);
-      context.lineTo(front + 2 * pixel, -0.55 * length);
-      context.closePath();
-    };
-    if (ghost) {
-      context.strokeStyle = colours.orange;
-      context.lineWidth = 1.6 * pixel;
-      context.setLineDash([4 * pixel, 2.5 * pixel]);
-      outline();
-      context.stroke();
-      context.setLineDash([]);
-      nose();
-      context.stroke();
-      context.restore();
-      return;
+
+    const plate = new Path2D();
+    const corners = model.footprint;
+    const [last, first] = [corners.at(-1), corners[0]];
+    plate.moveTo((last[0] + first[0]) / 2, (last[1] + first[1]) / 2);
+    corners.forEach(([x, y], i) => {
+      const next = corners[(i + 1) % corners.length];
+      plate.arcTo(x, y, (x + next[0]) / 2, (y + next[1]) / 2, 0.2 * length);
+    });
+    plate.closePath();
+    const nose = new Path2D();
+    const reach = Math.max(0.5 * length, 9 * pixel);
+    nose.moveTo(front + 1.5 * pixel, -0.6 * reach);
+    nose.lineTo(front + 1.5 * pixel + reach, 0);
+    nose.lineTo(front + 1.5 * pixel, 0.6 * reach);
+    nose.closePath();
+
+    for (const part of [plate, nose]) {
+      context.lineWidth = (ghost ? 1.6 : 1.2) * pixel;
+      context.setLineDash(ghost ? [3 * pixel, 2 * pixel] : []);
+      context.fillStyle = colours.blue;
+      context.strokeStyle = ghost ? colours.orange : colours.page;
+      if (!ghost) context.fill(part);
+      context.stroke(part);
     }
-    const [radius, tread] = [model.wheel_radius ?? 0.033, 0.018];
-    context.fillStyle = colours.ink;
-    for (const side of [-1, 1]) {
-      context.fillRect(-radius, side * (model.wheel_separation / 2) - tread / 2, 2 * radius, tread);
-    }
-    outline();
-    context.fillStyle = colours.blue;
-    context.fill();
-    context.lineWidth = 1.5 * pixel;
-    context.strokeStyle = colours.page;
-    context.stroke();
-    nose();
-    context.fill();
-    context.beginPath();
-    context.arc(model.lidar.x, 0, small ? 0.25 * (front - back) : 0.035, 0, TURN);
-    context.fillStyle = small ? colours.page : colours.ink;
-    context.fill();
-    if (!small) {
-      context.beginPath();
-      context.arc(model.lidar.x, 0, 0.016, 0, TURN);
-      context.fillStyle = colours.vermilion;
-      context.fill();
+    if (!ghost) {
+      const { wheel_radius: radius, wheel_separation: separation, lidar } = model;
+      context.fillStyle = colours.ink;
+      for (const side of [-separation / 2, separation / 2]) {
+        context.fillRect(-radius, side - TREAD * radius / 2, 2 * radius, TREAD * radius);
+      }
+      for (const [colour, size] of [[colours.page, 0.26], [colours.vermilion, 0.11]]) {
+        context.beginPath();
+        context.arc(lidar.x, 0, size * length, 0, TURN);
+        context.fillStyle = colour;
+        context.fill();
+      }
     }
     context.restore();
   }
 
   function scaleBar(view) {
     const { context, theme: colours, scale, width, height } = view;
-    const length = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100].find((metres) => metres * scale >= width / 9) ?? 200;
+    const length = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100].find((metres) => metres * scale >= Math.max(56, width / 9)) ?? 200;
     const [x, y, size] = [8, height - 6, length * scale];
     const label = length < 1 ? `${Math.round(100 * length)} cm` : `${length} m`;
     context.font = `12px ${FONT}`;

@@ -1,0 +1,342 @@
+/* The replay player: a recorded run of a robot, to play, to scrub and to look at closely.
+
+   A plain script that needs `rosmini-canvas.js` and sets `globalThis.rosminiReplay`:
+
+     mount(host, data, options)   puts a player into an empty element; `data` is what `rosmini.viz.replay.encode`
+                                  made, `options` has `title` and `alt`.
+     decode(data)                 the run in metres, radians and seconds.
+
+   It plays when it is told to. Its root element says how it is: data-state (playing, paused), data-time, data-speed. */
+
+(() => {
+  "use strict";
+
+  const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
+  const STEP = 0.2; // seconds: from one scan of TurtleBot3's laser to the next
+  const CALM = 500; // milliseconds between two pictures, for those who want less motion
+  const ICONS = {
+    back: "M4 4h3v16H4zM20 4v16L8 12z",
+    play: "M6 3.5v17L20 12z",
+    pause: "M5 4h5v16H5zM14 4h5v16h-5z",
+    forward: "M17 4h3v16h-3zM4 4v16l12-8z",
+  };
+
+  const STYLE = `
+.rosmini-replay{background:var(--page);border:1px solid color-mix(in srgb,var(--group-line) 55%,transparent);
+border-radius:8px;box-sizing:border-box;color:var(--ink);font:14px/1.4 var(--rosmini-font,system-ui,sans-serif);overflow:hidden}
+.rosmini-replay *{box-sizing:border-box}
+.rosmini-replay canvas{cursor:pointer;touch-action:manipulation}
+.rosmini-replay .row{align-items:center;display:flex;flex-wrap:wrap;gap:.4rem .6rem;padding:.45rem .7rem}
+.rosmini-replay .bar{background:var(--group-fill);border-top:1px solid color-mix(in srgb,var(--group-line) 40%,transparent)}
+.rosmini-replay .buttons{display:flex;gap:.25rem}
+.rosmini-replay button{align-items:center;background:transparent;border:0;border-radius:6px;color:var(--ink);cursor:pointer;
+display:inline-flex;height:38px;justify-content:center;margin:0;padding:0;width:38px}
+.rosmini-replay button[data-do=play]{background:var(--blue);color:var(--page)}
+.rosmini-replay button:hover:not(:disabled){background:color-mix(in srgb,var(--blue) 18%,transparent)}
+.rosmini-replay button[data-do=play]:hover:not(:disabled){background:color-mix(in srgb,var(--blue) 85%,var(--ink))}
+.rosmini-replay :disabled{cursor:default;opacity:.45}
+.rosmini-replay svg{fill:currentColor;height:18px;width:18px}
+.rosmini-replay input,.rosmini-replay select{accent-color:var(--blue);font:inherit;margin:0}
+.rosmini-replay input[type=range]{flex:1 1 11rem;height:28px;min-width:0}
+.rosmini-replay select{background:var(--page);border:1px solid var(--group-line);border-radius:6px;color:var(--ink);
+height:32px;margin-left:auto;padding:0 .3rem;width:auto}
+.rosmini-replay :focus-visible{border-radius:6px;outline:2px solid var(--blue);outline-offset:2px}
+.rosmini-replay output,.rosmini-replay dd{font-variant-numeric:tabular-nums;white-space:nowrap}
+.rosmini-replay label{align-items:center;cursor:pointer;display:inline-flex;gap:.35rem;margin:0;min-height:28px}
+.rosmini-replay .layers{gap:.1rem .8rem;padding-bottom:.1rem}
+.rosmini-replay i{border-top:2px solid;display:inline-block;width:18px}
+.rosmini-replay i.odom{border-top-style:dashed}
+.rosmini-replay i.scan{border-top:3px dotted}
+.rosmini-replay .keys{color:var(--muted);flex:1;font-size:12px;text-align:right;white-space:nowrap}
+.rosmini-replay kbd{all:unset;border:1px solid var(--group-line);border-radius:3px;padding:0 .3em}
+.rosmini-replay dl{display:grid;gap:.1rem 1.2rem;grid-auto-flow:column;grid-template-rows:auto auto;justify-content:start;
+margin:0;padding:.2rem .7rem .6rem}
+.rosmini-replay dl div{display:flex;gap:.5rem}
+.rosmini-replay dt{color:var(--muted);flex:0 0 5.4rem;font-weight:400;margin:0}
+.rosmini-replay dd{margin:0;min-width:10.5rem}
+.rosmini-replay [role=status]{clip-path:inset(50%);height:1px;margin:0;overflow:hidden;position:absolute;width:1px}
+@container (max-width:620px){.rosmini-replay .keys{display:none}.rosmini-replay dl{grid-auto-flow:row;grid-template-rows:none}}`;
+
+  const icon = (name) => `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${ICONS[name]}"/></svg>`;
+  const button = (name, label, key) =>
+    `<button type="button" data-do="${name}" aria-label="${label}" title="${label} (${key})">${icon(name)}</button>`;
+  const layer = (name, label) =>
+    `<label><input type="checkbox" data-layer="${name}" checked><i class="${name}"></i>${label}</label>`;
+  const reading = (name, label) => `<div><dt>${label}</dt><dd data-read="${name}"></dd></div>`;
+  const CONTENT = `
+<canvas role="img"></canvas>
+<div class="row bar">
+<span class="buttons">${button("back", "Step back", "left arrow")}${button("play", "Play", "space")}${button("forward", "Step forward", "right arrow")}</span>
+<input type="range" step="any" aria-label="Time">
+<output></output>
+<select aria-label="Speed">${SPEEDS.map((speed) => `<option value="${speed}">${speed}\u00d7</option>`).join("")}</select>
+</div>
+<div class="row layers">${layer("truth", "True path")}${layer("odom", "Odometry")}${layer("scan", "Laser")}
+<span class="keys"><kbd>space</kbd> <kbd>\u2190</kbd> <kbd>\u2192</kbd> <kbd>Home</kbd> <kbd>End</kbd> <kbd>+</kbd> <kbd>\u2212</kbd></span></div>
+<dl>${reading("truth", "Robot")}${reading("odom", "Odometry")}${reading("error", "Off by")}${reading("command", "Command")}</dl>
+<p role="status"></p>`;
+
+  /* What `pack` of rosmini/viz/replay/encode.py wrote, times `unit`. */
+  function unpack(text, unit) {
+    const bytes = atob(text);
+    const values = [];
+    let [value, folded, factor] = [0, 0, 1];
+    for (let i = 0; i < bytes.length; i += 1) {
+      const byte = bytes.charCodeAt(i);
+      folded += (byte & 127) * factor;
+      factor *= 128;
+      if (byte & 128) continue;
+      value += folded % 2 ? -(folded + 1) / 2 : folded / 2;
+      values.push(value * unit);
+      [folded, factor] = [0, 1];
+    }
+    return values;
+  }
+
+  const LENGTH = 1e-3;
+  const ANGLE = 1e-4;
+  const TIME = 1e-3;
+
+  /* Three columns that lie one after another, as rows. */
+  function rows(text, ...units) {
+    const values = unpack(text, 1);
+    const count = values.length / 3;
+    return Array.from({ length: count }, (_, i) => units.map((unit, column) => values[i + column * count] * unit));
+  }
+
+  function decode(data) {
+    const ranges = unpack(data.scans, LENGTH);
+    const { beams } = data.scene.robot.lidar;
+    return {
+      scene: data.scene,
+      start: data.start * TIME,
+      end: (data.start + data.duration) * TIME,
+      truth: rows(data.truth, LENGTH, LENGTH, ANGLE),
+      odom: rows(data.odom, LENGTH, LENGTH, ANGLE),
+      commands: rows(data.commands, TIME, LENGTH, ANGLE),
+      scans: unpack(data.scan_times, TIME).map((time, i) => [time, ranges.slice(i * beams, (i + 1) * beams)]),
+    };
+  }
+
+  /* The last of `items`, ordered by their first element, that is not after `time`. */
+  function latest(items, time) {
+    let [low, high] = [0, items.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (items[middle][0] <= time + 1e-9) low = middle + 1;
+      else high = middle;
+    }
+    return items[low - 1];
+  }
+
+  /* The part of the world that the run is about: all that its laser may have seen, and where it drove. */
+  function bounds(run) {
+    const points = run.truth.concat(run.odom);
+    const [xs, ys] = [0, 1].map((axis) => points.map((point) => point[axis]));
+    const least = (values) => values.reduce((a, b) => Math.min(a, b));
+    const most = (values) => values.reduce((a, b) => Math.max(a, b));
+    const [left, bottom, right, top] = run.scene.bounds;
+    const sight = run.scene.robot.lidar.max;
+    const [x0, y0, x1, y1] = [least(xs), least(ys), most(xs), most(ys)];
+    return [
+      Math.max(Math.min(left, x0), x0 - sight), Math.max(Math.min(bottom, y0), y0 - sight),
+      Math.min(Math.max(right, x1), x1 + sight), Math.min(Math.max(top, y1), y1 + sight),
+    ];
+  }
+
+  const number = (value, digits) => {
+    const text = Math.abs(value).toFixed(digits);
+    return value < 0 && Number(text) !== 0 ? `\u2212${text}` : text;
+  };
+  const half = (angle) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+  const degrees = (angle) => number((half(angle) * 180) / Math.PI, 1);
+  const place = ([x, y, theta]) => `${number(x, 2)}, ${number(y, 2)} m, ${degrees(theta)}\u00b0`;
+
+  function readings(run, time, truth, odom) {
+    const command = latest(run.commands, time);
+    const off = Math.hypot(odom[0] - truth[0], odom[1] - truth[1]);
+    return {
+      truth: place(truth),
+      odom: place(odom),
+      error: `${number(off, 3)} m, ${degrees(odom[2] - truth[2])}\u00b0`,
+      command: command ? `${number(command[1], 2)} m/s, ${number(command[2], 2)} rad/s` : "none yet",
+    };
+  }
+
+  function mount(host, data, options) {
+    const draw = globalThis.rosminiCanvas;
+    const run = decode(data);
+    const { scene, start, end } = run;
+    const still = end <= start;
+    const box = bounds(run);
+
+    const root = document.createElement("div");
+    root.className = "rosmini-replay";
+    root.dataset.lmSuppressShortcuts = "true"; // JupyterLab leaves keys to us in here
+    root.setAttribute("role", "group");
+    root.setAttribute("aria-label", options.title);
+    root.innerHTML = CONTENT;
+    const style = document.createElement("style");
+    style.textContent = STYLE;
+    host.style.containerType = "inline-size";
+    host.append(style, root);
+
+    const find = (selector) => root.querySelector(selector);
+    const [canvas, slider, clock, speeds, status] = ["canvas", "[type=range]", "output", "select", "[role=status]"].map(find);
+    const play = find("[data-do=play]");
+    const reads = [...root.querySelectorAll("[data-read]")];
+    const calm = matchMedia("(prefers-reduced-motion: reduce)");
+    const layers = { truth: true, odom: true, scan: run.scans.length > 0 };
+    let [time, speed, playing, visible] = [start, 1, false, true];
+    let [view, request, ticked, drawn] = [null, 0, 0, -Infinity];
+
+    canvas.setAttribute("aria-label", options.alt);
+    Object.assign(slider, { min: start, max: end, disabled: still });
+    for (const element of root.querySelectorAll("button")) element.disabled = still;
+    find("[data-layer=scan]").closest("label").hidden = !layers.scan;
+
+    function poseAt(track, at) {
+      const position = still ? 0 : ((at - start) / (end - start)) * (track.length - 1);
+      const i = Math.max(0, Math.min(Math.floor(position), track.length - 2));
+      const [from, to] = [track[i], track[i + 1] ?? track[i]];
+      return from.map((value, axis) => value + (position - i) * (to[axis] - value));
+    }
+
+    function fit() {
+      const colours = draw.theme(canvas);
+      for (const [name, colour] of Object.entries(colours)) root.style.setProperty(`--${name}`, colour);
+      find("i.truth").style.borderColor = colours.blue;
+      find("i.odom").style.borderColor = colours.orange;
+      find("i.scan").style.borderColor = colours.vermilion;
+      view = draw.fit(canvas, box);
+    }
+
+    function paint() {
+      if (!view) fit();
+      const [truth, odom] = [poseAt(run.truth, time), poseAt(run.odom, time)];
+      const count = 1 + (still ? 0 : Math.floor(((time - start) / (end - start)) * (run.truth.length - 1)));
+      const { robot } = scene;
+      const scan = layers.scan && latest(run.scans, time);
+      draw.world(view, scene);
+      if (scan) draw.scan(view, robot, poseAt(run.truth, Math.max(start, scan[0])), scan[1]);
+      view.context.globalAlpha = 0.3; // the whole way, faintly
+      if (layers.odom) draw.trail(view, run.odom, { colour: "orange", dashed: true });
+      if (layers.truth) draw.trail(view, run.truth);
+      view.context.globalAlpha = 1;
+      if (layers.odom) draw.trail(view, run.odom, { colour: "orange", dashed: true, count });
+      if (layers.truth) draw.trail(view, run.truth, { count });
+      if (layers.odom) draw.robot(view, robot, odom, { ghost: true });
+      draw.robot(view, robot, truth);
+      draw.scaleBar(view);
+      const words = readings(run, time, truth, odom);
+      for (const element of reads) element.textContent = words[element.dataset.read];
+      clock.value = `${time.toFixed(1)} / ${end.toFixed(1)} s`;
+      slider.value = time;
+      root.dataset.time = time.toFixed(3);
+    }
+
+    function frame(now) {
+      request = 0;
+      if (playing) {
+        // A picture that came late moves the run by a tenth of a second and no more.
+        time = Math.min(end, time + speed * Math.min(0.1, Math.max(0, now - ticked) / 1000));
+        ticked = now;
+        if (time >= end) setPlaying(false);
+      }
+      if (!playing || !calm.matches || now - drawn >= CALM) {
+        paint();
+        drawn = now;
+      }
+      if (playing) ask();
+    }
+
+    function ask() {
+      if (!request && visible) request = requestAnimationFrame(frame);
+    }
+
+    function say(text) {
+      status.textContent = text;
+      slider.setAttribute("aria-valuetext", `${time.toFixed(1)} of ${end.toFixed(1)} seconds`);
+    }
+
+    function where() {
+      const words = readings(run, time, poseAt(run.truth, time), poseAt(run.odom, time));
+      return `${time.toFixed(1)} s. Robot ${words.truth}. Error of odometry ${words.error}. Command ${words.command}.`;
+    }
+
+    function setPlaying(value) {
+      if (value && time >= end) time = start;
+      playing = value && !still;
+      ticked = performance.now();
+      root.dataset.state = playing ? "playing" : "paused";
+      play.innerHTML = icon(playing ? "pause" : "play");
+      play.setAttribute("aria-label", playing ? "Pause" : "Play");
+      play.title = `${playing ? "Pause" : "Play"} (space)`;
+      say(playing ? "Playing" : `${time >= end ? "End" : "Paused"}: ${where()}`);
+      ask();
+    }
+
+    function seek(to, speak = true) {
+      time = Math.min(end, Math.max(start, to));
+      if (speak && !playing) say(where());
+      ask();
+    }
+
+    function setSpeed(value) {
+      speed = value;
+      speeds.value = root.dataset.speed = value;
+      if (playing) say(`Speed ${value}`);
+    }
+
+    const faster = (by) =>
+      setSpeed(SPEEDS[Math.max(0, Math.min(SPEEDS.length - 1, SPEEDS.indexOf(speed) + by))]);
+    const deeds = {
+      play: () => setPlaying(!playing),
+      back: () => seek(time - STEP),
+      forward: () => seek(time + STEP),
+    };
+    const keys = {
+      " ": deeds.play,
+      ArrowLeft: deeds.back, ArrowDown: deeds.back, ArrowRight: deeds.forward, ArrowUp: deeds.forward,
+      Home: () => seek(start), End: () => seek(end),
+      "+": () => faster(1), "=": () => faster(1), "-": () => faster(-1), "_": () => faster(-1),
+    };
+
+    root.addEventListener("keydown", (event) => {
+      const own = event.target.matches("select") || (event.key === " " && event.target.matches("button, [type=checkbox]"));
+      if (own || event.ctrlKey || event.altKey || event.metaKey || !(event.key in keys)) return;
+      event.preventDefault();
+      event.stopPropagation();
+      keys[event.key]();
+    });
+    root.addEventListener("click", (event) => deeds[event.target.closest("[data-do]")?.dataset.do]?.());
+    canvas.addEventListener("click", () => {
+      slider.focus({ preventScroll: true });
+      deeds.play();
+    });
+    slider.addEventListener("input", () => seek(slider.valueAsNumber, false));
+    slider.addEventListener("change", () => seek(slider.valueAsNumber));
+    speeds.addEventListener("change", () => setSpeed(Number(speeds.value)));
+    root.addEventListener("change", ({ target }) => {
+      if (!target.dataset.layer) return;
+      layers[target.dataset.layer] = target.checked;
+      ask();
+    });
+
+    const refit = () => {
+      view = null;
+      ask();
+    };
+    draw.watch(canvas, refit);
+    new IntersectionObserver((entries) => {
+      visible = entries.at(-1).isIntersecting;
+      ticked = performance.now();
+      ask();
+    }, { rootMargin: "100px" }).observe(root);
+    root.dataset.state = "paused";
+    setSpeed(1);
+    paint();
+  }
+
+  globalThis.rosminiReplay = { mount, decode };
+})();
