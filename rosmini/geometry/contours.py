@@ -1,0 +1,131 @@
+"""Outlines of the occupied cells of a grid, with few sides, faithful to half a cell.
+
+First the cells' own edges: a walk with occupied cells on its left closes around each blob, counter-clockwise, and around each hole in one,
+clockwise. Cells that touch at a corner belong together (8-connected), as in a wall that a mapper drew one cell thick: no ray slips through
+between them. Then `staircases.straightened` puts long sides in the place of steps.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import GeometryError
+from .poses import Pose, transform_points
+from .staircases import straightened
+
+Floats = NDArray[np.float64]
+Loop = NDArray[np.int64]
+
+TOLERANCE = 0.49
+"""How far towards the centres of the cells an outline goes, unless told otherwise [cells]."""
+
+_STEP = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])  # directions 0 to 3: a quarter turn to the left each
+
+
+def trace(
+    occupied: ArrayLike,
+    resolution: float,
+    origin: Pose = (0.0, 0.0, 0.0),
+    tolerance: float | None = None,
+) -> Floats:
+    """Closed outlines of the occupied cells as segments (n, 4), each x1, y1, x2, y2 [m], with what is occupied on their left.
+
+    `occupied` (h, w) is a mask; row 0 is the lowest. `resolution` is the side of a cell [m] and `origin` the pose of the lower left corner of
+    cell (0, 0), as in nav_msgs/MapMetaData. Segments that follow one another share their corner to the bit. See `outlines` for what holds.
+
+    Raises `GeometryError` for an `occupied` that is not a table, a resolution that is not positive, an origin that is not finite, or a
+    `tolerance` [m] that is not at least 0 and below half a cell; by default it is 0.49 cells.
+    """
+    if not (math.isfinite(resolution) and resolution > 0):
+        msg = f"the resolution is {resolution}; the side of a cell is more than 0 m"
+        raise GeometryError(msg)
+    if len(origin) != 3 or not all(map(math.isfinite, origin)):
+        msg = f"the origin is {origin}; it is a pose of finite x, y and heading"
+        raise GeometryError(msg)
+    loops = outlines(occupied, TOLERANCE if tolerance is None else tolerance / resolution)
+    sides = [np.hstack([loop, np.roll(loop, -1, axis=0)]) for loop in loops]
+    ends = np.vstack(sides).reshape(-1, 2) if sides else np.empty((0, 2))
+    return transform_points(origin, ends * resolution).reshape(-1, 4)
+
+
+def outlines(occupied: ArrayLike, tolerance: float = TOLERANCE) -> list[Floats]:
+    """Closed outlines of the occupied cells, each the corners (k, 2) of one loop in cells, x along the rows.
+
+    A loop passes between the same cells as the edges it stands for, and passes no centre nearer than half a cell less `tolerance` [cells]; with a
+    tolerance of 0 it is the edges themselves. So the centres of occupied cells are inside (by the even-odd rule, and by the winding number),
+    those of free cells outside, and what the cells keep apart stays apart. No point of it is half a cell from the edges, and no edge half
+    a cell's diagonal from it: corners of the stairs of a slanted wall stick out. Blobs of one cell are kept, as squares.
+
+    Raises `GeometryError` for an `occupied` that is not a table or a `tolerance` that is not at least 0 and below half a cell.
+    """
+    if not 0 <= tolerance < 0.5:
+        msg = f"the tolerance is {tolerance:.6g} cells; it is at least 0 and below half a cell"
+        raise GeometryError(msg)
+    return straightened(edge_loops(occupied), tolerance)
+
+
+def edge_loops(occupied: ArrayLike) -> list[Loop]:
+    """The closed outlines of the occupied cells along the cells' edges, each the corners (k, 2) where it turns.
+
+    Corners are whole numbers of cells, x along the rows. The order is fixed: loops by their lowest, then leftmost corner.
+    Raises `GeometryError` for an `occupied` that is not a table.
+    """
+    starts, directions, following = _edges(_mask(occupied))
+    turns = (directions[following] != directions).tolist()
+    ends = (starts + _STEP[directions]).tolist()
+    successors: list[int] = following.tolist()
+    seen = bytearray(len(successors))
+    loops = []
+    for first in range(len(successors)):
+        if seen[first]:
+            continue
+        corners, edge = [], first
+        while not seen[edge]:
+            seen[edge] = 1
+            if turns[edge]:
+                corners.append(ends[edge])
+            edge = successors[edge]
+        loops.append(np.array(corners, dtype=np.int64))
+    return loops
+
+
+def _mask(occupied: ArrayLike) -> NDArray[np.bool_]:
+    cells = np.asarray(occupied)
+    if cells.ndim != 2:
+        msg = f"occupied is a table (h, w) of cells, not {cells.shape}"
+        raise GeometryError(msg)
+    return cells.astype(bool)
+
+
+def _edges(cells: NDArray[np.bool_]) -> tuple[Loop, Loop, Loop]:
+    """Each edge between an occupied cell, on its left, and a free one: where it starts (n, 2), its direction, and which edge follows."""
+    padded = np.pad(cells, 1)
+    inner = padded[1:-1, 1:-1]
+    neighbours = (
+        padded[:-2, 1:-1],
+        padded[1:-1, 2:],
+        padded[2:, 1:-1],
+        padded[1:-1, :-2],
+    )  # below, right, above, left
+    width = cells.shape[1] + 1
+    keys = []
+    for direction, (neighbour, (dx, dy)) in enumerate(
+        zip(neighbours, ((0, 0), (1, 0), (1, 1), (0, 1)), strict=True)
+    ):
+        rows, columns = np.nonzero(inner & ~neighbour)
+        keys.append(((rows + dy) * width + columns + dx) * 4 + direction)
+    edges = np.sort(np.concatenate(keys)).astype(np.int64)
+    corners, directions = np.divmod(edges, 4)
+    starts = np.stack([corners % width, corners // width], axis=1)
+    ahead = (starts + _STEP[directions]) @ np.array([1, width])
+    following = np.full(len(edges), -1, dtype=np.int64)
+    # Where two occupied cells touch at a corner there are two ways on: the one to the right keeps them together.
+    for turn in (1, 0, -1):
+        wanted = ahead * 4 + (directions + turn) % 4
+        place = np.minimum(np.searchsorted(edges, wanted), max(len(edges) - 1, 0))
+        found = edges[place] == wanted
+        following[found] = place[found]
+    return starts, directions, following

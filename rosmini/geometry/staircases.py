@@ -1,0 +1,211 @@
+"""Long straight sides in the place of stairs: closed outlines along the edges of cells, with few corners.
+
+Douglas and Peucker's method (1973) does badly on stairs: it keeps each corner within some distance of a side, and the stairs of a straight
+slanted wall have corners up to 0.7 cells away from it. So a side may take the place of a part of the outline if it passes between the same cells:
+all centres on its left stay on its left, those on its right on its right, none nearer than a margin. Sides go from one corner of
+the cells, or middle of a step, to another; which ones is found by going through all of them, as Imai and Iri (1988) do, and Selinger's potrace
+(2003) for pictures.
+
+Only parts that climb, so that of the four directions they take two, can be straightened. For them the centres beside their own edges are enough: each
+other centre lies behind one of them. From one place the directions of the lines between all centres so far are an interval, so each
+further place costs a few comparisons.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+REACH = 500
+"""How many places a side may skip; what would be longer is cut, so that the work grows with the size of the outline and not with its square."""
+
+_SLACK = 1e-9  # of an angle [rad]
+# A side costs 1, and each place that it skips this times its squared distance [cells]: little, but of as many sides the nearest are taken.
+_SQUARES = 0.05
+
+
+@dataclass(frozen=True)
+class _Places:
+    """Where corners may be, loop after loop: corners of the cells, and the middles of steps of one cell."""
+
+    points: Floats
+    is_corner: NDArray[np.bool_]
+    loop: Ints
+    """The number of the loop of each place."""
+    first: Ints
+    """The first place of each loop."""
+    size: Ints
+    """How many places each loop has."""
+
+
+@dataclass(frozen=True)
+class _Sides:
+    """Possible sides: from place `start` over `skip` places, and the sum of the squared distances of the places between [cells2]."""
+
+    start: Ints
+    skip: Ints
+    squares: Floats
+
+
+def straightened(loops: list[Ints], tolerance: float) -> list[Floats]:
+    """The loops, each the corners (k, 2) of a closed outline along the edges of cells with the inside on its left, with few corners.
+
+    A side passes no centre of a cell nearer than a half less `tolerance` [cells], which is at least 0 and below a half. Corners of the result
+    are corners of the outline or middles of its single steps. Of all choices the one is taken that costs least: 1 for each side, and a
+    little for what it departs from the edges. A loop is opened at the place that the fewest possible sides skip; where none does, that
+    loses nothing.
+    """
+    if not loops:
+        return []
+    places = _places(loops)
+    sides = _possible_sides(places, 0.5 - tolerance)
+    return _shortest(places, sides, _anchors(places, sides))
+
+
+def _places(loops: list[Ints]) -> _Places:
+    points, corner, sizes = [], [], []
+    for loop in loops:
+        ways = np.roll(loop, -1, axis=0) - loop
+        before = np.roll(ways, 1, axis=0)
+        left = before[:, 0] * ways[:, 1] > before[:, 1] * ways[:, 0]
+        step = (np.abs(ways).sum(axis=1) == 1) & (left != np.roll(left, -1))
+        order = np.argsort(np.concatenate([np.arange(len(loop)), np.flatnonzero(step) + 0.5]), kind="stable")
+        points.append(np.concatenate([loop, (loop + ways / 2)[step]])[order])
+        corner.append(order < len(loop))
+        sizes.append(len(order))
+    size = np.array(sizes, dtype=np.int64)
+    return _Places(
+        np.concatenate(points),
+        np.concatenate(corner),
+        np.repeat(np.arange(len(loops)), size),
+        np.concatenate([[0], np.cumsum(size)[:-1]]),
+        size,
+    )
+
+
+def _possible_sides(places: _Places, margin: float) -> _Sides:
+    """All sides that keep the margin, found for all starts at once, place by place along the loops."""
+    points = places.points
+    alive = np.arange(len(points))
+    last = alive.copy()
+    way = np.zeros(len(points))
+    ahead = np.zeros_like(points)  # the direction of the first step
+    low, high = np.full(len(points), -np.inf), np.full(len(points), np.inf)
+    xx, xy, yy = (np.zeros(len(points)) for _ in range(3))
+    found: list[tuple[Ints, int, Floats]] = []
+    for skip in range(1, REACH + 1):
+        loop = places.loop[alive]
+        first, size = places.first[loop], places.size[loop]
+        here = first + (alive - first + skip) % size
+        part = points[here] - points[last[alive]]
+        length = np.abs(part).sum(axis=1)
+        way[alive] += length
+        v = points[here] - points[alive]
+        climbs = (
+            np.abs(v).sum(axis=1) > way[alive] - 0.25
+        )  # it has never turned back: ways are multiples of a half
+        keep = climbs & (skip < size)
+        alive, here, v, e = alive[keep], here[keep], v[keep], (part / length[:, None])[keep]
+        if skip == 1:
+            ahead[alive] = e
+        u = ahead[alive]
+        for edge in (
+            points[last[alive]] + 0.5 * e * places.is_corner[last[alive], None],
+            points[here] - 0.5 * e * places.is_corner[here, None],
+        ):
+            beside = edge - points[alive]
+            normal = 0.5 * np.stack([-e[:, 1], e[:, 0]], axis=1)
+            on_left, on_right = beside + normal, beside - normal
+            high[alive] = np.minimum(high[alive], _angle(u, on_left) - _room(on_left, margin))
+            low[alive] = np.maximum(low[alive], _angle(u, on_right) + _room(on_right, margin))
+        last[alive] = here
+        keep = low[alive] <= high[alive] + _SLACK
+        alive, v, u = alive[keep], v[keep], u[keep]
+        if not len(alive):
+            break
+        angle = _angle(u, v)
+        fits = (low[alive] - _SLACK <= angle) & (angle <= high[alive] + _SLACK)
+        x, y = v.T
+        squares = (x**2 * yy[alive] - 2 * x * y * xy[alive] + y**2 * xx[alive]) / (x**2 + y**2)
+        found.append((alive[fits], skip, np.maximum(squares[fits], 0.0)))
+        xx[alive] += x**2
+        xy[alive] += x * y
+        yy[alive] += y**2
+    return _Sides(
+        np.concatenate([start for start, _, _ in found]),
+        np.concatenate([np.full(len(start), skip) for start, skip, _ in found]),
+        np.concatenate([squares for _, _, squares in found]),
+    )
+
+
+def _angle(u: Floats, v: Floats) -> Floats:
+    """From each of `u` to each of `v` [rad]."""
+    angles: Floats = np.arctan2(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0], (u * v).sum(axis=1))
+    return angles
+
+
+def _room(centres: Floats, margin: float) -> Floats:
+    """Under which angle a disc of radius `margin` around each of the centres is seen, half of it [rad]; none is nearer than half a cell."""
+    halves: Floats = np.arcsin(np.minimum(margin / np.hypot(centres[:, 0], centres[:, 1]), 1.0))
+    return halves
+
+
+def _anchors(places: _Places, sides: _Sides) -> Ints:
+    """The place of each loop that the fewest sides skip, a corner if there is one; seen from the first place of the loop."""
+    loop = places.loop[sides.start]
+    base = places.first[loop] + loop  # one more slot for each loop, for what ends behind its last place
+    size = places.size[loop]
+    begin = sides.start - places.first[loop] + 1
+    end = begin + sides.skip - 1
+    slots = len(places.points) + len(places.first)
+
+    def count(where: Ints) -> Ints:
+        return np.bincount(where, minlength=slots)
+
+    wraps = end > size
+    change = count(base + np.minimum(begin, size)) - count(base + np.minimum(end, size))
+    change += count(base[wraps]) - count(base[wraps] + end[wraps] - size[wraps])
+    skipped = np.cumsum(change)
+    slot = np.arange(len(places.points)) + places.loop
+    rank = 2 * skipped[slot] - places.is_corner
+    return np.array(
+        [rank[first : first + size].argmin() for first, size in zip(places.first, places.size, strict=True)]
+    )
+
+
+def _shortest(places: _Places, sides: _Sides, anchors: Ints) -> list[Floats]:
+    """The way around each loop, from its anchor to its anchor, that costs least."""
+    loop = places.loop[sides.start]
+    begin = (sides.start - places.first[loop] - anchors[loop]) % places.size[loop]
+    inside = begin + sides.skip <= places.size[loop]
+    base = places.first + np.arange(
+        len(places.first)
+    )  # each loop has one node more than places: its anchor twice
+    starts = (base[loop] + begin)[inside]
+    ends = starts + sides.skip[inside]
+    order = np.argsort(ends, kind="stable")
+    costs = 1.0 + _SQUARES * sides.squares[inside]
+    total = [float("inf")] * (len(places.points) + len(places.first))
+    before = [-1] * len(total)
+    for node in base.tolist():
+        total[node] = 0.0
+    for start, end, cost in zip(
+        starts[order].tolist(), ends[order].tolist(), costs[order].tolist(), strict=True
+    ):
+        if total[start] + cost < total[end]:
+            total[end] = total[start] + cost
+            before[end] = start
+    outlines = []
+    for first, size, anchor, node in zip(places.first, places.size, anchors, base, strict=True):
+        way = []
+        at = before[node + size]
+        while at >= 0:
+            way.append(at - node)
+            at = before[at]
+        outlines.append(places.points[first + (np.array(way[::-1]) + anchor) % size])
+    return outlines
