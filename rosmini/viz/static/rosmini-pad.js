@@ -1,0 +1,430 @@
+/* The teleoperation pad in a page: keys, buttons, touch; what the robot sees; the messages.
+
+   A plain script that sets `globalThis.rosminiPad`; it needs rosmini-canvas.js, rosmini-teleop.js and
+   rosmini-pad-style.js before it.
+
+     mount(host, data)              a pad that drives by itself, in a page without a kernel
+     new Page(host, data, driver)   a pad before another driver: rosmini-pad-kernel.js has one
+
+
+   `data` is what `rosmini.widgets.page` makes: {teleop, topic, title, scene, pose, step, scan_rate}; without a robot
+   `scene` and `pose` are null, and only the messages are shown.
+
+   A driver is what stands behind the page: press(key), reset(), close(), and `state`, which the page draws whenever
+   the driver calls `changed()`: {pose, ranges, scanPose, trail, target, command, messages, sent, mood, note, startable}. */
+
+(() => {
+  "use strict";
+
+  const KEYS = [
+    { key: "w", name: "Forward", arrow: "↑" },
+    { key: "a", name: "Turn left", arrow: "↺" },
+    { key: "s", name: "Stop", arrow: "■" },
+    { key: "d", name: "Turn right", arrow: "↻" },
+    { key: "x", name: "Backward", arrow: "↓" },
+  ];
+  const SHOWN = 3; // messages
+  const REPEAT_AFTER_MS = 400; // a button that is held repeats, as a key does
+  const REPEAT_MS = 100;
+  const SPEAK_AFTER_MS = 900; // so long without a key before the status is spoken: a screen reader would fall behind
+  const TRAIL_STEP = 0.02; // metres
+  const TRAIL_JUMP = 0.3; // a longer way between two points was not driven
+  const TRAIL_POINTS = 3000;
+
+  let pads = 0;
+
+  const { yaml } = globalThis.rosminiTeleop;
+  const degrees = (radians) => {
+    const turned = ((((radians * 180) / Math.PI + 180) % 360) + 360) % 360 - 180;
+    return (turned === -180 ? 180 : turned).toFixed(0).replace(/^-0$/, "0");
+  };
+  const fixed = (value, digits) => value.toFixed(digits).replace(/^-(0\.0+)$/, "$1");
+
+  function element(tag, attributes = {}, ...children) {
+    const made = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+    made.append(...children);
+    return made;
+  }
+
+  /* The way so far, in points that are worth a line. */
+  function extend(trail, [x, y]) {
+    const last = trail.at(-1);
+    const gone = last ? Math.hypot(x - last[0], y - last[1]) : Infinity;
+    if (gone > TRAIL_JUMP) trail.length = 0;
+    if (gone < TRAIL_STEP) return;
+    trail.push([x, y]);
+    if (trail.length > TRAIL_POINTS) trail.splice(0, TRAIL_POINTS / 10);
+  }
+
+  class Page {
+    constructor(host, data, driver) {
+      this.data = data;
+      this.driver = driver;
+      this.down = new Map(); // buttons that are held, and their timers
+      this.spoken = "";
+      this.build(host);
+      this.listen();
+      if (data.scene) {
+        this.fit();
+        this.unwatch = globalThis.rosminiCanvas.watch(this.canvas, () => { this.fit(); this.draw(); });
+      }
+      this.paint();
+      driver.changed = () => this.request();
+      this.draw();
+    }
+
+    // -- building ---------------------------------------------------------------------------------------------------
+
+    build(host) {
+      const { data } = this;
+      const id = `rosmini-pad-${(pads += 1)}`;
+      this.buttons = new Map();
+      const keys = element("div", { class: "rp-keys", role: "group", "aria-label": "Keys" });
+      for (const { key, name, arrow } of KEYS) {
+        const shortcuts = Object.entries(data.teleop.keys)
+          .filter(([, steps]) => String(steps) === String(data.teleop.keys[key]))
+          .map(([other]) => (other === " " ? "Space" : other));
+        const button = element(
+          "button",
+          { type: "button", class: `rp-key rp-key-${key}`, "data-key": key, "aria-label": name, "aria-keyshortcuts": shortcuts.join(" ") },
+          element("span", { class: "rp-arrow", "aria-hidden": "true" }, arrow),
+          element("kbd", { "aria-hidden": "true" }, key),
+        );
+        button.title = `${name} (${key})`;
+        this.buttons.set(key, button);
+        keys.append(button);
+      }
+      this.meters = ["linear", "angular"].map((name) => this.meter(name));
+      this.resetButton = element("button", { type: "button", class: "rp-plain", "data-act": "reset" }, "Back to the start");
+      this.startButton = element("button", { type: "button", class: "rp-plain", "data-act": "start" }, "Start");
+      this.startButton.hidden = true;
+      this.canvas = element("canvas", { role: "img", "aria-label": "The world from above, with the robot, its laser and its way" });
+      this.hint = element("div", { class: "rp-hint", "aria-hidden": "true" });
+      const [w, a, s, d, x] = KEYS.map(({ key }) => element("kbd", {}, key));
+      this.hint.append("Click here, then drive with ", w, a, s, d, x);
+      this.pill = element("div", { class: "rp-pill", "aria-hidden": "true" }, element("i"), element("span"));
+      this.pose = element("span", { class: "rp-value" });
+      this.seen = element("span", { class: "rp-value" });
+      this.readings = element(
+        "div", { class: "rp-readings" },
+        element("div", {}, element("span", { class: "rp-name" }, "Pose"), this.pose),
+        element("div", {}, element("span", { class: "rp-name" }, "Laser"), this.seen),
+      );
+      const sight = element("div", { class: "rp-sight" }, this.pill, this.hint);
+      if (data.scene) sight.prepend(this.canvas);
+      const actions = element("div", { class: "rp-actions" }, this.startButton);
+      if (data.scene) actions.append(this.resetButton);
+      this.stage = element(
+        "div",
+        {
+          class: "rp-stage", tabindex: "0", role: "application", "aria-roledescription": "driving pad",
+          "aria-label": data.title, "aria-describedby": `${id}-help`, "data-lm-suppress-shortcuts": "true",
+        },
+        sight,
+        element("div", { class: "rp-side" }, keys, element("div", { class: "rp-meters" }, ...this.meters.map((m) => m.box)), actions),
+      );
+      this.log = element("div", { class: "rp-log" });
+      this.help = element("p", { class: "rp-help", id: `${id}-help` }, ...this.instructions());
+      this.status = element("p", { class: "rp-spoken", role: "status" });
+      this.section = element("section", { class: `rosmini-pad${data.scene ? "" : " rp-blind"}`, "aria-label": "Teleoperation pad" });
+      this.section.append(this.stage);
+      if (data.scene) this.section.append(this.readings);
+      this.section.append(
+        element(
+          "div", { class: "rp-messages" },
+          element("div", { class: "rp-command" }, element("span", {}, "$ "), `rostopic echo ${data.topic}`, element("em")),
+          this.log,
+        ),
+        this.help, this.status,
+      );
+      if (!document.getElementById("rosmini-pad-style")) {
+        const sheet = element("style", { id: "rosmini-pad-style" }, globalThis.rosminiPadStyle);
+        document.head.append(sheet);
+      }
+      host.replaceChildren(this.section);
+    }
+
+    meter(name) {
+      const [label, unit] = name === "linear" ? ["ahead", "m/s"] : ["turn", "rad/s"];
+      const value = element("span", { class: "rp-value" });
+      const bar = element("i", { class: "rp-bar" });
+      const mark = element("i", { class: "rp-mark" });
+      const box = element(
+        "div", { class: "rp-meter" },
+        element("span", { class: "rp-name" }, label), value,
+        element("div", { class: "rp-scale", "aria-hidden": "true" }, bar, mark),
+      );
+      return { box, value, bar, mark, unit, max: this.data.teleop[name].max };
+    }
+
+    instructions() {
+      const lines = [
+        [["w"], "faster,", ["x"], "slower;"],
+        [["a"], "more to the left,", ["d"], "more to the right;"],
+        [["s"], "or", ["space"], "stop at once;"],
+        ["the arrows do as", ["w"], ["x"], ["a"], ["d"], "do;"],
+        [["Esc"], "leaves the pad."],
+      ];
+      const line = (parts) =>
+        element("span", {}, ...parts.flatMap((part) => [typeof part === "string" ? part : element("kbd", {}, ...part), " "]));
+      return lines.flatMap((parts) => [line(parts), " "]); // a line may break between them
+    }
+
+    // -- keys, buttons, touch -----------------------------------------------------------------------------------------
+
+    listen() {
+      const { stage } = this;
+      stage.addEventListener("keydown", (event) => this.keydown(event));
+      stage.addEventListener("keyup", (event) => this.lift(this.keyOf(event)));
+      stage.addEventListener("pointerdown", (event) => this.pointerdown(event));
+      stage.addEventListener("contextmenu", (event) => { if (event.target.closest(".rp-key")) event.preventDefault(); });
+      for (const kind of ["pointerup", "pointercancel"]) stage.addEventListener(kind, () => this.liftAll());
+      stage.addEventListener("click", (event) => {
+        const button = event.target.closest("button");
+        if (!button) return;
+        // A press of a pointer has been taken already; this one is from the Enter key or from an assistive tool.
+        if (button.dataset.key) { if (event.detail === 0) this.press(button.dataset.key); }
+        else this.act(button.dataset.act);
+      });
+      stage.addEventListener("focusin", () => this.section.classList.add("rp-held"));
+      stage.addEventListener("focusout", (event) => {
+        if (!stage.contains(event.relatedTarget)) { this.section.classList.remove("rp-held"); this.liftAll(); }
+      });
+      this.leave = () => { this.liftAll(); this.driver.leave(); };
+      this.hide = () => { if (document.hidden) this.leave(); };
+      globalThis.addEventListener("blur", this.leave);
+      globalThis.addEventListener("pagehide", this.leave);
+      document.addEventListener("visibilitychange", this.hide);
+    }
+
+    keyOf(event) {
+      if (event.ctrlKey || event.metaKey || event.altKey) return undefined;
+      const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+      return key in this.data.teleop.keys ? key : undefined;
+    }
+
+    keydown(event) {
+      const key = this.keyOf(event);
+      if (event.key === "Escape") { document.activeElement.blur(); return; }
+      if (key === undefined) return;
+      event.preventDefault(); // the page does not scroll, and space does not press a button
+      event.stopPropagation();
+      this.press(key);
+      this.buttonOf(key)?.classList.add("rp-down");
+    }
+
+    buttonOf(key) {
+      const steps = String(this.data.teleop.keys[key]);
+      return [...this.buttons].find(([other]) => String(this.data.teleop.keys[other]) === steps)?.[1];
+    }
+
+    lift(key) {
+      if (key !== undefined) this.buttonOf(key)?.classList.remove("rp-down");
+    }
+
+    liftAll() {
+      for (const timer of this.down.values()) clearTimeout(timer);
+      this.down.clear();
+      for (const button of this.buttons.values()) button.classList.remove("rp-down");
+    }
+
+    pointerdown(event) {
+      const button = event.target.closest("button");
+      if (button?.dataset.act) return;
+      event.preventDefault();
+      // The keys take over from the pointer: the focus goes to the pad, not to a button, which space would press again.
+      this.stage.focus({ preventScroll: true });
+      if (!button || event.button !== 0) return;
+      const { key } = button.dataset;
+      const again = () => {
+        this.press(key);
+        this.down.set(key, setTimeout(again, REPEAT_MS));
+      };
+      this.liftAll();
+      this.press(key);
+      this.down.set(key, setTimeout(again, REPEAT_AFTER_MS));
+      button.classList.add("rp-down");
+    }
+
+    press(key) {
+      this.section.classList.add("rp-used");
+      this.driver.press(key);
+      this.speak();
+    }
+
+    act(what) {
+      if (what === "reset") this.driver.reset();
+      else this.driver.start();
+      this.stage.focus({ preventScroll: true });
+      this.speak();
+    }
+
+    // -- drawing ------------------------------------------------------------------------------------------------------
+
+    fit() {
+      this.view = globalThis.rosminiCanvas.fit(this.canvas, this.data.scene.bounds, { maxHeight: 440 });
+      this.paint();
+    }
+
+    /* The palette of the page around the pad holds in it, whether that page has our style sheet or not. */
+    paint() {
+      for (const [name, value] of Object.entries(globalThis.rosminiCanvas.theme(this.section.parentElement))) {
+        this.section.style.setProperty(`--rosmini-${name}`, value);
+      }
+    }
+
+    request() {
+      if (this.asked) return;
+      this.asked = true;
+      requestAnimationFrame(() => { this.asked = false; this.draw(); });
+    }
+
+    draw() {
+      const { state } = this.driver;
+      const { scene } = this.data;
+      if (scene) {
+        const { world, trail, scan, robot, scaleBar } = globalThis.rosminiCanvas;
+        world(this.view, scene);
+        trail(this.view, [...state.trail, ...(state.pose ? [state.pose] : [])]);
+        if (state.pose) {
+          if (state.ranges) scan(this.view, scene.robot, state.scanPose ?? state.pose, state.ranges);
+          robot(this.view, scene.robot, state.pose);
+        }
+        scaleBar(this.view);
+        this.readings.hidden = !state.pose;
+        if (state.pose) this.read(state);
+      }
+      this.meters.forEach(({ value, bar, mark, unit, max }, i) => {
+        const [sent, wanted] = [state.command[i], state.target[i]];
+        const digits = i === 0 ? 2 : 1;
+        value.textContent = `${fixed(wanted, digits)} ${unit}`;
+        const share = (50 * sent) / max;
+        bar.style.left = `${50 + Math.min(0, i === 0 ? share : -share)}%`;
+        bar.style.width = `${Math.abs(share)}%`;
+        mark.style.left = `${50 + ((i === 0 ? 50 : -50) * wanted) / max}%`;
+      });
+      this.pill.dataset.mood = state.mood;
+      this.pill.lastChild.textContent = state.note;
+      this.startButton.hidden = !state.startable;
+      this.section.classList.toggle("rp-driving", state.mood === "driving");
+      this.echo(state);
+      if (state.mood !== this.mood) { this.mood = state.mood; this.speak(); }
+    }
+
+    read(state) {
+      const [x, y, theta] = state.pose;
+      this.pose.textContent = `x ${fixed(x, 2)} m, y ${fixed(y, 2)} m, ${degrees(theta)}°`;
+      if (!state.ranges) { this.seen.textContent = "no scan yet"; return; }
+      const hits = [...state.ranges.keys()].filter((i) => state.ranges[i] > 0 && Number.isFinite(state.ranges[i]));
+      const nearest = hits.reduce((best, i) => (state.ranges[i] < state.ranges[best] ? i : best), hits[0]);
+      this.seen.textContent = hits.length
+        ? `nearest ${state.ranges[nearest].toFixed(2)} m at ${degrees((2 * Math.PI * nearest) / state.ranges.length)}°, ` +
+          `${hits.length} of ${state.ranges.length} beams hit`
+        : `no hit within ${this.data.scene.robot.lidar.max} m`;
+    }
+
+    echo({ messages, sent }) {
+      const last = this.log.previousElementSibling.lastChild;
+      last.textContent = sent ? `${sent} ${sent === 1 ? "message" : "messages"}` : "";
+      if (this.sent === sent) return;
+      this.sent = sent;
+      const texts = messages.slice(-SHOWN).reverse().map(yaml);
+      if (!texts.length) { this.log.replaceChildren(element("p", {}, "Nothing was published yet.")); return; }
+      this.log.replaceChildren(...texts.map((text) => element("pre", {}, text)));
+    }
+
+    /* Tell those who do not see it how things are, once the keys rest. */
+    speak() {
+      clearTimeout(this.speaking);
+      this.speaking = setTimeout(() => {
+        const text = this.summary();
+        if (text !== this.spoken) this.status.textContent = this.spoken = text;
+      }, SPEAK_AFTER_MS);
+    }
+
+    summary() {
+      const { target: [linear, angular], note, mood } = this.driver.state;
+      const parts = [];
+      if (linear) parts.push(`${linear > 0 ? "forward" : "backward"} ${Math.abs(linear).toFixed(2)} metres a second`);
+      if (angular) parts.push(`turning ${angular > 0 ? "left" : "right"} ${Math.abs(angular).toFixed(1)} radians a second`);
+      const driving = parts.length ? parts.join(", ") : "stopped";
+      return mood === "driving" || mood === "ready" ? driving : `${note}; ${driving}`;
+    }
+
+    close() {
+      this.liftAll();
+      clearTimeout(this.speaking);
+      this.unwatch?.();
+      globalThis.removeEventListener("blur", this.leave);
+      globalThis.removeEventListener("pagehide", this.leave);
+      document.removeEventListener("visibilitychange", this.hide);
+      this.driver.close();
+    }
+  }
+
+  // -- without a kernel -------------------------------------------------------------------------------------------------
+
+  /* Drives a robot of its own, as fast as the clock on the wall, and only while there is something to drive. */
+  class OwnRobot {
+    constructor(data) {
+      this.run = new globalThis.rosminiTeleop.Run(data);
+      this.trail = [];
+      this.changed = () => {};
+      this.update();
+    }
+
+    update() {
+      const { run } = this;
+      const { pose = null, blocked = false } = run.robot ?? {};
+      if (pose) extend(this.trail, pose);
+      const still = run.atRest;
+      this.state = {
+        pose, ranges: run.ranges, scanPose: run.scanPose, trail: this.trail,
+        target: run.teleop.target, command: run.teleop.command, messages: run.messages, sent: run.sent,
+        mood: blocked ? "blocked" : still ? "ready" : "driving",
+        note: blocked ? "at a wall" : still ? "ready" : "driving",
+      };
+      this.changed();
+    }
+
+    press(key) {
+      this.run.press(key);
+      this.go();
+    }
+
+    reset() {
+      this.run.reset();
+      this.trail.length = 0;
+      this.update();
+    }
+
+    leave() {
+      if (this.run.atRest) return;
+      this.press("s");
+    }
+
+    go() {
+      this.update();
+      if (this.frame !== undefined) return;
+      let last = performance.now();
+      const turn = (now) => {
+        this.run.advance(Math.min(Math.max(now - last, 0), 100) / 1000);
+        last = now;
+        this.update();
+        this.frame = this.run.atRest ? undefined : requestAnimationFrame(turn);
+      };
+      this.frame = requestAnimationFrame(turn);
+    }
+
+    close() {
+      if (this.frame !== undefined) cancelAnimationFrame(this.frame);
+    }
+  }
+
+  function mount(host, data) {
+    return new Page(host, data, new OwnRobot(data));
+  }
+
+  globalThis.rosminiPad = { Page, OwnRobot, mount, extend };
+})();

@@ -1,0 +1,298 @@
+/* A robot with two driven wheels and a laser, driven by keys, with no page around it: what `rosmini-pad.js` shows where
+   there is no kernel. A plain script that sets `globalThis.rosminiTeleop`.
+
+   It does what `rosmini.widgets.teleop`, `rosmini.sim` and `rosmini.geometry` do in Python, with the numbers that Python
+   hands it; tests compare the two. Metres, radians, seconds; a pose is [x, y, theta].
+
+     new Teleop(table)      keys to velocities: press(key), cycle() -> [linear, angular].
+     new Robot(scene, pose) wheels, motion and walls: command(linear, angular), step(seconds), pose, speed, blocked.
+     laser(scene, pose)     the ranges of one revolution, Infinity where nothing is hit,
+                            -Infinity where it is too close.
+     new Run(data)          all of it on one clock: press(key), advance(seconds), reset(), messages, ranges, time.
+     yaml(twist)            a geometry_msgs/Twist as `rostopic echo` prints it. */
+
+(() => {
+  "use strict";
+
+  const TURN = 2 * Math.PI;
+  const clamp = (value, limit) => Math.max(-limit, Math.min(limit, value));
+
+  class Teleop {
+    constructor(table) {
+      this.table = table;
+      this.target = [0, 0];
+      this.command = [0, 0];
+    }
+
+    get atRest() {
+      return [...this.target, ...this.command].every((value) => value === 0);
+    }
+
+    press(key) {
+      const { keys, linear, angular } = this.table;
+      const [ahead, left] = keys[key];
+      if (ahead === 0 && left === 0) {
+        this.target = [0, 0];
+        this.command = [0, 0];
+      } else {
+        this.target = [
+          this.round(clamp(this.target[0] + ahead * linear.step, linear.max)),
+          this.round(clamp(this.target[1] + left * angular.step, angular.max)),
+        ];
+      }
+      return this.cycle();
+    }
+
+    cycle() {
+      const { slope, linear, angular } = this.table;
+      this.command = [
+        this.approach(this.command[0], this.target[0], slope * linear.step),
+        this.approach(this.command[1], this.target[1], slope * angular.step),
+      ];
+      return this.command;
+    }
+
+    approach(value, target, slope) {
+      return this.round(target > value ? Math.min(target, value + slope) : Math.max(target, value - slope));
+    }
+
+    round(value) {
+      return Math.floor(value * this.table.grain + 0.5) / this.table.grain;
+    }
+  }
+
+  const placed = ([x, y, theta], [px, py]) => [
+    x + Math.cos(theta) * px - Math.sin(theta) * py,
+    y + Math.sin(theta) * px + Math.cos(theta) * py,
+  ];
+
+  /* Everything that stops a laser or a robot: sides [x1, y1, x2, y2], and discs [x, y, r]. */
+  function solids(scene) {
+    const sides = scene.segments.map((segment) => [...segment]);
+    const discs = [];
+    for (const shape of scene.shapes) {
+      if (shape.kind === "disc") discs.push([shape.x, shape.y, shape.r]);
+      else shape.points.forEach((point, i) => sides.push([...point, ...shape.points[(i + 1) % shape.points.length]]));
+    }
+    return { sides, discs };
+  }
+
+  const solidsOf = new WeakMap();
+  function solid(scene) {
+    if (!solidsOf.has(scene)) solidsOf.set(scene, solids(scene));
+    return solidsOf.get(scene);
+  }
+
+  /* How far it is from (x, y) to the nearest point of a side. */
+  function distanceToSide(x, y, [x1, y1, x2, y2]) {
+    const [dx, dy] = [x2 - x1, y2 - y1];
+    const length = dx * dx + dy * dy;
+    const t = length === 0 ? 0 : Math.max(0, Math.min(1, ((x - x1) * dx + (y - y1) * dy) / length));
+    return Math.hypot(x - x1 - t * dx, y - y1 - t * dy);
+  }
+
+  const side = (ax, ay, bx, by, px, py) => (bx - ax) * (py - ay) - (by - ay) * (px - ax);
+
+  function cross([ax, ay, bx, by], [cx, cy, dx, dy]) {
+    return (
+      side(ax, ay, bx, by, cx, cy) * side(ax, ay, bx, by, dx, dy) <= 0 &&
+      side(cx, cy, dx, dy, ax, ay) * side(cx, cy, dx, dy, bx, by) <= 0 &&
+      Math.max(ax, bx) >= Math.min(cx, dx) && Math.max(cx, dx) >= Math.min(ax, bx) &&
+      Math.max(ay, by) >= Math.min(cy, dy) && Math.max(cy, dy) >= Math.min(ay, by)
+    );
+  }
+
+  /* Whether a robot's footprint at `pose` touches something. Walls are lines: what is inside of one has crossed its outline. */
+  function touches(scene, pose, size = 1) {
+    const { sides, discs } = solid(scene);
+    const footprint = scene.robot.footprint.map(([x, y]) => [size * x, size * y]);
+    const corners = footprint.map((corner) => placed(pose, corner));
+    const outline = corners.map((corner, i) => [...corner, ...corners[(i + 1) % corners.length]]);
+    const reach = Math.max(...footprint.map(([x, y]) => Math.hypot(x, y)));
+    const [x, y] = pose;
+    const inside = (px, py) => outline.every(([ax, ay, bx, by]) => side(ax, ay, bx, by, px, py) >= 0);
+    return (
+      sides.some(
+        (wall) =>
+          distanceToSide(x, y, wall) <= reach && (inside(wall[0], wall[1]) || outline.some((edge) => cross(edge, wall))),
+      ) ||
+      discs.some(
+        ([cx, cy, r]) =>
+          Math.hypot(cx - x, cy - y) <= reach + r &&
+          (inside(cx, cy) || outline.some((edge) => distanceToSide(cx, cy, edge) <= r)),
+      )
+    );
+  }
+
+  class Robot {
+    constructor(scene, pose) {
+      this.scene = scene;
+      this.start = [...pose];
+      this.reset();
+    }
+
+    reset() {
+      this.pose = [...this.start];
+      this.speed = [0, 0]; // linear, angular
+      this.wanted = [0, 0]; // the same for the command
+      this.blocked = false;
+      // A robot that already leans against something gets out again.
+      this.size = 1;
+      while (this.size > 0.8 && touches(this.scene, this.pose, this.size)) this.size -= 0.02;
+    }
+
+    command(linear, angular) {
+      const { max_linear: v, max_angular: w } = this.scene.robot;
+      this.wanted = [clamp(linear, v), clamp(angular, w)];
+    }
+
+    /* The rims of the wheels go over to their commanded speeds, and the robot along an arc; what is in its way stops it. */
+    step(dt) {
+      const { wheel_separation: width, acceleration } = this.scene.robot;
+      const rims = ([v, w]) => [v - (w * width) / 2, v + (w * width) / 2];
+      const now = rims(this.speed);
+      const [left, right] = rims(this.wanted).map((goal, i) => ramp(now[i], goal, acceleration, dt));
+      const [v, w] = [(left.way + right.way) / 2, (right.way - left.way) / width];
+      const next = arc(this.pose, v, w);
+      this.blocked = (v !== 0 || w !== 0) && touches(this.scene, next, this.size);
+      if (this.blocked) {
+        this.pose = this.reach(v, w);
+        this.speed = [0, 0];
+      } else {
+        this.pose = next;
+        this.speed = [(left.speed + right.speed) / 2, (right.speed - left.speed) / width];
+      }
+    }
+
+    /* So far it comes on a way that ends in something. */
+    reach(v, w) {
+      let [free, best] = [0, this.pose];
+      for (let part = 0.5; part > 1e-3; part /= 2) {
+        const pose = arc(this.pose, (free + part) * v, (free + part) * w);
+        if (!touches(this.scene, pose, this.size)) [free, best] = [free + part, pose];
+      }
+      return best;
+    }
+  }
+
+  /* The way in `dt` seconds of what goes from one speed to another as fast as it can, and its speed then. */
+  function ramp(speed, goal, acceleration, dt) {
+    const needed = Math.abs(goal - speed) / acceleration;
+    if (needed <= dt) return { way: ((speed + goal) / 2) * needed + goal * (dt - needed), speed: goal };
+    const end = speed + Math.sign(goal - speed) * acceleration * dt;
+    return { way: ((speed + end) / 2) * dt, speed: end };
+  }
+
+  /* `way` metres ahead along a circle, with a turn of `turn` in all: its chord points to the middle of the two headings. */
+  function arc([x, y, theta], way, turn) {
+    const half = turn / 2;
+    const chord = half === 0 ? way : (way * Math.sin(half)) / half;
+    return [x + chord * Math.cos(theta + half), y + chord * Math.sin(theta + half), theta + turn];
+  }
+
+  /* A beam to each of `beams` directions, the first one ahead, counter-clockwise. REP 117: -Infinity is too close. */
+  function laser(scene, pose) {
+    const { x: mount, beams, min, max } = scene.robot.lidar;
+    const { sides, discs } = solid(scene);
+    const [ox, oy] = placed(pose, [mount, 0]);
+    const near = sides.filter((wall) => distanceToSide(ox, oy, wall) <= max);
+    const round = discs.filter(([cx, cy, r]) => Math.hypot(cx - ox, cy - oy) <= max + r);
+    const ranges = new Float64Array(beams);
+    for (let i = 0; i < beams; i += 1) {
+      const angle = pose[2] + (TURN * i) / beams;
+      const range = beam(near, round, ox, oy, Math.cos(angle), Math.sin(angle));
+      ranges[i] = range > max ? Infinity : range < min ? -Infinity : range;
+    }
+    return ranges;
+  }
+
+  function beam(sides, discs, ox, oy, dx, dy) {
+    let best = Infinity;
+    for (const [x1, y1, x2, y2] of sides) {
+      const [ex, ey] = [x2 - x1, y2 - y1];
+      const determinant = dx * ey - dy * ex;
+      if (determinant === 0) continue; // along the wall
+      const [rx, ry] = [x1 - ox, y1 - oy];
+      const along = (rx * dy - ry * dx) / determinant;
+      const t = (rx * ey - ry * ex) / determinant;
+      if (along >= 0 && along <= 1 && t >= 0 && t < best) best = t;
+    }
+    for (const [cx, cy, r] of discs) {
+      const [rx, ry] = [cx - ox, cy - oy];
+      const middle = rx * dx + ry * dy;
+      const miss = rx * dy - ry * dx;
+      if (Math.abs(miss) > r) continue;
+      const half = Math.sqrt(r * r - miss * miss);
+      const t = middle - half >= 0 ? middle - half : middle + half >= 0 ? 0 : Infinity;
+      if (t < best) best = t;
+    }
+    return best;
+  }
+
+  /* A run on a clock of its own, which goes in whole steps: the same keys at the same times give the same run. */
+  class Run {
+    constructor(data) {
+      this.data = data;
+      this.robot = data.scene ? new Robot(data.scene, data.pose) : null;
+      this.messages = []; // the last few: {linear, angular, time}
+      this.sent = 0;
+      this.reset();
+    }
+
+    reset() {
+      this.teleop = new Teleop(this.data.teleop);
+      this.robot?.reset();
+      this.steps = 0;
+      this.rest = 0;
+      this.nextCycle = Infinity; // in steps, as the next scan: sums of fractions would drift
+      this.nextScan = 0;
+      this.messages.length = 0;
+      this.sent = 0;
+      this.scan();
+    }
+
+    get time() {
+      return this.steps * this.data.step;
+    }
+
+    get atRest() {
+      return this.teleop.atRest && !this.robot?.speed.some((value) => value !== 0);
+    }
+
+    press(key) {
+      this.send(this.teleop.press(key));
+    }
+
+    send([linear, angular]) {
+      this.robot?.command(linear, angular);
+      this.messages.push({ linear, angular, time: this.time });
+      if (this.messages.length > 8) this.messages.shift();
+      this.sent += 1;
+      this.nextCycle = this.teleop.atRest ? Infinity : this.steps + Math.round(this.data.teleop.period / this.data.step);
+    }
+
+    scan() {
+      if (!this.robot) return;
+      this.scanPose = this.robot.pose;
+      this.ranges = laser(this.data.scene, this.robot.pose);
+      this.nextScan = this.steps + Math.round(1 / this.data.scan_rate / this.data.step);
+    }
+
+    advance(seconds) {
+      for (this.rest += seconds; this.rest >= this.data.step - 1e-9; this.rest -= this.data.step) {
+        this.robot?.step(this.data.step);
+        this.steps += 1;
+        if (this.steps >= this.nextCycle) this.send(this.teleop.cycle());
+        if (this.steps >= this.nextScan) this.scan();
+      }
+    }
+  }
+
+  function yaml({ linear, angular }) {
+    const number = (value) => (Number.isInteger(value) ? value.toFixed(1) : String(value));
+    const vector = (name, x, z) => `${name}: \n  x: ${number(x)}\n  y: 0.0\n  z: ${number(z)}`;
+    return `${vector("linear", linear, 0)}\n${vector("angular", 0, angular)}\n---`;
+  }
+
+  globalThis.rosminiTeleop = { Teleop, Robot, Run, laser, touches, yaml };
+})();

@@ -1,0 +1,206 @@
+"""A pad in a live notebook: what goes between the node in the kernel and the page that shows it.
+
+What a page sends arrives in the kernel's main thread or, if that is busy, on a thread of JupyterLab's (a subshell): it goes through the
+scheduler's inbox, and everything else happens in the graph. The page is sent a frame at 30 Hz of the graph's time while somebody looks.
+
+A page that shows a robot in motion has to say that it is still there. This is about the reader at the browser, so it is wall time that counts,
+in a graph in simulated time too; what a script presses needs no page, and goes on without one.
+"""
+
+from __future__ import annotations
+
+import time
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rosmini.errors import RosminiError
+from rosmini.msgs import message_class
+
+from .page import module, pad_data
+from .teleop import TeleopError
+
+try:
+    import anywidget
+    import traitlets
+except ImportError as error:
+    raise TeleopError(
+        "a pad in a live notebook needs anywidget, which is not installed here: `pip install 'rosmini[book]'`. "
+        "pad.press() and pad.stop() work without it."
+    ) from error
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from rosmini.graph.clock import Timer
+    from rosmini.graph.subscriber import Subscriber
+
+    from .pad import TeleopPad
+
+FRAME_HZ = 30.0
+DEAD_MAN_S = 1.0
+"""After so long without a word from the page the robot stops."""
+LEFT_S = 3.0
+"""After so long nobody looks any more, and no frames are sent."""
+QUIET_S = 0.2
+"""So often a frame is sent in which nothing has changed: the page sees by it that the kernel answers."""
+SHORTEST_S = 0.015
+"""No two frames follow one another faster: a graph that runs ahead of the clock sends no more than a page can show."""
+
+
+class PadWidget(anywidget.AnyWidget):
+    """The pad's page, as Jupyter knows it."""
+
+    data = traitlets.Dict().tag(sync=True)
+
+
+class Link:
+    """Takes what the page of a pad sends, and sends it what it shows. `clock` is the wall's, in seconds."""
+
+    def __init__(self, pad: TeleopPad, clock: Callable[[], float] = time.monotonic) -> None:
+        self.pad = pad
+        self._clock = clock
+        self._heard = clock()
+        self._driven_by_page = False
+        self._timer: Timer | None = None
+        self._messages: list[list[float]] = []
+        self._last: tuple[Any, ...] = ()
+        self._last_sent = 0.0
+        self._scan: NDArray[np.float32] | None = None
+        """A scan that the page has not got: ranges, and the pose that they were measured from."""
+        self._scans: Subscriber | None = None
+        self.widget = PadWidget(_esm=module(), data=pad_data(pad))
+        _answer_in_subshells(self.widget.comm)
+        self.widget.on_msg(self.receive)
+        pad.on_publish(self._published)
+
+    # -- from the page, in any thread ----------------------------------------------------------------------------
+
+    def receive(self, _widget: object, content: dict[str, Any], _buffers: object) -> None:
+        """Take a message of the page: see `rosmini-pad-kernel.js`."""
+        self._heard = self._clock()
+        graph, kind = self.pad.graph, content.get("type")
+        try:
+            if kind in ("key", "start", "reset") and not graph.is_live:
+                graph.live()
+        except RosminiError as error:
+            self._send({"type": "error", "text": str(error)})
+            return
+        if kind == "beat" and not graph.is_live and not graph.scheduler.driven:
+            self._send({"type": "still"})
+            return
+        graph.scheduler.call_soon_threadsafe(
+            lambda: self.pad.node.spawn(f"{self.pad.node.name} page", partial(self._take, kind, content))
+        )
+
+    # -- in the graph --------------------------------------------------------------------------------------------
+
+    def _take(self, kind: str | None, content: dict[str, Any]) -> None:
+        try:
+            self._begin()
+            if kind == "key":
+                self._driven_by_page = True
+                self.pad.press(str(content.get("key")))
+            elif kind == "stop":
+                self._stop()
+            elif kind == "reset":
+                self.pad.reset()
+            elif kind == "hello":
+                self._hello()
+        except TeleopError as error:
+            self._tell_gone(str(error))
+
+    def _begin(self) -> None:
+        """Send frames from now on, unless that goes on already."""
+        pad = self.pad
+        if self._timer is not None:
+            return
+        if pad.gone is not None:
+            raise TeleopError(pad.gone)
+        self._timer = pad.node.timer(1 / FRAME_HZ, self._frame)
+        if pad.sight is not None and self._scans is None:
+            self._scans = pad.node.subscriber(
+                pad.sight.scan_topic, message_class("sensor_msgs/LaserScan"), self._seen
+            )
+
+    def _seen(self, scan: Any) -> None:
+        sight = self.pad.sight
+        if sight is not None and self.pad.gone is None:
+            self._scan = np.array([*scan.ranges, *sight.simulator.scan_pose], dtype=np.float32)
+
+    def _hello(self) -> None:
+        sight = self.pad.sight
+        if sight is not None and sight.trail:
+            self._send({"type": "trail"}, [np.array(sight.trail, dtype=np.float32).tobytes()])
+        self._last = ()
+
+    def _stop(self) -> None:
+        self._driven_by_page = False
+        if self.pad.gone is None and not self.pad.teleop.at_rest:
+            self.pad.stop()
+
+    def _published(self, twist: Any) -> None:
+        self._messages.append([twist.linear.x, twist.angular.z])
+        del self._messages[:-8]
+
+    def _frame(self, _event: object) -> None:
+        now = self._clock()
+        self._driven_by_page &= not self.pad.teleop.at_rest
+        if self._driven_by_page and now - self._heard > DEAD_MAN_S:
+            self._stop()
+        if now - self._heard > LEFT_S and self._timer is not None:
+            self._timer.shutdown()
+            self._timer = None
+            return
+        if now - self._last_sent < SHORTEST_S:
+            return
+        why = self.pad.gone
+        if why is None:
+            self._show(now)
+        else:
+            self._tell_gone(why)
+
+    def _tell_gone(self, why: str) -> None:
+        if self._timer is not None:
+            self._timer.shutdown()
+            self._timer = None
+        self._send({"type": "gone", "text": why})
+
+    def _show(self, now: float) -> None:
+        pad = self.pad
+        pose, blocked = (np.nan, np.nan, np.nan), False
+        if pad.sight is not None:
+            pose, blocked = pad.sight.look(), pad.sight.blocked
+        scan, self._scan = self._scan, None
+        shown = (pose[0], pose[1], pose[2], *pad.teleop.target, *pad.teleop.command, blocked, pad.sent)
+        if shown == self._last and scan is None and now - self._last_sent < QUIET_S:
+            return
+        self._last, self._last_sent = shown, now
+        content = {
+            "type": "frame",
+            "messages": self._messages,
+            "sent": pad.sent,
+            "at_rest": pad.teleop.at_rest,
+            "blocked": blocked,
+            "scan": scan is not None,
+        }
+        numbers = np.array([*pad.teleop.target, *pad.teleop.command, *pose], dtype=np.float64)
+        buffers = [numbers.tobytes()] if scan is None else [numbers.tobytes(), scan.tobytes()]
+        self._send(content, buffers)
+        self._messages = []
+
+    def _send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
+        self.widget.send(content, buffers)
+
+
+def _answer_in_subshells(comm: Any) -> None:
+    """Let the page choose the thread that hears it.
+
+    ipykernel 7.4 has a page's messages handled where the kernel last sent it one. That is the main thread, which is busy
+    while a cell runs: the stop key would wait for the cell's end.
+    """
+    if hasattr(comm, "_reply_subshell_for"):
+        vars(comm)["_reply_subshell_for"] = lambda _data, asked: asked

@@ -1,0 +1,246 @@
+"""The teleoperation pad: keys that become `geometry_msgs/Twist` on a topic, in a notebook and in a script.
+
+>>> from rosmini import Graph
+>>> from rosmini.msgs.geometry_msgs.msg import Twist
+>>> graph = Graph()
+>>> robot = graph.node("robot")
+>>> heard = []
+>>> _ = robot.subscriber("cmd_vel", Twist, lambda twist: heard.append(twist.linear.x))
+>>> pad = TeleopPad(graph)
+>>> pad.press("w")
+>>> pad.press("w")
+>>> _ = graph.run(0.3)
+>>> heard
+[0.005, 0.01, 0.015, 0.02]
+>>> pad.stop()
+>>> pad
+teleop_pad publishes geometry_msgs/Twist on /cmd_vel
+wanted 0.00 m/s and 0.0 rad/s; sent 0.00 m/s and 0.0 rad/s; 5 messages
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import ROSException, ROSInterruptException, RosminiError
+from rosmini.graph import Graph, Node
+from rosmini.graph.notebook import kernel_shell
+from rosmini.msgs import message_class
+from rosmini.viz.form import book_form
+from rosmini.viz.view import MimeBundle, View
+
+from .sight import Sight
+from .teleop import PERIOD, Limits, Teleop, TeleopError, key_named
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection
+
+    from rosmini.graph.clock import Timer
+    from rosmini.sim.simulator import Simulator
+
+CONNECT_S = 1.0
+"""So long a new pad waits for those who listen already, so that its first message is not lost."""
+
+
+class TeleopPad(View):
+    """An ordinary node that publishes velocities as `turtlebot3_teleop_key` does; shown in a notebook, it is a pad with keys.
+
+    A key publishes at once, and then every 0.1 s what has come nearer to the target. When nothing is wanted and nothing is sent any more, the
+    pad is silent (the original goes on with zeros, in the way of any other node that drives), until the next key.
+
+    `press` and `stop` are what the keys, buttons and touches of a browser call too.
+
+    Args:
+        driven: a simulator, whose robot is driven and shown; or a graph, and then only the messages are shown.
+        topic: where to publish, as the simulator's node calls it: in its namespace, remapped as it is there.
+        name: the name of the node.
+        limits: how fast at most; those of the simulator's robot by default, and of a Burger without one.
+        caption: words under the pad.
+
+    Raises:
+        TeleopError: `driven` is neither.
+
+    """
+
+    def __init__(
+        self,
+        driven: Simulator | Graph,
+        *,
+        topic: str = "cmd_vel",
+        name: str = "teleop_pad",
+        limits: Limits | None = None,
+        caption: str | None = None,
+    ) -> None:
+        self.sight: Sight | None = None
+        namespace = "/"
+        if isinstance(driven, Graph):
+            self.graph = driven
+        elif isinstance(getattr(driven, "node", None), Node):
+            self.sight = Sight(driven)
+            self.graph, namespace = driven.node.graph, driven.node.namespace
+            topic = driven.node.resolve(topic)
+            model = driven.model
+            limits = limits or Limits(model.max_linear, model.max_angular)
+        else:
+            raise TeleopError(
+                f"a pad drives the robot of a simulator, or what listens on a graph, not a {type(driven).__name__}. "
+                "Give it what rosrun('rosmini_sim', 'simulator') returned, or a Graph."
+            )
+        self.caption = caption
+        self.teleop = Teleop(limits)
+        self.sent = 0
+        """How many messages were published."""
+        self.twist_class = message_class("geometry_msgs/Twist")
+        self.node = self.graph.node(name, namespace=namespace)
+        self._publisher = self.node.publisher(topic, self.twist_class, queue_size=10)
+        self._twist = self.twist_class()
+        self._timer: Timer | None = None
+        self._listeners: list[Callable[[Any], object]] = []
+        self._link: Any = None
+        self._meet_listeners()
+
+    def _meet_listeners(self) -> None:
+        if self.topic in dict(self.graph.master.getSystemState(self.node.name)[2][1]):
+            try:
+                self._publisher.wait_for_subscribers(timeout=CONNECT_S)
+            except ROSInterruptException:
+                raise
+            except (
+                ROSException
+            ):  # a listener that does not answer: the publisher warns of lost messages itself
+                pass
+
+    # -- driving -------------------------------------------------------------------------------------------------
+
+    @property
+    def topic(self) -> str:
+        """Where it publishes, as a global name."""
+        return self._publisher.topic
+
+    @property
+    def twist(self) -> Any:
+        """What was published last; zero before that."""
+        return self._twist
+
+    def press(self, key: str, times: int = 1) -> None:
+        """Take a key (`w`, `x`, `a`, `d`, `s`, `space`, or an arrow: `up`, `down`, `left`, `right`), as often as told, at this moment.
+
+        Raises `TeleopError` for another key and when the robot has been removed, `ROSException` when the node was shut down.
+        """
+        named = key_named(key)
+        if times < 1:
+            raise TeleopError(f"a key is pressed once or more often, not {times} times")
+        self._require_robot()
+        for _ in range(times):
+            self._publish(self.teleop.press(named))
+
+    def stop(self) -> None:
+        """Stop at once, as the key `s` does. Raises as `press` does."""
+        self.press("s")
+
+    def reset(self) -> None:
+        """Stop, and put the simulator's robot back to where it began. Raises `TeleopError` without a simulator, and as `press` does."""
+        if self.sight is None:
+            raise TeleopError(
+                "this pad has no simulator, so it cannot put a robot back; give it one: TeleopPad(simulator)"
+            )
+        self.stop()
+        self.sight.simulator.reset()
+        self.sight.trail.clear()
+
+    def on_publish(self, callback: Callable[[Any], object]) -> None:
+        """Call `callback(twist)` for each message from now on."""
+        self._listeners.append(callback)
+
+    def _publish(self, velocity: tuple[float, float]) -> None:
+        if self._timer is not None:
+            self._timer.shutdown()
+            self._timer = None
+        twist = self.twist_class()
+        twist.linear.x, twist.angular.z = velocity
+        self._publisher.publish(twist)
+        self._twist = twist
+        self.sent += 1
+        for listener in self._listeners:
+            listener(twist)
+        if not self.teleop.at_rest:
+            self._timer = self.node.timer(PERIOD, self._cycle, oneshot=True)
+
+    def _cycle(self, _event: object) -> None:
+        self._timer = None
+        if self.gone is None:
+            self._publish(self.teleop.cycle())
+
+    # -- the robot -----------------------------------------------------------------------------------------------
+
+    @property
+    def gone(self) -> str | None:
+        """Why there is nothing to drive any more: the robot was removed, or the node was shut down. None while there is."""
+        if self.node.is_shutdown():
+            return f"the node {self.node.name} was shut down."
+        if self.sight is not None:
+            try:
+                self.sight.simulator.truth()
+            except RosminiError as error:
+                return str(error)
+        return None
+
+    def _require_robot(self) -> None:
+        why = self.gone
+        if why is not None:
+            self.teleop = Teleop(self.teleop.limits)
+            raise TeleopError(
+                f"the pad has nothing to drive: {why} The graph goes on."
+            )
+
+    # -- to look at ----------------------------------------------------------------------------------------------
+
+    @property
+    def text(self) -> str:
+        """What is wanted, what was sent, and how the robot is."""
+        (v, w), (sent_v, sent_w) = self.teleop.target, self.teleop.command
+        messages = "1 message" if self.sent == 1 else f"{self.sent} messages"
+        lines = [
+            f"{self.node.name.lstrip('/')} publishes {self.twist_class._type} on {self.topic}",
+            f"wanted {v:.2f} m/s and {w:.1f} rad/s; sent {sent_v:.2f} m/s and {sent_w:.1f} rad/s; {messages}",
+        ]
+        why = self.gone
+        if why is not None:
+            lines.append(f"nothing to drive: {why}")
+        elif self.sight is not None:
+            lines.append(self.sight.describe())
+        return "\n".join(lines)
+
+    @property
+    def alt(self) -> str:
+        """The pad in a sentence or two."""
+        drives = "" if self.sight is None else f" the {self.sight.simulator.model.name} in its world and"
+        return f"A pad with the keys w, a, s, d and x that shows{drives} the messages on {self.topic}. {self.text}"
+
+    def _images(self) -> dict[str, bytes]:
+        return {}
+
+    @property
+    def html(self) -> str:
+        """The pad as a page: it drives a robot of its own there, in the same world."""
+        from .page import static_html
+
+        return static_html(self, caption=self.caption)
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> MimeBundle:
+        """A live widget in a notebook; in the book, and where no kernel runs, the page that stands alone."""
+        if book_form() or kernel_shell() is None:
+            return super()._repr_mimebundle_(include, exclude)
+        data, metadata = self.link.widget._repr_mimebundle_()
+        return {**data, "text/plain": self.text}, metadata
+
+    @property
+    def link(self) -> Any:
+        """What goes between this pad and its page in a live notebook. Raises `TeleopError` without anywidget."""
+        if self._link is None:
+            from .live import Link
+
+            self._link = Link(self)
+        return self._link

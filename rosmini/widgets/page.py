@@ -1,0 +1,78 @@
+"""The pad in a page: what its scripts are given, and the page that needs no kernel."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from rosmini.viz.embed import asset_path, embed
+from rosmini.viz.svg import element, escape
+
+from .teleop import table
+
+if TYPE_CHECKING:
+    from .pad import TeleopPad
+
+STEP = 0.005
+"""How long one step of the robot in a page is [s]: that of the engine's physics."""
+
+SCRIPTS = ("rosmini-canvas.js", "rosmini-teleop.js", "rosmini-pad-style.js", "rosmini-pad.js")
+HEIGHT = 420
+
+
+def pad_data(pad: TeleopPad) -> dict[str, Any]:
+    """All that a page has to know of a pad, as JSON. Lengths are metres to the millimetre, angles radians to the ten-thousandth."""
+    data: dict[str, Any] = {
+        "title": title(pad),
+        "topic": pad.topic,
+        "teleop": table(pad.teleop.limits),
+        "step": STEP,
+        "scene": None,
+        "pose": None,
+        "scan_rate": 0.0,
+    }
+    if pad.sight is not None and pad.gone is None:
+        x, y, theta = pad.sight.look()
+        pose = [round(x + 1e-8, 3) + 0.0, round(y + 1e-8, 3) + 0.0, round(theta + 1e-8, 4) + 0.0]
+        data |= {"scene": pad.sight.scene(), "pose": pose, "scan_rate": pad.sight.rate}
+    return data
+
+
+def title(pad: TeleopPad) -> str:
+    """What the pad drives, in a few words."""
+    if pad.sight is None:
+        return f"Drive on {pad.topic}"
+    simulator = pad.sight.simulator
+    return f"Drive the {simulator.model.title or simulator.model.name} in the world {simulator.world.name}"
+
+
+def static_html(pad: TeleopPad, *, caption: str | None = None) -> str:
+    """The HTML of a pad that drives a robot of its own, from where the pad's robot stands now; the same bytes for the same state."""
+    return embed(
+        SCRIPTS,
+        "rosminiPad.mount",
+        pad_data(pad),
+        title=title(pad),
+        alt=pad.alt,
+        height=HEIGHT,
+        fallback_html=_still(pad),
+        caption=caption,
+    )
+
+
+@cache
+def module() -> str:
+    """The same scripts as one module for anywidget, with the driver that talks to a kernel."""
+    texts = [asset_path(name).read_text(encoding="utf-8") for name in (*SCRIPTS, "rosmini-pad-kernel.js")]
+    return "\n".join([*texts, "export default { render: globalThis.rosminiPadKernel.render };\n"])
+
+
+def _still(pad: TeleopPad) -> str:
+    """What is there without scripts and in print: the world, if there is one, and how things stand."""
+    words = element("p", escape(pad.text).replace("\n", "<br>"))
+    if pad.sight is None or pad.gone is not None:
+        return words
+    from rosmini.graph.show import show
+
+    picture = show("simulation", pad.sight.simulator)
+    return f"{picture.html or ''}{words}"

@@ -1,0 +1,83 @@
+"""What a pad shows beside its messages: the robot of a simulator, where it stands, and what its laser sees."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.sim.world import Pose
+from rosmini.viz.replay.scene import scene_data
+
+if TYPE_CHECKING:
+    from rosmini.sim.simulator import Simulator
+
+Floats = NDArray[np.float64]
+
+TRAIL_STEP = 0.02
+"""The least way between two points of the trail [m]."""
+TRAIL_JUMP = 0.3
+"""A longer way between two looks was not driven: the robot was put somewhere else, and a new trail begins [m]."""
+TRAIL_POINTS = 3000
+
+
+class Sight:
+    """Looks at the robot of one simulator and remembers its way."""
+
+    def __init__(self, simulator: Simulator) -> None:
+        self.simulator = simulator
+        self.trail: list[tuple[float, float]] = []
+
+    @property
+    def rate(self) -> float:
+        """Scans a second."""
+        return self.simulator.model.lidar.rate
+
+    @property
+    def scan_topic(self) -> str:
+        """Where its laser's messages are."""
+        return self.simulator.node.resolve("scan")
+
+    def scene(self) -> dict[str, Any]:
+        """The world and the robot for the scripts in a page."""
+        return scene_data(self.simulator.world, self.simulator.model)
+
+    def look(self) -> Pose:
+        """Where the robot is, noted for the trail. Raises what the simulator raises when it has been removed."""
+        x, y, theta = self.simulator.truth()
+        gone = math.dist(self.trail[-1], (x, y)) if self.trail else math.inf
+        if gone > TRAIL_JUMP:
+            self.trail.clear()
+        if gone >= TRAIL_STEP:
+            self.trail.append((x, y))
+            del self.trail[:-TRAIL_POINTS]
+        return (x, y, theta)
+
+    @property
+    def blocked(self) -> bool:
+        """Whether something is in the robot's way."""
+        return self.simulator.engine.robot(self.simulator.name).touching
+
+    def describe(self) -> str:
+        """Where the robot is and how much its laser sees, in a line that is the same on every machine."""
+        model, world = self.simulator.model, self.simulator.world
+        x, y, theta = self.simulator.truth()
+        degrees = math.degrees(math.remainder(theta, 2 * math.pi))
+        numbers = [_plain(x, 2), _plain(y, 2), f"{_plain(degrees, 1)} deg"]
+        where = f"{model.name} at ({', '.join(numbers)}) in {world.name}"
+        scan = self.ranges()
+        if scan is None:
+            return f"{where}; no scan yet"
+        return f"{where}; {int(np.isfinite(scan).sum())} of {len(scan)} beams hit"
+
+    def ranges(self) -> Floats | None:
+        """The last scan's ranges (beams,) [m], or None if there is none yet."""
+        scan = self.simulator.last_scan()
+        return None if scan is None else np.asarray(scan.ranges, dtype=np.float64)
+
+
+def _plain(value: float, digits: int) -> str:
+    """A number without a negative zero, and whose rounding does not hang on the last bits."""
+    return f"{round(value + 1e-9, digits) + 0.0:.{digits}f}"
