@@ -4,11 +4,11 @@ The script is a file of `rosmini/viz/static/` that defines a function `mount(hos
 
 - `host` is an empty element of the page, as wide as the text and at least `height` pixels high;
 - `data` is the JSON that Python gave (bytes are base64 in it);
-- `options` has `title`, `alt`, `height`, `book` (whether the page is one of the book), and `asset(name)`, a promise of
-  the address of another file.
+- `options` has `title`, `alt`, `height`, `book` (whether the page is one of the book), `asset(name)`, a promise of the
+  address of another file, `still`, the element with the still picture, and `show(moving)`, which shows `host` or `still`.
 
-What it returns is awaited. If it fails, the still picture comes back. Without scripts (GitHub, a notebook that is not
-trusted, a book page without its `_static` folder) the still picture is what one sees, and it is what is printed.
+What it returns is awaited. If it fails or returns `false`, the still picture comes back. Without scripts (GitHub, a
+notebook that is not trusted, a page without its `_static` folder) the still picture is what one sees, and it is printed.
 
 In the book form the scripts are files of the book, loaded once for each page, from file:// too. In the live form
 they are in the HTML, large ones compressed. The data never are: another zlib gives other bytes, and nbval compares
@@ -196,9 +196,9 @@ if (!figure) return;
 figure.dataset.mounted = "";
 const [still, host] = [".rosmini-still", ".rosmini-moving"].map((name) => figure.querySelector(name));
 const data = JSON.parse(figure.querySelector('script[type="application/json"]').textContent);
-const change = (moving) => { still.hidden = moving; host.hidden = !moving; };
+const show = (moving) => { still.hidden = moving; host.hidden = !moving; };
 ready.then(() => {
-  change(true);
-  return globalThis.%(call)s(host, data, {...%(options)s, book, asset});
-}).catch((error) => { change(false); console.error(error); });
+  show(true);
+  return globalThis.%(call)s(host, data, {...%(options)s, book, asset, still, show});
+}).then((shown) => shown === false && show(false), (error) => { show(false); console.error(error); });
 """
