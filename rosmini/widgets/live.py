@@ -111,7 +111,11 @@ class Link:
             elif kind == "hello":
                 self._hello()
         except TeleopError as error:
-            self._tell_gone(str(error))
+            why = self.pad.gone
+            if why is None:
+                self._send({"type": "error", "text": str(error)})
+            else:
+                self._tell_gone(why)
 
     def _begin(self) -> None:
         """Send frames from now on, unless that goes on already."""

@@ -189,9 +189,7 @@ class TeleopPad(View):
         why = self.gone
         if why is not None:
             self.teleop = Teleop(self.teleop.limits)
-            raise TeleopError(
-                f"the pad has nothing to drive: {why} The graph goes on."
-            )
+            raise TeleopError(f"the pad has nothing to drive: {why} The graph goes on.")
 
     # -- to look at ----------------------------------------------------------------------------------------------
 
