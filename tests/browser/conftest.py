@@ -1,12 +1,21 @@
-"""A headless Chromium, and a watcher that reports what a page says, raises and fetches."""
+"""A headless Chromium, a watcher that reports what a page says, raises and fetches, and a JupyterLab."""
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
+
+TOKEN = "rosmini-test"
 
 # Started like this it opens no connection of its own.
 FLAGS = [
@@ -63,3 +72,89 @@ class Watcher:
 @pytest.fixture
 def watch():
     return Watcher
+
+
+def notebook(cells):
+    return {
+        "cells": [
+            {
+                "cell_type": "code",
+                "execution_count": None,
+                "id": f"c{i}",
+                "metadata": {},
+                "outputs": [],
+                "source": source.strip(),
+            }
+            for i, source in enumerate(cells)
+        ],
+        "metadata": {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+
+
+def free_port() -> int:
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        return listener.getsockname()[1]
+
+
+@contextmanager
+def jupyterlab(tmp_path, cells):
+    """Run a JupyterLab with `live.ipynb`, with settings and runtime files of its own; its end is the kernel's."""
+    (tmp_path / "work").mkdir()
+    (tmp_path / "work" / "live.ipynb").write_text(json.dumps(notebook(cells)), encoding="utf-8")
+    port = free_port()
+    own = {
+        name: str(tmp_path / name.lower())
+        for name in (
+            "JUPYTER_CONFIG_DIR",
+            "JUPYTER_DATA_DIR",
+            "JUPYTER_RUNTIME_DIR",
+            "JUPYTERLAB_SETTINGS_DIR",
+            "JUPYTERLAB_WORKSPACES_DIR",
+            "IPYTHONDIR",
+        )
+    }
+    arguments = [
+        f"--ServerApp.root_dir={tmp_path / 'work'}",
+        "--ServerApp.ip=127.0.0.1",
+        f"--ServerApp.port={port}",
+        "--ServerApp.port_retries=0",
+        f"--IdentityProvider.token={TOKEN}",
+        "--LabApp.news_url=None",
+        "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
+        "--no-browser",
+        "--allow-root",
+    ]
+    with (tmp_path / "lab.log").open("wb") as log:
+        server = subprocess.Popen(
+            [sys.executable, "-m", "jupyterlab", *arguments],
+            env=os.environ | own,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+        )
+    address = f"http://127.0.0.1:{port}"
+    try:
+        for _ in range(300):
+            try:
+                urllib.request.urlopen(f"{address}/api?token={TOKEN}", timeout=5).close()
+                break
+            except OSError:
+                assert server.poll() is None, (tmp_path / "lab.log").read_text()
+                time.sleep(0.1)
+        yield f"{address}/lab/tree/live.ipynb?token={TOKEN}"
+    finally:
+        server.terminate()
+        try:
+            server.wait(20)
+        except subprocess.TimeoutExpired:
+            server.kill()
+            server.wait()
+
+
+@pytest.fixture
+def start_lab(tmp_path):
+    """Start a JupyterLab with a notebook of the given cells; return the notebook's address."""
+    with ExitStack() as stack:
+        yield lambda cells: stack.enter_context(jupyterlab(tmp_path, cells))
