@@ -1,8 +1,50 @@
-"""Pictures: one display funnel (`rosmini.viz.view`), one house style, and the tools of rqt."""
+"""Pictures: one display funnel (`rosmini.viz.view`), one house style, robots and their worlds, and the tools of rqt.
+
+What draws with numpy and matplotlib is loaded when it is first asked for.
+"""
 
 from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from rosmini.viz.rqt import GraphState, rqt_graph
 from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 
-__all__ = ["GraphState", "Picture", "View", "ViewError", "matplotlib_picture", "rqt_graph"]
+if TYPE_CHECKING:
+    from rosmini.viz.recording import recording_picture, recording_plots
+    from rosmini.viz.scan import scan_picture
+    from rosmini.viz.simulation import simulation_picture
+    from rosmini.viz.world import world_picture
+
+__all__ = [
+    "GraphState",
+    "Picture",
+    "View",
+    "ViewError",
+    "matplotlib_picture",
+    "recording_picture",
+    "recording_plots",
+    "rqt_graph",
+    "scan_picture",
+    "simulation_picture",
+    "world_picture",
+]
+
+_LATER = {
+    "recording_picture": "rosmini.viz.recording",
+    "recording_plots": "rosmini.viz.recording",
+    "scan_picture": "rosmini.viz.scan",
+    "simulation_picture": "rosmini.viz.simulation",
+    "world_picture": "rosmini.viz.world",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name in _LATER:
+        return getattr(import_module(_LATER[name]), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

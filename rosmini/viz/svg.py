@@ -55,20 +55,29 @@ def bezier(points: Iterable[Point]) -> str:
 
 
 def document(
-    body: str, *, width: float, height: float, title: str, alt: str, css: str, colours: list[str]
+    body: str,
+    *,
+    width: float,
+    height: float,
+    title: str,
+    alt: str,
+    css: str,
+    colours: list[str],
+    kind: str = "rosmini-svg",
 ) -> str:
     """A whole picture: usable as a file, and inline in a page of any theme.
 
-    `alt` is what a screen reader says; `css` may use the custom properties named in `colours`. Where a page is too
-    narrow, the picture shrinks with it, but not below 60 per cent: its text stays legible and the figure scrolls.
+    `alt` is what a screen reader says; `css` may use the custom properties named in `colours`; `kind` is the class of the
+    picture, to which its rules keep. Where a page is too narrow, the picture shrinks with it, but not below 60 per cent:
+    its text stays legible and the figure scrolls.
     """
-    style = f".rosmini-svg text{{font-family:{FONT}}}{css}{themed('.rosmini-svg', colours)}"
+    style = f".{kind} text{{font-family:{FONT}}}{css}{themed(f'.{kind}', colours)}"
     least = number(min(width, max(0.6 * width, 320.0)))
     return element(
         "svg",
         element("title", escape(title)) + element("desc", escape(alt)) + f"<style>{style}</style>" + body,
         xmlns="http://www.w3.org/2000/svg",
-        class_="rosmini-svg",
+        class_=kind,
         role="img",
         aria_label=alt,
         viewBox=f"0 0 {number(width)} {number(height)}",

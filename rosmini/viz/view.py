@@ -55,8 +55,13 @@ class View(ABC):
 
     @property
     def html(self) -> str | None:
-        """The form for pages, self-contained; None where the image alone does better."""
+        """The form for pages; None where the image alone does better."""
         return None
+
+    @property
+    def page(self) -> str | None:
+        """The form for a file of its own, self-contained whatever `html` is made for."""
+        return self.html
 
     def __repr__(self) -> str:
         return self.text
@@ -87,8 +92,8 @@ class View(ABC):
         path = Path(path)
         forms = {_SUFFIX[mime]: content for mime, content in self._images().items()}
         forms[".txt"] = (self.text + "\n").encode()
-        if self.html is not None:
-            forms[".html"] = _page(self.html, self.text.partition("\n")[0]).encode()
+        if self.page is not None:
+            forms[".html"] = _page(self.page, self.text.partition("\n")[0]).encode()
         if path.suffix.lower() not in forms:
             raise ViewError(
                 f"cannot save {path.name!r}: a {type(self).__name__} has no form for the suffix "
@@ -166,10 +171,18 @@ class Picture(View):
 
 
 def matplotlib_picture(
-    figure: Figure, *, text: str, alt: str, form: Literal["png", "svg"] = "png", dpi: float = 110.0
+    figure: Figure,
+    *,
+    text: str,
+    alt: str,
+    form: Literal["png", "svg"] = "png",
+    dpi: float = 110.0,
+    caption: str | None = None,
 ) -> Picture:
     """A picture of a matplotlib figure, with no date and no random ids in it.
 
+    As SVG it follows the theme of its page where it uses the colours of `rosmini.viz.style.LIGHT`, black or white
+    (see `rosmini.viz.themed`); text is laid out for DejaVu Sans. As PNG it has `dpi` dots an inch.
     The figure is not shown by Jupyter's inline backend as well if it was made with `matplotlib.figure.Figure`.
 
     Raises:
@@ -180,12 +193,13 @@ def matplotlib_picture(
 
     import matplotlib as mpl
 
+    from rosmini.viz.themed import themed_svg
+
     file = BytesIO()
-    with mpl.rc_context({"svg.hashsalt": "rosmini", "svg.fonttype": "path"}):
+    with mpl.rc_context({"svg.hashsalt": "rosmini", "svg.fonttype": "none"}):
         metadata = {"Date": None} if form == "svg" else {"Software": None}
         figure.savefig(file, format=form, dpi=dpi, metadata=metadata)
     if form == "png":
-        return Picture(file.getvalue(), text=text, alt=alt)
-    svg = file.getvalue().decode()
-    svg = svg[svg.index("<svg") :].strip()
-    return Picture(svg.replace("<svg", f'<svg role="img" aria-label="{escape(alt)}"', 1), text=text, alt=alt)
+        return Picture(file.getvalue(), text=text, alt=alt, caption=caption)
+    svg = themed_svg(file.getvalue().decode(), title=text.partition("\n")[0], alt=alt)
+    return Picture(svg, text=text, alt=alt, caption=caption)

@@ -1,0 +1,151 @@
+"""A laser scan for pictures: which beams hit something, where, and what is nearest."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rosmini.sim.models import LidarModel
+from rosmini.viz.rounding import degrees, fixed
+from rosmini.viz.view import ViewError
+
+Floats = NDArray[np.float64]
+
+SECTORS = ("ahead", "ahead on the left", "on the left", "behind on the left", "behind", "behind on the right", "on the right", "ahead on the right")  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Beams:
+    """What a picture needs of a scan."""
+
+    angles: Floats
+    """(n,): of each beam [rad], counter-clockwise from straight ahead of the laser."""
+    ranges: Floats
+    """(n,) [m]; inf where nothing was hit."""
+    range_max: float
+    """[m]"""
+    frame: str = ""
+
+    @property
+    def hits(self) -> NDArray[np.bool_]:
+        """(n,): which beams hit something."""
+        return np.isfinite(self.ranges)
+
+    def points(self) -> Floats:
+        """The ends (n, 2) of the beams, seen from the laser; where nothing was hit, at `range_max`."""
+        reach = np.where(self.hits, self.ranges, self.range_max)
+        return np.column_stack([reach * np.cos(self.angles), reach * np.sin(self.angles)])
+
+    def nearest(self) -> int | None:
+        """The beam with the nearest hit; of those that differ by less than a hair, the one that looks ahead most."""
+        if not self.hits.any():
+            return None
+        near = np.flatnonzero(self.ranges < self.ranges.min() + 1.0371e-5)
+        off = [(fixed(abs(_wrapped(self.angles[i])), 4), self.angles[i] < 0, int(i)) for i in near]
+        return min(off)[2]
+
+    def text(self) -> str:
+        """How many beams hit something, and what is nearest."""
+        count = f"{int(self.hits.sum())} of {len(self.ranges)} beams hit"
+        nearest = self.nearest()
+        if nearest is None:
+            return f"{count}, nothing within {fixed(self.range_max, 2)} m"
+        return (
+            f"{count}, nearest {fixed(self.ranges[nearest], 2)} m {direction(self.angles[nearest])} "
+            f"({degrees(self.angles[nearest], 0)} deg)"
+        )
+
+    def clause(self) -> str:
+        """The same for an alt text."""
+        nearest = self.nearest()
+        if nearest is None:
+            return f"none of {len(self.ranges)} laser beams hits anything within {fixed(self.range_max, 1)} m"
+        return (
+            f"{int(self.hits.sum())} of {len(self.ranges)} laser beams hit something, the nearest "
+            f"{fixed(self.ranges[nearest], 2)} m away {direction(self.angles[nearest])}"
+        )
+
+    def around(self) -> str:
+        """What the beams ahead, on the left, behind and on the right say; those that look there."""
+        said = []
+        for angle in (0.0, math.pi / 2, math.pi, -math.pi / 2):
+            off = np.abs(np.array([_wrapped(float(a) - angle) for a in self.angles]))
+            beam = int(np.argmin(np.round(off, 6)))
+            if off[beam] < math.radians(5.0):
+                hit = f"{fixed(self.ranges[beam], 2)} m" if self.hits[beam] else "nothing"
+                said.append(f"{direction(angle)} {hit}")
+        return ", ".join(said)
+
+
+def direction(angle: float) -> str:
+    """Which of eight directions an angle [rad] is in, in words.
+
+    >>> direction(0.1), direction(1.5), direction(-2.4)
+    ('ahead', 'on the left', 'behind on the right')
+    """
+    return SECTORS[math.floor((float(degrees(angle, 0)) + 22.5) / 45.0) % 8]
+
+
+def beams_of(scan: Any, lidar: LidarModel | None = None) -> Beams:
+    """The beams of a `sensor_msgs/LaserScan`, or of an array of ranges of a laser, of which beam i looks at 2 pi i / beams.
+
+    What is outside of range_min and range_max is no hit, nor is nan (sensor_msgs/LaserScan, REP 117).
+
+    Raises:
+        ViewError: the scan has no ranges, another number of them than its angles say or than the laser has beams, or its
+            angles are no numbers.
+
+    """
+    if not hasattr(scan, "ranges"):
+        return _from_ranges(scan, lidar)
+    ranges = np.array(scan.ranges, dtype=float)
+    first, step, last = (float(v) for v in (scan.angle_min, scan.angle_increment, scan.angle_max))
+    if not all(map(math.isfinite, (first, step, last))) or not step:
+        raise ViewError(
+            f"a scan needs an angle_min and an angle_increment, not {first} and {step} rad: without them nobody "
+            "knows where its beams look"
+        )
+    expected = round((last - first) / step) + 1
+    # some drivers give the end of the last beam's share as angle_max, some the last beam itself
+    if not len(ranges) or abs(expected - len(ranges)) > 1:
+        raise ViewError(
+            f"a scan has {len(ranges)} ranges, but its angles from {first:.4f} to {last:.4f} rad by {step:.6f} rad are those "
+            f"of {expected} beams"
+        )
+    if lidar is not None and lidar.beams != len(ranges):
+        raise ViewError(f"a scan has {len(ranges)} ranges, but the {lidar.name} has {lidar.beams} beams")
+    angles = first + step * np.arange(len(ranges), dtype=float)
+    return _beams(
+        angles, ranges, float(scan.range_min), float(scan.range_max), getattr(scan.header, "frame_id", "")
+    )
+
+
+def _from_ranges(given: ArrayLike, lidar: LidarModel | None) -> Beams:
+    wrong = f"a scan is a sensor_msgs/LaserScan or an array of ranges, not a {type(given).__name__}"
+    try:
+        ranges = np.array(given, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise ViewError(wrong) from error
+    if not ranges.ndim:
+        raise ViewError(wrong)
+    if ranges.ndim != 1 or not len(ranges):
+        raise ViewError(f"the ranges of a scan are an array (n,), not {ranges.shape}")
+    if lidar is not None and lidar.beams != len(ranges):
+        raise ViewError(f"{len(ranges)} ranges were given, but the {lidar.name} has {lidar.beams} beams")
+    limits = (lidar.range_min, lidar.range_max) if lidar is not None else (0.0, math.inf)
+    angles = 2 * math.pi / len(ranges) * np.arange(len(ranges), dtype=float)
+    return _beams(angles, ranges, *limits, lidar.frame if lidar is not None else "")
+
+
+def _beams(angles: Floats, ranges: Floats, least: float, most: float, frame: str) -> Beams:
+    hit = np.isfinite(ranges) & (ranges >= least) & (ranges <= most)
+    reach = most if 0 < most < math.inf else float(max(ranges[hit], default=1.0))
+    return Beams(angles, np.where(hit, ranges, np.inf), reach, frame)
+
+
+def _wrapped(angle: float) -> float:
+    return (angle + math.pi) % (2 * math.pi) - math.pi

@@ -1,0 +1,138 @@
+"""Figures in the house style: a size in CSS pixels, no frame, a faint grid, and nothing that a user's matplotlibrc changes.
+
+Pictures of worlds and runs are SVG. They stay sharp, they follow the page's theme, a screen reader reads their text, and a few
+dozen kB are enough. nbval compares them to the byte, which they bear: what is drawn is rounded first (`rosmini.viz.rounding`), and
+what matplotlib writes is rounded again (`rosmini.viz.themed`). A PNG would have to look well on light and on dark pages at once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from rosmini.viz.style import HAIRLINE, LABEL_SIZE, LIGHT
+from rosmini.viz.view import ViewError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+WIDTH = 660.0
+"""As wide as the text of the book [CSS px]."""
+
+_STYLE: dict[Any, Any] = {
+    "font.family": ["DejaVu Sans"],  # comes with matplotlib, so the layout is the same everywhere
+    "font.size": LABEL_SIZE,
+    "axes.labelsize": LABEL_SIZE,
+    "axes.labelcolor": LIGHT["muted"],
+    "axes.facecolor": "none",
+    "axes.edgecolor": LIGHT["group-line"],
+    "axes.linewidth": HAIRLINE,
+    "axes.axisbelow": True,
+    "axes.grid": True,
+    "grid.color": LIGHT["group-line"],
+    "grid.alpha": 0.3,
+    "grid.linewidth": HAIRLINE,
+    "xtick.labelsize": LABEL_SIZE,
+    "ytick.labelsize": LABEL_SIZE,
+    "xtick.labelcolor": LIGHT["muted"],
+    "ytick.labelcolor": LIGHT["muted"],
+    "xtick.bottom": False,
+    "ytick.left": False,
+    "figure.facecolor": "none",
+    "figure.edgecolor": "none",
+    "legend.fontsize": LABEL_SIZE,
+    "legend.labelcolor": LIGHT["ink"],
+    "legend.frameon": False,
+    "lines.solid_capstyle": "round",
+    "lines.solid_joinstyle": "round",
+    "lines.dash_joinstyle": "round",
+    "path.simplify": False,
+    "axes.unicode_minus": True,
+}
+
+
+@contextmanager
+def house_style() -> Iterator[None]:
+    """Matplotlib with its own defaults and the house style, for as long as the block runs.
+
+    Raises:
+        ViewError: matplotlib is not installed.
+
+    """
+    try:
+        import matplotlib as mpl
+    except ImportError as error:
+        raise ViewError(
+            "pictures of worlds and runs are drawn with matplotlib, which is not installed: pip install 'rosmini[book]'"
+        ) from error
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_STYLE)
+        yield
+
+
+def blank_figure(width: float, height: float) -> Figure:
+    """An empty figure of so many CSS pixels; make it inside of `house_style`.
+
+    Raises:
+        ViewError: it would be too small to draw in, or larger than a screen.
+
+    """
+    from matplotlib.figure import Figure
+
+    for name, value in (("width", width), ("height", height)):
+        if not 100 <= value <= 4000:
+            raise ViewError(f"the {name} of a picture must be 100 to 4000 pixels, not {value}")
+    return Figure(figsize=(width / 72, height / 72), dpi=72)
+
+
+def place(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:
+    """Axes in a figure, by their left upper corner and their size [CSS px]."""
+    full_width, full_height = figure.get_size_inches() * 72
+    axes = figure.add_axes(
+        (left / full_width, 1 - (top + height) / full_height, width / full_width, height / full_height)
+    )
+    axes.spines[:].set_visible(False)
+    return axes
+
+
+def legend(figure: Figure, handles: Sequence[Any], left: float) -> None:
+    """One line of words about lines and marks, in the first 28 pixels of a figure, `left` from its side [CSS px]."""
+    width, height = figure.get_size_inches() * 72
+    figure.legend(
+        handles=list(handles),
+        loc="upper left",
+        bbox_to_anchor=((left - 2) / width, 1 - 2 / height),
+        ncols=max(1, len(handles)),
+        borderpad=0.0,
+        borderaxespad=0.4,
+        columnspacing=1.8,
+        handlelength=2.4,
+    )
+
+
+def ticks(low: float, high: float, step: float) -> list[float]:
+    """The multiples of `step` from `low` to `high`."""
+    return [
+        round(i * step, 9) for i in range(math.ceil(low / step - 1e-6), math.floor(high / step + 1e-6) + 1)
+    ]
+
+
+def step_of(extent: float, most: int, steps: Sequence[float] = (1, 2, 5)) -> float:
+    """The smallest of `steps` times a power of ten that divides `extent` into `most` parts or fewer."""
+    least = extent / most * (1 - 1e-9)
+    power = 10.0 ** math.floor(math.log10(least / max(steps)))
+    while True:
+        for step in steps:
+            if step * power >= least:
+                return step * power
+        power *= 10
+
+
+def say(values: Sequence[float]) -> list[str]:
+    """The labels of ticks: as few decimals as they need, and a real minus sign."""
+    digits = max((len(f"{v:.6f}".rstrip("0").partition(".")[2]) for v in values), default=0)
+    return [f"{v + 0.0:.{digits}f}".replace("-", "\N{MINUS SIGN}") for v in values]

@@ -1,0 +1,68 @@
+"""Numbers that are the same on every machine, for texts and for pictures that a notebook's test compares to the byte.
+
+Sines, exponentials and sums may differ in their last bit between machines. A plain `round` makes a visible difference of that
+wherever a value lies on a boundary, and values that people choose do lie there: 0.125 m is 0.12 or 0.13. The functions
+here have their boundaries elsewhere, where only a chance value falls.
+"""
+
+from __future__ import annotations
+
+from decimal import ROUND_HALF_UP, Decimal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+MILLIMETRE = 1e-3
+"""To what pictures of a world are rounded [m]: a tenth of a pixel, at most."""
+
+
+def fixed(value: float, digits: int) -> str:
+    """`value` with so many decimals: half rounded away from zero, and no negative zero.
+
+    >>> fixed(0.125 - 1e-15, 2), fixed(-0.0001, 2)
+    ('0.13', '0.00')
+    """
+    exact = Decimal(f"{value:.{digits + 6}f}")
+    text = f"{exact.quantize(Decimal(1).scaleb(-digits), rounding=ROUND_HALF_UP):f}"
+    return text.removeprefix("-") if not text.strip("-0.") else text
+
+
+def degrees(angle: float, digits: int = 1) -> str:
+    """An angle [rad] in degrees, in (-180, 180].
+
+    >>> degrees(-3.141592653589793), degrees(7.0, 0)
+    ('180.0', '41')
+    """
+    text = fixed(np.rad2deg(angle) % 360.0, digits)
+    return text if float(text) <= 180 else fixed(float(text) - 360.0, digits)
+
+
+def snap(values: ArrayLike, quantum: float = MILLIMETRE) -> NDArray[np.float64]:
+    """`values` as multiples of `quantum`; the boundaries lie a little off the halves."""
+    return np.floor(np.asarray(values, dtype=float) / quantum + 0.5371) * quantum + 0.0
+
+
+def kept(points: NDArray[np.float64], tolerance: float) -> NDArray[np.bool_]:
+    """Which points (n,) of a line (n, 2) are enough to draw it: none of the others is further away than `tolerance`.
+
+    The ends stay (Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent a
+    digitized line or its caricature", 1973).
+    """
+    keep = np.zeros(len(points), dtype=bool)
+    keep[[0, -1]] = True
+    open_ends = [(0, len(points) - 1)]
+    while open_ends:
+        first, last = open_ends.pop()
+        if last - first < 2:
+            continue
+        start, chord = points[first], points[last] - points[first]
+        between = points[first + 1 : last] - start
+        length = float(chord @ chord)
+        along = np.clip(between @ chord / length, 0.0, 1.0) if length else np.zeros(len(between))
+        off = np.hypot(*(between - along[:, None] * chord).T)
+        furthest = int(np.argmax(off))
+        if off[furthest] > tolerance:
+            middle = first + 1 + furthest
+            keep[middle] = True
+            open_ends += [(first, middle), (middle, last)]
+    return keep

@@ -1,0 +1,52 @@
+"""A running simulation, as it is now: the world, the robot where it really is, and what its laser saw last."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from numpy.typing import ArrayLike
+
+from rosmini.sim.recording import Recording
+from rosmini.sim.simulator import Simulator
+from rosmini.sim.world import World
+from rosmini.viz.figures import WIDTH
+from rosmini.viz.view import Picture
+from rosmini.viz.world import HEIGHT, world_picture
+
+
+def simulation_picture(
+    simulator: Simulator,
+    *,
+    scan: bool = True,
+    trail: Recording | ArrayLike | None = None,
+    title: str | None = None,
+    size: tuple[float, float] = (WIDTH, HEIGHT),
+) -> Picture:
+    """Draw a simulator's world as it is now, with its robot, and its last scan from where it was taken.
+
+    Args:
+        simulator: what `rosrun("rosmini_sim", "simulator")` gives.
+        scan: whether the last scan is drawn; there is none before the first revolution of the laser.
+        trail: where the robot was: a `Recording`, of which odometry is drawn too, or poses (n, 2) or (n, 3).
+        title: a caption under the picture, and the first words of its text form.
+        size: the largest width and height [CSS px].
+
+    Raises:
+        ViewError: the trail is none.
+        RobotGone: the robot was removed, or the node shut down.
+
+    """
+    world: World = simulator.world
+    fixed = [obstacle for obstacle in world.obstacles if not obstacle.movable]
+    way, odom = (trail.truth, trail.odom_in_map()) if isinstance(trail, Recording) else (trail, None)
+    return world_picture(
+        replace(world, obstacles=(*fixed, *simulator.engine.obstacles())),
+        robot=simulator.truth(),
+        model=simulator.model,
+        scan=simulator.last_scan() if scan else None,
+        scan_from=simulator.scan_pose,
+        trail=way,
+        odom=odom,
+        title=title,
+        size=size,
+    )

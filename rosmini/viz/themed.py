@@ -1,0 +1,142 @@
+"""From matplotlib's SVG to ours: it follows the theme of its page, it is small, and it is the same on every machine.
+
+- Colours of the light palette become custom properties, so the picture turns dark with its page; black is ink and white is
+  the page. Each stays as an attribute too, for programs that know no custom properties.
+- Numbers keep a hundredth of a pixel. Matplotlib writes six decimals, of which the last may depend on the machine; they
+  are rounded as decimal text, so what it wrote alike stays alike.
+- Ids that nothing refers to go. The others (of clip paths and markers) are made from what they name, so two pictures on a
+  page share an id only if they mean the same by it.
+- Text stays text, in the faces of the house; the style sheet of matplotlib, which would hold for the whole page, goes.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Iterator
+from decimal import Decimal
+from typing import TYPE_CHECKING
+
+from defusedxml.ElementTree import fromstring
+
+from rosmini.viz import style
+from rosmini.viz.svg import document, element, escape
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+KIND = "rosmini-plot"
+"""The class of these pictures: rules of other pictures on the page are not for them."""
+
+_NUMBER = re.compile(r"-?\d+\.\d+(?:e-?\d+)?")
+_FONT = re.compile(r"(?P<weight>bold|\d00)?\s*(?P<size>[\d.]+)px")
+_REFERENCE = re.compile(r"url\(#([^)]+)\)")
+_DOT = re.compile(r"M([^A-Za-z]+)L\1(?=M|$)")
+_COORDINATES = {
+    "d", "x", "y", "x1", "y1", "x2", "y2", "cx", "cy", "r", "width", "height", "points", "transform",
+    "stroke-width", "stroke-dasharray", "stroke-dashoffset", "stroke-miterlimit", "font-size", "opacity",
+}  # fmt: skip
+_DROPPED = {"font-family", "id", "type"}
+_DEFAULTS = {
+    "stroke-dashoffset": "0", "stroke-linecap": "butt", "stroke-linejoin": "round", "text-anchor": "start",
+    "stroke-width": "1", "opacity": "1", "fill-opacity": "1", "stroke-opacity": "1",
+}  # fmt: skip
+_OURS = {"#000000": style.LIGHT["ink"], "#ffffff": style.LIGHT["page"]}
+
+
+def themed_svg(svg: str, *, title: str, alt: str) -> str:
+    """The SVG that matplotlib wrote with `svg.fonttype` "none", rewritten. A point of the figure becomes a CSS pixel."""
+    root = fromstring(svg[svg.index("<svg") :])
+    names = _new_names(root)
+    body = "".join(_written(child, names) for child in root)
+    colours = [name for name, value in style.LIGHT.items() if f'="{value}"' in body]
+    css = "".join(
+        f'.{KIND} [{paint}="{style.LIGHT[name]}"]{{{paint}:{style.variable(name)}}}'
+        for name in colours
+        for paint in ("fill", "stroke")
+        if f' {paint}="{style.LIGHT[name]}"' in body
+    )
+    width, height = (float(side) for side in root.attrib["viewBox"].split()[2:])
+    drawn = element("g", body, stroke_linejoin="round")
+    return document(
+        drawn, width=width, height=height, title=title, alt=alt, css=css, colours=colours, kind=KIND
+    )
+
+
+def _written(node: Element, names: dict[str, str], parent: str = "") -> str:
+    """An element and what is in it; a group that says nothing is left out, its contents stay."""
+    tag = node.tag.rpartition("}")[2]
+    if tag in ("metadata", "style"):
+        return ""
+    inner = escape(node.text or "") if tag in ("text", "tspan") else ""
+    inner += "".join(
+        _written(child, names, tag) + (escape(child.tail or "") if inner else "") for child in node
+    )
+    attributes = dict(_attributes(node, tag, names))
+    if tag == "path" and parent == "defs":
+        # a marker: each use of it says its colours, and no rule reaches what a use shows
+        return element(tag, id=attributes["id"], d=attributes["d"]) if "id" in attributes else ""
+    unseen = attributes.get("fill") == "none" and "stroke" not in attributes
+    if (tag == "path" and unseen) or (tag in ("g", "defs") and not inner):
+        return ""
+    if tag == "g" and not attributes:
+        return inner
+    return element(tag, inner, **attributes)
+
+
+def _attributes(node: Element, tag: str, names: dict[str, str]) -> Iterator[tuple[str, str]]:
+    if node.get("id") in names:
+        yield "id", names[node.attrib["id"]]
+    given = {name.rpartition("}")[2]: value for name, value in node.attrib.items() if name != "style"}
+    for declaration in filter(None, (part.strip() for part in node.get("style", "").split(";"))):
+        name, _, value = declaration.partition(":")
+        given[name.strip()] = value.strip()
+    if tag == "text":
+        given.setdefault("fill", style.LIGHT["ink"])
+        if font := _FONT.match(given.pop("font", "")):  # matplotlib before 3.10 or so writes all in one
+            given["font-size"] = font["size"]
+            given |= {"font-weight": font["weight"]} if font["weight"] else {}
+    for name, value in given.items():
+        if name in _DROPPED or _DEFAULTS.get(name) == value:
+            continue
+        if name == "transform" and value.startswith("rotate(-0 "):
+            continue
+        value = _OURS.get(value.lower(), value)
+        if name == "href" or "url(#" in value:
+            value = _REFERENCE.sub(lambda found: f"url(#{names[found[1]]})", value)
+            value = f"#{names[value[1:]]}" if value[1:] in names else value
+        elif name in _COORDINATES:
+            value = _short(value)
+        yield name, value
+
+
+def _short(value: str) -> str:
+    """Coordinates with two decimals at most, and no more space between them than needed."""
+    value = " ".join(_NUMBER.sub(_two_decimals, value).removesuffix("px").split())
+    if value[:1] != "M":
+        return value
+    return _DOT.sub(r"M\1h0", re.sub(r" ?([A-Za-z]) ?", r"\1", value))
+
+
+def _two_decimals(found: re.Match[str]) -> str:
+    text = f"{Decimal(found[0]):.2f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def _new_names(root: Element) -> dict[str, str]:
+    """For each id that something refers to, one that says what it names."""
+    used = {found for node in root.iter() for found in _references(node)}
+    names: dict[str, str] = {}
+    for node in root.iter():
+        identity = node.get("id", "")
+        if identity in used:
+            content = _written(node, names)
+            names[identity] = "rm-" + hashlib.sha256(content.encode()).hexdigest()[:10]
+    return names
+
+
+def _references(node: Element) -> Iterator[str]:
+    for name, value in node.attrib.items():
+        if name.endswith("href") and value.startswith("#"):
+            yield value[1:]
+        yield from _REFERENCE.findall(value)

@@ -1,0 +1,209 @@
+"""Drawing on the axes of a map: walls and obstacles, a robot from above, what its laser sees, where it was.
+
+Everything is in metres in the frame of the world and rounded to millimetres; `scale` is how many pixels a metre has.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rosmini.geometry.poses import Pose, transform_points
+from rosmini.sim.models import RobotModel
+from rosmini.sim.world import Cylinder, Obstacle, World
+from rosmini.viz.beams import Beams
+from rosmini.viz.rounding import kept, snap
+from rosmini.viz.style import LIGHT, LINE_WIDTH
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.path import Path
+
+Floats = NDArray[np.float64]
+
+TINT = 0.32
+"""How strong the fill of an obstacle is."""
+SEEN = 0.11
+"""How strong the fill of what a laser sees is."""
+TRAIL_WIDTH = 2.0
+DASHES = (6.0, 4.0)
+LEAST_ROBOT = 16.0
+"""A robot is drawn to scale, but never shorter than this [px]."""
+TOLERANCE = 1.37e-3
+"""By how much a line may be drawn too straight [m]; no multiple of the millimetres that its points lie on."""
+TREAD = 0.55
+"""The width of a wheel by its radius."""
+
+
+def draw_world(axes: Axes, world: World) -> None:
+    """Walls and obstacles."""
+    for obstacle in world.obstacles:
+        _obstacle(axes, obstacle)
+    if len(world.walls):
+        lines = _chained(snap(world.walls).tolist())
+        _patch(axes, _path(lines), edge="muted", width=2.5, z=3.0)
+
+
+def _obstacle(axes: Axes, obstacle: Obstacle) -> None:
+    solid = obstacle.colour == "wall"
+    colour = "muted" if solid else "line" if obstacle.colour == "grey" else obstacle.colour
+    shape: Path
+    if isinstance(obstacle.shape, Cylinder):
+        shape = _circle(obstacle.pose[:2], obstacle.shape.radius)
+    else:
+        shape = _path([snap(obstacle.outline())], closed=True)
+    _patch(
+        axes, shape, fill=colour, edge=colour, opacity=1.0 if solid else TINT, width=0.5 if solid else LINE_WIDTH, z=3.0
+    )  # fmt: skip
+
+
+def draw_scan(axes: Axes, beams: Beams, laser: Pose) -> None:
+    """What a laser at the pose `laser` sees: the area that its beams pass, and a point for each hit."""
+    ends = snap(transform_points(laser, beams.points()))
+    whole = len(ends) * float(np.diff(beams.angles[:2]).sum()) > 1.9 * math.pi
+    outline = ends if whole else np.vstack([snap(laser[:2]), ends])
+    _patch(axes, _path([_thinned(outline)], closed=True), fill="vermilion", opacity=SEEN, z=2.0, clip=True)
+    draw_dots(axes, ends[beams.hits], "vermilion", 3.2)
+
+
+def draw_dots(axes: Axes, points: Floats, colour: str, width: float) -> None:
+    """Round dots at points (n, 2), as one path."""
+    if len(points):
+        draw_strokes(axes, np.stack([points, points], axis=1), colour, width, cap="round")
+
+
+def draw_strokes(axes: Axes, lines: Floats, colour: str, width: float, cap: Any = "butt") -> None:
+    """Lines (n, 2, 2), as one path."""
+    _patch(axes, _path(lines), edge=colour, width=width, cap=cap, z=5.0)
+
+
+def draw_trail(axes: Axes, points: Floats, *, colour: str = "blue", dashed: bool = False) -> None:
+    """A line through points (n, 2)."""
+    line = _thinned(snap(points))
+    dashes: dict[str, Any] = {"dashes": DASHES} if dashed else {}
+    axes.plot(*line.T, color=LIGHT[colour], linewidth=TRAIL_WIDTH, zorder=4.0, clip_on=False, **dashes)
+
+
+def draw_start(axes: Axes, point: ArrayLike, scale: float) -> None:
+    """A ring where a way begins."""
+    _patch(axes, _circle(point, 4.5 / scale), fill="page", edge="blue", opacity=1.0, width=2.0, z=4.5)
+
+
+def draw_robot(axes: Axes, model: RobotModel, pose: Pose, scale: float, *, ghost: bool = False) -> None:
+    """The robot from above: plate, wheels, laser, and a nose that says where ahead is. A ghost is a dashed outline."""
+    xs, ys = np.array(model.footprint).T
+    length = float(xs.max() - xs.min())
+    grown = max(1.0, LEAST_ROBOT / (length * scale))
+
+    def put(points: Iterable[Sequence[float]]) -> Floats:
+        return snap(transform_points(pose, np.array(list(points)) * grown), 1e-4)
+
+    plate = _rounded(put(model.footprint), 0.2 * min(length, float(ys.max() - ys.min())) * grown)
+    front, nose = float(xs.max()), max(0.5 * length, 9.0 / (scale * grown))
+    gap = 1.5 / (scale * grown)
+    half = 0.6 * nose
+    arrow = put([(front + gap, -half), (front + gap + nose, 0.0), (front + gap, half)])
+    if ghost:
+        for outline in (plate, _path([arrow], closed=True)):
+            _patch(axes, outline, edge="orange", width=1.6, dash=(3.0, 2.0), z=6.0)
+        return
+    _patch(axes, plate, fill="blue", edge="page", opacity=1.0, width=1.2, z=7.0)
+    _patch(axes, _path([arrow], closed=True), fill="blue", edge="page", opacity=1.0, width=0.8, z=7.0)
+    r, side, tread = model.wheel_radius, model.wheel_separation / 2, TREAD * model.wheel_radius / 2
+    wheels = [put([(-r, y - tread), (r, y - tread), (r, y + tread), (-r, y + tread)]) for y in (-side, side)]
+    _patch(axes, _path(wheels, closed=True), fill="ink", opacity=1.0, z=7.1)
+    centre = put([model.lidar.mount[:2]])[0]
+    _patch(axes, _circle(centre, 0.26 * length * grown), fill="page", opacity=1.0, z=7.2)
+    _patch(axes, _circle(centre, 0.11 * length * grown), fill="vermilion", opacity=1.0, z=7.3)
+
+
+def _patch(
+    axes: Axes,
+    path: Path,
+    *,
+    z: float,
+    fill: str = "",
+    edge: str = "",
+    opacity: float = 1.0,
+    width: float = 1.0,
+    dash: tuple[float, float] | None = None,
+    cap: Any = "butt",
+    clip: bool = False,
+) -> None:
+    from matplotlib.colors import to_rgba
+    from matplotlib.patches import PathPatch
+
+    patch = PathPatch(
+        path,
+        facecolor=to_rgba(LIGHT[fill], opacity) if fill else "none",
+        edgecolor=LIGHT[edge] if edge else "none",
+        linewidth=width if edge else 0.0,
+        linestyle=(0, dash) if dash else "-",
+        capstyle=cap,
+        joinstyle="round",
+        zorder=z,
+        clip_on=clip,
+    )
+    axes.add_artist(patch)
+    if clip:
+        patch.set_clip_path(axes.patch)
+
+
+def _path(lines: Any, *, closed: bool = False) -> Path:
+    """Lines, each (n, 2), as one path."""
+    from matplotlib.path import Path
+
+    vertices: list[Any] = []
+    codes: list[Any] = []
+    for line in lines:
+        vertices += [*line, line[0]] if closed else [*line]
+        codes += [Path.MOVETO, *[Path.LINETO] * (len(line) - 1), *([Path.CLOSEPOLY] if closed else [])]
+    return Path(vertices, codes)
+
+
+def _circle(centre: ArrayLike, radius: float) -> Path:
+    from matplotlib.path import Path
+
+    x, y = snap(centre, 1e-4)
+    unit = Path.unit_circle()
+    return Path(np.asarray(unit.vertices, dtype=float) * radius + (x, y), unit.codes)
+
+
+def _rounded(corners: Floats, radius: float) -> Path:
+    """A polygon with round corners."""
+    from matplotlib.path import Path
+
+    vertices: list[Floats] = []
+    codes: list[Any] = []
+    for before, corner, after in zip(
+        np.roll(corners, 1, axis=0), corners, np.roll(corners, -1, axis=0), strict=True
+    ):
+        for end in (before, after):
+            side = end - corner
+            length = math.hypot(*side)
+            cut = min(radius, 0.45 * length) / length if length else 0.0
+            vertices.append(corner + cut * side)
+            if end is before:
+                vertices.append(corner)
+        codes += [Path.LINETO, Path.CURVE3, Path.CURVE3]
+    codes[0] = Path.MOVETO
+    return Path([*vertices, vertices[0]], [*codes, Path.CLOSEPOLY])
+
+
+def _chained(segments: list[list[float]]) -> list[list[tuple[float, float]]]:
+    """Segments of which each begins where the last one ended, as lines."""
+    lines: list[list[tuple[float, float]]] = []
+    for x1, y1, x2, y2 in segments:
+        if not lines or lines[-1][-1] != (x1, y1):
+            lines.append([(x1, y1)])
+        lines[-1].append((x2, y2))
+    return lines
+
+
+def _thinned(line: Floats) -> Floats:
+    """A line without the points that nobody would miss."""
+    return line[kept(line, TOLERANCE)]

@@ -1,0 +1,137 @@
+"""A recorded run, from above and over time."""
+
+from __future__ import annotations
+
+import math
+import re
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from rosmini.geometry.poses import arc, compose
+from rosmini.sim.models import BURGER
+from rosmini.sim.recording import Recording
+from rosmini.sim.worlds import world
+from rosmini.viz import ViewError, recording_picture, recording_plots, style
+
+TIMES = np.linspace(0, 10, 301)
+
+
+def run(noise: float = 0.0) -> Recording:
+    """Ten seconds on an arc, of which odometry gets the turn wrong by 2 per cent."""
+    truth = arc((0.0, 0.0, 0.0), 0.15, 0.2, TIMES) + noise
+    odom = compose((5.0, 5.0, 1.0), arc((0.0, 0.0, 0.0), 0.15, 0.204, TIMES))
+    return Recording(
+        world("room"),
+        BURGER,
+        times=TIMES,
+        truth=truth,
+        odom=odom * (1 + noise),
+        commands=np.array([(0.0, 0.15, 0.2)]),
+        scan_times=np.array([5.0]),
+        scans=np.full((1, 360), 0.5),
+    )
+
+
+def test_the_picture_says_where_from_where_to_and_how_far_odometry_is_off():
+    recording = run()
+    view = recording_picture(recording, title="Round the pillar")
+    end = recording.truth[-1]
+    off = math.dist(recording.odom_in_map()[-1, :2], end[:2])
+    assert view.text.splitlines() == [
+        "Round the pillar: 1.50 m in 10.0 s",
+        f"burger: start (0.00, 0.00, 0.0 deg), end ({end[0]:.2f}, {end[1]:.2f}, 114.6 deg)",
+        f"odometry: {off:.3f} m and 2.3 deg off at the end",
+        "recorded: 301 poses, 1 scans, 1 commands",
+    ]
+    for said in (
+        "a solid line from (0.00, 0.00, 0.0 deg)",
+        "1.50 m long",
+        "dashed line",
+        f"{off:.3f} m and 2.3 deg off",
+    ):
+        assert said in view.alt
+    orange = style.LIGHT["orange"]
+    assert (
+        sum("dasharray" in p for p in re.findall(rf'<path[^>]*"{orange}"[^>]*>', view.svg)) >= 3
+    )  # way, ghost
+
+
+def test_the_last_scan_is_drawn_from_where_it_was_taken():
+    view = recording_picture(run(), scan=True)
+    assert view.text.splitlines()[-1] == "last scan: 360 of 360 beams hit, nearest 0.50 m ahead (0 deg)"
+    assert "In its last scan, 360 of 360 laser beams" in view.alt
+    dots = np.array(re.findall(r"M(\S+) (\S+?)h0", view.svg), dtype=float)
+    ring = re.search(r"M(\S+) (\S+)C", view.svg)
+    assert len(dots) == 360
+    assert ring
+    later = recording_picture(replace(run(), scan_times=np.array([6.0])), scan=True)
+    assert np.abs(np.array(re.findall(r"M(\S+) (\S+?)h0", later.svg), dtype=float) - dots).max() > 5
+
+
+def test_the_plots_say_what_was_commanded_driven_and_wrong():
+    view = recording_plots(run(), title="Over time")
+    off = run().drift().position
+    assert view.text.splitlines() == [
+        "Over time: 10.0 s, 1 commands",
+        "commanded: at most 0.15 m/s and 0.20 rad/s",
+        "driven: at most 0.15 m/s and 0.20 rad/s",
+        f"odometry: {off[-1]:.3f} m and 2.3 deg off at the end; at most {off.max():.3f} m and 2.3 deg",
+    ]
+    assert "commanded by 1 messages" in view.alt
+    words = [node.text for node in ET.fromstring(view.svg).iter("{http://www.w3.org/2000/svg}text")]
+    assert {
+        "linear velocity [m/s]",
+        "angular velocity [rad/s]",
+        "odometry: position error [m]",
+        "time [s]",
+    } <= set(words)
+    assert {"driven", "commanded"} <= set(words)
+
+
+def test_a_run_that_nobody_commanded_can_be_plotted():
+    view = recording_plots(replace(run(), commands=np.empty((0, 3))))
+    assert "commanded" not in view.text
+    assert style.LIGHT["orange"] not in view.svg
+
+
+@pytest.mark.parametrize("picture", [recording_picture, recording_plots])
+def test_bytes_are_the_same_whatever_the_last_digit_and_few(picture):
+    assert picture(run()).html == picture(run()).html
+    assert picture(run()).html == picture(run(1e-12)).html
+    assert picture(run()).html != picture(replace(run(), truth=run().truth * 1.1)).html
+    assert len(picture(run()).html.encode()) < 30_000
+
+
+def test_a_run_of_a_moment_has_a_picture_but_no_plots():
+    moment = run().window(0.0, 0.0)
+    assert "0.00 m in 0.0 s" in recording_picture(moment).text
+    with pytest.raises(ViewError, match="single moment"):
+        recording_plots(moment)
+
+
+def test_a_robot_that_stands_still_can_be_plotted():
+    still = replace(run(), truth=np.zeros((301, 3)), odom=np.zeros((301, 3)))
+    assert "driven: at most 0.00 m/s and 0.00 rad/s" in recording_plots(still).text
+    assert "odometry: 0.000 m and 0.0 deg off" in recording_picture(still).text
+
+
+def test_what_is_no_recording_is_refused():
+    with pytest.raises(ViewError, match=r"not from a SimpleNamespace: call its recording\(\) first"):
+        recording_picture(SimpleNamespace(recording=run))
+    with pytest.raises(ViewError, match="not from a list"):
+        recording_plots([])
+
+
+def test_a_scan_that_was_not_recorded_cannot_be_drawn():
+    blind = replace(run(), scan_times=np.empty(0), scans=np.empty((0, 360)))
+    with pytest.raises(ViewError, match="no scan was recorded"):
+        recording_picture(blind, scan=True)
+
+
+def test_a_recording_shows_itself():
+    assert run().show(title="T").text == recording_picture(run(), title="T").text
+    assert run().plots().text == recording_plots(run()).text

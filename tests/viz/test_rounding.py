@@ -1,0 +1,63 @@
+"""Numbers whose last bit must not show."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rosmini.viz.rounding import degrees, fixed, kept, snap
+
+NOISE = st.floats(-1e-12, 1e-12)
+
+
+@given(st.integers(-10_000, 10_000), st.sampled_from([1, 2, 3]), NOISE)
+def test_a_last_bit_never_changes_a_text_even_on_the_boundary(thousandths, digits, noise):
+    value = thousandths / 1000 + 0.5 * 10**-digits
+    assert fixed(value, digits) == fixed(value + noise, digits)
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [(0.125, 2, "0.13"), (-0.125, 2, "-0.13"), (2.5, 0, "3"), (-0.004, 2, "0.00"), (1e6, 1, "1000000.0"), (9.999, 2, "10.00")],
+)  # fmt: skip
+def test_half_goes_away_from_zero_and_zero_has_no_sign(value, digits, text):
+    assert fixed(value, digits) == text
+
+
+@given(st.integers(-720, 720), NOISE)
+def test_degrees_are_in_one_turn_and_bear_noise(whole, noise):
+    text = degrees(math.radians(whole))
+    assert text == degrees(math.radians(whole) + noise)
+    assert -180 < float(text) <= 180
+    assert (float(text) - whole) % 360 == 0
+
+
+@given(st.integers(-10_000, 10_000), NOISE)
+def test_snapped_values_are_near_and_bear_noise(halves, noise):
+    value = halves * 0.5e-3
+    assert snap(value) == snap(value + noise)
+    assert abs(snap(value) - value) <= 0.00054
+
+
+def test_a_line_keeps_its_ends_and_its_corners_and_little_else():
+    x = np.linspace(0, 1, 101)
+    up = np.column_stack([np.concatenate([x, np.ones(100)]), np.concatenate([np.zeros(101), x[1:]])])
+    assert np.flatnonzero(kept(up, 0.01)).tolist() == [0, 100, 200]
+    assert kept(np.array([[1.0, 2.0]]), 0.01).tolist() == [True]
+    back = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 0.0)])
+    assert kept(back, 0.01).all()
+
+
+@given(st.lists(st.tuples(st.floats(-9, 9), st.floats(-9, 9)), min_size=2, max_size=40), st.floats(0.01, 3))
+def test_no_point_is_farther_from_the_line_that_is_kept_than_the_tolerance(points, tolerance):
+    line = np.array(points)
+    chosen = line[kept(line, tolerance)]
+    starts, sides = chosen[:-1], np.diff(chosen, axis=0)
+    lengths = np.maximum((sides**2).sum(axis=1), 1e-300)
+    for point in line:
+        along = np.clip(((point - starts) * sides).sum(axis=1) / lengths, 0, 1)
+        assert np.hypot(*(starts + along[:, None] * sides - point).T).min() <= tolerance + 1e-9

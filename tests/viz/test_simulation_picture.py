@@ -1,0 +1,103 @@
+"""The picture of a running simulation, with the simulator itself."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from rosmini.graph import Graph
+from rosmini.msgs import message_class
+from rosmini.sim.engine import RobotGone
+from rosmini.sim.recorder import Recorder
+from rosmini.sim.simulator import Simulator
+from rosmini.viz import simulation_picture, style
+
+Twist = message_class("geometry_msgs/Twist")
+
+
+@pytest.fixture
+def graph():
+    with Graph(seed=1) as graph:
+        yield graph
+
+
+def drive(graph: Graph, linear: float, angular: float, duration: float) -> None:
+    """Repeat a command, as whoever drives a TurtleBot3 does."""
+    node = graph.node("driver")
+    publisher = node.publisher("cmd_vel", Twist)
+    command = Twist()
+    command.linear.x, command.angular.z = linear, angular
+    timer = node.timer(0.1, lambda _: publisher.publish(command))
+    graph.run(duration)
+    timer.shutdown()
+    node.shutdown()
+
+
+def test_a_simulation_shows_the_robot_where_it_is_and_its_last_scan(graph):
+    simulator = Simulator(graph.node("simulator"))
+    before = simulation_picture(simulator)
+    assert before.text.splitlines()[1] == "burger: pose (0.00, 0.00, 0.0 deg)"
+    assert "scan" not in before.text
+    drive(graph, 0.2, 0.0, 3.0)
+    view = simulation_picture(simulator, title="Now")
+    x, y, _ = simulator.truth()
+    assert view.text.splitlines()[0].startswith("Now: 4.16 x 3.66 m")
+    assert f"burger: pose ({x:.2f}, {y:.2f}, " in view.text
+    assert 0.4 < x < 0.61
+    assert re.search(r"scan: 3\d\d of 360 beams hit, nearest 0\.\d\d m", view.text)
+    assert "scan" not in simulation_picture(simulator, scan=False).text
+    assert simulator.show().html == simulation_picture(simulator).html
+
+
+def test_while_the_robot_turns_the_scan_stays_where_it_was_taken(graph):
+    simulator = Simulator(graph.node("simulator"))
+    drive(graph, 0.0, 2.0, 2.15)
+    assert abs(simulator.truth()[2] - simulator.scan_pose[2]) > 0.1
+    xs = re.findall(r"M(\S+) (\S+?)h0", simulation_picture(simulator).svg)
+    # the south wall's face lies at y = -0.6: the hits on it are in one row however the robot is turned
+    ys = np.array([float(y) for _, y in xs])
+    lowest = ys[ys > ys.max() - 8]
+    assert len(lowest) > 40
+    assert np.std(lowest) < 2.0
+
+
+def test_a_recording_is_the_trail(graph):
+    simulator = Simulator(graph.node("simulator"))
+    recorder = Recorder(graph, simulator)
+    drive(graph, 0.2, 0.5, 4.0)
+    recording = recorder.recording()
+    assert recording.duration == pytest.approx(3.97, abs=0.05)
+    assert recording.distance == pytest.approx(0.76, abs=0.05)
+    assert len(recording.scans) == pytest.approx(20, abs=1)
+    assert math.dist(recording.truth[-1], simulator.truth()) < 0.03
+    view = simulation_picture(simulator, trail=recording)
+    assert f"trail: {recording.distance:.2f} m" in view.text
+    assert "odometry: 0.0" in view.text
+    assert "odometry: 0.0" in recording.show().text
+    assert "trail" in simulation_picture(simulator, trail=recording.truth).text
+
+
+def test_what_was_pushed_is_drawn_where_it_is_now(graph):
+    simulator = Simulator(graph.node("simulator"), world="room")
+    (crate,) = simulator.engine.obstacles()
+    simulator.place((crate.pose[0] - 0.35, crate.pose[1], 0.0))
+    there = rf'd="([^"]+)"[^>]*stroke="{style.LIGHT["vermilion"]}"'
+
+    def outline(view):
+        return re.findall(there, view.svg)[0]
+
+    before = outline(simulation_picture(simulator, scan=False))
+    drive(graph, 0.2, 0.0, 3.0)
+    (moved,) = simulator.engine.obstacles()
+    assert moved.pose[0] > crate.pose[0] + 0.05
+    assert outline(simulation_picture(simulator, scan=False)) != before
+
+
+def test_a_removed_robot_is_an_error_that_says_so(graph):
+    simulator = Simulator(graph.node("simulator"))
+    simulator.remove()
+    with pytest.raises(RobotGone):
+        simulation_picture(simulator)

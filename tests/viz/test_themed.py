@@ -1,0 +1,153 @@
+"""Matplotlib's SVG, rewritten: themed, small, and the same whatever the last digit of a coordinate."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+
+from rosmini.viz import matplotlib_picture, style
+from rosmini.viz.figures import blank_figure, house_style, place, say, step_of, ticks
+from rosmini.viz.themed import themed_svg
+from rosmini.viz.view import ViewError
+
+SVG = """<?xml version="1.0"?>
+<svg xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 100 50" xmlns="http://www.w3.org/2000/svg">
+ <metadata>Matplotlib</metadata>
+ <defs><style type="text/css">*{stroke-linejoin: round; stroke-linecap: butt}</style></defs>
+ <g id="figure_1"><g id="patch_1">
+  <path d="M 1.234999 0.125000
+L 20 -0.001
+L 20 30
+z
+" clip-path="url(#p1)" style="fill: #000000; stroke: #0072b2; stroke-width: 1.5; stroke-linejoin: round"/>
+  <path d="M 0 0 L 1 1" style="fill: none"/>
+  <path d="M 5 5
+L 5 5
+M 6 7
+L 6 7" style="fill: none; stroke: #d55e00; stroke-linecap: round"/>
+  <defs><path id="m1" d="M 0 0 L 0 3.5" style="stroke: #000000"/></defs>
+  <use xlink:href="#m1" x="3" y="4" style="stroke: #000000; stroke-width: 0.8"/>
+  <text style="font: 700 10px 'DejaVu Sans', sans-serif; text-anchor: middle" x="1" y="2"
+   transform="rotate(-0 1 2)">x &lt; <tspan>1</tspan></text>
+ </g></g>
+ <defs><clipPath id="p1"><rect x="1" y="1" width="9.0" height="9"/></clipPath></defs>
+</svg>"""
+
+
+def body(svg: str) -> str:
+    return svg[svg.index("</style>") :]
+
+
+def test_what_matplotlib_wrote_is_kept_and_shortened():
+    drawn = body(themed_svg(SVG, title="t", alt="a"))
+    assert 'd="M1.23 0.12L20 0L20 30z"' in drawn
+    assert 'd="M5 5h0M6 7h0"' in drawn
+    assert "M 0 0 L 1 1" not in drawn
+    assert "M0 0L1 1" not in drawn  # neither filled nor stroked
+    assert "figure_1" not in drawn
+    assert "font-family" not in drawn
+    assert "Matplotlib" not in drawn
+    assert 'font-weight="700"' in drawn
+    assert 'font-size="10"' in drawn
+    assert "rotate" not in drawn
+    assert "x &lt; <tspan" in drawn
+    assert 'stroke-linejoin="round" stroke' not in drawn
+
+
+def test_black_is_ink_and_each_colour_follows_the_theme():
+    svg = themed_svg(SVG, title="t", alt="a")
+    ink, blue = style.LIGHT["ink"], style.LIGHT["blue"]
+    assert f'fill="{ink}"' in svg
+    assert f'.rosmini-plot [fill="{ink}"]{{fill:var(--rosmini-ink, {ink})}}' in svg
+    assert f'.rosmini-plot [stroke="{blue}"]{{stroke:var(--rosmini-blue, {blue})}}' in svg
+    assert f"--rosmini-blue:{style.DARK['blue']}" in svg
+    assert "--rosmini-green" not in svg  # no rule for what is not there
+    rules = re.findall(r"([^{}]+)\{", svg[svg.index("<style>") + 7 : svg.index("</style>")])
+    selectors = [part for rule in rules if not rule.startswith("@") for part in rule.split(",")]
+    assert len(selectors) > 5
+    for selector in selectors:  # no rule for other pictures of the page
+        assert ".rosmini-plot" in selector or selector == "svg:root", selector
+
+
+def test_ids_say_what_they_name():
+    first = themed_svg(SVG, title="t", alt="a")
+    other_names = SVG.replace("p1", "p77").replace("m1", "m5")
+    other_clip = SVG.replace('width="9.0"', 'width="8"')
+    assert themed_svg(other_names, title="t", alt="a") == first
+    assert set(re.findall(r'id="([^"]+)"', themed_svg(other_clip, title="t", alt="a"))) != set(
+        re.findall(r'id="([^"]+)"', first)
+    )
+    for name in re.findall(r"url\(#([^)]+)\)", first) + re.findall(r'href="#([^"]+)"', first):
+        assert f'id="{name}"' in first
+
+
+def test_a_marker_has_no_colour_of_its_own_for_no_rule_reaches_it():
+    svg = themed_svg(SVG, title="t", alt="a")
+    (marker,) = re.findall(r"<defs><path[^>]*/></defs>", svg)
+    assert "stroke" not in marker
+    (use,) = re.findall(r"<use[^>]*/>", svg)
+    assert f'stroke="{style.LIGHT["ink"]}"' in use
+
+
+def test_a_coordinate_that_matplotlib_writes_alike_stays_alike():
+    def svg(x: float) -> str:
+        with house_style():
+            figure = blank_figure(200, 100)
+            place(figure, 10, 10, 180, 80).plot([0, x, 1], [0, 1, 0], color="#0072b2")
+            return matplotlib_picture(figure, text="t", alt="a", form="svg").svg
+
+    assert svg(0.25) == svg(0.25 + 1e-13)
+    assert svg(0.25) != svg(0.26)
+
+
+def test_the_picture_is_one_document_with_text_that_stays_text():
+    with house_style():
+        figure = blank_figure(300, 150)
+        axes = place(figure, 50, 20, 200, 80)
+        axes.set(xlabel="x [m]", title="<&>")
+        view = matplotlib_picture(figure, text="first line\nsecond", alt="A plot.", form="svg", caption="C")
+    root = ET.fromstring(view.svg)
+    assert root.get("role") == "img"
+    assert root.get("aria-label") == "A plot."
+    assert root.get("viewBox") == "0 0 300 150"
+    words = [node.text for node in root.iter("{http://www.w3.org/2000/svg}text")]
+    assert "x [m]" in words
+    assert "<&>" in words
+    assert root[0].text == "first line"
+    assert "<figcaption>C</figcaption>" in view.html
+
+
+def test_the_house_style_asks_no_matplotlibrc_and_leaves_no_trace():
+    import matplotlib as mpl
+
+    with mpl.rc_context({"axes.facecolor": "#123456", "font.size": 30}):
+        with house_style():
+            assert mpl.rcParams["axes.facecolor"] == "none"
+        assert mpl.rcParams["axes.facecolor"] == "#123456"
+        assert mpl.rcParams["font.size"] == 30
+
+
+def test_without_matplotlib_the_error_says_what_to_install(monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(ViewError, match=r"pip install 'rosmini\[book\]'"), house_style():
+        pass
+
+
+@pytest.mark.parametrize("size", [(50, 300), (300, 9000), (float("nan"), 300)])
+def test_a_picture_of_no_size_is_refused(size):
+    with pytest.raises(ViewError, match="100 to 4000 pixels"):
+        blank_figure(*size)
+
+
+def test_steps_and_ticks_are_round_numbers():
+    assert [step_of(e, 5) for e in (5, 5.1, 0.3, 22, 1000)] == pytest.approx([1, 2, 0.1, 5, 200])
+    assert ticks(-0.5, 1.0, 0.5) == [-0.5, 0, 0.5, 1.0]
+    assert ticks(0.1, 0.9, 1) == []
+    assert say([-0.5, 0, 1]) == ["\N{MINUS SIGN}0.5", "0.0", "1.0"]
+    assert say([2, 10]) == ["2", "10"]
+    assert all(np.isclose(t * 5 % 1, 0) for t in ticks(-3, 3, 0.2))

@@ -1,0 +1,210 @@
+"""The picture of a world: what it says, and that it is the same whatever the last bit."""
+
+from __future__ import annotations
+
+import math
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rosmini.geometry.poses import arc
+from rosmini.geometry.raycast import raycast
+from rosmini.msgs import message_class
+from rosmini.sim.models import BURGER
+from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World
+from rosmini.sim.worlds import world as built_in
+from rosmini.viz import ViewError, style, world_picture
+from rosmini.viz.world_drawing import LEAST_ROBOT
+
+ROOT = Path(__file__).parents[2]
+SVG = "{http://www.w3.org/2000/svg}"
+WALLS = np.array([(0, 0, 4, 0), (4, 0, 4, 3), (4, 3, 0, 3), (0, 3, 0, 0)], dtype=float)
+THINGS = (
+    Obstacle("crate", Box(0.4, 0.2), (1.0, 2.0, 0.3), colour="orange", mass=1.0),
+    Obstacle("pillar", Cylinder(0.15), (3.0, 1.0, 0.0), colour="green"),
+    Obstacle("shelf", Polygon(((0.0, 0.0), (0.5, 0.0), (0.0, 0.5))), (0.0, 0.0, 0.0), colour="wall"),
+)
+ROOM = World("small", THINGS, walls=WALLS)
+
+
+def ranges(world: World, pose, noise: float = 0.0) -> np.ndarray:
+    """What the Burger's laser would see without noise, shifted by `noise`."""
+    x, y, theta = pose
+    mount = BURGER.lidar.mount[0]
+    seen = raycast(
+        world.segments, world.discs, x + mount * math.cos(theta), y + mount * math.sin(theta), theta,
+        2 * math.pi / 360, 360, 3.5,
+    )  # fmt: skip
+    return seen + noise
+
+
+def colours(svg: str) -> dict[str, int]:
+    """How often each colour of the palette is painted with."""
+    drawn = svg[svg.index("</style>") :]
+    return {name: drawn.count(f'"{value}"') for name, value in style.LIGHT.items() if f'"{value}"' in drawn}
+
+
+def test_a_world_says_how_large_it_is_and_what_is_in_it():
+    view = world_picture(ROOM)
+    assert (
+        view.text
+        == "world small: 4.00 x 3.00 m, 4 wall segments, 1 wall and 2 obstacles (1 of them can be pushed)"
+    )
+    assert view.alt.startswith("The world small from above: 4.00 by 3.00 m")
+    assert world_picture(built_in("empty")).text == "world empty: 10.00 x 10.00 m, nothing in it"
+    assert {"orange", "green", "muted"} <= set(colours(view.svg))
+    assert "blue" not in colours(view.svg)  # no robot
+
+
+def test_everything_is_in_the_text_the_alt_text_and_the_picture():
+    pose = (2.0, 1.5, math.pi / 2)
+    trail = [(1.0, 0.5, 0.0), (2.0, 0.5, 0.0), (2.0, 1.5, 0.0)]
+    odom = [(1.0, 0.5), (2.0, 0.5), (2.03, 1.54)]
+    view = world_picture(
+        ROOM, robot=pose, scan=ranges(ROOM, pose), trail=trail, odom=odom, title="A look around"
+    )
+    lines = view.text.splitlines()
+    assert lines[0].startswith("A look around: 4.00 x 3.00 m")
+    assert lines[1] == "burger: pose (2.00, 1.50, 90.0 deg)"
+    # the pillar is (1, -0.5) away from the robot, and 0.15 thick; the laser is 3.2 cm behind the middle
+    distance = math.hypot(1.0, -0.5 + 0.032) - 0.15
+    assert lines[2] == f"scan: 360 of 360 beams hit, nearest {distance:.2f} m behind on the right (-115 deg)"
+    assert lines[3:] == ["trail: 2.00 m", "odometry: 0.050 m off at the end"]
+    for said in ("heading 90 degrees", "360 of 360 laser beams", "2.00 m long", "0.050 m off"):
+        assert said in view.alt
+    assert "<figcaption>A look around</figcaption>" in view.html
+    words = [node.text for node in ET.fromstring(view.svg).iter(f"{SVG}text")]
+    assert {"x [m]", "y [m]", "where it was", "where odometry believes it was", "laser hits"} <= set(words)
+
+
+def test_truth_is_solid_and_odometry_is_dashed():
+    svg = world_picture(ROOM, trail=[(1, 1), (2, 1)], odom=[(1, 1), (2, 1.1)]).svg
+    (odom,) = [p for p in re.findall(r"<path[^>]*>", svg) if style.LIGHT["orange"] in p and "dasharray" in p and p.count("L") == 1]  # fmt: skip
+    assert "stroke-dasharray" in odom
+    truth = [p for p in re.findall(r"<path[^>]*>", svg) if f'stroke="{style.LIGHT["blue"]}"' in p]
+    assert truth
+    assert not any("dasharray" in p for p in truth)
+
+
+def test_a_length_in_x_is_as_long_in_y():
+    box = World("box", (Obstacle("square", Box(2.0, 2.0), (1.0, 5.0, 0.0), colour="purple"),))
+    (path,) = re.findall(rf'd="([^"]+)"[^>]*stroke="{style.LIGHT["purple"]}"', world_picture(box).svg)
+    points = np.array(re.findall(r"[ML](\S+?) (\S+?)(?=[LzM])", path), dtype=float)
+    width, height = np.ptp(points, axis=0)
+    assert width == pytest.approx(height, abs=0.02)
+    assert width > 300
+
+
+def test_the_robot_is_drawn_to_scale_but_never_too_small_to_be_seen():
+    def length(extent: float) -> float:
+        world = World("plain", walls=np.array([(0, 0, extent, 0), (extent, extent, 0, extent)]))
+        svg = world_picture(world, robot=(extent / 2, extent / 2, 0.0), size=(600, 600)).svg
+        plate, *_ = re.findall(rf'd="([^"]+)"[^>]*fill="{style.LIGHT["blue"]}"', svg)
+        return float(np.ptp([float(x) for x, _ in re.findall(r"[ML](\S+?) (\S+?)(?=[A-Za-z])", plate)]))
+
+    footprint = np.ptp(np.array(BURGER.footprint)[:, 0])
+    scale = (600 - 54) / (2 * 1.04)
+    assert length(2.0) == pytest.approx(scale * footprint, rel=0.02)
+    assert length(100.0) == pytest.approx(LEAST_ROBOT, rel=0.05)
+
+
+def test_the_bytes_are_the_same_again_in_another_process_and_for_inputs_with_another_last_digit():
+    pose = (1.0, 1.0, 0.5)
+    trail = arc((1.0, 1.0, 0.5), 0.2, 0.3, np.linspace(0, 5, 151))
+
+    def svg(noise: float) -> str:
+        return world_picture(
+            ROOM, robot=(1.0 + noise, 1.0, 0.5 - noise), scan=ranges(ROOM, pose, noise), trail=trail + noise, odom=trail * (1 + noise)
+        ).html  # fmt: skip
+
+    assert svg(0.0) == svg(0.0)
+    assert svg(1e-12) == svg(0.0)
+    assert svg(-1e-12) == svg(0.0)
+    assert svg(0.01) != svg(0.0)
+    code = "import sys; from rosmini.sim.worlds import world; from rosmini.viz import world_picture; sys.stdout.write(world_picture(world('room'), robot=(0, 0, 1)).svg)"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
+    assert run.stdout == world_picture(built_in("room"), robot=(0, 0, 1)).svg
+
+
+def test_a_full_picture_is_under_60_kilobytes():
+    room = built_in("room")
+    rng = np.random.default_rng(0)
+    trail = np.cumsum(rng.normal(0, 0.01, (3600, 2)), axis=0) + (
+        0.5,
+        0.8,
+    )  # worse than any way of two minutes
+    view = world_picture(room, robot=(0, 0, 0), scan=ranges(room, (0, 0, 0)) + rng.normal(0, 0.01, 360), trail=trail[::20], odom=trail[::20])  # fmt: skip
+    assert len(view.html.encode()) < 60_000
+    smooth = arc((0.0, 0.0, 0.0), 0.2, 0.25, np.linspace(0, 120, 3601))
+    assert len(world_picture(room, trail=smooth).html.encode()) < 20_000
+
+
+def test_a_scan_can_be_one_that_was_taken_elsewhere():
+    before = (1.0, 1.0, 0.0)
+    here = world_picture(ROOM, robot=(2.0, 1.5, 2.0), scan=ranges(ROOM, before), scan_from=before)
+    there = world_picture(ROOM, robot=before, scan=ranges(ROOM, before))
+    assert here.text.splitlines()[2] == there.text.splitlines()[2]
+    (dots,) = re.findall(r'd="(M[^"]+h0)"', here.svg)
+    assert dots in there.svg
+
+
+def test_beams_that_hit_nothing_are_said_and_have_no_point():
+    LaserScan = message_class("sensor_msgs/LaserScan")
+    step = 2 * math.pi / 360
+    message = LaserScan(
+        angle_min=0.0, angle_max=359 * step, angle_increment=step, range_min=0.12, range_max=3.5
+    )
+    message.ranges = [math.inf, -math.inf, math.nan, 0.0, 3.6, 1.0] * 60
+    view = world_picture(built_in("empty"), robot=(0, 0, 0), scan=message)
+    assert "scan: 60 of 360 beams hit, nearest 1.00 m ahead (-1 deg)" in view.text
+    assert view.svg.count("h0") == 60
+    message.ranges = [math.inf] * 360
+    assert "scan: 0 of 360 beams hit, nothing within 3.50 m" in world_picture(built_in("empty"), robot=(0, 0, 0), scan=message).text  # fmt: skip
+
+
+def test_what_is_beyond_the_world_is_in_the_picture_too():
+    view = world_picture(ROOM, robot=(9.0, 1.0, 0.0))
+    words = {node.text for node in ET.fromstring(view.svg).iter(f"{SVG}text")}
+    assert "9" in words
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"robot": (0.0, math.nan, 0.0)}, r"the robot's pose is \(0.0, nan, 0.0\)"),
+        ({"robot": (0.0, 0.0)}, r"x \[m\], y \[m\] and heading \[rad\], not \(0.0, 0.0\)"),
+        ({"robot": 3}, "not 3"),
+        ({"scan": np.ones(360)}, "give robot="),
+        ({"robot": (0, 0, 0), "scan": np.ones(100)}, "100 ranges were given, but the LDS-01 has 360 beams"),
+        ({"robot": (0, 0, 0), "scan": np.ones((2, 360))}, r"array \(n,\), not \(2, 360\)"),
+        ({"robot": (0, 0, 0), "scan": "scan"}, "not a str"),
+        ({"trail": np.empty((0, 3))}, r"trail must be an array .* with at least one point, not \(0, 3\)"),
+        ({"trail": [(0, 0), (0, math.inf)]}, r"trail\[1\] is \[0.0, inf\], which is no place"),
+        ({"odom": [1, 2, 3]}, r"odom must be an array"),
+        ({"odom": "here"}, "odom must be an array of points, not a str"),
+        ({"size": (10, 10)}, "100 to 4000 pixels"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_with_a_reason(options, message):
+    with pytest.raises(ViewError, match=message):
+        world_picture(ROOM, **options)
+
+
+def test_a_map_without_a_world_is_refused():
+    with pytest.raises(ViewError, match="not from a str"):
+        world_picture("room")
+
+
+def test_importing_viz_loads_neither_numpy_nor_matplotlib_and_names_are_there():
+    code = (
+        "import sys, rosmini.viz as v; assert {'world_picture', 'scan_picture'} <= set(dir(v)); "
+        "print(sorted({'matplotlib', 'numpy'} & set(sys.modules))); v.world_picture; "
+        "print(sorted({'matplotlib', 'numpy', 'pymunk', 'numba'} & set(sys.modules)))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
+    assert run.stdout.splitlines() == ["[]", "['numpy']"]
