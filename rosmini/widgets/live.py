@@ -72,7 +72,11 @@ class Link:
         self._scan: NDArray[np.float32] | None = None
         """A scan that the page has not got: ranges, and the pose that they were measured from."""
         self._scans: Subscriber | None = None
-        self.widget = PadWidget(_esm=module(), data=pad_data(pad))
+        data = pad_data(pad)
+        if pad.sight is not None and pad.gone is None:
+            # It also has the laser's code loaded now, while the cell runs, and not at the first key.
+            data["ranges"] = np.array(pad.sight.survey(), dtype=np.float32).tobytes()
+        self.widget = PadWidget(_esm=module(), data=data)
         _answer_in_subshells(self.widget.comm)
         self.widget.on_msg(self.receive)
         pad.on_publish(self._published)

@@ -72,6 +72,10 @@ class Sight:
             return f"{where}; no scan yet"
         return f"{where}; {int(np.isfinite(scan).sum())} of {len(scan)} beams hit"
 
+    def survey(self) -> Floats:
+        """What the laser would see from here at this moment, without noise: ranges (beams,) [m]."""
+        return self.simulator.engine.scan(self.simulator.name, None)
+
     def ranges(self) -> Floats | None:
         """The last scan's ranges (beams,) [m], or None if there is none yet."""
         scan = self.simulator.last_scan()

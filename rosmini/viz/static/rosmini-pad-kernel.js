@@ -24,7 +24,7 @@
       this.frames = 0;
       this.rates = [];
       this.state = {
-        pose: data.pose, ranges: null, scanPose: null, trail: [], target: [0, 0], command: [0, 0], messages: [], sent: 0,
+        pose: data.pose, ranges: data.ranges ? floats(Float32Array, data.ranges) : null, scanPose: null, trail: [], target: [0, 0], command: [0, 0], messages: [], sent: 0,
         mood: "ready", note: "press a key to start", startable: true,
       };
       this.receive = (content, buffers) => this.hear(content, buffers ?? []);
@@ -108,9 +108,9 @@
         state.ranges = all.subarray(0, all.length - 3);
         state.scanPose = [...all.subarray(all.length - 3)];
       }
-      state.rate = this.rates.length;
       const mood = content.blocked ? "blocked" : content.at_rest ? "ready" : "driving";
-      this.show(mood, content.blocked ? "at a wall" : content.at_rest ? "live" : `driving, ${this.rates.length} frames/s`);
+      const driving = state.pose ? `driving, ${this.rates.length} frames/s` : "driving";
+      this.show(mood, content.blocked ? "at a wall" : content.at_rest ? "live" : driving);
     }
 
     press(key) {

@@ -1,0 +1,173 @@
+"""The teleoperation pad in a real JupyterLab: real keys in Chromium drive a robot on a live graph in a real kernel."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+CELLS = [
+    """
+import time
+from rosmini import Graph, rosrun
+from rosmini.msgs.geometry_msgs.msg import Twist
+graph = Graph()
+sim = rosrun("rosmini_sim", "simulator", "_noise:=0.0", graph=graph)
+heard = []
+_ = graph.node("listener").subscriber("cmd_vel", Twist, lambda t: heard.append((t.linear.x, t.angular.z)))
+pad = sim.pad()
+pad
+""",
+    "print('live', graph.is_live, 'heard', heard[:3], 'moved', sim.truth()[0] > 0.01)",
+    "print('rest', pad.teleop.at_rest, pad.twist.linear.x)",
+    "end = time.monotonic() + 3\nwhile time.monotonic() < end: pass\nprint('busy over')",
+    "pad.press('w'); graph.run(until=lambda: pad.teleop.at_rest); print('stopped while a cell drives')",
+    "sim.remove(); print('removed')",
+    "print('goes on', graph.is_live)",
+]
+
+BLIND = [
+    """
+from rosmini import Graph
+from rosmini.widgets import TeleopPad
+graph = Graph()
+pad = TeleopPad(graph)
+graph.live()
+pad
+""",
+    "print('sent', pad.sent > 1, pad.teleop.target)",
+]
+
+# How many frames came in two seconds, and how often the canvas was painted meanwhile.
+COUNT = """async (section) => {
+  const kernel = section.kernel, begin = kernel.frames;
+  let paints = 0, on = true;
+  const count = () => { paints += 1; if (on) requestAnimationFrame(count); };
+  requestAnimationFrame(count);
+  await new Promise((resolve) => setTimeout(resolve, 2000));
+  on = false;
+  return [kernel.frames - begin, paints];
+}"""
+
+
+class Lab:
+    """JupyterLab in a page, with the notebook open and its kernel idle."""
+
+    def __init__(self, page, address: str, cells: list[str]) -> None:
+        self.page = page
+        page.set_default_timeout(20_000)
+        page.goto(address)
+        self.cells = page.locator(".jp-Notebook .jp-CodeCell")
+        self.cells.nth(len(cells) - 1).wait_for()
+        page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
+
+    def run(self, number: int) -> None:
+        cell = self.cells.nth(number)
+        cell.locator(".jp-InputArea-editor").click()
+        self.page.keyboard.press("Control+Enter")
+        cell.locator(".jp-InputPrompt", has_text=re.compile(r"\[[*\d]+\]")).first.wait_for()
+
+    def says(self, number: int, text: str) -> None:
+        self.cells.nth(number).locator(".jp-OutputArea-output", has_text=text).first.wait_for()
+
+    def mood(self, mood: str) -> None:
+        self.page.locator(f".rp-pill[data-mood='{mood}']").wait_for()
+
+
+@pytest.fixture
+def open_lab(start_lab, chromium):
+    page = chromium.new_page(viewport={"width": 1280, "height": 1500})
+    yield lambda cells: Lab(page, start_lab(cells), cells)
+    page.close()
+
+
+def test_keys_buttons_and_a_busy_kernel(open_lab, shared_tmp):
+    lab = open_lab(CELLS)
+    page = lab.page
+    try:
+        lab.run(0)
+        stage = page.locator(".rp-stage")
+        stage.wait_for()
+        assert "press a key to start" in page.locator(".rp-pill").inner_text()
+
+        # Keys: the first one starts the graph. In command mode `a`, `x` and `d d` would change the notebook.
+        stage.focus()
+        for key in "wwwwwwwwwwaadd":
+            page.keyboard.press(key)
+        lab.mood("driving")
+        page.locator(".rp-meter", has_text="0.10 m/s").wait_for()
+        page.locator(".rp-meter", has_text="0.0 rad/s").wait_for()
+        assert lab.cells.count() == len(CELLS)
+        frames, paints = page.locator(".rosmini-pad").evaluate(COUNT)
+        print(f"{frames / 2:g} frames/s of the pad, {paints / 2:g} paints/s of the page")
+        assert frames >= 40
+        page.screenshot(path=shared_tmp / "pad_jupyterlab.png")
+        lab.run(1)
+        lab.says(1, "live True heard [(0.005, 0.0), (0.01, 0.0), (0.015, 0.0)] moved True")
+
+        # A button stops it.
+        page.locator(".rp-key-s").click()
+        lab.mood("ready")
+        lab.run(2)
+        lab.says(2, "rest True 0.0")
+
+        # A busy kernel: keys wait for nobody, and the page says so.
+        lab.run(3)
+        lab.mood("waiting")
+        page.screenshot(path=shared_tmp / "pad_waiting.png")
+        lab.says(3, "busy over")
+        lab.mood("ready")
+
+        # While a cell drives the graph, the pad works.
+        lab.run(4)
+        lab.mood("driving")
+        stage.focus()
+        page.keyboard.press("Space")
+        lab.says(4, "stopped while a cell drives")
+
+        # Whoever leaves the page stops the robot.
+        stage.focus()
+        page.keyboard.press("ArrowUp")
+        lab.mood("driving")
+        page.evaluate("window.dispatchEvent(new Event('blur'))")
+        lab.mood("ready")
+
+        # The robot goes, the graph stays.
+        lab.run(5)
+        lab.mood("gone")
+        assert "no longer in the world" in page.locator(".rp-pill").inner_text()
+        page.screenshot(path=shared_tmp / "pad_gone.png")
+        lab.run(6)
+        lab.says(6, "goes on True")
+    finally:
+        page.screenshot(path=shared_tmp / "pad_end.png")
+
+
+def test_a_pad_without_a_robot_and_a_kernel_that_restarts(open_lab, shared_tmp):
+    lab = open_lab(BLIND)
+    page = lab.page
+    try:
+        lab.run(0)
+        stage = page.locator(".rp-stage")
+        stage.focus()
+        page.keyboard.press("a")
+        page.locator(".rp-log pre", has_text="z: 0.1").first.wait_for()
+        lab.run(1)
+        lab.says(1, "sent True (0.0, 0.1)")
+        lab.mood("driving")
+
+        page.locator("[data-command='notebook:restart-kernel'] , [title^='Restart the kernel']").first.click()
+        page.locator(".jp-Dialog .jp-mod-accept").click()
+        lab.mood("waiting")
+        stage.focus()
+        page.keyboard.press("w")
+        page.locator(".rp-pill", has_text="run the cell of this pad again").wait_for()
+        lab.run(0)
+        page.locator(".rp-pill", has_text="press a key").or_(page.locator(".rp-pill", has_text="live")).wait_for()
+        stage.focus()
+        page.keyboard.press("w")
+        lab.mood("driving")
+    finally:
+        page.screenshot(path=shared_tmp / "pad_restarted.png")
