@@ -1,0 +1,8 @@
+"""A recorded run as a player that needs no server: `replay(recording)`, or `recording.replay()`."""
+
+from __future__ import annotations
+
+from rosmini.viz.replay.player import ReplayView, replay
+from rosmini.viz.replay.scene import scene_data
+
+__all__ = ["ReplayView", "replay", "scene_data"]

@@ -10,10 +10,8 @@ from numpy.typing import ArrayLike
 
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import Cylinder, Obstacle, World
+from rosmini.viz.rounding import MILLIMETRE, snap
 from rosmini.viz.view import ViewError
-
-MILLIMETRES = 3
-"""Decimals of a length in metres."""
 
 
 def scene_data(world: World, model: RobotModel | None = None) -> dict[str, Any]:
@@ -27,11 +25,13 @@ def scene_data(world: World, model: RobotModel | None = None) -> dict[str, Any]:
         ViewError: a wall, an obstacle or the robot has a number that is not finite; the message names it.
 
     """
+    shapes = [_shape(obstacle) for obstacle in world.obstacles]
+    walls = _metres(world.walls.reshape(-1, 4), f"a wall of the world {world.name!r}")
     data: dict[str, Any] = {
         "name": world.name,
         "bounds": _metres(world.bounds, f"the bounds of the world {world.name!r}"),
-        "segments": _metres(world.walls.reshape(-1, 4), f"a wall of the world {world.name!r}"),
-        "shapes": [_shape(obstacle) for obstacle in world.obstacles],
+        "segments": walls,
+        "shapes": shapes,
     }
     if model is not None:
         data["robot"] = robot_data(model)
@@ -87,6 +87,5 @@ def _metres(values: ArrayLike, what: str) -> Any:
     array = np.asarray(values, dtype=float)
     if not np.isfinite(array).all():
         bad = next(v for v in array.ravel() if not math.isfinite(v))
-        raise ViewError(f"{what} has the length {bad}: it cannot be drawn. All its numbers must be finite.")
-    # Half a millimetre is common, and which way it rounds must not hang on the last bit of a number.
-    return (np.round(array + 1e-8, MILLIMETRES) + 0.0).tolist()
+        raise ViewError(f"{what} has the number {bad} and cannot be drawn: give it finite ones")
+    return np.round(snap(array, MILLIMETRE), 3).tolist()

@@ -43,6 +43,7 @@ height:32px;margin-left:auto;padding:0 .3rem;width:auto}
 .rosmini-replay :focus-visible{border-radius:6px;outline:2px solid var(--blue);outline-offset:2px}
 .rosmini-replay output,.rosmini-replay dd{font-variant-numeric:tabular-nums;white-space:nowrap}
 .rosmini-replay label{align-items:center;cursor:pointer;display:inline-flex;gap:.35rem;margin:0;min-height:28px}
+.rosmini-replay [hidden]{display:none}
 .rosmini-replay .layers{gap:.1rem .8rem;padding-bottom:.1rem}
 .rosmini-replay i{border-top:2px solid;display:inline-block;width:18px}
 .rosmini-replay i.odom{border-top-style:dashed}
@@ -172,7 +173,6 @@ margin:0;padding:.2rem .7rem .6rem}
 
     const root = document.createElement("div");
     root.className = "rosmini-replay";
-    root.dataset.lmSuppressShortcuts = "true"; // JupyterLab leaves keys to us in here
     root.setAttribute("role", "group");
     root.setAttribute("aria-label", options.title);
     root.innerHTML = CONTENT;
@@ -193,6 +193,8 @@ margin:0;padding:.2rem .7rem .6rem}
     canvas.setAttribute("aria-label", options.alt);
     Object.assign(slider, { min: start, max: end, disabled: still });
     for (const element of root.querySelectorAll("button")) element.disabled = still;
+    // JupyterLab's shortcuts match what has the focus itself, so each control has to say that its keys are its own.
+    for (const element of root.querySelectorAll("button, input, select")) element.dataset.lmSuppressShortcuts = "";
     find("[data-layer=scan]").closest("label").hidden = !layers.scan;
 
     function poseAt(track, at) {
@@ -220,11 +222,12 @@ margin:0;padding:.2rem .7rem .6rem}
       draw.world(view, scene);
       if (scan) draw.scan(view, robot, poseAt(run.truth, Math.max(start, scan[0])), scan[1]);
       view.context.globalAlpha = 0.3; // the whole way, faintly
-      if (layers.odom) draw.trail(view, run.odom, { colour: "orange", dashed: true });
+      const dashed = { colour: "orange", dashed: true };
       if (layers.truth) draw.trail(view, run.truth);
+      if (layers.odom) draw.trail(view, run.odom, dashed);
       view.context.globalAlpha = 1;
-      if (layers.odom) draw.trail(view, run.odom, { colour: "orange", dashed: true, count });
       if (layers.truth) draw.trail(view, run.truth, { count });
+      if (layers.odom) draw.trail(view, run.odom, { ...dashed, count });
       if (layers.odom) draw.robot(view, robot, odom, { ghost: true });
       draw.robot(view, robot, truth);
       draw.scaleBar(view);

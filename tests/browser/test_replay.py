@@ -1,0 +1,476 @@
+"""The replay player in a real browser, from file://: alone, and in a page deep in a book."""
+
+from __future__ import annotations
+
+import math
+import re
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rosmini.graph import Graph
+from rosmini.msgs import message_class
+from rosmini.sim.recorder import Recorder
+from rosmini.sim.simulator import Simulator
+from rosmini.viz import style
+
+pytestmark = pytest.mark.browser
+
+STATIC = Path(style.__file__).parent / "static"
+WIDTHS = {"desktop": (1000, 900), "phone": (390, 844), "small": (360, 640)}
+SIDEWAYS = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
+PICTURE = "document.querySelector('.rosmini-replay canvas').toDataURL()"
+PAGE = """<!DOCTYPE html>
+<html lang="en" data-theme="{theme}" data-content_root="../../"><head><meta charset="utf-8"><title>t</title>
+<meta name="viewport" content="width=device-width, initial-scale=1">{head}
+<style>body {{ margin: 12px auto; max-width: 760px; padding: 0 12px; box-sizing: border-box; background: {background} }}</style></head>
+<body>{body}</body></html>"""
+# How many pixels of the canvas are near a colour.
+COUNT = """([canvas, colour]) => {
+  const copy = Object.assign(document.createElement("canvas"), {width: canvas.width, height: canvas.height});
+  const context = copy.getContext("2d", {willReadFrequently: true});
+  context.drawImage(canvas, 0, 0);
+  const data = context.getImageData(0, 0, copy.width, copy.height).data;
+  const near = (i) => colour.every((value, c) => Math.abs(data[i + c] - value) < 12);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) count += near(i);
+  return count;
+}"""
+
+
+@pytest.fixture(scope="module")
+def recording():
+    """Ten seconds of driving through the room, as the simulator's messages tell."""
+    graph = Graph()
+    recorder = Recorder(graph, Simulator(graph.node("simulator")))
+    twist = message_class("geometry_msgs/Twist")
+    publisher = graph.node("driver").publisher("cmd_vel", twist)
+    for linear, angular in [(0.2, 0.0), (0.15, 0.6), (0.2, -0.4), (0.0, -1.0), (0.18, 0.2)]:
+        for _ in range(20):
+            message = twist()
+            message.linear.x, message.angular.z = linear, angular
+            publisher.publish(message)
+            graph.run(0.1)
+    return recorder.recording()
+
+
+@pytest.fixture
+def write(tmp_path, monkeypatch):
+    """Writes a page with players: alone, or deep in a folder like that of the built book."""
+
+    def write(*recordings, form="live", theme="light", before=""):
+        monkeypatch.setenv("ROSMINI_DISPLAY", form)
+        head = ""
+        if form == "book":
+            shutil.copytree(STATIC, tmp_path / "_static", dirs_exist_ok=True)
+            head = '<link rel="stylesheet" href="../../_static/rosmini.css">'
+        folder = tmp_path / "notebooks" / "deep"
+        folder.mkdir(parents=True, exist_ok=True)
+        body = before + "\n".join(recording.replay().html for recording in recordings)
+        background = (style.DARK if theme == "dark" else style.LIGHT)["page"]
+        path = folder / f"{form}.html"
+        path.write_text(
+            PAGE.format(theme=theme, head=head, body=body, background=background), encoding="utf-8"
+        )
+        return path.as_uri()
+
+    return write
+
+
+@pytest.fixture
+def opened(chromium, watch):
+    """Opens pages, and sees to it that they said and fetched nothing."""
+    contexts, watchers = [], []
+
+    def open_page(address, *, width="desktop", **options):
+        wide, high = WIDTHS[width]
+        context = chromium.new_context(viewport={"width": wide, "height": high}, **options)
+        contexts.append(context)
+        page = context.new_page()
+        watchers.append(watch(page))
+        page.goto(address)
+        if options.get("java_script_enabled", True):
+            page.locator(".rosmini-replay[data-state=paused]").first.wait_for()
+        return page
+
+    yield open_page
+    seen = [line for watcher in watchers for line in watcher.seen]
+    for context in contexts:
+        context.close()
+    assert seen == []
+
+
+def time_of(page) -> float:
+    return float(page.locator(".rosmini-replay").first.get_attribute("data-time"))
+
+
+def painted(page) -> None:
+    """Wait until what was asked for is on the canvas."""
+    page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def scrub(page, time) -> None:
+    page.locator(".rosmini-replay input[type=range]").first.evaluate(
+        """(slider, time) => { slider.value = time;
+        for (const name of ["input", "change"]) slider.dispatchEvent(new Event(name, {bubbles: true})); }""",
+        time,
+    )
+    painted(page)
+
+
+def reading(page, name) -> list[float]:
+    text = page.locator(f"[data-read={name}]").first.inner_text().replace("\N{MINUS SIGN}", "-")
+    return [float(number) for number in re.findall(r"-?\d+\.\d+", text)]
+
+
+def count(page, name, palette=style.LIGHT) -> int:
+    colour = [int(palette[name][i : i + 2], 16) for i in (1, 3, 5)]
+    canvas = page.locator(".rosmini-replay canvas").first.element_handle()
+    return page.evaluate(COUNT, [canvas, colour])
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("form", ["book", "live"])
+def test_it_fits_its_page_in_each_theme(write, opened, recording, shared_tmp, form, theme, width):
+    page = opened(write(recording, form=form, theme=theme), width=width)
+    scrub(page, 6.0)
+    assert page.evaluate(SIDEWAYS) <= 0
+    assert not page.locator(".rosmini-still").is_visible()
+    canvas = page.locator("canvas").bounding_box()
+    assert canvas["width"] > 0.9 * min(736, WIDTHS[width][0] - 24)
+    assert canvas["height"] > 0.6 * min(canvas["width"], 520)
+    palette = style.DARK if theme == "dark" else style.LIGHT
+    for name, least in (("page", 5000), ("muted", 2000), ("vermilion", 150), ("blue", 80), ("orange", 20)):
+        assert count(page, name, palette) >= least, name
+    for button in page.locator("button").all():
+        assert button.bounding_box()["width"] >= 36
+    folder = shared_tmp / "screenshots"
+    folder.mkdir(exist_ok=True)
+    page.screenshot(path=folder / f"replay-{form}-{theme}-{width}.png", full_page=True)
+
+
+def test_the_canvas_is_crisp_on_dense_screens(write, opened, recording):
+    page = opened(write(recording), device_scale_factor=2)
+    wide, shown = page.evaluate("(c => [c.width, c.clientWidth])(document.querySelector('canvas'))")
+    assert wide == 2 * shown
+
+
+def test_what_python_wrote_is_what_the_page_reads(write, opened, recording):
+    page = opened(write(recording))
+    run = page.evaluate(
+        """() => { const run = rosminiReplay.decode(JSON.parse(
+          document.querySelector('script[type="application/json"]').textContent));
+          return {...run, scans: run.scans.map(([time, ranges]) => [time, ranges])}; }"""
+    )
+    assert (run["start"], run["end"]) == pytest.approx((0.0, recording.duration), abs=1e-3)
+    even = np.linspace(0.0, recording.duration, len(run["truth"]))
+    for name, poses in (("truth", recording.truth), ("odom", recording.odom_in_map())):
+        expected = np.column_stack([np.interp(even, recording.times, column) for column in poses.T])
+        assert np.array(run[name]) == pytest.approx(expected, abs=1e-3)
+    assert [time for time, _ in run["scans"]] == pytest.approx(recording.scan_times, abs=1e-3)
+    ranges = np.array([ranges for _, ranges in run["scans"]])
+    assert ranges == pytest.approx(np.where(np.isfinite(recording.scans), recording.scans, 0.0), abs=1e-3)
+
+
+def test_it_waits_to_be_told_then_plays_and_pauses(write, opened, recording):
+    page = opened(write(recording))
+    painted(page)
+    assert time_of(page) == 0.0
+    before = page.evaluate(PICTURE)
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("document.querySelector('.rosmini-replay').dataset.time > 0.7")
+    assert reading(page, "truth")[0] > 0.05
+    assert page.evaluate(PICTURE) != before
+    page.get_by_role("button", name="Pause").click()
+    painted(page)
+    stopped = time_of(page), page.evaluate(PICTURE)
+    painted(page)
+    assert (time_of(page), page.evaluate(PICTURE)) == stopped
+
+
+def test_it_stops_at_the_end_and_begins_anew(write, opened, recording):
+    page = opened(write(recording.window(0.0, 1.0)))
+    player = page.locator(".rosmini-replay")
+    page.get_by_label("Speed").select_option("8")
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("document.querySelector('.rosmini-replay').dataset.state === 'paused'")
+    painted(page)
+    assert time_of(page) == pytest.approx(1.0, abs=0.04)
+    assert page.locator("[role=status]").inner_text().startswith("End: 1.0 s. Robot ")
+    page.get_by_label("Speed").select_option("0.25")
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("document.querySelector('.rosmini-replay').dataset.time < 0.5")
+    assert player.get_attribute("data-state") == "playing"
+
+
+@pytest.mark.parametrize("time", [0.0, 3.21, 7.5, 9.9])
+def test_scrubbing_shows_that_moment(write, opened, recording, time):
+    page = opened(write(recording))
+    scrub(page, time)
+    x, y, heading = recording.pose_at(time)
+    wrapped = math.degrees(math.remainder(heading, math.tau))
+    assert reading(page, "truth") == pytest.approx([x, y, wrapped], abs=0.06)
+    odom = [float(np.interp(time, recording.times, column)) for column in recording.odom_in_map().T]
+    assert reading(page, "odom")[:2] == pytest.approx(odom[:2], abs=0.006)
+    assert reading(page, "error")[0] == pytest.approx(math.dist((x, y), odom[:2]), abs=0.002)
+    given = recording.commands[recording.commands[:, 0] <= time]
+    if len(given):
+        assert reading(page, "command") == pytest.approx(given[-1, 1:], abs=0.006)
+    slider = page.get_by_role("slider", name="Time")
+    assert slider.get_attribute("aria-valuetext") == f"{time:.1f} of {recording.duration:.1f} seconds"
+
+
+def test_keys_work_inside_the_player_and_nowhere_else(write, opened, recording):
+    page = opened(write(recording))
+    player = page.locator(".rosmini-replay")
+    for key in ("ArrowRight", "End", "+", " "):
+        page.keyboard.press(key)
+    painted(page)
+    assert (time_of(page), player.get_attribute("data-speed")) == (0.0, "1")
+    page.get_by_role("slider", name="Time").focus()
+    for key, expected in [
+        ("ArrowRight", 0.2),
+        ("ArrowUp", 0.4),
+        ("ArrowLeft", 0.2),
+        ("ArrowLeft", 0.0),
+        ("ArrowLeft", 0.0),
+        ("End", recording.duration),
+        ("ArrowRight", recording.duration),
+        ("Home", 0.0),
+    ]:
+        page.keyboard.press(key)
+        painted(page)
+        assert time_of(page) == pytest.approx(expected, abs=1e-3), key
+    for key, speed in [("+", "2"), ("+", "4"), ("-", "2"), *[("+", "8")] * 3, *[("-", "0.25")] * 9][:3]:
+        page.keyboard.press(key)
+        assert player.get_attribute("data-speed") == speed
+    for _ in range(9):
+        page.keyboard.press("+")
+    assert player.get_attribute("data-speed") == "8" == page.get_by_label("Speed").input_value()
+    for _ in range(9):
+        page.keyboard.press("-")
+    assert player.get_attribute("data-speed") == "0.25"
+    page.keyboard.press(" ")
+    assert player.get_attribute("data-state") == "playing"
+    page.keyboard.press(" ")
+    assert player.get_attribute("data-state") == "paused"
+    page.keyboard.press("Control+End")
+    assert time_of(page) < 9.0
+
+
+def test_a_button_takes_its_own_space_key_and_tab_reaches_everything(write, opened, recording):
+    page = opened(write(recording))
+    names = []
+    for _ in range(8):
+        page.keyboard.press("Tab")
+        names.append(
+            page.evaluate(
+                """() => { const e = document.activeElement;
+                const outline = getComputedStyle(e).outlineStyle;
+                return [e.ariaLabel ?? e.labels?.[0].textContent, outline]; }"""
+            )
+        )
+    assert [name for name, _ in names] == [
+        "Step back", "Play", "Step forward", "Time", "Speed", "True path", "Odometry", "Laser"
+    ]  # fmt: skip
+    assert {outline for _, outline in names} == {"solid"}
+    page.get_by_role("button", name="Step forward").focus()
+    page.keyboard.press(" ")
+    painted(page)
+    assert time_of(page) == pytest.approx(0.2, abs=1e-3)
+    assert page.locator(".rosmini-replay").get_attribute("data-state") == "paused"
+    page.get_by_role("checkbox", name="Laser").focus()
+    page.keyboard.press(" ")
+    assert not page.get_by_role("checkbox", name="Laser").is_checked()
+
+
+@pytest.mark.parametrize("speed", [0.5, 4])
+def test_it_plays_as_fast_as_it_is_told(write, opened, recording, speed):
+    page = opened(write(recording))
+    page.get_by_label("Speed").select_option(str(speed))
+    ratio = page.evaluate(
+        """() => new Promise((done) => {
+          const player = document.querySelector(".rosmini-replay");
+          player.querySelector("[data-do=play]").click();
+          let frames = 0, first, slow = 0, last;
+          requestAnimationFrame(function look(now) {
+            if (last !== undefined) slow += Math.max(0, now - last - 100);
+            last = now;
+            const at = [now, Number(player.dataset.time)];
+            if (frames === 3) first = at;
+            if (++frames < 40) requestAnimationFrame(look);
+            else done(1000 * (at[1] - first[1]) / (at[0] - first[0] - slow));
+          });
+        })"""
+    )
+    assert ratio == pytest.approx(speed, rel=0.2)
+
+
+def test_layers_can_be_taken_away(write, opened, recording):
+    page = opened(write(recording))
+    scrub(page, 9.0)
+    for label, colour in (("Laser", "vermilion"), ("True path", "blue"), ("Odometry", "orange")):
+        before = count(page, colour)
+        page.get_by_role("checkbox", name=label).uncheck()
+        painted(page)
+        assert count(page, colour) < before - 20, label
+
+
+def test_a_change_of_the_theme_and_of_the_width_is_followed(write, opened, recording):
+    page = opened(write(recording, form="book"))
+    assert count(page, "page", style.DARK) < 100
+    page.evaluate("document.documentElement.dataset.theme = 'dark'")
+    page.wait_for_function(f"({COUNT})([document.querySelector('canvas'), [20, 24, 30]]) > 5000")
+    page.set_viewport_size({"width": 420, "height": 800})
+    page.wait_for_function(
+        "(c => c.width === c.clientWidth && c.width < 500)(document.querySelector('canvas'))"
+    )
+    painted(page)
+    assert count(page, "page", style.DARK) > 5000
+
+
+def test_who_wants_less_motion_gets_a_picture_each_half_second(write, opened, recording):
+    page = opened(write(recording), reduced_motion="reduce")
+    pictures, seconds = page.evaluate(
+        """() => new Promise((done) => {
+          const player = document.querySelector(".rosmini-replay");
+          const times = new Set();
+          const begin = performance.now();
+          new MutationObserver(() => times.add(player.dataset.time)).observe(player, {attributes: true});
+          player.querySelector("[data-do=play]").click();
+          (function look() {
+            const passed = performance.now() - begin;
+            if (passed > 1300) done([times.size, passed / 1000]);
+            else requestAnimationFrame(look);
+          })();
+        })"""
+    )
+    assert 2 <= pictures <= 2 * seconds + 1
+
+
+def test_it_does_not_run_where_nobody_sees_it(write, opened, recording):
+    page = opened(write(recording, before='<div style="height: 3000px"></div>'))
+    page.locator(".rosmini-replay").scroll_into_view_if_needed()
+    page.get_by_label("Speed").select_option("0.25")
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("document.querySelector('.rosmini-replay').dataset.time > 0.05")
+    page.evaluate("scrollTo(0, 0)")
+    page.evaluate(
+        """() => new Promise((done) => new IntersectionObserver(
+          (entries) => entries.at(-1).isIntersecting || requestAnimationFrame(() => requestAnimationFrame(done))
+        ).observe(document.querySelector(".rosmini-replay")))"""
+    )
+    left = time_of(page)
+    painted(page)
+    assert time_of(page) == left
+    page.locator(".rosmini-replay").scroll_into_view_if_needed()
+    page.wait_for_function(f"document.querySelector('.rosmini-replay').dataset.time > {left}")
+
+
+@pytest.mark.parametrize("form", ["book", "live"])
+def test_several_on_one_page_are_independent(write, opened, recording, form):
+    page = opened(write(recording, recording, recording.window(0.0, 4.0), form=form))
+    players = page.locator(".rosmini-replay")
+    page.wait_for_function("document.querySelectorAll('.rosmini-replay[data-state]').length === 3")
+    players.nth(1).get_by_role("button", name="Step forward").click()
+    painted(page)
+    assert [players.nth(i).get_attribute("data-time") for i in range(3)] == ["0.000", "0.200", "0.000"]
+    assert players.nth(2).locator("output").inner_text() == "0.0 / 4.0 s"
+
+
+def test_the_status_is_spoken_when_something_was_done_only(write, opened, recording):
+    page = opened(write(recording))
+    assert page.locator("[role=status]").inner_text() == ""
+    said = page.evaluate(
+        """() => new Promise((done) => {
+          const player = document.querySelector(".rosmini-replay");
+          const said = [];
+          const status = player.querySelector("[role=status]");
+          new MutationObserver(() => said.push(status.textContent)).observe(status, {childList: true});
+          const play = player.querySelector("[data-do=play]");
+          play.click();
+          let frames = 0;
+          requestAnimationFrame(function look() {
+            if (++frames === 20) play.click();
+            if (frames < 24) requestAnimationFrame(look);
+            else done(said);
+          });
+        })"""
+    )
+    assert len(said) == 2
+    assert said[0] == "Playing"
+    assert re.fullmatch(
+        r"Paused: \d\.\d s\. Robot .* m, .*°\. Error of odometry .*\. Command .* m/s, .* rad/s\.", said[1]
+    )
+
+
+def test_a_run_of_one_sample_and_one_without_scans(write, opened, recording):
+    blind = replace(recording, scan_times=np.empty(0), scans=np.empty((0, 360)), commands=np.empty((0, 3)))
+    page = opened(write(blind.window(0.0, 0.0)))
+    assert page.locator("output").inner_text() == "0.0 / 0.0 s"
+    for control in page.locator("button, [type=range]").all():
+        assert control.is_disabled()
+    assert not page.get_by_role("checkbox", name="Laser").is_visible()
+    assert page.locator("[data-read=command]").inner_text() == "none yet"
+    assert count(page, "blue") > 80
+    page = opened(write(blind))
+    scrub(page, 5.0)
+    assert reading(page, "truth")[0] == pytest.approx(recording.pose_at(5.0)[0], abs=0.006)
+
+
+@pytest.mark.parametrize("form", ["book", "live"])
+def test_in_print_and_without_scripts_the_still_picture_is_there(write, opened, recording, form):
+    address = write(recording, form=form)
+    page = opened(address)
+    page.emulate_media(media="print")
+    assert page.locator(".rosmini-still svg").is_visible()
+    assert not page.locator(".rosmini-replay").is_visible()
+    page = opened(address, java_script_enabled=False)
+    assert page.locator(".rosmini-still svg").is_visible()
+
+
+def test_in_jupyterlab_its_keys_are_its_own(start_lab, chromium, shared_tmp):
+    cells = [
+        """
+from rosmini.graph import Graph
+from rosmini.sim.recorder import Recorder
+from rosmini.sim.simulator import Simulator
+graph = Graph()
+recorder = Recorder(graph, Simulator(graph.node("simulator")))
+graph.run(5.0)
+recorder.recording().replay()
+""",
+        "print('below')",
+    ]
+    page = chromium.new_page(viewport={"width": 1200, "height": 1200})
+    page.set_default_timeout(30_000)
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(start_lab(cells))
+    found = page.locator(".jp-Notebook .jp-CodeCell")
+    found.nth(1).wait_for()
+    page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
+    found.nth(0).locator(".jp-InputArea-editor").click()
+    page.keyboard.press("Control+Enter")
+    player = found.nth(0).locator(".rosmini-replay[data-state=paused]")
+    player.wait_for()
+    try:
+        player.get_by_role("slider", name="Time").focus()
+        for key in ("ArrowRight", "ArrowRight", "ArrowDown", "ArrowUp", "ArrowUp", "+"):
+            page.keyboard.press(key)
+        for key in ("b", "d", "d", "a"):  # JupyterLab's: they would add cells and delete this one
+            page.keyboard.press(key)
+        painted(page)
+        assert player.get_attribute("data-time") == "0.600"
+        assert player.get_attribute("data-speed") == "2"
+        assert found.count() == 2
+        page.keyboard.press(" ")
+        page.wait_for_function("document.querySelector('.rosmini-replay').dataset.time > 1")
+        assert errors == []
+    finally:
+        page.screenshot(path=shared_tmp / "screenshots" / "replay-jupyterlab.png")
+        page.close()
