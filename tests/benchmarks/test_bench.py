@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rosmini.cli.bench import Figure, Measure, graph, table
+from rosmini.cli.bench import Figure, Measure, graph, sim, table
 from rosmini.cli.bench.peer import find_rospy
 from rosmini.cli.main import main
 from rosmini.errors import RosminiError
@@ -22,10 +22,10 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
     assert main(["bench", "--no-peer", "--rounds", "1", "--scale", "0.001", "--json", str(file)]) == 0
     written = json.loads(file.read_text())
     shown = capsys.readouterr().out
-    assert len(written["figures"]) == len(list(graph.measures(None, 1)))
+    assert len(written["figures"]) == len([*graph.measures(None, 1), *sim.measures(None, 1)])
     for row in written["figures"]:
         assert row["ours"] > 0
-        assert row["peer"] is None
+        assert row["peer"] is None or row["peer_name"] == "pymunk"
         assert row["name"] in shown
 
 

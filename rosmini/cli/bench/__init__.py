@@ -1,4 +1,4 @@
-"""`rosmini bench`: measure rosmini, and beside it, in the same run, real ROS where it is installed.
+"""`rosmini bench`: measure rosmini, and beside it, in the same run, real ROS and another simulator where they are installed.
 
 Each figure is the median of several rounds in which rosmini and its peer take turns, so that a machine that slows down slows both.
 Nothing is judged: a figure depends on the machine, the ratio much less.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import platform
 import statistics
+from contextlib import ExitStack
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,7 +18,7 @@ from rosmini.errors import RosminiError
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
 
 @dataclass(frozen=True)
@@ -95,10 +96,16 @@ def table(figures: Iterable[Figure]) -> str:
     )
 
 
+SUBJECTS = ("graph", "sim")
+
+
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
     """Add the subcommand's parser."""
     parser = subparsers.add_parser(
         "bench", help="measure rosmini, and real ROS where it is installed", description=__doc__
+    )
+    parser.add_argument(
+        "subject", nargs="?", choices=SUBJECTS, help="the computation graph or the simulator (default: both)"
     )
     parser.add_argument(
         "--rounds", type=int, default=3, metavar="N", help="rounds of which the median is shown (default: 3)"
@@ -111,30 +118,21 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="do F times the usual work in a round (default: 1)",
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures to FILE, too")
-    parser.add_argument("--no-peer", action="store_true", help="do not measure real ROS beside it")
+    parser.add_argument("--no-peer", action="store_true", help="measure nothing else beside it")
     return parser
 
 
 def main(args: argparse.Namespace) -> int:
     """Measure and print."""
-    from .graph import measures
-    from .peer import find_rospy
-
     if args.rounds < 1 or not args.scale > 0:
         msg = "--rounds takes a whole number from 1 and --scale a positive one"
         raise RosminiError(msg)
-    rospy = None if args.no_peer else find_rospy()
-    if rospy is None and not args.no_peer:
-        print("real ROS is not installed here: no peer")
     figures = []
-    try:
-        for measure in measures(rospy, args.scale):
+    with ExitStack() as peers:
+        for measure in _measures(args, peers):
             figures.append(measure.run(args.rounds))
             print(".", end="", flush=True)
-    finally:
-        print()
-        if rospy is not None:
-            rospy.close()
+    print()
     print(table(figures))
     if args.json is not None:
         machine = {
@@ -148,3 +146,25 @@ def main(args: argparse.Namespace) -> int:
         )
         print(f"written to {args.json}")
     return 0
+
+
+def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
+    """What is to be measured; the peers that have to be stopped go to `peers`."""
+    if args.subject in (None, "graph"):
+        from . import graph
+        from .peer import find_rospy
+
+        rospy = None if args.no_peer else find_rospy()
+        if rospy is not None:
+            peers.callback(rospy.close)
+        elif not args.no_peer:
+            print("real ROS is not installed here: no peer")
+        yield from graph.measures(rospy, args.scale)
+    if args.subject in (None, "sim"):
+        from . import sim
+        from .sim_peer import find_irsim
+
+        irsim = None if args.no_peer else find_irsim()
+        if irsim is None and not args.no_peer:
+            print("ir-sim is not installed here: no peer (pip install ir-sim)")
+        yield from sim.measures(irsim, args.scale)
