@@ -14,6 +14,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rosmini.viz.embed import LIVE
 from rosmini.viz.form import BOOK, VARIABLE
 
 if TYPE_CHECKING:
@@ -133,6 +134,8 @@ def output_problems(output: nbformat.NotebookNode) -> Iterator[str]:
     for what, pattern in UNSTABLE.items():
         if found := pattern.search(text):
             yield f"printed {what} ({found[0].strip()!r})"
+    if LIVE in text:
+        yield "holds a moving picture in its live form: `execute` stores the small one that the book shows"
     if output.get("metadata", {}).get("needs_background"):
         yield "has an output with metadata of a plotting library"
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import re
 from html.parser import HTMLParser
 from typing import TYPE_CHECKING
+
+from rosmini.viz.embed import LIVE, MESHCAT
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,7 +32,19 @@ FETCHED = {
 NAMING = {"canonical", "next", "prev", "author", "license", "alternate", "index", "search"}
 ELSEWHERE = re.compile(r"^\s*(?:[a-z][a-z0-9+.-]*:)?//", re.IGNORECASE)
 IN_STYLE = re.compile(r"(?:url\(|@import)\s*[\"']?\s*((?:https?:)?//[^\"')\s]+)", re.IGNORECASE)
+VIEWER_CALL = "globalThis.rosminiMeshcat.mount("
+"""What a page says once for each three-dimensional picture."""
+MOST_VIEWERS = 6
+"""Browsers draw no more than some eight pictures with WebGL at a time: what comes after them takes the place of the first."""
 IN_SCRIPT = re.compile(r"\b(?:import\s*\(?|from|fetch\(|importScripts\(|require\()\s*[\"'](https?://[^\"']+)")
+# What the scripts of moving pictures have no use for, whatever the address.
+ASKING = re.compile(r"\b(fetch\(|XMLHttpRequest|WebSocket|EventSource|sendBeacon|importScripts|import\(|connect\()")
+ADDRESS = re.compile(r"(?:https?|wss?)://[^\s\"'`)]+")
+# The names of XML's vocabularies look like addresses; nothing is fetched from there.
+NAMESPACES = {"http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"}
+# Where meshcat's viewer looks for its server when somebody calls its `connect`, which our scripts may not.
+UNUSED = {"ws://${location.host}"}
+SHARED_SCRIPTS = re.compile(r"const ready = (\[[^\]]*\])\.reduce")
 
 
 class Page(HTMLParser):
@@ -40,6 +55,7 @@ class Page(HTMLParser):
         self.problems: list[str] = []
         self.within = ""
         self.pictures: list[dict[str, str]] = []
+        self.viewers = 0
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         """Look at one element."""
@@ -75,6 +91,9 @@ class Page(HTMLParser):
         if self.within == "style":
             self.problems += [f"a style from elsewhere: {url}" for url in IN_STYLE.findall(data)]
         if self.within == "script":
+            self.viewers += data.count(VIEWER_CALL)
+            if LIVE in data:
+                self.problems.append("a moving picture in its live form: store it with `notebooks execute`")
             self.problems += [f"a script from elsewhere: {url}" for url in IN_SCRIPT.findall(data)]
 
     def _look_for_fetches(self, tag: str, given: dict[str, str]) -> None:
@@ -92,6 +111,27 @@ class Page(HTMLParser):
             self.problems += [f"in a frame: {problem}" for problem in inner.problems]
 
 
+def script_problems(text: str, *, ours: bool = True) -> list[str]:
+    """What a script that moving pictures load may not contain; one that is not `ours` may have code that is never called."""
+    harmless = NAMESPACES if ours else NAMESPACES | UNUSED
+    problems = [f"names {address}" for address in ADDRESS.findall(text) if address not in harmless]
+    if "127.0.0.1" in text or "localhost" in text:
+        problems.append("names this machine")
+    if ours:
+        problems += [f"uses {asking.rstrip('(')}" for asking in ASKING.findall(text)]
+    return problems
+
+
+def _missing_scripts(page: str, static: Path) -> Iterator[str]:
+    """Scripts that a page's moving pictures load and that are not there."""
+    names = {name for found in SHARED_SCRIPTS.findall(page) for name in json.loads(found)}
+    if VIEWER_CALL in page:
+        names.add(MESHCAT)
+    yield from (
+        f"loads {name}, which is not in _static" for name in sorted(names) if not (static / name).is_file()
+    )
+
+
 def _around(text: str, found: str) -> str:
     at = text.index(found)
     return " ".join(text[max(0, at - 30) : at + 40].split())
@@ -102,15 +142,23 @@ def page_problems(html: str) -> list[str]:
     page = Page()
     page.feed(html)
     page.close()
+    if page.viewers > MOST_VIEWERS:
+        page.problems.append(f"{page.viewers} three-dimensional pictures, over {MOST_VIEWERS}")
     return page.problems
 
 
 def site_problems(site: Path) -> Iterator[str]:
-    """What is wrong with the pages and style sheets below `site`, one line each, beginning with the file."""
+    """What is wrong with the pages, style sheets and scripts below `site`, one line each, beginning with the file."""
     for path in sorted(site.rglob("*.html")):
         if "_static" not in path.relative_to(site).parts:
             text = path.read_text(encoding="utf-8")
-            yield from (f"{path.relative_to(site).as_posix()}: {problem}" for problem in page_problems(text))
+            problems = [*page_problems(text), *_missing_scripts(text, site / "_static")]
+            yield from (f"{path.relative_to(site).as_posix()}: {problem}" for problem in problems)
+    for path in sorted((site / "_static").glob("*.js")):
+        if path.name == MESHCAT or path.name.startswith("rosmini"):
+            text = path.read_text(encoding="utf-8")
+            problems = script_problems(text, ours=path.name != MESHCAT)
+            yield from (f"{path.relative_to(site).as_posix()}: {problem}" for problem in problems)
     for path in sorted(site.rglob("*.css")):
         text = path.read_text(encoding="utf-8")
         yield from (f"{path.relative_to(site).as_posix()}: fetches {url}" for url in IN_STYLE.findall(text))

@@ -4,18 +4,21 @@
 - A quote that begins with a bold word such as "On a real robot" becomes a box. In JupyterLab it stays a quote.
 - What sphinx-thebe adds to each page (a script from a CDN, declared twice) is taken out.
 - The chatter of the theme's scripts in the browser's console is taken out too.
-- The style sheet of `rosmini.viz` comes along when it is there.
+- The style sheet and the scripts of `rosmini.viz` come along, and meshcat's viewer if a page needs it.
 """
 
 from __future__ import annotations
 
-from importlib.util import find_spec
+import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.transforms import SphinxTransform
+
+from rosmini.book.pages import VIEWER_CALL
+from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
@@ -98,21 +101,29 @@ def silence_thebe(app: Sphinx) -> None:
                 app.disconnect(listener.id)
 
 
-def add_viz_style(app: Sphinx) -> None:
-    """Add the style sheet of the pictures that `rosmini.viz` makes."""
-    package = find_spec("rosmini.viz")
-    if package is None or package.origin is None:
+def add_viz_files(app: Sphinx) -> None:
+    """Add the style sheet of the pictures that `rosmini.viz` makes, and lay its scripts beside it, for pages to load."""
+    app.config.html_static_path.append(str(STATIC))
+    app.add_css_file("rosmini.css")
+
+
+def copy_viewer(app: Sphinx, error: Exception | None) -> None:
+    """Copy meshcat's viewer out of its wheel, with its licences, if a page shows something in it."""
+    if error is not None or app.builder.format != "html":
         return
-    static = Path(package.origin).parent / "static"
-    if (static / "rosmini.css").is_file():
-        app.config.html_static_path.append(str(static))
-        app.add_css_file("rosmini.css")
+    pages = (path for path in Path(app.outdir).rglob("*.html") if "_static" not in path.parts)
+    if any(VIEWER_CALL in path.read_text(encoding="utf-8") for path in pages):
+        script = asset_path(MESHCAT)
+        shutil.copyfile(script, Path(app.outdir, "_static", MESHCAT))
+        shutil.copyfile(
+            script.with_name("main.min.js.LICENSE.txt"), Path(app.outdir, "_static", f"{MESHCAT}.LICENSE.txt")
+        )
 
 
 def prepare(app: Sphinx) -> None:
     """When the builder is ready, and before the handlers of the other extensions."""
     silence_thebe(app)
-    add_viz_style(app)
+    add_viz_files(app)
 
 
 def hush(app: Sphinx, error: Exception | None) -> None:
@@ -134,6 +145,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_block_math, None))
     app.add_transform(QuoteBoxes)
     app.connect("builder-inited", prepare, priority=1)
+    app.connect("build-finished", copy_viewer, priority=998)
     # After every extension has copied its scripts.
     app.connect("build-finished", hush, priority=999)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -37,6 +37,9 @@ STATIC = Path(__file__).parent / "static"
 MESHCAT = "meshcat.min.js"
 """The viewer of meshcat: a file of its wheel, copied into the book when it is built and never committed."""
 
+LIVE = "const book = false"
+"""What the live form holds and the book form does not."""
+
 _CALL = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 import yaml
 
-from rosmini.book.pages import page_problems, site_problems
+from rosmini.book.pages import page_problems, script_problems, site_problems
+from rosmini.viz.embed import MESHCAT, STATIC, asset_path, embed
 
 
 def toc_pages(root):
@@ -117,3 +118,55 @@ def test_what_the_gate_refuses(html, problem):
 )
 def test_what_the_gate_accepts(html):
     assert page_problems(html) == []
+
+
+def moving(number, **options):
+    given = {"title": "t", "alt": "a", "height": 1, "fallback_html": "<p>still</p>"} | options
+    return embed(["rosmini-meshcat.js"], "rosminiMeshcat.mount", {"number": number}, **given)
+
+
+def test_six_three_dimensional_pictures_are_a_page_and_seven_are_too_many():
+    pictures = [moving(number, book=True) for number in range(7)]
+    assert page_problems("".join(pictures[:6])) == []
+    assert page_problems("".join(pictures)) == ["7 three-dimensional pictures, over 6"]
+
+
+def test_the_live_form_is_not_for_the_book():
+    assert any("live form" in problem for problem in page_problems(moving(0, book=False)))
+
+
+def test_what_a_page_loads_has_to_be_there(tmp_path):
+    (tmp_path / "_static").mkdir()
+    (tmp_path / "a.html").write_text(moving(0, book=True))
+    assert list(site_problems(tmp_path)) == [
+        "a.html: loads meshcat.min.js, which is not in _static",
+        "a.html: loads rosmini-meshcat.js, which is not in _static",
+    ]
+    (tmp_path / "_static" / "rosmini-meshcat.js").write_text("fetch('https://example.org/a')")
+    (tmp_path / "_static" / MESHCAT).write_text("")
+    assert list(site_problems(tmp_path)) == [
+        "_static/rosmini-meshcat.js: names https://example.org/a",
+        "_static/rosmini-meshcat.js: uses fetch",
+    ]
+
+
+def test_the_scripts_of_moving_pictures_ask_nobody_for_anything():
+    for path in STATIC.glob("*.js"):
+        assert script_problems(path.read_text(encoding="utf-8")) == [], path.name
+    assert script_problems(asset_path(MESHCAT).read_text(encoding="utf-8"), ours=False) == []
+
+
+@pytest.mark.parametrize(
+    ("script", "problem"),
+    [
+        ("new WebSocket('ws://localhost:7000')", "names this machine"),
+        ("const a = 'http://127.0.0.1:7000/static/'", "names this machine"),
+        ("import('./x.js')", "uses import"),
+        ("viewer.connect()", "uses connect"),
+        ("open(`ws://${location.host}`)", "names ws://${location.host}"),
+        ("new XMLHttpRequest()", "uses XMLHttpRequest"),
+        ("a = `//${'https://cdn.example/x'}`", "names https://cdn.example/x"),
+    ],
+)
+def test_what_the_gate_refuses_in_a_script(script, problem):
+    assert problem in script_problems(script)

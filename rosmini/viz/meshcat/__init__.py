@@ -1,0 +1,18 @@
+"""The robot and its world in three dimensions, through meshcat's API with no server."""
+
+from __future__ import annotations
+
+from rosmini.viz.meshcat.recorder import Recorder
+from rosmini.viz.meshcat.scene import Camera, Scene3D
+from rosmini.viz.meshcat.view import MeshcatView, replay_3d, robot_3d, simulation_3d, world_3d
+
+__all__ = [
+    "Camera",
+    "MeshcatView",
+    "Recorder",
+    "Scene3D",
+    "replay_3d",
+    "robot_3d",
+    "simulation_3d",
+    "world_3d",
+]

@@ -1,0 +1,61 @@
+"""In which order things that stand on the ground are painted, so that the nearer ones cover the farther ones.
+
+Of two convex outlines that do not overlap, the one on the camera's side of a line between them is the nearer one, and one
+of their sides is such a line (M. Newell, R. Newell and T. Sancha, "A solution to the hidden surface problem", 1972).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.viz.rounding import snap
+
+Floats = NDArray[np.float64]
+
+MANY = 200
+"""Above this number of things, only their distances count."""
+TOUCH = 1e-4
+"""Outlines may overlap by this much [m]."""
+
+
+def painting_order(outlines: list[Floats], eye: Floats) -> list[int]:
+    """The places of convex outlines (n, 2), counter-clockwise, from the farthest to the nearest as seen from `eye` (2,)."""
+    away = [float(snap(np.linalg.norm(outline.mean(axis=0) - eye), 1e-6)) for outline in outlines]
+    by_distance = sorted(range(len(outlines)), key=lambda i: -away[i])
+    if len(outlines) > MANY:
+        return by_distance
+    behind = {
+        i: {j for j in by_distance if j != i and _covers(outlines[i], outlines[j], eye)} for i in by_distance
+    }
+    order: list[int] = []
+    while len(order) < len(outlines):
+        left = [i for i in by_distance if i in behind]
+        # If some cover one another in a circle, the one that covers fewest goes first.
+        first = min(left, key=lambda i: len(behind[i]))
+        order.append(first)
+        del behind[first]
+        for others in behind.values():
+            others.discard(first)
+    return order
+
+
+def _covers(near: Floats, far: Floats, eye: Floats) -> bool:
+    """Whether `near` may cover a part of `far`."""
+    side = _between(near, far, eye)
+    if side is None:
+        other = _between(far, near, eye)
+        return False if other is None else other
+    return not side
+
+
+def _between(own: Floats, other: Floats, eye: Floats) -> bool | None:
+    """Whether the eye is with `other` at a side of `own` that has `other` beyond it; None if no side has."""
+    along = np.roll(own, -1, axis=0) - own
+    outwards = np.column_stack([along[:, 1], -along[:, 0]])
+    outwards /= np.hypot(*outwards.T)[:, None] + 1e-12
+    gaps = ((other[None, :, :] - own[:, None, :]) * outwards[:, None, :]).sum(axis=2).min(axis=1)
+    widest = int(np.argmax(snap(gaps, 1e-6)))
+    if gaps[widest] < -TOUCH:
+        return None
+    return bool((eye - own[widest]) @ outwards[widest] > 0)

@@ -1,0 +1,277 @@
+"""Scenes as views: a simulator at this moment, a world, a recorded run."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.sim.models import RobotModel
+from rosmini.sim.recording import Recording
+from rosmini.sim.world import Pose, World
+from rosmini.viz import style
+from rosmini.viz.embed import MESHCAT, embed
+from rosmini.viz.rounding import degrees, fixed, snap
+from rosmini.viz.view import SVG_MIME, View, ViewError
+
+from .drawing import draw
+from .scene import ROBOT, Camera, Scene3D
+
+if TYPE_CHECKING:
+    from rosmini.sim.simulator import Simulator
+
+Floats = NDArray[np.float64]
+Focus = Literal["robot", "world"]
+"""What the camera looks at."""
+
+HEIGHT = 420
+"""Of the viewer [CSS px]."""
+
+
+class MeshcatView(View):
+    """A scene that can be turned, and played if something in it moves; its image is a drawing of the same scene.
+
+    In the book, the page's one copy of meshcat's viewer shows the recorded commands, with no server. A page should hold
+    at most six: browsers draw no more than some eight three-dimensional pictures at a time.
+    """
+
+    def __init__(
+        self, scene: Scene3D, *, title: str, text: str, alt: str, follow: str | None = None,
+        height: int = HEIGHT, caption: str | None = None,
+    ) -> None:  # fmt: skip
+        self.scene = scene
+        self.title = title
+        self.caption = caption
+        self._text = text
+        self._alt = alt
+        self._follow = follow
+        self._height = height
+        self.extra: dict[str, Any] = {}
+
+    @property
+    def text(self) -> str:
+        """What is in the scene and where."""
+        return self._text
+
+    @property
+    def alt(self) -> str:
+        """The scene in a sentence or two."""
+        return self._alt
+
+    @cached_property
+    def svg(self) -> str:
+        """The drawing: the scene as the viewer shows it first."""
+        return draw(self.scene, title=self.title, alt=self.alt)
+
+    def _images(self) -> dict[str, bytes]:
+        return {SVG_MIME: self.svg.encode()}
+
+    @property
+    def html(self) -> str:
+        """The viewer: in the book's form or the live form, as `rosmini.viz.form.book_form()` says."""
+        return self._html(None)
+
+    @property
+    def page(self) -> str:
+        """The viewer with all that it needs, for a file of its own."""
+        return self._html(book=False)
+
+    def _html(self, book: bool | None) -> str:
+        data = {
+            "commands": self.scene.commands,
+            "themes": self.scene.themes,
+            "duration": self.scene.duration,
+            "follow": self._follow,
+            "legend": [[trail.name, style.variable(trail.colour)] for trail in self.scene.trails],
+            **self.extra,
+        }
+        return embed(
+            ["rosmini-meshcat.js"], "rosminiMeshcat.mount", data, title=self.title, alt=self.alt,
+            height=self._height, fallback_html=self.svg, caption=self.caption, assets=[MESHCAT], book=book,
+        )  # fmt: skip
+
+
+def camera_for(
+    world: World, pose: Pose | None, *, focus: Focus, distance: float | None, azimuth: float | None,
+    elevation: float | None,
+) -> Camera:  # fmt: skip
+    """A three-quarter view of the robot from ahead, or of the whole world from the south; what is given overrides it.
+
+    Raises:
+        ViewError: the focus is neither "robot" nor "world", or the distance is not positive.
+
+    """
+    if focus not in {"robot", "world"}:
+        raise ViewError(f"the focus of a 3D picture is 'robot' or 'world', not {focus!r}")
+    if distance is not None and not 0 < distance < 1e4:
+        raise ViewError(f"the distance of the camera is a number of metres above 0, not {distance!r}")
+    x0, y0, x1, y1 = world.bounds
+    if focus == "robot" and pose is not None:
+        middle, usual = (pose[0], pose[1], 0.09), (0.8, float(np.rint(np.rad2deg(pose[2]))) - 38.0, 26.0)
+    else:
+        size = math.hypot(x1 - x0, y1 - y0)
+        middle, usual = ((x0 + x1) / 2, (y0 + y1) / 2, 0.0), (1.15 * size + 0.3, -68.0, 42.0)
+    x, y, z = (round(c, 3) + 0.0 for c in middle)
+    return Camera(
+        (x, y, z),
+        usual[0] if distance is None else distance,
+        usual[1] if azimuth is None else azimuth,
+        usual[2] if elevation is None else elevation,
+    )
+
+
+def world_3d(
+    world: World, *, distance: float | None = None, azimuth: float | None = None, elevation: float | None = None,
+    caption: str | None = None, height: int = HEIGHT,
+) -> MeshcatView:  # fmt: skip
+    """A world in three dimensions: what stands in it, as high as it is."""
+    camera = camera_for(world, None, focus="world", distance=distance, azimuth=azimuth, elevation=elevation)
+    scene = Scene3D(camera)
+    scene.add_world(world)
+    title = f"{_title(world)} in 3D"
+    text = f"3D: {_contents(world)}"
+    alt = f"{_title(world)} in three dimensions, seen from above at an angle: {_contents(world)}."
+    return MeshcatView(scene, title=title, text=text, alt=alt, caption=caption, height=height)
+
+
+def replay_3d(
+    recording: Recording, *, focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
+    elevation: float | None = None, scans: bool = True, caption: str | None = None, height: int = HEIGHT,
+) -> MeshcatView:  # fmt: skip
+    """A recorded run to play: the robot on its way, its wheels turning, its trail and where odometry saw it.
+
+    The camera follows the robot, or stands still if the focus is the world. `scans` shows what the laser saw.
+    """
+    world, model, truth = recording.world, recording.model, recording.truth
+    start: Pose = tuple(truth[0].tolist())
+    if focus == "robot" and distance is None:
+        distance = 1.5
+    camera = camera_for(world, start, focus=focus, distance=distance, azimuth=azimuth, elevation=elevation)
+    scene = Scene3D(camera)
+    scene.add_world(world)
+    believed = recording.odom_in_map()
+    scene.add_trail("odometry", believed[:, :2], "orange", 0.004)
+    scene.add_trail("truth", truth[:, :2], "blue", 0.006)
+    scene.add_robot(model, start)
+    seen = _scan_track(recording) if scans and len(recording.scans) else None
+    if seen is not None:
+        scene.add_scan(model, np.full(seen["beams"], np.inf))
+    scene.animate(recording.times - recording.times[0], _tracks(model, truth))
+    title = f"{model.title or model.name} in {_title(world)}: a run in 3D"
+    driven = f"{fixed(recording.duration, 1)} s, {fixed(recording.distance, 2)} m"
+    off = fixed(float(recording.drift().position[-1]), 2)
+    text = (
+        f"3D replay: {model.name} in {world.name}, {driven}\n"
+        f"from {_pose(start)} to {_pose(tuple(truth[-1].tolist()))}; odometry ends {off} m off"
+    )
+    alt = (
+        f"A player with {model.title or model.name} in {_title(world)}, in three dimensions: it drives {driven}. "
+        f"Lines on the ground show its way and, {off} m off at its end, the way that odometry believes in."
+    )
+    view = MeshcatView(
+        scene, title=title, text=text, alt=alt, caption=caption, height=height,
+        follow=f"/meshcat/{ROBOT}" if focus == "robot" else None,
+    )  # fmt: skip
+    if seen is not None:
+        view.extra["scan"] = seen
+    return view
+
+
+def simulation_3d(
+    simulator: Simulator, *, focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
+    elevation: float | None = None, caption: str | None = None, height: int = HEIGHT,
+) -> MeshcatView:  # fmt: skip
+    """A simulator at this moment: its world, its robot where it truly is, and the last scan from where it was taken.
+
+    Raises:
+        RobotGone: the robot was removed, or the node shut down.
+        ViewError: the focus or the distance is impossible.
+
+    """
+    fixed_ones = [obstacle for obstacle in simulator.world.obstacles if not obstacle.movable]
+    world = replace(simulator.world, obstacles=(*fixed_ones, *simulator.engine.obstacles()))
+    scan = simulator.last_scan()
+    return robot_3d(
+        world, simulator.model, simulator.truth(), None if scan is None else np.asarray(scan.ranges, dtype=float),
+        scan_from=simulator.scan_pose, focus=focus, distance=distance, azimuth=azimuth, elevation=elevation, caption=caption, height=height,
+    )  # fmt: skip
+
+
+def robot_3d(
+    world: World, model: RobotModel, pose: Pose, ranges: Floats | None = None, *, scan_from: Pose | None = None,
+    focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None, elevation: float | None = None,
+    caption: str | None = None, height: int = HEIGHT,
+) -> MeshcatView:  # fmt: skip
+    """A robot in a world at a pose, with what its laser saw: ranges (beams,) [m], not finite where nothing was hit.
+
+    It saw that from `scan_from`; by default from where the robot is.
+
+    Raises:
+        ViewError: the focus or the distance is impossible, or there is a wrong number of ranges.
+
+    """
+    camera = camera_for(world, pose, focus=focus, distance=distance, azimuth=azimuth, elevation=elevation)
+    scene = Scene3D(camera)
+    scene.add_world(world)
+    scene.add_robot(model, pose)
+    hits = ""
+    if ranges is not None:
+        if ranges.shape != (model.lidar.beams,):
+            raise ViewError(f"a scan of {model.name} has {model.lidar.beams} ranges, not {ranges.shape}")
+        scene.add_scan(model, ranges, scan_from)
+        hits = f"; {int(np.isfinite(ranges).sum())} of {len(ranges)} beams hit"
+    name = model.title or model.name
+    text = f"3D: {model.name} at {_pose(pose)}{hits}\n{_contents(world)}"
+    alt = f"{name} in {_title(world)}, in three dimensions, at {_pose(pose)}{hits}."
+    return MeshcatView(
+        scene, title=f"{name} in {_title(world)}, in 3D", text=text, alt=alt, caption=caption, height=height
+    )
+
+
+def _title(world: World) -> str:
+    return world.title[:1].lower() + world.title[1:] if world.title else f"the world {world.name!r}"
+
+
+def _pose(pose: Pose) -> str:
+    return f"({fixed(pose[0], 2)}, {fixed(pose[1], 2)}, {degrees(pose[2])} deg)"
+
+
+def _contents(world: World) -> str:
+    counts = [(len(world.walls), "wall"), (len(world.obstacles), "obstacle")]
+    return f"{world.name} with " + ", ".join(f"{n} {what}{'s' * (n != 1)}" for n, what in counts)
+
+
+def _tracks(model: RobotModel, truth: Floats) -> list[tuple[str, str, Floats]]:
+    """How robot and wheels move: the wheels roll without slipping on the way that the robot really took."""
+    place = np.column_stack([truth[:, :2], np.zeros(len(truth))])
+    steps, turns = np.diff(truth[:, :2], axis=0), np.diff(truth[:, 2])
+    towards = truth[:-1, 2] + turns / 2
+    way = (steps[:, 0] * np.cos(towards) + steps[:, 1] * np.sin(towards)) / np.sinc(turns / 2 / np.pi)
+    wheels: list[tuple[str, str, Floats]] = []
+    for side, sign in (("left", -1), ("right", 1)):
+        rolled = np.cumsum(way + sign * turns * model.wheel_separation / 2) / model.wheel_radius
+        wheels.append((f"{ROBOT}/wheel_{side}", "rotation[y]", np.concatenate([[0.0], rolled])))
+    return [(ROBOT, "position", place), (ROBOT, "rotation[z]", truth[:, 2]), *wheels]
+
+
+MOST_SCANS = 120
+BEAM_STEP = 2
+
+
+def _scan_track(recording: Recording) -> dict[str, Any]:
+    """Every second beam of at most `MOST_SCANS` scans, in millimetres as 16-bit numbers; 0 where nothing was hit."""
+    every = -(-len(recording.scans) // MOST_SCANS)
+    ranges = recording.scans[::every, ::BEAM_STEP]
+    hit = np.isfinite(ranges)
+    millimetres = np.where(hit, snap(np.where(hit, ranges, 0.0)) * 1000, 0.0)
+    times = snap(recording.scan_times[::every] - recording.times[0])
+    return {
+        "path": f"/meshcat/{ROBOT}/scan",
+        "beams": ranges.shape[1],
+        "times": [round(t, 3) for t in times.tolist()],
+        "ranges": np.rint(np.clip(millimetres, 0, 65535)).astype("<u2").tobytes(),
+    }

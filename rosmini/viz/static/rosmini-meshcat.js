@@ -1,0 +1,284 @@
+/* A three-dimensional scene in meshcat's viewer, with no server: replays the commands that a recorded window was sent.
+
+   `rosminiMeshcat.mount(host, data, options)` as `rosmini/viz/embed.py` calls it. `data` is what `rosmini/viz/meshcat` makes:
+   `commands` (base64 of packed commands), `themes` (colours of paths on light and dark pages), `duration` [s] of the
+   animation or 0, `follow` (the path of what the camera follows, or null), `legend` (names and colours of lines), and
+   `scan` with a recorded laser (or absent).
+
+   The viewer runs in a frame, so its styles and its globals stay there. It is made when the reader comes near it, and
+   again if the page takes the frame out and puts it back. Outside a click it leaves the wheel to the page. */
+
+(() => {
+  "use strict";
+
+  // rosmini/viz/style.py has this; a test keeps them equal.
+  const DARK_PAGES = 'html[data-theme="dark"], body[data-jp-theme-light="false"], body.vscode-dark';
+  const THEMED_PAGES = "html[data-theme], body[data-jp-theme-light], body.vscode-dark, body.vscode-light";
+  const GROUND = {
+    light: ["#ffffff", "#dfe7ee", "#1b2733", "#c3cad1"], dark: ["#14181e", "#232b34", "#e8edf2", "#46515c"],
+  };
+  const STEP = Math.PI / 24;
+
+  const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const make = (tag, properties = {}, style = {}) => {
+    const made = Object.assign(document.createElement(tag), properties);
+    Object.assign(made.style, style);
+    return made;
+  };
+
+  let webgl;
+  function hasWebGL() {
+    if (webgl === undefined) {
+      const context = document.createElement("canvas").getContext("webgl2");
+      webgl = context !== null;
+      context?.getExtension("WEBGL_lose_context")?.loseContext();
+    }
+    return webgl;
+  }
+
+  function theme() {
+    if (document.querySelector(DARK_PAGES)) return "dark";
+    if (document.querySelector(THEMED_PAGES)) return "light";
+    return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  }
+
+  function onTheme(change) {
+    const observer = new MutationObserver(change);
+    const watched = { attributes: true, attributeFilter: ["data-theme", "data-jp-theme-light", "class"] };
+    observer.observe(document.documentElement, watched);
+    observer.observe(document.body, watched);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", change);
+  }
+
+  function nearby(element) {
+    return new Promise((resolve) => {
+      const observer = new IntersectionObserver((entries) => {
+        if (!entries.some((entry) => entry.isIntersecting)) return;
+        observer.disconnect();
+        resolve();
+      }, { rootMargin: "300px" });
+      observer.observe(element);
+    });
+  }
+
+  async function mount(host, data, options) {
+    if (!hasWebGL()) return false; // the drawing stays
+    options.show(false);
+    await nearby(options.still);
+    const address = await options.asset("meshcat.min.js");
+    const frame = make("iframe", { title: options.title }, {
+      display: "block", width: "100%", height: `${options.height}px`, border: "0", borderRadius: "4px",
+    });
+    const state = { time: 0, playing: false, following: data.follow !== null, viewer: null };
+    const bar = data.duration > 0 ? playerBar(state, data, options) : null;
+    host.append(frame, ...(bar ? [bar.element] : []));
+    onTheme(() => state.viewer && paint(state.viewer, data));
+    frame.addEventListener("load", () => {
+      if (frame.contentDocument.getElementById("pane")) start(frame, address, data, options, state, bar);
+    });
+    frame.srcdoc = '<!DOCTYPE html><html lang="en"><title>3D</title><style>html,body{margin:0;height:100%;overflow:hidden}'
+      + "#pane{width:100vw;height:100vh}canvas{display:block;outline-offset:-3px}</style>"
+      + '<body><div id="pane"></div></body></html>';
+    options.show(true);
+    return true;
+  }
+
+  function start(frame, address, data, options, state, bar) {
+    const page = frame.contentDocument;
+    const script = page.createElement("script");
+    script.onload = () => {
+      const viewer = new frame.contentWindow.MeshCat.Viewer(page.getElementById("pane"));
+      viewer.gui.domElement.style.display = "none";
+      for (const command of data.commands) viewer.handle_command_bytearray(bytes(command));
+      state.viewer = frame.contentWindow.viewer = viewer; // where meshcat's own page has it
+      state.target = null;
+      viewer.controls.minDistance = 0.15;
+      viewer.controls.maxDistance = 60;
+      viewer.controls.maxPolarAngle = Math.PI / 2 - 0.02; // not below the ground
+      hands(frame, viewer, options, bar);
+      paint(viewer, data);
+      if (bar) {
+        viewer.animator.play(); // so that the actions count; this script moves their time
+        viewer.animator.pause();
+        bar.seek(state.time);
+      }
+      frame.dataset.ready = "";
+    };
+    script.onerror = () => { options.show(false); console.error(`${address} was not loaded`); };
+    script.src = address;
+    page.body.append(script);
+  }
+
+  function paint(viewer, data) {
+    const name = theme();
+    const [top, bottom, ink] = GROUND[name];
+    const page = viewer.dom_element.ownerDocument;
+    page.body.style.background = `linear-gradient(${top}, ${bottom})`;
+    viewer.renderer.domElement.style.outlineColor = ink;
+    for (const [path, colour] of Object.entries(data.themes[name])) {
+      viewer.set_property(path.split("/").filter(Boolean), "color", colour);
+    }
+    viewer.set_dirty();
+  }
+
+  /* Keys, wheel and touch. The wheel zooms and a finger turns it in all directions only after a click or a tap; before,
+     they scroll the page. */
+  function hands(frame, viewer, options, bar) {
+    const canvas = viewer.renderer.domElement;
+    const { controls, camera } = viewer;
+    const begin = camera.position.clone();
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "application");
+    canvas.setAttribute("aria-label", `${options.alt} Arrow keys turn it, plus and minus zoom, Home goes back.`);
+    const hold = (held) => {
+      controls.enableZoom = held;
+      viewer.dom_element.style.touchAction = canvas.style.touchAction = held ? "none" : "pan-y";
+    };
+    hold(false);
+    canvas.addEventListener("focus", () => hold(true));
+    canvas.addEventListener("blur", () => hold(false));
+    canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
+    viewer.dom_element.addEventListener("wheel", (event) => {
+      if (!controls.enableZoom) event.stopImmediatePropagation(); // meshcat would keep the page from scrolling
+    }, { capture: true });
+    canvas.addEventListener("keydown", (event) => {
+      const turn = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+      const zoom = { "+": 1 / 1.15, "=": 1 / 1.15, "-": 1.15 }[event.key];
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      if (turn) orbit(viewer, turn[0] * STEP, turn[1] * STEP, 1);
+      else if (zoom) orbit(viewer, 0, 0, zoom);
+      else if (event.key === "Home") camera.position.copy(begin).add(controls.target);
+      else if (event.key === " " && bar) bar.toggle();
+      else return;
+      event.preventDefault();
+      viewer.set_dirty();
+    });
+  }
+
+  /* meshcat's camera frame has y up. */
+  function orbit(viewer, azimuth, polar, zoom) {
+    const { camera, controls } = viewer;
+    const [x, y, z] = ["x", "y", "z"].map((axis) => camera.position[axis] - controls.target[axis]);
+    const distance = Math.hypot(x, y, z);
+    const theta = Math.atan2(x, z) + azimuth;
+    const phi = Math.min(Math.max(Math.acos(y / distance) + polar, 0.02), controls.maxPolarAngle);
+    const reach = Math.min(Math.max(distance * zoom, controls.minDistance), controls.maxDistance);
+    camera.position.set(
+      controls.target.x + reach * Math.sin(phi) * Math.sin(theta),
+      controls.target.y + reach * Math.cos(phi),
+      controls.target.z + reach * Math.sin(phi) * Math.cos(theta),
+    );
+    viewer.set_dirty();
+  }
+
+  /* The camera goes where the robot goes, and keeps the side and the distance that the reader chose. */
+  function follow(state, data) {
+    const { viewer } = state;
+    const { x, y } = find(viewer, data.follow).position;
+    const root = find(viewer, "/meshcat").position;
+    const target = [x + root.x, 0, -(y + root.y)];
+    const now = viewer.controls.target;
+    const delta = [target[0] - now.x, 0, target[2] - now.z];
+    now.set(...target);
+    const at = viewer.camera.position;
+    at.set(at.x + delta[0], at.y, at.z + delta[2]);
+  }
+
+  function find(viewer, path) {
+    return viewer.scene_tree.find(path.split("/").filter(Boolean)).object;
+  }
+
+  /* Put the points of the last scan before `time` in their places. */
+  function showScan(viewer, scan, time) {
+    let last = -1;
+    while (last + 1 < scan.times.length && scan.times[last + 1] <= time) last += 1;
+    if (scan.shown === last && scan.viewer === viewer) return;
+    scan.shown = last;
+    scan.viewer = viewer;
+    const positions = find(viewer, `${scan.path}/<object>`).geometry.attributes.position;
+    const ranges = new DataView((scan.bytes ??= bytes(scan.ranges)).buffer);
+    for (let i = 0; i < scan.beams; i += 1) {
+      const range = last < 0 ? 0 : ranges.getUint16(2 * (last * scan.beams + i), true) / 1000;
+      const angle = (2 * Math.PI * i) / scan.beams;
+      positions.setXYZ(i, range * Math.cos(angle), range * Math.sin(angle), range > 0 ? 0 : -100);
+    }
+    positions.needsUpdate = true;
+  }
+
+  function playerBar(state, data, options) {
+    const ink = { font: "inherit", color: "inherit" };
+    const element = make("div", {}, {
+      display: "flex", flexWrap: "wrap", gap: "0.4em 0.8em", alignItems: "center", padding: "0.4em 0.1em",
+      color: "var(--rosmini-ink, inherit)", fontSize: "0.9em",
+    });
+    element.setAttribute("role", "group");
+    element.setAttribute("aria-label", `Player: ${options.title}`);
+    const button = make("button", { type: "button", textContent: "Play" }, {
+      ...ink, minWidth: "4.5em", padding: "0.2em 0.8em", cursor: "pointer", background: "transparent",
+      border: "1px solid var(--rosmini-group-line, #9aa5af)", borderRadius: "4px",
+    });
+    const slider = make("input", { type: "range", min: 0, max: data.duration, step: 0.05, value: 0 }, {
+      flex: "1 1 10em", accentColor: "var(--rosmini-blue, #0072b2)",
+    });
+    slider.setAttribute("aria-label", "Time");
+    const clock = make("output", {}, { fontVariantNumeric: "tabular-nums" });
+    element.append(button, slider, clock);
+    if (data.follow !== null) {
+      const box = make("input", { type: "checkbox", checked: true });
+      const label = make("label", {}, { cursor: "pointer" });
+      label.append(box, " follow");
+      box.addEventListener("change", () => { state.following = box.checked; seek(state.time); });
+      element.append(label);
+    }
+
+    for (const [name, colour] of data.legend) {
+      const line = make("span", { ariaHidden: "true" }, {
+        display: "inline-block", width: "1.4em", height: "0.25em", margin: "0 0.4em 0.2em 0", background: colour,
+      });
+      const label = make("span");
+      label.append(line, name);
+      element.append(label);
+    }
+
+    function seek(time) {
+      state.time = Math.min(Math.max(time, 0), data.duration);
+      slider.value = state.time;
+      const text = `${state.time.toFixed(1)} s of ${data.duration.toFixed(1)} s`;
+      slider.setAttribute("aria-valuetext", text);
+      clock.value = text;
+      const { viewer } = state;
+      if (!viewer) return;
+      viewer.animator.seek(state.time);
+      if (data.scan) showScan(viewer, data.scan, state.time);
+      if (data.follow !== null && state.following) follow(state, data);
+      viewer.set_dirty();
+    }
+
+    function toggle(playing = !state.playing) {
+      state.playing = playing;
+      button.textContent = playing ? "Pause" : "Play";
+      if (!playing) return;
+      if (state.time >= data.duration) seek(0);
+      let before = null;
+      const next = (now) => {
+        if (!state.playing || !element.isConnected) return toggle(false);
+        if (before !== null) seek(state.time + (now - before) / 1000);
+        before = now;
+        return state.time >= data.duration ? toggle(false) : requestAnimationFrame(next);
+      };
+      requestAnimationFrame(next);
+    }
+
+    button.addEventListener("click", () => toggle());
+    slider.addEventListener("input", () => { toggle(false); seek(Number(slider.value)); });
+    element.addEventListener("keydown", (event) => {
+      if (event.key !== " " || event.target === button || event.target.type === "checkbox") return;
+      event.preventDefault();
+      toggle();
+    });
+    seek(0);
+    return { element, seek, toggle };
+  }
+
+  globalThis.rosminiMeshcat = { mount };
+})();

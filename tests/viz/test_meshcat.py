@@ -1,0 +1,450 @@
+"""Scenes in three dimensions: the commands that the viewer is sent, the drawing of the same scene, texts, and no server."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+pytest.importorskip("meshcat")
+
+import umsgpack
+
+from rosmini import Graph
+from rosmini.sim.models import BURGER
+from rosmini.sim.recording import Recording
+from rosmini.sim.simulator import Simulator
+from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World
+from rosmini.sim.worlds import world
+from rosmini.viz import ViewError, style
+from rosmini.viz.meshcat import Camera, Recorder, Scene3D, replay_3d, robot_3d, world_3d
+from rosmini.viz.meshcat.drawing import HEIGHT, WIDTH, draw
+from rosmini.viz.meshcat.order import painting_order
+from rosmini.viz.meshcat.recorder import meshcat
+from rosmini.viz.meshcat.scene import keyframes, planar, ribbon
+from rosmini.viz.meshcat.solids import Ball, Prism, Rod, triangulate
+
+ROOT = Path(__file__).parents[2]
+POSE = (0.5, -0.25, math.pi / 2)
+SMALL = World(
+    "small",
+    (
+        Obstacle("crate", Box(0.4, 0.2), (1.0, 0.5, math.pi / 2), 0.3, "blue"),
+        Obstacle("pillar", Cylinder(0.15), (-1.0, 0.5, 0.0), 0.6, "green"),
+        Obstacle(
+            "corner", Polygon(((0, 0), (1, 0), (1, 0.2), (0.2, 0.2), (0.2, 1), (0, 1))), (0, 1, 0), 0.25
+        ),
+    ),
+    walls=np.array([(-2.0, -1.0, 2.0, -1.0)]),
+    wall_height=0.4,
+)
+
+
+def commands(view_or_scene):
+    scene = getattr(view_or_scene, "scene", view_or_scene)
+    return [umsgpack.unpackb(command) for command in scene.commands]
+
+
+def objects(view):
+    return {c["path"]: c["object"] for c in commands(view) if c["type"] == "set_object"}
+
+
+def transforms(view):
+    return {
+        c["path"]: np.array(c["matrix"]).reshape(4, 4).T
+        for c in commands(view)
+        if c["type"] == "set_transform"
+    }
+
+
+def vertices(thing):
+    """The vertices (n, 3) of a mesh that was sent."""
+    (geometry,) = thing["geometries"]
+    return np.frombuffer(geometry["data"]["attributes"]["position"]["array"].data, np.float32).reshape(-1, 3)
+
+
+def run(duration=12.0):
+    """Ahead for 6 s, then a left turn on an arc; odometry drifts to the left."""
+    times = np.arange(0, duration + 0.01, 0.1)
+    heading = np.where(times < 6, 0.0, (times - 6) * 0.5)
+    steps = 0.02 * np.column_stack([np.cos(heading[:-1] + 0.025), np.sin(heading[:-1] + 0.025)])
+    steps[times[:-1] < 5.99] = (0.02, 0.0)
+    way = np.vstack([[0.0, 0.0], np.cumsum(steps, axis=0)])
+    truth = np.column_stack([way, heading])
+    odom = truth + np.outer(times, (0.0, 0.01, 0.0))
+    scan_times = np.arange(0, duration, 0.2)
+    ranges = np.where(np.arange(360) < 180, 1.0, np.inf) + np.zeros((len(scan_times), 1))
+    return Recording(SMALL, BURGER, times, truth, odom, np.zeros((0, 3)), scan_times, ranges)
+
+
+# What the viewer is sent
+
+
+def test_the_recorder_is_a_window_for_meshcats_own_visualizer():
+    recorder = Recorder()
+    visualizer = meshcat().Visualizer(window=recorder)
+    visualizer["a"].set_object(meshcat().geometry.Box([1, 2, 3]))
+    visualizer["a"].set_transform(np.diag([1.0, 1, 1, 1]))
+    visualizer["b"].set_property("visible", False)
+    visualizer["a"].delete()
+    visualizer.open()
+    box, _, hidden, gone = (umsgpack.unpackb(command) for command in recorder.commands)
+    (geometry,), (material,) = box["object"]["geometries"], box["object"]["materials"]
+    assert (geometry["width"], geometry["height"], geometry["depth"]) == (1, 2, 3)
+    assert box["object"]["object"]["geometry"] == geometry["uuid"] != material["uuid"]
+    assert {geometry["uuid"], material["uuid"], box["object"]["object"]["uuid"]} == {"0", "1", "2"}
+    assert (hidden["type"], gone["type"], gone["path"]) == ("set_property", "delete", "/meshcat/a")
+
+
+def test_the_robot_and_the_obstacles_stand_where_they_are():
+    view = robot_3d(SMALL, BURGER, POSE)
+    at = transforms(view)
+    assert at["/meshcat/robots/robot"] == pytest.approx(planar(POSE), abs=1e-5)
+    assert at["/meshcat/robots/robot/wheel_left"][:3, 3] == pytest.approx([0, 0.08, 0.033])
+    assert at["/meshcat/robots/robot/wheel_right"][:3, 3] == pytest.approx([0, -0.08, 0.033])
+    assert at["/meshcat/obstacles/crate"] == pytest.approx(planar((1.0, 0.5, math.pi / 2)), abs=1e-6)
+    # What the camera looks at is in the middle of the viewer: the robot, a little above the ground.
+    assert at["/meshcat"][:3, 3] == pytest.approx([-POSE[0], -POSE[1], -0.09])
+
+
+def test_obstacles_and_walls_have_their_sizes():
+    sent = objects(world_3d(SMALL))
+    crate = vertices(sent["/meshcat/obstacles/crate/solid"])
+    assert crate.min(axis=0) == pytest.approx([-0.2, -0.1, 0.0])
+    assert crate.max(axis=0) == pytest.approx([0.2, 0.1, 0.3])
+    (pillar,) = sent["/meshcat/obstacles/pillar/solid/0"]["geometries"]
+    assert (pillar["type"], pillar["radiusTop"], pillar["radiusBottom"], pillar["height"]) == (
+        "CylinderGeometry", pytest.approx(0.15), pytest.approx(0.15), pytest.approx(0.6),
+    )  # fmt: skip
+    wall = vertices(sent["/meshcat/walls"])
+    assert wall.min(axis=0) == pytest.approx([-2.015, -1.015, 0.0])
+    assert wall.max(axis=0) == pytest.approx([2.015, -0.985, 0.4])
+    assert vertices(sent["/meshcat/obstacles/corner/solid"])[:, 2].max() == pytest.approx(0.25)
+
+
+def test_the_robot_is_as_large_as_its_model_says():
+    view = robot_3d(World("empty"), BURGER, (0.0, 0.0, 0.0))
+    corners = np.vstack(
+        [
+            face @ view.scene.transform(part.node)[:3, :3].T + view.scene.transform(part.node)[:3, 3]
+            for part in view.scene.parts
+            for solid in part.solids
+            for face in solid.faces()
+        ]
+    )
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    # 0.138 x 0.178 x 0.192 m: TurtleBot3's e-manual, "Features".
+    assert high - low == pytest.approx([0.138, 0.178, 0.192], abs=0.004)
+    assert low[2] == pytest.approx(0.0, abs=1e-3)
+    laser = next(part for part in view.scene.parts if part.name == "laser_window")
+    assert laser.solids[0].centre == pytest.approx(BURGER.lidar.mount)
+
+
+def test_many_walls_are_sheets():
+    angles = np.linspace(0, 2 * np.pi, 1001)
+    ring = np.column_stack([np.cos(angles), np.sin(angles)]) * 5
+    round_world = World("round", walls=np.hstack([ring[:-1], ring[1:]]), wall_height=0.5)
+    view = world_3d(round_world)
+    sheets = vertices(objects(view)["/meshcat/walls"])
+    assert len(sheets) == 4000
+    assert (sheets[:, 2].min(), sheets[:, 2].max()) == (0, 0.5)
+    assert np.hypot(*sheets[:, :2].T) == pytest.approx(5, abs=1e-4)
+
+
+def test_a_scan_is_where_the_laser_saw_it():
+    ranges = np.full(360, np.inf)
+    ranges[0], ranges[90] = 1.0, 2.0
+    view = robot_3d(SMALL, BURGER, POSE, ranges)
+    ahead, left = view.scene.scans[0]
+    # The laser sits 3.2 cm behind the axle, and the robot looks along y.
+    assert ahead == pytest.approx([0.5, -0.25 - 0.032 + 1.0, 0.182], abs=1e-4)
+    assert left == pytest.approx([0.5 - 2.0, -0.25 - 0.032, 0.182], abs=1e-4)
+    assert (
+        view.text
+        == "3D: burger at (0.50, -0.25, 90.0 deg); 2 of 360 beams hit\nsmall with 1 wall, 3 obstacles"
+    )
+    moved = robot_3d(SMALL, BURGER, (0.5, 0.75, math.pi / 2), ranges, scan_from=POSE)
+    assert moved.scene.scans[0] == pytest.approx(view.scene.scans[0], abs=1e-4)
+    with pytest.raises(ViewError, match=r"has 360 ranges, not \(10,\)"):
+        robot_3d(SMALL, BURGER, POSE, np.ones(10))
+
+
+def test_obstacles_of_one_name_are_both_there():
+    twins = World("twins", (Obstacle("a/b", Cylinder(0.1)), Obstacle("a/b", Cylinder(0.2), (1, 0, 0))))
+    radii = [
+        thing["geometries"][0]["radiusTop"]
+        for path, thing in objects(world_3d(twins)).items()
+        if "obstacles" in path
+    ]
+    assert radii == pytest.approx([0.1, 0.2])
+
+
+# The same everywhere, and nothing started
+
+
+def test_bytes_are_the_same_in_processes_that_hash_differently_and_nothing_is_started():
+    code = (
+        "import hashlib, os, pathlib, threading\n"
+        "from rosmini.viz.meshcat import robot_3d, replay_3d\n"
+        "from rosmini.sim.worlds import world\n"
+        "from rosmini.sim.models import BURGER\n"
+        "import numpy as np\n"
+        "view = robot_3d(world('room'), BURGER, (0.3, 0.2, 0.4), np.linspace(0.2, 3, 360))\n"
+        "html = view.html\n"
+        "links = [os.readlink(f'/proc/self/fd/{fd}') for fd in os.listdir('/proc/self/fd')"
+        " if os.path.exists(f'/proc/self/fd/{fd}')] if os.path.isdir('/proc/self/fd') else []\n"
+        "tasks = os.listdir('/proc/self/task') if os.path.isdir('/proc/self/task') else [1]\n"
+        "children = pathlib.Path(f'/proc/self/task/{os.getpid()}/children').read_text() if os.path.isdir('/proc') else ''\n"
+        "print(hashlib.sha256(html.encode()).hexdigest(), threading.active_count(), len([s for s in links if 'socket' in s]), repr(children))\n"
+    )
+    results = []
+    for seed in ("1", "2"):
+        environment = {
+            "PYTHONHASHSEED": seed,
+            "ROSMINI_DISPLAY": "book",
+            "OPENBLAS_NUM_THREADS": "1",
+            "PATH": "",
+        }
+        run = subprocess.run(
+            [sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=True, cwd=ROOT,
+            env=environment,
+        )  # fmt: skip
+        assert run.stderr == ""
+        results.append(run.stdout.split())
+    assert results[0] == results[1]
+    assert results[0][1:] == ["1", "0", "''"]
+
+
+def test_the_pages_html_in_both_forms(monkeypatch):
+    monkeypatch.setenv("ROSMINI_DISPLAY", "book")
+    view = robot_3d(SMALL, BURGER, POSE, caption="A robot")
+    book = view.html
+    assert len(book) < 160_000
+    assert "packed" not in book
+    assert "<figcaption>A robot</figcaption>" in book
+    assert view.svg in book
+    monkeypatch.delenv("ROSMINI_DISPLAY")
+    assert len(view.html) > 400_000
+    assert view.page == view.html
+    data = json.loads(re.search(r'application/json">(.*?)</script>', book, re.DOTALL)[1])
+    assert set(data["themes"]["dark"]) == set(data["themes"]["light"]) >= {"/meshcat/ground", "/meshcat/grid"}
+
+
+def test_a_view_is_saved_with_all_that_it_needs(monkeypatch, tmp_path):
+    monkeypatch.setenv("ROSMINI_DISPLAY", "book")
+    saved = world_3d(SMALL).save(tmp_path / "a.html").read_text()
+    assert "const book = false" in saved
+
+
+# The drawing
+
+
+def test_the_drawing_has_the_texts_of_its_view_and_stays_small():
+    view = robot_3d(world("room"), BURGER, POSE, np.linspace(0.2, 3, 360))
+    root = ET.fromstring(view.svg)
+    assert root.get("aria-label") == view.alt
+    assert "TurtleBot3 Burger in a furnished room of 4 m by 3.5 m" in view.alt
+    assert "360 of 360 beams hit" in view.alt
+    assert len(view.svg) < 45_000
+    data, metadata = view._repr_mimebundle_()
+    assert list(data) == ["text/plain", "image/svg+xml", "text/html"]
+    assert metadata["image/svg+xml"]["alt"] == view.alt
+
+
+def paths(svg):
+    return [p for p in ET.fromstring(svg).iter("{http://www.w3.org/2000/svg}path") if p.get("d")]
+
+
+def test_a_box_is_drawn_where_the_camera_sees_it():
+    """The top of a cube, seen along x from 45 degrees above: its corners by hand."""
+    scene = Scene3D(Camera((0.0, 0.0, 0.0), 4.0, azimuth=0.0, elevation=45.0, field_of_view=60.0))
+    scene.add_obstacle(Obstacle("cube", Box(1.0, 1.0), height=1.0, colour="blue"))
+    drawn = [p.get("d") for p in paths(draw(scene, title="t", alt="a"))]
+    scale = HEIGHT / 2 / math.tan(math.radians(30))
+    eye = 4 / math.sqrt(2)
+
+    def seen(x, y, z):
+        ahead = ((eye - x) + (eye - z)) / math.sqrt(2)
+        up = (z - x) / math.sqrt(2)
+        return WIDTH / 2 + scale * y / ahead, HEIGHT / 2 - scale * up / ahead
+
+    top = [seen(x, y, 1.0) for x, y in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))]
+    numbers = [[float(n) for n in re.findall(r"[-\d.]+", d)] for d in drawn]
+    wanted = [c for point in top for c in point]
+    assert any(len(n) == 8 and n == pytest.approx(wanted, abs=0.1) for n in numbers), (numbers, wanted)
+
+
+def test_what_is_near_covers_what_is_far():
+    square = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
+    wall = np.array([(-5.0, 1.0), (5.0, 1.0), (5.0, 1.2), (-5.0, 1.2)])
+    far = square + (4.5, 2.5)
+    eye = np.array([0.0, -3.0])
+    # By the distance of its middle, the long wall is nearer than the box at its end, and behind the one before it.
+    assert painting_order([square, wall, far], eye) == [2, 1, 0]
+    assert painting_order([far, square, wall], np.array([0.0, 9.0])) == [1, 2, 0]
+
+
+def test_a_wall_behind_the_camera_is_cut_not_mirrored():
+    scene = Scene3D(Camera((0.0, 0.0, 0.0), 1.0, azimuth=0.0, elevation=10.0))
+    scene.add_world(World("behind", walls=np.array([(3.0, -1.0, 3.0, 1.0), (-3.0, 0.2, 3.0, 0.2)])))
+    coordinates = [
+        float(n) for p in paths(draw(scene, title="t", alt="a")) for n in re.findall(r"[-\d.]+", p.get("d"))
+    ]
+    assert np.isfinite(coordinates).all()
+
+
+# Runs
+
+
+def keys(view):
+    (animation,) = [c for c in commands(view) if c["type"] == "set_animation"]
+    return {
+        (clip["path"], track["name"]): (
+            [k["time"] for k in track["keys"]],
+            [k["value"] for k in track["keys"]],
+        )
+        for clip in animation["animations"]
+        for track in clip["clip"]["tracks"]
+    }, animation["options"]
+
+
+def test_a_replay_moves_the_robot_as_it_moved_and_turns_its_wheels():
+    recording = run()
+    view = replay_3d(recording)
+    tracks, options = keys(view)
+    assert options["play"] is False
+    assert view.scene.duration == pytest.approx(12.0)
+    for (path, name), column in (
+        (("/meshcat/robots/robot", ".position"), recording.truth[:, 0]),
+        (("/meshcat/robots/robot", ".rotation[z]"), recording.truth[:, 2]),
+    ):
+        times, values = tracks[path, name]
+        values = np.array(values)[:, 0] if name == ".position" else np.array(values)
+        assert len(times) < 60
+        assert np.interp(recording.times, times, values) == pytest.approx(column, abs=0.011)
+    left, right = (
+        tracks[f"/meshcat/robots/robot/wheel_{side}", ".rotation[y]"][1][-1] for side in ("left", "right")
+    )
+    # 12 s at 0.2 m/s, and 3 rad of turning with wheels 16 cm apart of 33 mm radius.
+    assert (left + right) / 2 * 0.033 == pytest.approx(2.4, abs=0.005)
+    assert (right - left) * 0.033 / 0.160 == pytest.approx(3.0, abs=0.005)
+
+
+def test_a_replays_text_says_what_happened():
+    view = replay_3d(run())
+    assert view.text == (
+        "3D replay: burger in small, 12.0 s, 2.40 m\n"
+        "from (0.00, 0.00, 0.0 deg) to (1.26, 0.80, 171.9 deg); odometry ends 0.12 m off"
+    )
+    assert {trail.name for trail in view.scene.trails} == {"odometry", "truth"}
+
+
+def test_a_replays_scans_are_every_second_beam_in_millimetres():
+    scan = replay_3d(run()).extra["scan"]
+    ranges = np.frombuffer(scan["ranges"], "<u2").reshape(len(scan["times"]), scan["beams"])
+    assert ranges.shape == (60, 180)
+    assert (ranges[:, :90] == 1000).all()
+    assert (ranges[:, 90:] == 0).all()
+    assert "scan" not in replay_3d(run(), scans=False).extra
+    assert len(replay_3d(run(60.0)).extra["scan"]["times"]) <= 120
+
+
+def test_a_run_of_one_sample_is_a_scene_that_stands_still():
+    short = run()
+    short = replace(short, times=short.times[:1], truth=short.truth[:1], odom=short.odom[:1])
+    view = replay_3d(short)
+    assert view.scene.duration == 0
+    assert view.svg
+
+
+def test_what_the_camera_looks_at_is_asked_for_with_care():
+    with pytest.raises(ViewError, match="'robot' or 'world', not 'moon'"):
+        robot_3d(SMALL, BURGER, POSE, focus="moon")
+    with pytest.raises(ViewError, match="metres above 0, not nan"):
+        world_3d(SMALL, distance=math.nan)
+    assert world_3d(SMALL, distance=9.0, azimuth=10.0, elevation=80.0).scene.camera.distance == 9.0
+    assert replay_3d(run(), focus="world").scene.camera.target != replay_3d(run()).scene.camera.target
+
+
+def test_a_simulator_shows_itself_as_it_is_now():
+    graph = Graph()
+    try:
+        simulator = Simulator(graph.node("simulator"), world=SMALL)
+        before = simulator.show3d()
+        assert "beams" not in before.text
+        graph.run(1.0)
+        view = simulator.show3d(focus="world", caption="Now")
+        assert "of 360 beams hit\nsmall with 1 wall, 3 obstacles" in view.text
+        assert len(view.scene.scans) == 1
+    finally:
+        graph.shutdown()
+
+
+# Shapes
+
+
+def area(outline):
+    x, y = outline.T
+    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2)
+
+
+@given(st.integers(3, 12), st.randoms(use_true_random=False))
+def test_triangles_cover_a_polygon_with_inner_corners(corners, random):
+    """A star-shaped polygon around the origin is simple, whatever the radii."""
+    angles = np.arange(corners) * 2 * np.pi / corners
+    radii = np.array([random.uniform(0.2, 2.0) for _ in range(corners)])
+    outline = np.column_stack([np.cos(angles), np.sin(angles)]) * radii[:, None]
+    triangles = triangulate(outline)
+    assert triangles.shape == (corners - 2, 3)
+    areas = [area(outline[t]) for t in triangles]
+    assert min(areas) > -1e-9
+    assert sum(areas) == pytest.approx(area(outline))
+
+
+@pytest.mark.parametrize(
+    "solid",
+    [
+        Prism(np.array([(0, 0), (2, 0), (2, 1), (0, 1.0)]), 0.0, 1.0),
+        Rod((1, 2, 3), 0.5, 2.0),
+        Rod((1, 2, 3), 0.5, 2.0, "y"),
+        Ball((1, 2, 3), 0.5),
+    ],
+)
+def test_faces_look_outwards(solid):
+    faces = list(solid.faces())
+    middle = np.vstack(faces).mean(axis=0)
+    for face in faces:
+        normal = np.cross(face[1] - face[0], face[2] - face[1])
+        if np.linalg.norm(normal) > 1e-12:
+            assert normal @ (face.mean(axis=0) - middle) > 0
+
+
+def test_a_ribbon_is_as_wide_as_asked_and_looks_up():
+    corners, faces = ribbon(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)]), 0.1, 0.01)
+    assert corners[:2, 1] == pytest.approx([0.05, -0.05])
+    assert corners[2:4, :2] == pytest.approx(np.array([(0.95, 0.05), (1.05, -0.05)]))
+    for a, b, c in corners[faces]:
+        assert np.cross(b - a, c - a)[2] > 0
+
+
+@given(st.lists(st.floats(-5, 5), min_size=1, max_size=60), st.floats(0.01, 1.0))
+def test_keyframes_tell_all_samples(values, tolerance):
+    times = np.arange(len(values)) * 0.1
+    kept = keyframes(times, np.array(values)[:, None], tolerance)
+    told = np.interp(times, times[kept], np.array(values)[kept])
+    assert np.abs(told - values).max() <= tolerance + 1e-9
+
+
+def test_the_script_knows_the_dark_pages_of_the_house_style():
+    script = (ROOT / "rosmini/viz/static/rosmini-meshcat.js").read_text(encoding="utf-8")
+    assert json.dumps(", ".join(style.DARK_PAGES))[1:-1].replace('\\"', '"') in script
