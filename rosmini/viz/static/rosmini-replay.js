@@ -46,8 +46,9 @@ height:32px;margin-left:auto;padding:0 .3rem;width:auto}
 .rosmini-replay [hidden]{display:none}
 .rosmini-replay .layers{gap:.1rem .8rem;padding-bottom:.1rem}
 .rosmini-replay i{border-top:2px solid;display:inline-block;width:18px}
-.rosmini-replay i.odom{border-top-style:dashed}
-.rosmini-replay i.scan{border-top:3px dotted}
+.rosmini-replay i.truth{border-color:var(--blue)}
+.rosmini-replay i.odom{border-color:var(--orange);border-top-style:dashed}
+.rosmini-replay i.scan{border-top:3px dotted var(--vermilion)}
 .rosmini-replay .keys{color:var(--muted);flex:1;font-size:12px;text-align:right;white-space:nowrap}
 .rosmini-replay kbd{all:unset;border:1px solid var(--group-line);border-radius:3px;padding:0 .3em}
 .rosmini-replay dl{display:grid;gap:.1rem 1.2rem;grid-auto-flow:column;grid-template-rows:auto auto;justify-content:start;
@@ -153,7 +154,20 @@ margin:0;padding:.2rem .7rem .6rem}
   const degrees = (angle) => number((half(angle) * 180) / Math.PI, 1);
   const place = ([x, y, theta]) => `${number(x, 2)}, ${number(y, 2)} m, ${degrees(theta)}\u00b0`;
 
-  function readings(run, time, truth, odom) {
+  /* A pose of a track at a time: tracks are sampled at even times, and straight in between. */
+  function poseAt(run, track, time) {
+    const position = sampleAt(run, time);
+    const i = Math.max(0, Math.min(Math.floor(position), track.length - 2));
+    const [from, to] = [track[i], track[i + 1] ?? track[i]];
+    return from.map((value, axis) => value + (position - i) * (to[axis] - value));
+  }
+
+  const sampleAt = (run, time) =>
+    run.end > run.start ? ((time - run.start) / (run.end - run.start)) * (run.truth.length - 1) : 0;
+
+  /* What is so at a time, in words: where the robot is, where odometry puts it, and what it was told last. */
+  function readings(run, time) {
+    const [truth, odom] = [poseAt(run, run.truth, time), poseAt(run, run.odom, time)];
     const command = latest(run.commands, time);
     const off = Math.hypot(odom[0] - truth[0], odom[1] - truth[1]);
     return {
@@ -164,181 +178,185 @@ margin:0;padding:.2rem .7rem .6rem}
     };
   }
 
-  function mount(host, data, options) {
-    const draw = globalThis.rosminiCanvas;
-    const run = decode(data);
-    const { scene, start, end } = run;
-    const still = end <= start;
-    const box = bounds(run);
-
+  function build(host, options) {
     const root = document.createElement("div");
     root.className = "rosmini-replay";
     root.setAttribute("role", "group");
     root.setAttribute("aria-label", options.title);
     root.innerHTML = CONTENT;
+    root.querySelector("canvas").setAttribute("aria-label", options.alt);
+    // JupyterLab's shortcuts match what has the focus itself, so each control has to say that its keys are its own.
+    for (const element of root.querySelectorAll("button, input, select")) element.dataset.lmSuppressShortcuts = "";
     const style = document.createElement("style");
     style.textContent = STYLE;
     host.style.containerType = "inline-size";
     host.append(style, root);
+    return root;
+  }
 
-    const find = (selector) => root.querySelector(selector);
-    const [canvas, slider, clock, speeds, status] = ["canvas", "[type=range]", "output", "select", "[role=status]"].map(find);
-    const play = find("[data-do=play]");
-    const reads = [...root.querySelectorAll("[data-read]")];
-    const calm = matchMedia("(prefers-reduced-motion: reduce)");
-    const layers = { truth: true, odom: true, scan: run.scans.length > 0 };
-    let [time, speed, playing, visible] = [start, 1, false, true];
-    let [view, request, ticked, drawn] = [null, 0, 0, -Infinity];
+  class Player {
+    constructor(host, data, options) {
+      this.run = decode(data);
+      this.box = bounds(this.run);
+      this.root = build(host, options);
+      const find = (selector) => this.root.querySelector(selector);
+      this.find = find;
+      [this.canvas, this.slider, this.clock] = [find("canvas"), find("[type=range]"), find("output")];
+      this.layers = { truth: true, odom: true, scan: this.run.scans.length > 0 };
+      this.calm = matchMedia("(prefers-reduced-motion: reduce)");
+      [this.time, this.playing, this.visible] = [this.run.start, false, true];
+      [this.view, this.request, this.ticked, this.drawn] = [null, 0, 0, -Infinity];
 
-    canvas.setAttribute("aria-label", options.alt);
-    Object.assign(slider, { min: start, max: end, disabled: still });
-    for (const element of root.querySelectorAll("button")) element.disabled = still;
-    // JupyterLab's shortcuts match what has the focus itself, so each control has to say that its keys are its own.
-    for (const element of root.querySelectorAll("button, input, select")) element.dataset.lmSuppressShortcuts = "";
-    find("[data-layer=scan]").closest("label").hidden = !layers.scan;
-
-    function poseAt(track, at) {
-      const position = still ? 0 : ((at - start) / (end - start)) * (track.length - 1);
-      const i = Math.max(0, Math.min(Math.floor(position), track.length - 2));
-      const [from, to] = [track[i], track[i + 1] ?? track[i]];
-      return from.map((value, axis) => value + (position - i) * (to[axis] - value));
+      const { start, end } = this.run;
+      Object.assign(this.slider, { min: start, max: end });
+      for (const element of this.root.querySelectorAll("button, [type=range]")) element.disabled = end <= start;
+      find("[data-layer=scan]").closest("label").hidden = !this.layers.scan;
+      this.root.dataset.state = "paused";
+      this.setSpeed(1);
+      this.listen();
+      this.paint();
     }
 
-    function fit() {
-      const colours = draw.theme(canvas);
-      for (const [name, colour] of Object.entries(colours)) root.style.setProperty(`--${name}`, colour);
-      find("i.truth").style.borderColor = colours.blue;
-      find("i.odom").style.borderColor = colours.orange;
-      find("i.scan").style.borderColor = colours.vermilion;
-      view = draw.fit(canvas, box);
+    listen() {
+      const { root, canvas, slider } = this;
+      const deeds = {
+        play: () => this.setPlaying(!this.playing),
+        back: () => this.seek(this.time - STEP),
+        forward: () => this.seek(this.time + STEP),
+      };
+      const keys = {
+        " ": deeds.play,
+        ArrowLeft: deeds.back, ArrowDown: deeds.back, ArrowRight: deeds.forward, ArrowUp: deeds.forward,
+        Home: () => this.seek(this.run.start), End: () => this.seek(this.run.end),
+        "+": () => this.changeSpeed(1), "=": () => this.changeSpeed(1),
+        "-": () => this.changeSpeed(-1), "_": () => this.changeSpeed(-1),
+      };
+      root.addEventListener("keydown", (event) => {
+        const { target, key } = event;
+        const own = target.matches("select") || (key === " " && target.matches("button, [type=checkbox]"));
+        if (own || event.ctrlKey || event.altKey || event.metaKey || !(key in keys)) return;
+        event.preventDefault();
+        event.stopPropagation();
+        keys[key]();
+      });
+      root.addEventListener("click", (event) => deeds[event.target.closest("[data-do]")?.dataset.do]?.());
+      root.addEventListener("change", ({ target }) => {
+        if (target.dataset.layer) this.layers[target.dataset.layer] = target.checked;
+        else if (target.matches("select")) this.setSpeed(Number(target.value));
+        else this.seek(slider.valueAsNumber);
+        this.ask();
+      });
+      slider.addEventListener("input", () => this.seek(slider.valueAsNumber, false));
+      canvas.addEventListener("click", () => {
+        slider.focus({ preventScroll: true });
+        deeds.play();
+      });
+      globalThis.rosminiCanvas.watch(canvas, () => {
+        this.view = null;
+        this.ask();
+      });
+      new IntersectionObserver((entries) => {
+        this.visible = entries.at(-1).isIntersecting;
+        this.ticked = performance.now();
+        this.ask();
+      }, { rootMargin: "100px" }).observe(root);
     }
 
-    function paint() {
-      if (!view) fit();
-      const [truth, odom] = [poseAt(run.truth, time), poseAt(run.odom, time)];
-      const count = 1 + (still ? 0 : Math.floor(((time - start) / (end - start)) * (run.truth.length - 1)));
-      const { robot } = scene;
-      const scan = layers.scan && latest(run.scans, time);
-      draw.world(view, scene);
-      if (scan) draw.scan(view, robot, poseAt(run.truth, Math.max(start, scan[0])), scan[1]);
-      view.context.globalAlpha = 0.3; // the whole way, faintly
+    setPlaying(value) {
+      const { start, end } = this.run;
+      if (value && this.time >= end) this.time = start;
+      this.playing = value && end > start;
+      this.ticked = performance.now();
+      this.root.dataset.state = this.playing ? "playing" : "paused";
+      const [button, name] = [this.find("[data-do=play]"), this.playing ? "Pause" : "Play"];
+      button.innerHTML = icon(name.toLowerCase());
+      button.setAttribute("aria-label", name);
+      button.title = `${name} (space)`;
+      this.say(this.playing ? "Playing" : `${this.time >= end ? "End" : "Paused"}: ${this.where()}`);
+      this.ask();
+    }
+
+    seek(time, speak = true) {
+      this.time = Math.min(this.run.end, Math.max(this.run.start, time));
+      if (speak && !this.playing) this.say(this.where());
+      this.ask();
+    }
+
+    setSpeed(speed) {
+      this.speed = speed;
+      this.find("select").value = this.root.dataset.speed = speed;
+      if (this.playing) this.say(`Speed ${speed}`);
+    }
+
+    changeSpeed(by) {
+      this.setSpeed(SPEEDS[Math.max(0, Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.speed) + by))]);
+    }
+
+    where() {
+      const words = readings(this.run, this.time);
+      return `${this.time.toFixed(1)} s. Robot ${words.truth}. Error of odometry ${words.error}. Command ${words.command}.`;
+    }
+
+    say(text) {
+      this.find("[role=status]").textContent = text;
+      this.slider.setAttribute("aria-valuetext", `${this.time.toFixed(1)} of ${this.run.end.toFixed(1)} seconds`);
+    }
+
+    ask() {
+      if (!this.request && this.visible) this.request = requestAnimationFrame((now) => this.frame(now));
+    }
+
+    frame(now) {
+      this.request = 0;
+      if (this.playing) {
+        // A picture that came late moves the run by a tenth of a second and no more.
+        const passed = Math.min(0.1, Math.max(0, now - this.ticked) / 1000);
+        this.time = Math.min(this.run.end, this.time + this.speed * passed);
+        this.ticked = now;
+        if (this.time >= this.run.end) this.setPlaying(false);
+      }
+      if (!this.playing || !this.calm.matches || now - this.drawn >= CALM) {
+        this.paint();
+        this.drawn = now;
+      }
+      if (this.playing) this.ask();
+    }
+
+    fit() {
+      const colours = globalThis.rosminiCanvas.theme(this.canvas);
+      for (const [name, colour] of Object.entries(colours)) this.root.style.setProperty(`--${name}`, colour);
+      this.view = globalThis.rosminiCanvas.fit(this.canvas, this.box);
+    }
+
+    paint() {
+      if (!this.view) this.fit();
+      const { run, time, view, layers } = this;
+      const { robot } = run.scene;
+      const draw = globalThis.rosminiCanvas;
+      const count = 1 + Math.floor(sampleAt(run, time));
       const dashed = { colour: "orange", dashed: true };
+      const scan = layers.scan && latest(run.scans, time);
+      draw.world(view, run.scene);
+      if (scan) draw.scan(view, robot, poseAt(run, run.truth, Math.max(run.start, scan[0])), scan[1]);
+      view.context.globalAlpha = 0.3; // the whole way, faintly
       if (layers.truth) draw.trail(view, run.truth);
       if (layers.odom) draw.trail(view, run.odom, dashed);
       view.context.globalAlpha = 1;
       if (layers.truth) draw.trail(view, run.truth, { count });
       if (layers.odom) draw.trail(view, run.odom, { ...dashed, count });
-      if (layers.odom) draw.robot(view, robot, odom, { ghost: true });
-      draw.robot(view, robot, truth);
+      if (layers.odom) draw.robot(view, robot, poseAt(run, run.odom, time), { ghost: true });
+      draw.robot(view, robot, poseAt(run, run.truth, time));
       draw.scaleBar(view);
-      const words = readings(run, time, truth, odom);
-      for (const element of reads) element.textContent = words[element.dataset.read];
-      clock.value = `${time.toFixed(1)} / ${end.toFixed(1)} s`;
-      slider.value = time;
-      root.dataset.time = time.toFixed(3);
+      const words = readings(run, time);
+      for (const [name, text] of Object.entries(words)) this.find(`[data-read=${name}]`).textContent = text;
+      this.clock.value = `${time.toFixed(1)} / ${run.end.toFixed(1)} s`;
+      this.slider.value = time;
+      this.root.dataset.time = time.toFixed(3);
     }
+  }
 
-    function frame(now) {
-      request = 0;
-      if (playing) {
-        // A picture that came late moves the run by a tenth of a second and no more.
-        time = Math.min(end, time + speed * Math.min(0.1, Math.max(0, now - ticked) / 1000));
-        ticked = now;
-        if (time >= end) setPlaying(false);
-      }
-      if (!playing || !calm.matches || now - drawn >= CALM) {
-        paint();
-        drawn = now;
-      }
-      if (playing) ask();
-    }
-
-    function ask() {
-      if (!request && visible) request = requestAnimationFrame(frame);
-    }
-
-    function say(text) {
-      status.textContent = text;
-      slider.setAttribute("aria-valuetext", `${time.toFixed(1)} of ${end.toFixed(1)} seconds`);
-    }
-
-    function where() {
-      const words = readings(run, time, poseAt(run.truth, time), poseAt(run.odom, time));
-      return `${time.toFixed(1)} s. Robot ${words.truth}. Error of odometry ${words.error}. Command ${words.command}.`;
-    }
-
-    function setPlaying(value) {
-      if (value && time >= end) time = start;
-      playing = value && !still;
-      ticked = performance.now();
-      root.dataset.state = playing ? "playing" : "paused";
-      play.innerHTML = icon(playing ? "pause" : "play");
-      play.setAttribute("aria-label", playing ? "Pause" : "Play");
-      play.title = `${playing ? "Pause" : "Play"} (space)`;
-      say(playing ? "Playing" : `${time >= end ? "End" : "Paused"}: ${where()}`);
-      ask();
-    }
-
-    function seek(to, speak = true) {
-      time = Math.min(end, Math.max(start, to));
-      if (speak && !playing) say(where());
-      ask();
-    }
-
-    function setSpeed(value) {
-      speed = value;
-      speeds.value = root.dataset.speed = value;
-      if (playing) say(`Speed ${value}`);
-    }
-
-    const faster = (by) =>
-      setSpeed(SPEEDS[Math.max(0, Math.min(SPEEDS.length - 1, SPEEDS.indexOf(speed) + by))]);
-    const deeds = {
-      play: () => setPlaying(!playing),
-      back: () => seek(time - STEP),
-      forward: () => seek(time + STEP),
-    };
-    const keys = {
-      " ": deeds.play,
-      ArrowLeft: deeds.back, ArrowDown: deeds.back, ArrowRight: deeds.forward, ArrowUp: deeds.forward,
-      Home: () => seek(start), End: () => seek(end),
-      "+": () => faster(1), "=": () => faster(1), "-": () => faster(-1), "_": () => faster(-1),
-    };
-
-    root.addEventListener("keydown", (event) => {
-      const own = event.target.matches("select") || (event.key === " " && event.target.matches("button, [type=checkbox]"));
-      if (own || event.ctrlKey || event.altKey || event.metaKey || !(event.key in keys)) return;
-      event.preventDefault();
-      event.stopPropagation();
-      keys[event.key]();
-    });
-    root.addEventListener("click", (event) => deeds[event.target.closest("[data-do]")?.dataset.do]?.());
-    canvas.addEventListener("click", () => {
-      slider.focus({ preventScroll: true });
-      deeds.play();
-    });
-    slider.addEventListener("input", () => seek(slider.valueAsNumber, false));
-    slider.addEventListener("change", () => seek(slider.valueAsNumber));
-    speeds.addEventListener("change", () => setSpeed(Number(speeds.value)));
-    root.addEventListener("change", ({ target }) => {
-      if (!target.dataset.layer) return;
-      layers[target.dataset.layer] = target.checked;
-      ask();
-    });
-
-    const refit = () => {
-      view = null;
-      ask();
-    };
-    draw.watch(canvas, refit);
-    new IntersectionObserver((entries) => {
-      visible = entries.at(-1).isIntersecting;
-      ticked = performance.now();
-      ask();
-    }, { rootMargin: "100px" }).observe(root);
-    root.dataset.state = "paused";
-    setSpeed(1);
-    paint();
+  function mount(host, data, options) {
+    new Player(host, data, options);
   }
 
   globalThis.rosminiReplay = { mount, decode };
