@@ -77,7 +77,7 @@ def world_file() -> dict[str, Any]:
     """The room and the robot as ir-sim describes them."""
     corner, lidar = sim_room.SIZE / 2, BURGER.lidar
     outer = [[-corner, -corner], [corner, -corner], [corner, corner], [-corner, corner], [-corner, -corner]]
-    box = {"name": "rectangle", "length": sim_room.BOX.length, "width": sim_room.BOX.width}
+    wall = {"name": "rectangle", "length": sim_room.PARTITION.length, "width": sim_room.PARTITION.width}
     pillar = {"name": "circle", "radius": sim_room.PILLAR.radius}
     sensor = {
         "name": "lidar2d",
@@ -99,7 +99,7 @@ def world_file() -> dict[str, Any]:
     }
     obstacles = [
         {"shape": {"name": "linestring", "vertices": outer}, "state": [0, 0, 0]},
-        *({"shape": box, "state": [x, y, sim_room.BOX_HEADING]} for x, y in sim_room.BOXES),
+        *({"shape": wall, "state": list(pose)} for pose in sim_room.PARTITIONS),
         *({"shape": pillar, "state": [x, y, 0]} for x, y in sim_room.PILLARS),
     ]
     return {

@@ -11,13 +11,20 @@ from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, edges
 SIZE = 10.0
 """The room is a square around the origin; it is so long and so wide [m]."""
 
-BOXES = [(x, y) for x in (-3.9, 3.9) for y in (-1.5, 1.5)] + [
-    (x, y) for x in (-1.5, 1.5) for y in (-3.9, 3.9)
+UPRIGHT = math.pi / 2
+PARTITIONS = [
+    (-2.0, 2.8, 0.0),
+    (0.4, 3.2, UPRIGHT),
+    (-3.6, 0.6, 0.0),
+    (3.8, 0.2, UPRIGHT),
+    (3.5, 3.6, 0.0),
+    (-1.6, -1.2, UPRIGHT),
+    (1.6, -1.4, 0.0),
+    (0.4, -3.4, UPRIGHT),
 ]
 PILLARS = [(x, y) for x in (-3.0, 0.0, 3.0) for y in (-3.0, 0.0, 3.0)]
 
-BOX = Box(0.6, 0.4)
-BOX_HEADING = 0.3
+PARTITION = Box(2.4, 0.1)
 PILLAR = Cylinder(0.15)
 
 START = (2.0, 1.6, math.pi / 2)
@@ -29,20 +36,21 @@ TURN_RATE = 0.4
 
 
 def room() -> World:
-    """A room of 10 m by 10 m with 8 boxes, which is 36 wall segments, and 9 pillars."""
+    """A room of 10 m by 10 m with 8 partitions, which makes 36 wall segments, and 9 pillars."""
     corner = SIZE / 2
     outer = Polygon(((-corner, -corner), (corner, -corner), (corner, corner), (-corner, corner)))
-    boxes = [Obstacle(f"box {i}", BOX, (x, y, BOX_HEADING)) for i, (x, y) in enumerate(BOXES, 1)]
+    partitions = [Obstacle(f"partition {i}", PARTITION, pose) for i, pose in enumerate(PARTITIONS, 1)]
     pillars = [Obstacle(f"pillar {i}", PILLAR, (x, y, 0.0)) for i, (x, y) in enumerate(PILLARS, 1)]
-    return World("bench", (*boxes, *pillars), walls=edges(outer.outline), starts=(START,))
+    return World("bench", (*partitions, *pillars), walls=edges(outer.outline), starts=(START,))
 
 
 def crowded_room() -> World:
-    """The same with 24 boxes, which is 100 wall segments, and 10 pillars."""
-    places = np.random.default_rng(2).uniform(-4.5, 4.5, (200, 2))
-    clear = [(float(x), float(y)) for x, y in places if math.hypot(x - START[0], y - START[1]) > 1.2]
-    more = [Obstacle(f"box {i}", BOX, (*place, BOX_HEADING)) for i, place in enumerate(clear[:16], 9)]
-    return room().with_obstacles([*more, Obstacle("pillar 10", PILLAR, (*clear[16], 0.0))])
+    """The same with 16 boxes and a pillar more, which makes 100 wall segments and 10 pillars."""
+    rng = np.random.default_rng(2)
+    poses = [(float(x), float(y), float(heading)) for x, y, heading in rng.uniform(-4.5, 4.5, (200, 3))]
+    clear = [pose for pose in poses if math.dist(pose[:2], START[:2]) > 1.2]
+    boxes = [Obstacle(f"box {i}", Box(0.6, 0.4), pose) for i, pose in enumerate(clear[:16], 1)]
+    return room().with_obstacles([*boxes, Obstacle("pillar 10", PILLAR, clear[16])])
 
 
 def command(seconds: float) -> tuple[float, float]:
