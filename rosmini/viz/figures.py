@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 WIDTH = 660.0
 """As wide as the text of the book [CSS px]."""
 
+LARGEST = 4000.0
+"""No picture is wider or higher [CSS px]."""
+
 _STYLE: dict[Any, Any] = {
     "font.family": ["DejaVu Sans"],  # comes with matplotlib, so the layout is the same everywhere
     "font.size": LABEL_SIZE,
@@ -84,8 +87,8 @@ def blank_figure(width: float, height: float) -> Figure:
     from matplotlib.figure import Figure
 
     for name, value in (("width", width), ("height", height)):
-        if not 100 <= value <= 4000:
-            raise ViewError(f"the {name} of a picture must be 100 to 4000 pixels, not {value}")
+        if not 100 <= value <= LARGEST:
+            raise ViewError(f"the {name} of a picture must be 100 to {LARGEST:g} pixels, not {value}")
     return Figure(figsize=(width / 72, height / 72), dpi=72)
 
 
@@ -112,6 +115,11 @@ def legend(figure: Figure, handles: Sequence[Any], left: float) -> None:
         columnspacing=1.8,
         handlelength=2.4,
     )
+
+
+def legend_width(handles: Sequence[Any]) -> float:
+    """How wide their legend is, about [CSS px]."""
+    return sum(64.0 + 6.6 * len(handle.get_label()) for handle in handles)
 
 
 def ticks(low: float, high: float, step: float) -> list[float]:

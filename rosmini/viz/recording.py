@@ -13,6 +13,7 @@ from rosmini.sim.recording import Drift, Recording
 from rosmini.viz.beams import beams_of
 from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, place, say, step_of, ticks
 from rosmini.viz.rounding import degrees, fixed, kept, snap
+from rosmini.viz.rqt.wording import plural
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
 from rosmini.viz.world import HEIGHT, Scene, laser_pose, pose_text
@@ -52,7 +53,7 @@ class RunScene(Scene):
             f"{title or f'run in {run.world.name}'}: {fixed(run.distance, 2)} m in {fixed(run.duration, 1)} s",
             f"{run.model.name}: start {pose_text(run.truth[0])}, end {pose_text(run.truth[-1])}",
             f"odometry: {_drift_text(run.drift())} at the end",
-            f"recorded: {len(run.times)} poses, {len(run.scans)} scans, {len(run.commands)} commands",
+            f"recorded: {plural(len(run.times), 'pose')}, {plural(len(run.scans), 'scan')}, {plural(len(run.commands), 'command')}",
         ]
         if self.beams is not None:
             lines.append(f"last scan: {self.beams.text()}")
@@ -78,7 +79,8 @@ def recording_picture(
 ) -> Picture:
     """Draw a run from above: where the robot was, and where its odometry believes that it was, laid on the same start.
 
-    At the end of each way the robot is drawn: as it is, and as a dashed outline where odometry puts it.
+    At the end of each way the robot is drawn: as it is, and as a dashed outline where odometry puts it. Obstacles stand where
+    they stood at first, for no message says whether they were pushed.
 
     Args:
         recording: the run.
@@ -147,6 +149,7 @@ def _frame(
     low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
     if high - low < least:
         high = low + least
+    low, high = 1.06 * low, 1.06 * high  # a line along the edge would not be seen
     step = step_of(high - low, 4)
     bottom, top = math.floor(low / step + 0.0137) * step, math.ceil(high / step - 0.0137) * step
     marks = ticks(bottom, top, step)
@@ -179,7 +182,7 @@ def _curve(
 def _plots_text(run: Recording, title: str | None) -> str:
     driven = np.abs(run.velocities()).max(axis=0)
     lines = [
-        f"{title or f'run in {run.world.name}'}: {fixed(run.duration, 1)} s, {len(run.commands)} commands",
+        f"{title or f'run in {run.world.name}'}: {fixed(run.duration, 1)} s, {plural(len(run.commands), 'command')}",
         f"driven: at most {fixed(driven[0], 2)} m/s and {fixed(driven[1], 2)} rad/s",
     ]
     if len(run.commands):
@@ -196,7 +199,7 @@ def _plots_text(run: Recording, title: str | None) -> str:
 def _plots_alt(run: Recording) -> str:
     driven = np.abs(run.velocities()).max(axis=0)
     return (
-        f"Four plots over {fixed(run.duration, 1)} s. The velocities, as commanded by {len(run.commands)} messages and as driven: the robot "
+        f"Four plots over {fixed(run.duration, 1)} s. The velocities, as commanded by {plural(len(run.commands), 'message')} and as driven: the robot "
         f"reaches {fixed(driven[0], 2)} m/s and {fixed(driven[1], 2)} rad/s. The error of odometry: {_drift_text(run.drift())} at the end."
     )
 

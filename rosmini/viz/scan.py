@@ -72,7 +72,7 @@ def _around(figure: Figure, beams: Beams, model: RobotModel) -> None:
         _ring(axes, ring)
     scale = SIDE / (2 * radius)
     up = (0.0, 0.0, math.pi / 2)
-    draw_scan(axes, replace(beams, range_max=radius), up)
+    draw_scan(axes, replace(beams, range_max=radius), up, scale)
     mount = model.lidar.mount
     draw_robot(axes, model, compose(up, (-mount[0], -mount[1], 0.0)), scale)
     _mark_nearest(axes, beams)

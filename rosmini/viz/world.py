@@ -13,7 +13,18 @@ from rosmini.geometry.poses import Pose, compose
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.sim.world import World
 from rosmini.viz.beams import Beams, beams_of
-from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, place, say, step_of, ticks
+from rosmini.viz.figures import (
+    LARGEST,
+    WIDTH,
+    blank_figure,
+    house_style,
+    legend,
+    legend_width,
+    place,
+    say,
+    step_of,
+    ticks,
+)
 from rosmini.viz.rounding import degrees, fixed
 from rosmini.viz.style import LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
@@ -37,7 +48,10 @@ Bounds = tuple[float, float, float, float]
 LEFT, RIGHT, TOP, LEGEND, BOTTOM = 46.0, 8.0, 8.0, 28.0, 40.0
 """The margins around a map [px]; LEGEND is added to TOP."""
 HEIGHT = 540.0
-NARROWEST = 340.0
+SMALLEST = 200.0
+"""What a picture measures at least, either way [px]."""
+FLATTEST = 0.2
+"""The least height of what is seen by its width, and the other way round."""
 
 
 def world_picture(
@@ -105,7 +119,7 @@ class Scene:
         """The drawing of it."""
         with house_style():
             handles = self._legend()
-            figure, axes, scale = map_axes(self.bounds(), size, legend=bool(handles))
+            figure, axes, scale = map_axes(self.bounds(), size, legend_width(handles))
             self._draw(axes, scale)
             legend(figure, handles, LEFT)
             return matplotlib_picture(
@@ -113,14 +127,14 @@ class Scene:
             )
 
     def _draw(self, axes: Axes, scale: float) -> None:
-        draw_world(axes, self.world)
+        draw_world(axes, self.world, scale)
         if self.beams is not None:
-            draw_scan(axes, self.beams, self.laser)
+            draw_scan(axes, self.beams, self.laser, scale)
         if self.trail is not None:
-            draw_trail(axes, self.trail[:, :2])
+            draw_trail(axes, self.trail[:, :2], scale)
             draw_start(axes, self.trail[0, :2], scale)
         if self.odom is not None:
-            draw_trail(axes, self.odom[:, :2], colour="orange", dashed=True)
+            draw_trail(axes, self.odom[:, :2], scale, colour="orange", dashed=True)
         if self.ghost is not None:
             draw_robot(axes, self.model, self.ghost, scale, ghost=True)
         if self.robot is not None:
@@ -212,23 +226,34 @@ def laser_pose(robot: Pose, model: RobotModel) -> Pose:
     return compose(robot, (x, y, 0.0))
 
 
-def map_axes(bounds: Bounds, size: tuple[float, float], *, legend: bool) -> tuple[Figure, Axes, float]:
+def map_axes(bounds: Bounds, size: tuple[float, float], legend_width: float) -> tuple[Figure, Axes, float]:
     """A figure with axes in metres, equal in x and y, a grid, and room for a legend; and its pixels a metre."""
+    for side in size:
+        if not SMALLEST <= side <= LARGEST:
+            raise ViewError(f"the size of a picture must be {SMALLEST:g} to {LARGEST:g} pixels, not {side}")
     x0, y0, x1, y1 = bounds
-    margin = 0.02 * max(x1 - x0, y1 - y0)
-    x0, y0, x1, y1 = x0 - margin, y0 - margin, x1 + margin, y1 + margin
-    top = TOP + (LEGEND if legend else 0.0)
+    extent = max(x1 - x0, y1 - y0, 1.0)
+    x0, x1 = _wide(x0, x1, extent)
+    y0, y1 = _wide(y0, y1, extent)
+    top = TOP + (LEGEND if legend_width else 0.0)
     scale = min((size[0] - LEFT - RIGHT) / (x1 - x0), (size[1] - top - BOTTOM) / (y1 - y0))
     width, height = (x1 - x0) * scale, (y1 - y0) * scale
-    figure = blank_figure(max(NARROWEST, math.ceil(width + LEFT + RIGHT)), math.ceil(height + top + BOTTOM))
+    figure = blank_figure(
+        math.ceil(max(width + RIGHT, legend_width, SMALLEST - LEFT) + LEFT), math.ceil(height + top + BOTTOM)
+    )
     axes = place(figure, LEFT, top, width, height)
     axes.set(xlim=(x0, x1), ylim=(y0, y1), xlabel="x [m]", ylabel="y [m]")
-    extent = max(x1 - x0, y1 - y0)
     step = 1.0 if 2.0 <= extent <= 14.0 else step_of(extent, 10)
     for axis, low, high in ((axes.xaxis, x0, x1), (axes.yaxis, y0, y1)):
         marks = ticks(low, high, step)
         axis.set_ticks(marks, labels=say(marks))
     return figure, axes, scale
+
+
+def _wide(low: float, high: float, extent: float) -> tuple[float, float]:
+    """From where to where one axis goes: what there is, with a margin, and wide enough to look at."""
+    spare = max(0.0, FLATTEST * extent - (high - low)) / 2 + 0.02 * extent
+    return low - spare, high + spare
 
 
 def contents(world: World, by: str = " x ") -> str:

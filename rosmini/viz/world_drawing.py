@@ -33,19 +33,37 @@ TRAIL_WIDTH = 2.0
 DASHES = (6.0, 4.0)
 LEAST_ROBOT = 16.0
 """A robot is drawn to scale, but never shorter than this [px]."""
-TOLERANCE = 1.37e-3
-"""By how much a line may be drawn too straight [m]; no multiple of the millimetres that its points lie on."""
+TOLERANCE = 0.137
+"""By how much a line may be drawn too straight [px]: nobody sees it, and most of its points need not be written."""
 TREAD = 0.55
 """The width of a wheel by its radius."""
 
 
-def draw_world(axes: Axes, world: World) -> None:
-    """Walls and obstacles."""
+def draw_world(axes: Axes, world: World, scale: float) -> None:
+    """Walls and obstacles. Thin walls that are the outlines of blocks are filled."""
     for obstacle in world.obstacles:
         _obstacle(axes, obstacle)
     if len(world.walls):
-        lines = _chained(snap(world.walls).tolist())
-        _patch(axes, _path(lines), edge="muted", width=2.5, z=3.0)
+        lines = [_thinned(np.array(line), scale) for line in _chained(snap(world.walls).tolist())]
+        if solid(world):
+            blocks = _path([line[:-1] for line in lines], closed=True)
+            _patch(axes, blocks, fill="muted", edge="muted", width=1.0, z=3.0)
+        else:
+            _patch(axes, _path(lines), edge="muted", width=2.5, cap="round", z=3.0)
+
+
+def solid(world: World) -> bool:
+    """Tell whether thin walls are the outlines of blocks, as a map is traced to: closed, and no robot starts inside of one."""
+    lines = _chained(world.walls.tolist())
+    if not lines or any(len(line) < 4 or line[0] != line[-1] for line in lines):
+        return False
+    x1, y1, x2, y2 = world.walls.T
+    for x, y, _ in world.starts:
+        crossing = (y1 > y) != (y2 > y)
+        rise = np.where(crossing, y2 - y1, 1.0)
+        if np.count_nonzero(crossing & (x < x1 + (y - y1) / rise * (x2 - x1))) % 2:
+            return False
+    return True
 
 
 def _obstacle(axes: Axes, obstacle: Obstacle) -> None:
@@ -61,12 +79,14 @@ def _obstacle(axes: Axes, obstacle: Obstacle) -> None:
     )  # fmt: skip
 
 
-def draw_scan(axes: Axes, beams: Beams, laser: Pose) -> None:
+def draw_scan(axes: Axes, beams: Beams, laser: Pose, scale: float) -> None:
     """What a laser at the pose `laser` sees: the area that its beams pass, and a point for each hit."""
     ends = snap(transform_points(laser, beams.points()))
     whole = len(ends) * float(np.diff(beams.angles[:2]).sum()) > 1.9 * math.pi
     outline = ends if whole else np.vstack([snap(laser[:2]), ends])
-    _patch(axes, _path([_thinned(outline)], closed=True), fill="vermilion", opacity=SEEN, z=2.0, clip=True)
+    _patch(
+        axes, _path([_thinned(outline, scale)], closed=True), fill="vermilion", opacity=SEEN, z=2.0, clip=True
+    )
     draw_dots(axes, ends[beams.hits], "vermilion", 3.2)
 
 
@@ -81,9 +101,11 @@ def draw_strokes(axes: Axes, lines: Floats, colour: str, width: float, cap: Any 
     _patch(axes, _path(lines), edge=colour, width=width, cap=cap, z=5.0)
 
 
-def draw_trail(axes: Axes, points: Floats, *, colour: str = "blue", dashed: bool = False) -> None:
+def draw_trail(
+    axes: Axes, points: Floats, scale: float, *, colour: str = "blue", dashed: bool = False
+) -> None:
     """A line through points (n, 2)."""
-    line = _thinned(snap(points))
+    line = _thinned(snap(points), scale)
     dashes: dict[str, Any] = {"dashes": DASHES} if dashed else {}
     axes.plot(*line.T, color=LIGHT[colour], linewidth=TRAIL_WIDTH, zorder=4.0, clip_on=False, **dashes)
 
@@ -195,15 +217,15 @@ def _rounded(corners: Floats, radius: float) -> Path:
 
 
 def _chained(segments: list[list[float]]) -> list[list[tuple[float, float]]]:
-    """Segments of which each begins where the last one ended, as lines."""
+    """Segments of which each begins where the last one ended, as lines; a line ends where it closes."""
     lines: list[list[tuple[float, float]]] = []
     for x1, y1, x2, y2 in segments:
-        if not lines or lines[-1][-1] != (x1, y1):
+        if not lines or lines[-1][-1] != (x1, y1) or lines[-1][0] == lines[-1][-1]:
             lines.append([(x1, y1)])
         lines[-1].append((x2, y2))
     return lines
 
 
-def _thinned(line: Floats) -> Floats:
+def _thinned(line: Floats, scale: float) -> Floats:
     """A line without the points that nobody would miss."""
-    return line[kept(line, TOLERANCE)]
+    return line[kept(line, TOLERANCE / scale)]

@@ -45,7 +45,7 @@ def test_the_picture_says_where_from_where_to_and_how_far_odometry_is_off():
         "Round the pillar: 1.50 m in 10.0 s",
         f"burger: start (0.00, 0.00, 0.0 deg), end ({end[0]:.2f}, {end[1]:.2f}, 114.6 deg)",
         f"odometry: {off:.3f} m and 2.3 deg off at the end",
-        "recorded: 301 poses, 1 scans, 1 commands",
+        "recorded: 301 poses, 1 scan, 1 command",
     ]
     for said in (
         "a solid line from (0.00, 0.00, 0.0 deg)",
@@ -76,12 +76,12 @@ def test_the_plots_say_what_was_commanded_driven_and_wrong():
     view = recording_plots(run(), title="Over time")
     off = run().drift().position
     assert view.text.splitlines() == [
-        "Over time: 10.0 s, 1 commands",
+        "Over time: 10.0 s, 1 command",
         "commanded: at most 0.15 m/s and 0.20 rad/s",
         "driven: at most 0.15 m/s and 0.20 rad/s",
         f"odometry: {off[-1]:.3f} m and 2.3 deg off at the end; at most {off.max():.3f} m and 2.3 deg",
     ]
-    assert "commanded by 1 messages" in view.alt
+    assert "commanded by 1 message" in view.alt
     words = [node.text for node in ET.fromstring(view.svg).iter("{http://www.w3.org/2000/svg}text")]
     assert {
         "linear velocity [m/s]",

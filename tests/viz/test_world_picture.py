@@ -167,10 +167,51 @@ def test_beams_that_hit_nothing_are_said_and_have_no_point():
     assert "scan: 0 of 360 beams hit, nothing within 3.50 m" in world_picture(built_in("empty"), robot=(0, 0, 0), scan=message).text  # fmt: skip
 
 
+@pytest.mark.parametrize("walls", [[(0, 0, 50, 0)], [(3, 0, 3, 0.1)], [(1, 1, 1, 1)], [(0, 0, 1e4, 0)]])
+def test_a_world_that_is_flat_or_tiny_or_huge_can_be_seen(walls):
+    view = world_picture(World("w", walls=np.array(walls, dtype=float)), trail=[(0, 0)], odom=[(0, 0)])
+    root = ET.fromstring(view.svg)
+    assert 200 <= float(root.get("width")) <= 660
+    assert 130 <= float(root.get("height")) <= 540
+    words = [node for node in root.iter(f"{SVG}text") if node.text == "where odometry believes it was"]
+    assert float(words[0].get("x")) + 200 < float(root.get("width"))
+
+
 def test_what_is_beyond_the_world_is_in_the_picture_too():
     view = world_picture(ROOM, robot=(9.0, 1.0, 0.0))
     words = {node.text for node in ET.fromstring(view.svg).iter(f"{SVG}text")}
     assert "9" in words
+
+
+BLOCK = np.array([(1, 1, 2, 1), (2, 1, 2, 2), (2, 2, 1, 2), (1, 2, 1, 1)], dtype=float)
+HOLE = np.array([(1.5, 1.2, 1.2, 1.5), (1.2, 1.5, 1.5, 1.8), (1.5, 1.8, 1.8, 1.5), (1.8, 1.5, 1.5, 1.2)])
+
+
+def walls_of(walls, start=(0.0, 0.0, 0.0)) -> list[str]:
+    """The paths that walls are drawn with."""
+    svg = world_picture(World("w", walls=np.array(walls, dtype=float), starts=(start,))).svg
+    return [p for p in re.findall(r"<path[^>]*>", svg) if f'"{style.LIGHT["muted"]}"' in p]
+
+
+def test_the_outlines_of_a_map_are_filled_and_a_room_of_thin_walls_is_not():
+    (blocks,) = walls_of(np.vstack([BLOCK, HOLE]))
+    assert blocks.count("z") == 2
+    assert f'fill="{style.LIGHT["muted"]}"' in blocks
+    (room,) = walls_of(BLOCK, start=(1.5, 1.5, 0.0))
+    assert 'fill="none"' in room
+    (in_the_hole,) = walls_of(np.vstack([BLOCK, HOLE]), start=(1.5, 1.5, 0.0))
+    assert f'fill="{style.LIGHT["muted"]}"' in in_the_hole
+    (single,) = walls_of([(0, 0, 1, 0)], start=(0.5, 0.5, 0.0))
+    assert 'fill="none"' in single
+
+
+def test_a_map_of_many_cells_is_drawn_with_the_points_that_can_be_seen():
+    stairs = np.repeat(np.arange(4001) / 200, 2)
+    corners = np.column_stack([stairs[1:], stairs[:-1]])
+    corners = np.vstack([corners, (20.0, 0.0)])
+    walls = np.hstack([corners, np.roll(corners, -1, axis=0)])
+    (path,) = walls_of(walls, start=(1.0, 19.0, 0.0))
+    assert 2 <= path.count("L") < 100  # of 8002: a step is an eighth of a pixel
 
 
 @pytest.mark.parametrize(
@@ -187,7 +228,7 @@ def test_what_is_beyond_the_world_is_in_the_picture_too():
         ({"trail": [(0, 0), (0, math.inf)]}, r"trail\[1\] is \[0.0, inf\], which is no place"),
         ({"odom": [1, 2, 3]}, r"odom must be an array"),
         ({"odom": "here"}, "odom must be an array of points, not a str"),
-        ({"size": (10, 10)}, "100 to 4000 pixels"),
+        ({"size": (10, 10)}, "200 to 4000 pixels, not 10"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_with_a_reason(options, message):

@@ -1,0 +1,80 @@
+"""Pictures of worlds and runs in Chromium: they take the theme of their page, and leave other pictures alone."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from rosmini.sim.worlds import world
+from rosmini.viz import rqt_graph, scan_picture, style, world_picture
+from rosmini.viz.style import book_css
+
+pytestmark = pytest.mark.browser
+
+PAINTS = """(selector) => [...document.querySelectorAll(selector)].map((node) => {
+  const look = getComputedStyle(node);
+  return [look.fill, look.stroke, look.strokeWidth];
+})"""
+
+
+def rgb(colour: str) -> str:
+    return f"rgb({', '.join(str(int(colour[i : i + 2], 16)) for i in (1, 3, 5))})"
+
+
+@pytest.fixture
+def show(chromium, watch):
+    """Open pictures in a page of a theme; closing it asserts that the browser had nothing to say."""
+    page = chromium.new_page(viewport={"width": 800, "height": 900})
+    watcher = watch(page)
+
+    def show(theme: str, *views):
+        figures = "".join(view.html for view in views)
+        page.set_content(
+            f'<!DOCTYPE html><html data-theme="{theme}"><head><style>{book_css()}</style></head><body>{figures}</body></html>'
+        )
+        return page
+
+    yield show
+    assert watcher.seen == []
+    page.close()
+
+
+@pytest.mark.parametrize(("theme", "palette"), [("light", style.LIGHT), ("dark", style.DARK)])
+def test_every_colour_is_that_of_the_theme(show, theme, palette):
+    room = world("room")
+    trail = [(0, 0), (1, 0), (1, 1)]
+    page = show(theme, world_picture(room, robot=(1, 1, 1), scan=np.ones(360), trail=trail, odom=trail))
+    paints = page.evaluate(PAINTS, ".rosmini-plot :is(path, text, use):not(defs *)")
+    allowed = {"none", *(rgb(colour) for colour in palette.values())}
+    used = {paint for fill, stroke, _ in paints for paint in (fill, stroke)}
+    assert {part for part in used if part not in allowed and not part.startswith("rgba")} == set()
+    assert {rgb(palette[name]) for name in ("blue", "orange", "vermilion", "muted", "ink")} <= used
+
+
+def test_what_a_marker_shows_follows_the_theme_too(show):
+    ranges = 1.0 + 0.5 * np.cos(np.arange(360) * math.pi / 180)
+    page = show("dark", scan_picture(ranges))
+    shown = page.evaluate(PAINTS, ".rosmini-plot use")
+    assert [stroke for _, stroke, _ in shown] == [rgb(style.DARK["ink"])] * 2
+    # the shape itself has no paint of its own, so it takes that of its use
+    assert page.evaluate("document.querySelector('.rosmini-plot defs path').hasAttribute('stroke')") is False
+
+
+def test_pictures_on_one_page_leave_one_another_alone(show):
+    system = [[["/chatter", ["/talker"]]], [["/chatter", ["/listener"]]], []]
+    room = world_picture(world("room"), robot=(0, 0, 0))
+    alone = show("dark", room).evaluate(PAINTS, ".rosmini-plot *")
+    graph = show("dark", rqt_graph(system)).evaluate(PAINTS, ".rosmini-svg *")
+    page = show("dark", room, rqt_graph(system))
+    assert page.evaluate(PAINTS, ".rosmini-plot *") == alone
+    assert page.evaluate(PAINTS, ".rosmini-svg *") == graph
+
+
+def test_on_a_narrow_page_the_picture_shrinks(show):
+    page = show("light", world_picture(world("room")))
+    page.set_viewport_size({"width": 480, "height": 800})
+    box = page.locator(".rosmini-plot").bounding_box()
+    assert box["width"] < 470
+    assert box["height"] / box["width"] == pytest.approx(540 / 660, abs=0.1)
