@@ -27,7 +27,6 @@ from rosmini.errors import RosminiError, nearest
 from rosmini.geometry.poses import Pose, transform_points
 
 from . import lidar
-from .clearance import clearance
 from .drive import body_velocity, limited, phases, rim_speeds, unicycle
 from .imu import Motion
 from .models import RobotModel
@@ -38,6 +37,8 @@ if TYPE_CHECKING:
     from .physics import Contacts
 
 Floats = NDArray[np.float64]
+
+WheelState = tuple[float, float, float, float]
 
 STEP = 0.005
 """How long one step of the physics is [s]."""
@@ -75,7 +76,8 @@ class Robot:
         self.expires = math.inf
         self.room = 0.0
         self.touching = False
-        self._seen = (0.0, 0.0)
+        self.seen = (0.0, 0.0)
+        """How fast it went, ahead [m/s] and to the left [rad/s], when that was last looked at."""
         self._rates = (0.0, 0.0)
 
     @property
@@ -92,9 +94,11 @@ class Robot:
     def motion(self) -> Motion:
         """How it really moves at this moment."""
         if self.touching:
-            return Motion(*self._seen, *self._rates)
+            return Motion(*self.seen, *self._rates)
         wheels = self.wheels
         v, w = body_velocity(self.left * wheels.left, self.right * wheels.right, wheels.separation)
+        if self.left == self.left_target and self.right == self.right_target:
+            return Motion(v, w, 0.0, 0.0)
         a = self.model.wheel_acceleration
         dl = math.copysign(a, self.left_target - self.left) if self.left_target != self.left else 0.0
         dr = math.copysign(a, self.right_target - self.right) if self.right_target != self.right else 0.0
@@ -103,6 +107,14 @@ class Robot:
     def corners(self) -> Floats:
         """The footprint (k, 2) where the robot is now."""
         return transform_points(self.pose, self.model.footprint)
+
+    def wheel_state(self) -> WheelState:
+        """The speeds and the ways of the left and right rim [m/s, m], to come back to."""
+        return (self.left, self.right, self.left_way, self.right_way)
+
+    def set_wheel_state(self, state: WheelState) -> None:
+        """Come back to a state of the wheels."""
+        self.left, self.right, self.left_way, self.right_way = state
 
     # -- for the engine ------------------------------------------------------------------------------------------
 
@@ -141,15 +153,20 @@ class Robot:
         if abs(self.right - self.right_target) < EPSILON:
             self.right = self.right_target
 
-    def carried(self, pose: Pose, dt: float) -> None:
-        """Learn where the robot really got to while it touched something, and note how fast it went."""
+    def note(self) -> None:
+        """Remember how it moves now, to know later how that has changed."""
+        self.seen = self.motion()[:2]
+
+    def carried(self, pose: Pose, dt: float, *, touching: bool) -> None:
+        """Learn where the robot really got to while it may have touched something, and note how fast it went."""
         x, y, theta = self.pose
         middle = (theta + pose[2]) / 2
         v = ((pose[0] - x) * math.cos(middle) + (pose[1] - y) * math.sin(middle)) / dt
         w = (pose[2] - theta) / dt
-        self._rates = ((v - self._seen[0]) / dt, (w - self._seen[1]) / dt)
-        self._seen = (v, w)
+        self._rates = ((v - self.seen[0]) / dt, (w - self.seen[1]) / dt)
+        self.seen = (v, w)
         self.pose = pose
+        self.touching = touching
 
 
 class Engine:
@@ -168,6 +185,7 @@ class Engine:
         self.robots: dict[str, Robot] = {}
         self._rng = rng
         self._slips = SLIP_PERIOD
+        self._next_change = SLIP_PERIOD
         self._contacts: Contacts | None = None
         self._moving = False
         self._scenery: dict[float, tuple[Floats, Floats]] = {}
@@ -176,8 +194,14 @@ class Engine:
     def contacts(self) -> Contacts:
         """The bodies, made when they are first needed."""
         if self._contacts is None:
-            from .physics import Contacts  # pymunk takes a moment to load
-
+            try:
+                from .physics import Contacts  # it loads pymunk, which takes a moment
+            except ImportError as error:
+                msg = (
+                    "the simulator needs pymunk, which is not installed (there is none for Windows on ARM): pip install pymunk. "
+                    f"Python says: {error}"
+                )
+                raise RosminiError(msg) from error
             self._contacts = Contacts(self.world)
         return self._contacts
 
@@ -245,11 +269,13 @@ class Engine:
         v, w = limited(v, w, model.max_linear, model.max_angular)
         robot.left_target, robot.right_target = rim_speeds(v, w, model.wheel_separation)
         robot.expires = self.now + timeout if timeout else math.inf
+        self._next_change = min([self._slips, *(robot.expires for robot in self.robots.values())])
 
     def _free(self, model: RobotModel, pose: Pose, name: str = "") -> Pose:
         if not all(math.isfinite(part) for part in pose):
             msg = f"a robot cannot be placed at {pose}: x, y and heading have to be finite numbers"
             raise WorldError(msg)
+        self._tell_places()
         hindrance = self.contacts.hindrance(model, pose, name)
         if hindrance is not None:
             x, y, theta = pose
@@ -261,6 +287,7 @@ class Engine:
         return (float(pose[0]), float(pose[1]), float(pose[2]))
 
     def _start(self, model: RobotModel) -> Pose:
+        self._tell_places()
         for start in self.world.starts:
             if self.contacts.hindrance(model, start) is None:
                 return start
@@ -271,9 +298,11 @@ class Engine:
     def advance(self, until: float) -> None:
         """Let time go on until then; what is over stays as it is."""
         while until - self.now > EPSILON:
-            stop = min(until, self._slips, *(robot.expires for robot in self.robots.values()))
-            self._go(stop)
-            self._changes()
+            if until < self._next_change:
+                self._go(until)
+            else:
+                self._go(self._next_change)
+                self._changes()
 
     def _changes(self) -> None:
         """Let happen what is due now: commands that are too old, and the slip of the next second."""
@@ -285,15 +314,17 @@ class Engine:
             self._slips += SLIP_PERIOD
             for robot in self.robots.values():
                 robot.wheels.slip()
+        self._next_change = min([self._slips, *(robot.expires for robot in self.robots.values())])
 
     def _go(self, until: float) -> None:
         """Let time go on while nobody's mind changes."""
         if not self._moving:
             stuck = False
             rolled = []
+            dt = until - self.now
             for robot in self.robots.values():
-                before = (robot.left, robot.right, robot.left_way, robot.right_way)
-                pose, moved = robot.roll(until - self.now)
+                before = robot.wheel_state()
+                pose, moved = robot.roll(dt)
                 rolled.append((robot, before, pose, moved))
                 stuck = stuck or (moved > robot.room and moved > self._look(robot))
             if not stuck:
@@ -305,7 +336,7 @@ class Engine:
                 self.now = until
                 return
             for robot, before, _, _ in rolled:
-                robot.left, robot.right, robot.left_way, robot.right_way = before
+                robot.set_wheel_state(before)
         while until - self.now > EPSILON:
             grid = (math.floor(self.now / STEP + 1e-6) + 1) * STEP
             self._step(min(grid, until))
@@ -315,6 +346,8 @@ class Engine:
         dt = until - self.now
         ways, free = {}, not self._moving
         for robot in self.robots.values():
+            if not robot.touching:
+                robot.note()
             pose, moved = robot.roll(dt)
             robot.settle()
             ways[robot.name] = (robot.pose, pose)
@@ -326,10 +359,9 @@ class Engine:
                 self.robots[name].pose = pose
                 self.robots[name].touching = False
             return
+        self._tell_places()
         for name, (pose, touching) in self.contacts.step(ways, dt).items():
-            robot = self.robots[name]
-            robot.carried(pose, dt)
-            robot.touching = touching
+            self.robots[name].carried(pose, dt, touching=touching)
         moving = self.contacts.moving
         for robot in self.robots.values():
             if not robot.touching and not moving:
@@ -345,19 +377,17 @@ class Engine:
 
     def _look(self, robot: Robot) -> float:
         """Measure, and return, how far a robot can move without touching anything."""
-        corners = robot.corners()
-        segments, discs = self._solid(0.0)
-        room = clearance(corners, segments, discs)
-        for obstacle in self.contacts.obstacles():
-            room = min(room, clearance(corners, *_parts([obstacle])))
-        for other in self.robots.values():
-            if other is not robot:  # both move towards each other at most
-                room = min(room, clearance(corners, edges(other.corners()), np.empty((0, 3))) / 2)
-        robot.room = room - SAFE
-        velocity = robot.motion()
-        c, s = math.cos(robot.pose[2]), math.sin(robot.pose[2])
-        self.contacts.move(robot.name, robot.pose, (velocity.v * c, velocity.v * s, velocity.w))
+        self._tell_places()
+        robot.room = self.contacts.room(robot.name) - SAFE
         return robot.room
+
+    def _tell_places(self) -> None:
+        """Tell the bodies where the robots are that have moved by themselves, and how fast these go."""
+        for robot in self.robots.values():
+            if not robot.touching:
+                v, w = robot.seen
+                theta = robot.pose[2]
+                self.contacts.move(robot.name, robot.pose, (v * math.cos(theta), v * math.sin(theta), w))
 
     def _solid(self, height: float) -> tuple[Floats, Floats]:
         """The fixed segments (n, 4) and discs (m, 3) that are at least so high [m]."""
@@ -391,6 +421,19 @@ class Engine:
     def obstacles(self) -> tuple[Obstacle, ...]:
         """The movable obstacles where they are now."""
         return self.contacts.obstacles()
+
+    def peek(self, name: str, when: float) -> Pose:
+        """Where a robot will be then, soon, without letting time go on: a look changes nothing of what happens.
+
+        If something may be in its way until then, the answer is where it is now. Raises `RobotGone`.
+        """
+        robot = self.robot(name)
+        if when <= self.now or when > self._next_change or self._moving:
+            return robot.pose
+        kept = robot.wheel_state()
+        pose, moved = robot.roll(when - self.now)
+        robot.set_wheel_state(kept)
+        return pose if moved <= robot.room else robot.pose
 
 
 def _as_disc(robot: Robot) -> tuple[float, float, float]:

@@ -10,7 +10,7 @@ At (x, y) from the middle of the axle, of a robot with the speed v ahead and w t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,8 +23,7 @@ BLOCK = 256
 """So many samples' noise is drawn at once."""
 
 
-@dataclass(frozen=True)
-class Motion:
+class Motion(NamedTuple):
     """How a robot moves at one moment: speeds ahead [m/s] and to the left [rad/s], and their rates."""
 
     v: float
@@ -61,27 +60,20 @@ class Imu:
         ax, ay = acceleration(x, y, v, w, dv, dw)
         if not self._scale:
             return (0.0, 0.0, w, ax, ay, GRAVITY)
-        n, b = self._sample(number), self.bias
-        return (
-            n[0] + b[0],
-            n[1] + b[1],
-            w + n[2] + b[2],
-            ax + n[3] + b[3],
-            ay + n[4] + b[4],
-            GRAVITY + n[5] + b[5],
-        )
+        e = self._sample(number)
+        return (e[0], e[1], w + e[2], ax + e[3], ay + e[4], GRAVITY + e[5])
 
     def heading_error(self, number: int) -> float:
         """By how much the integral of what the gyroscope showed, up to sample `number`, differs from the turn of the robot [rad]."""
         if not self._scale:
             return 0.0
         self._sample(number)
-        return self._drifts[number - self._first] + self.bias[2] * number / self.model.rate
+        return self._drifts[number - self._first]
 
     def _sample(self, number: int) -> list[float]:
         while number >= self._first + len(self._noise):
             self._first += len(self._noise)
-            block = self._rng.standard_normal((BLOCK, 6)) * self._deviations
+            block = self._rng.standard_normal((BLOCK, 6)) * self._deviations + self.bias
             drifts = self._drift + np.cumsum(block[:, 2]) / self.model.rate
             self._noise, self._drifts, self._drift = block.tolist(), drifts.tolist(), float(drifts[-1])
         return self._noise[number - self._first]

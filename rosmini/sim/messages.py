@@ -37,16 +37,23 @@ def diagonal(values: tuple[float, ...]) -> list[float]:
     return flat
 
 
+def quick(part: Any) -> Any:
+    """Return a message within a message as one that is filled faster: its layer without the check of field names."""
+    part.__class__ = type(part)._fields_class
+    return part
+
+
 class Headed:
     """A message with a header."""
 
     def __init__(self, type_name: str, frame: str) -> None:
         self.message: Any = message_class(type_name)()
         self.message.header.frame_id = frame
+        self._stamp = self.message.header.stamp
 
     def stamp(self, secs: int, nsecs: int) -> None:
         """Say when it was so."""
-        stamp = self.message.header.stamp
+        stamp = self._stamp
         stamp.secs, stamp.nsecs = secs, nsecs
 
 
@@ -58,9 +65,9 @@ class OdometryMessage(Headed):
         self.message.child_frame_id = child
         self.message.pose.covariance = diagonal(POSE_COVARIANCE)
         self.message.twist.covariance = diagonal(POSE_COVARIANCE)
-        self._position = self.message.pose.pose.position
-        self._orientation = self.message.pose.pose.orientation
-        self._linear, self._angular = self.message.twist.twist.linear, self.message.twist.twist.angular
+        pose, twist = self.message.pose.pose, self.message.twist.twist
+        self._position, self._orientation = quick(pose.position), quick(pose.orientation)
+        self._linear, self._angular = quick(twist.linear), quick(twist.angular)
 
     def fill(self, pose: Pose, v: float, w: float) -> Any:
         """Say where it is and how fast it goes."""
@@ -77,8 +84,8 @@ class TransformMessage(Headed):
     def __init__(self, frame: str, child: str) -> None:
         super().__init__("geometry_msgs/TransformStamped", frame)
         self.message.child_frame_id = child
-        self._translation = self.message.transform.translation
-        self._rotation = self.message.transform.rotation
+        self._translation = quick(self.message.transform.translation)
+        self._rotation = quick(self.message.transform.rotation)
         self._list = message_class("tf2_msgs/TFMessage")(transforms=[self.message])
 
     def fill(self, pose: Pose) -> Any:
@@ -112,8 +119,8 @@ class ImuMessage(Headed):
         message.orientation_covariance = diagonal((ORIENTATION_COVARIANCE,) * 3)
         message.angular_velocity_covariance = diagonal((GYRO_COVARIANCE,) * 3)
         message.linear_acceleration_covariance = diagonal((ACCEL_COVARIANCE,) * 3)
-        self._orientation = message.orientation
-        self._gyro, self._accel = message.angular_velocity, message.linear_acceleration
+        self._orientation = quick(message.orientation)
+        self._gyro, self._accel = quick(message.angular_velocity), quick(message.linear_acceleration)
 
     def fill(self, imu: Imu, number: int, robot: Robot) -> Any:
         """Say what sample `number` shows."""

@@ -67,11 +67,11 @@ class ImuModel:
 class WheelErrors:
     """How far real wheels differ from the numbers that the odometry counts with: standard deviations, as fractions."""
 
-    radius: float = 0.003
+    radius: float = 0.0015
     """Of each wheel's radius: tyres are not turned to a micrometre."""
     separation: float = 0.01
     """Of the distance of the wheels: a tyre touches the ground along its width, not in a line."""
-    slip: float = 0.005
+    slip: float = 0.002
     """Of how far a wheel rolls in one turn, from second to second: the ground is not even."""
 
 

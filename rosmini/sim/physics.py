@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 import pymunk
@@ -22,6 +21,9 @@ from rosmini.geometry.poses import Pose
 from .imu import GRAVITY
 from .models import RobotModel
 from .world import Cylinder, Obstacle, World
+
+VIEW = 0.5
+"""So far [m] a robot looks around itself; what is farther away does not matter yet."""
 
 GRIP = 0.7
 """Friction of rubber wheels on the ground."""
@@ -60,6 +62,8 @@ class _Rover:
     model: RobotModel
     body: pymunk.Body
     shape: pymunk.Poly
+    view: pymunk.Poly
+    """The footprint grown by VIEW, which nothing bumps into."""
     axle: pymunk.Body
     """Goes as the wheels turn, and takes the body along as well as the grip allows."""
     grip: tuple[pymunk.PivotJoint, pymunk.GearJoint]
@@ -120,6 +124,7 @@ class Contacts:
         """Put a robot there."""
         body = pymunk.Body(model.mass, model.inertia)
         shape = pymunk.Poly(body, model.footprint)
+        view = pymunk.Poly(body, model.footprint, radius=VIEW)
         axle = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
         along, around = pymunk.PivotJoint(axle, body, (0, 0), (0, 0)), pymunk.GearJoint(axle, body, 0.0, 1.0)
         along.max_bias = around.max_bias = 0.0  # they bring speeds together, not places
@@ -127,7 +132,7 @@ class Contacts:
         around.max_force = along.max_force * model.wheel_separation / 2
         self._space.add(body, axle, along, around)
         self._add(shape, f"the robot {name!r}")
-        self._rovers[name] = _Rover(model, body, shape, axle, (along, around))
+        self._rovers[name] = _Rover(model, body, shape, view, axle, (along, around))
         self.move(name, pose)
 
     def remove(self, name: str) -> None:
@@ -149,21 +154,44 @@ class Contacts:
         shape = pymunk.Poly(probe, model.footprint)
         _put(probe, pose)
         rover = self._rovers.get(ignoring)
-        for hit in self._space.shape_query(shape):
-            own = rover is not None and hit.shape is rover.shape
-            if hit.shape is not None and not own and max(_depths(hit.contact_point_set)) > OVERLAP:
-                return self._names[hit.shape]
-        return None
+        found = [
+            hit.shape
+            for hit in self._space.shape_query(shape)
+            if max(_depths(hit.contact_point_set)) > OVERLAP
+        ]
+        # of two shapes that coincide pymunk knows no depth
+        middle = probe.local_to_world(shape.center_of_gravity)
+        found += [hit.shape for hit in self._space.point_query(middle, 0.0, pymunk.ShapeFilter())]
+        names = [
+            self._names[each]
+            for each in found
+            if each is not None and (rover is None or each is not rover.shape)
+        ]
+        return names[0] if names else None
+
+    def room(self, name: str) -> float:
+        """How far [m] any point of a robot can move before it touches something, if that is not more than VIEW.
+
+        Of the way to another robot that is half, for both may be coming.
+        """
+        rover = self._rovers[name]
+        free = VIEW
+        for hit in self._space.shape_query(rover.view):
+            if hit.shape is None or hit.shape is rover.shape:
+                continue
+            gap = VIEW - max(_depths(hit.contact_point_set))
+            free = min(free, gap / 2 if self._is_robot(hit.shape) else gap)
+        return free
+
+    def _is_robot(self, shape: pymunk.Shape) -> bool:
+        return any(shape is rover.shape for rover in self._rovers.values())
 
     # -- movable obstacles ---------------------------------------------------------------------------------------
 
     @property
     def moving(self) -> bool:
         """True while an obstacle moves."""
-        return any(
-            crate.body.velocity.length > REST or abs(crate.body.angular_velocity) > REST
-            for crate in self._crates
-        )
+        return any(_slides(crate.body) for crate in self._crates)
 
     def obstacles(self) -> tuple[Obstacle, ...]:
         """The movable obstacles where they are now."""
@@ -181,8 +209,12 @@ class Contacts:
     def step(self, ways: dict[str, tuple[Pose, Pose]], dt: float) -> dict[str, tuple[Pose, bool]]:
         """Let `dt` seconds pass in which each robot's wheels take it from the first pose to the second, if nothing is in the way.
 
-        Return where each robot is then, and whether it touches anything.
+        Return where each robot is then, and whether anything kept it from where it would have gone.
         """
+        poses = {name: after for name, (_, after) in ways.items()}
+        for name, pose in poses.items():
+            _put(self._rovers[name].body, pose)
+        held = self._make_way(poses, dt)
         for name, (before, after) in ways.items():
             rover = self._rovers[name]
             body, axle = rover.body, rover.axle
@@ -190,55 +222,88 @@ class Contacts:
             axle.angular_velocity = (after[2] - before[2]) / dt
             # pymunk moves each body by the velocity it has, looks what touches, and then changes the velocities
             (vx, vy), w = body.velocity, body.angular_velocity
-            _put(body, (after[0] - vx * dt, after[1] - vy * dt, after[2] - w * dt))
+            x, y, theta = poses[name]
+            _put(body, (x - vx * dt, y - vy * dt, theta - w * dt))
         self._space.step(dt)
-        poses = {name: after for name, (_, after) in ways.items()}
         for name, pose in poses.items():
             _put(self._rovers[name].body, pose)
-        touching = dict.fromkeys(poses, False)
+        return {name: (pose, name in held) for name, pose in poses.items()}
+
+    def _make_way(self, poses: dict[str, Pose], dt: float) -> set[str]:
+        """Bring the robots out of what they have driven into, and out of each other; return who was moved by that."""
+        sliding = [crate.body for crate in self._crates if _slides(crate.body)]
+        kept = [(body.position, body.angle) for body in sliding]
+        for body in sliding:  # to where they will be when the step is over
+            body.position += body.velocity * dt
+            body.angle += body.angular_velocity * dt
+            self._space.reindex_shapes_for_body(body)
+        for name in poses:
+            self._space.reindex_shapes_for_body(self._rovers[name].body)
+        moved: set[str] = set()
         for _ in range(ROUNDS):
-            pushed = [name for name in poses if self._push_out(name, poses)]
+            pushed = [other for name in poses for other in self._push_out(name, poses)]
             if not pushed:
                 break
-            for name in pushed:
-                touching[name] = True
-        return {name: (pose, touching[name]) for name, pose in poses.items()}
+            moved.update(pushed)
+        for body, (position, angle) in zip(sliding, kept, strict=True):
+            body.position, body.angle = position, angle
+        return moved
 
-    def _push_out(self, name: str, poses: dict[str, Pose]) -> bool:
-        """Move a robot out of the thing into which it reaches deepest, turning it by its lever; tell whether there was one.
-
-        The correction along the normal n of the contact at r from the axle is the one that needs the least work:
-        dx = k n / m and dtheta = k (r x n) / I, with k such that the overlap vanishes.
-        """
-        rover = self._rovers[name]
-        worst: tuple[float, Any] = (TOUCH, None)
-        for hit in self._space.shape_query(rover.shape):
-            depth = max(_depths(hit.contact_point_set))
-            body = None if hit.shape is None else hit.shape.body
-            if body is not None and body.body_type == pymunk.Body.DYNAMIC:
-                depth -= SLACK
-            if depth > worst[0]:
-                worst = (depth, hit)
-        depth, hit = worst
+    def _push_out(self, name: str, poses: dict[str, Pose]) -> list[str]:
+        """Move a robot out of the thing into which it reaches deepest, and a robot there likewise; return who was moved."""
+        worst, hit = TOUCH, None
+        for each in self._space.shape_query(self._rovers[name].shape):
+            depth = max(_depths(each.contact_point_set)) - self._slack(each.shape)
+            if depth > worst:
+                worst, hit = depth, each
         if hit is None:
-            return False
-        contacts = hit.contact_point_set
-        depths = _depths(contacts)
-        deepest = [
-            point for point, its in zip(contacts.points, depths, strict=True) if its > max(depths) - 1e-7
+            return []
+        n = hit.contact_point_set.normal
+        slack = self._slack(hit.shape)
+        depths = [depth - slack for depth in _depths(hit.contact_point_set)]
+        places = [point.point_a for point in hit.contact_point_set.points]
+        others = [
+            other for other, rover in self._rovers.items() if rover.shape is hit.shape and other in poses
         ]
-        px = sum(point.point_a.x for point in deepest) / len(deepest)
-        py = sum(point.point_a.y for point in deepest) / len(deepest)
-        x, y, theta = poses[name]
-        nx, ny = -contacts.normal.x, -contacts.normal.y
-        lever = (px - x) * ny - (py - y) * nx
-        model = rover.model
-        k = depth / (1 / model.mass + lever * lever / model.inertia)
-        if any(hit.shape is other.shape for other in self._rovers.values()):
-            k /= 2  # the other one gives way as well
-        poses[name] = (x + k * nx / model.mass, y + k * ny / model.mass, theta + k * lever / model.inertia)
-        _put(rover.body, poses[name])
-        return True
+        for who, nx, ny in [(name, -n.x, -n.y), *((other, n.x, n.y) for other in others)]:
+            x, y, theta = poses[who]
+            model = self._rovers[who].model
+            levers = [(place.x - x) * ny - (place.y - y) * nx for place in places]
+            along, turn = correction(depths, levers, model.mass, model.inertia)
+            part = 1 / (1 + len(others))
+            poses[who] = (x + part * along * nx, y + part * along * ny, theta + part * turn)
+            body = self._rovers[who].body
+            _put(body, poses[who])
+            self._space.reindex_shapes_for_body(body)
+        return [name, *others]
+
+    def _slack(self, shape: pymunk.Shape | None) -> float:
+        """How deep a robot may reach into a shape."""
+        body = None if shape is None else shape.body
+        return SLACK if body is not None and body.body_type == pymunk.Body.DYNAMIC else 0.0
+
+
+def correction(depths: list[float], levers: list[float], mass: float, inertia: float) -> tuple[float, float]:
+    """How far to move a body along the normal of a contact [m], and how far to turn it [rad], so that it just touches.
+
+    The contact has one or two points, each with the depth of the overlap there and its lever, the part of its place across the normal. The
+    answer is what forces k >= 0 at these points do, along = sum k / m and turn = sum k r / I, that make the overlap vanish.
+    """
+    if len(depths) == 2:
+        (first, second), (r, q) = depths, levers
+        if abs(r - q) > 1e-9:
+            turn = (first - second) / (r - q)
+            along = first - turn * r
+            k = (inertia * turn - mass * along * q) / (r - q)
+            if 0 <= k <= mass * along:  # both points push, and none pulls
+                return along, turn
+    depth, lever = max(zip(depths, levers, strict=True))
+    k = depth / (1 / mass + lever * lever / inertia)
+    return k / mass, k * lever / inertia
+
+
+def _slides(body: pymunk.Body) -> bool:
+    return body.velocity.length > REST or abs(body.angular_velocity) > REST
 
 
 def _depths(contacts: pymunk.ContactPointSet) -> list[float]:

@@ -216,25 +216,18 @@ class Simulator:
     def _begin(self) -> None:
         self._start_ns = self.node.clock.now_ns()
         model = self.model
-        self._drive_beat = _Beat(model.rate, self._start_ns)
-        self._scan_beat = _Beat(model.lidar.rate, self._start_ns)
-        self._imu_beat = _Beat(model.imu.rate, self._start_ns)
-        self._beats = (self._drive_beat, self._scan_beat, self._imu_beat)
-        self._lane = self.node.spawn(f"{self.node.name} physics")
-        self._cancel = self.node.clock.call_at(self._drive_beat.due_ns, self._wake)
-        self._next()
+        rates = (model.rate, model.lidar.rate, model.imu.rate)
+        self._beats = tuple(_Beat(rate, self._start_ns) for rate in rates)
+        self._next(min(beat.due_ns for beat in self._beats))
 
     def _wake(self) -> None:
-        self._lane.submit(self._tick)
+        """Go on. An event of the queue without a lane, for nothing in it can block."""
+        self.node.guarded(self._tick, what="physics")
 
-    def _next(self) -> None:
-        """Ask to be called at the next beat that anybody hears."""
-        self._cancel()
-        due = min(self._drive_beat.due_ns, self._scan_beat.due_ns)
-        if self._to_imu.num_connections():
-            due = min(due, self._imu_beat.due_ns)
-        self._due_ns = due
-        self._cancel = self.node.clock.call_at(due, self._wake)
+    def _next(self, due_ns: int) -> None:
+        """Ask to be called then."""
+        self._due_ns = due_ns
+        self._cancel = self.node.clock.call_at(due_ns, self._wake)
 
     def _catch_up(self, now_ns: int) -> None:
         self.engine.advance((now_ns - self._start_ns) * 1e-9)
@@ -243,30 +236,36 @@ class Simulator:
         robot = self._robot
         if robot is None:
             return
-        behind = self.node.clock.now_ns() - self._due_ns
-        if abs(behind) > LAG_NS:  # the computer is too slow, or the clock was set
+        due = self._due_ns
+        behind = self.node.clock.now_ns() - due
+        if behind > LAG_NS or behind < -LAG_NS:  # the computer is too slow, or the clock was set
             self._start_ns += behind
             for beat in self._beats:
                 beat.delay(behind)
-            self._due_ns += behind
-        due = self._due_ns
+            due += behind
         self._catch_up(due)
         stamp = divmod(due, 1_000_000_000)
-        if self._drive_beat.due_ns == due:
+        drive, scan, imu = self._beats
+        if drive.due_ns == due:
             self._tell_drive(robot, stamp)
-            self._drive_beat.next()
-        if self._scan_beat.due_ns == due:
+            drive.next()
+        if scan.due_ns == due:
             self._tell_scan(robot, stamp)
-            self._scan_beat.next()
-        if self._imu_beat.due_ns == due and self._to_imu.num_connections():
-            self._send(
-                self._to_imu,
-                self._imu_message,
-                stamp,
-                self._imu_message.fill(self._imu, self._imu_beat.number, robot),
-            )
-        self._imu_beat.skip(due)
-        self._next()
+            scan.next()
+        following = min(drive.due_ns, scan.due_ns)
+        if self._to_imu.num_connections():
+            if imu.due_ns == due:
+                self._send(
+                    self._to_imu,
+                    self._imu_message,
+                    stamp,
+                    self._imu_message.fill(self._imu, imu.number, robot),
+                )
+                imu.next()
+            elif imu.due_ns < due:
+                imu.skip(due)
+            following = min(following, imu.due_ns)
+        self._next(following)
 
     def _send(self, publisher: Publisher, told: Headed, stamp: tuple[int, int], message: Any) -> None:
         told.stamp(*stamp)
@@ -314,8 +313,7 @@ class Simulator:
     def truth(self, robot: str = "") -> Pose:
         """Where the robot really is now: x [m], y [m], heading [rad, not wrapped], in the frame map. Raises `RobotGone`."""
         found = self._robot_called(robot)
-        self._catch_up(self.node.clock.now_ns())
-        return found.pose
+        return self.engine.peek(found.name, (self.node.clock.now_ns() - self._start_ns) * 1e-9)
 
     def place(self, pose: Pose) -> None:
         """Lift the robot and put it down elsewhere, at rest; its odometry does not notice. Raises `WorldError` and `RobotGone`."""
