@@ -38,7 +38,9 @@ MOST_VIEWERS = 6
 """Browsers draw no more than some eight pictures with WebGL at a time: what comes after them takes the place of the first."""
 IN_SCRIPT = re.compile(r"\b(?:import\s*\(?|from|fetch\(|importScripts\(|require\()\s*[\"'](https?://[^\"']+)")
 # What the scripts of moving pictures have no use for, whatever the address.
-ASKING = re.compile(r"\b(fetch\(|XMLHttpRequest|WebSocket|EventSource|sendBeacon|importScripts|import\(|connect\()")
+ASKING = re.compile(
+    r"\b(fetch\(|XMLHttpRequest|WebSocket|EventSource|sendBeacon|importScripts|import\(|connect\()"
+)
 ADDRESS = re.compile(r"(?:https?|wss?)://[^\s\"'`)]+")
 # The names of XML's vocabularies look like addresses; nothing is fetched from there.
 NAMESPACES = {"http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"}

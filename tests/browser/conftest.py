@@ -158,3 +158,13 @@ def start_lab(tmp_path):
     """Start a JupyterLab with a notebook of the given cells; return the notebook's address."""
     with ExitStack() as stack:
         yield lambda cells: stack.enter_context(jupyterlab(tmp_path, cells))
+
+
+@pytest.fixture(scope="session")
+def webgl(chromium):
+    """A browser of its own that draws in three dimensions, in software."""
+    flags = [flag for flag in FLAGS if flag != "--disable-gpu"]
+    flags += ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+    browser = chromium.browser_type.launch(executable_path=chromium_path(), args=flags)
+    yield browser
+    browser.close()

@@ -1,0 +1,274 @@
+"""Pictures in three dimensions in a real browser: in the book's form below a nested folder, and alone; from file://, with no network."""
+
+from __future__ import annotations
+
+import io
+import math
+import shutil
+
+import numpy as np
+import pytest
+from PIL import Image
+
+pytest.importorskip("meshcat")
+
+from rosmini.sim.models import BURGER
+from rosmini.sim.recording import Recording
+from rosmini.sim.worlds import world
+from rosmini.viz.embed import MESHCAT, STATIC, asset_path
+from rosmini.viz.meshcat import replay_3d, robot_3d, world_3d
+
+pytestmark = pytest.mark.browser
+
+READY = "iframe[data-ready]"
+
+
+def run():
+    """Straight ahead for 5 s, then a turn to the left on the spot for 5 s."""
+    times = np.arange(0, 10.01, 0.1)
+    truth = np.column_stack([np.minimum(times, 5) * 0.2, 0 * times, np.maximum(times - 5, 0) * 0.3])
+    scan_times = np.arange(0, 10, 0.2)
+    scans = np.ones((len(scan_times), 360)) * (1 + 0.1 * scan_times[:, None])
+    return Recording(world("room"), BURGER, times, truth, truth, np.zeros((0, 3)), scan_times, scans)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """A piece of a book: a nested page with three pictures, two of them the same, and its scripts; beside it, live forms."""
+    folder = tmp_path_factory.mktemp("site")
+    shutil.copytree(STATIC, folder / "_static")
+    shutil.copyfile(asset_path(MESHCAT), folder / "_static" / MESHCAT)
+    (folder / "deep" / "er").mkdir(parents=True)
+    views = {
+        "robot": robot_3d(world("room"), BURGER, (0.3, 0.2, 0.4), np.full(360, 0.6)),
+        "world": world_3d(world("room")),
+        "replay": replay_3d(run()),
+    }
+    head = '<head><meta charset="utf-8"><title>t</title><link rel="stylesheet" href="{}_static/rosmini.css"></head>'
+    for name, chosen in {**{n: [n] for n in views}, "three": ["robot", "replay", "robot"]}.items():
+        figures = "<p style='height:1200px'>far</p>".join(views[n]._html(book=True) for n in chosen)
+        text = f'<!DOCTYPE html><html lang="en" data-content_root="../../">{head.format("../../")}<body>{figures}</body></html>'
+        (folder / "deep" / "er" / f"{name}.html").write_text(text, encoding="utf-8")
+        alone = f'<!DOCTYPE html><html lang="en">{head.format("missing/")}<body>{views[chosen[0]].page}</body></html>'
+        (folder / f"alone_{name}.html").write_text(
+            alone.replace('<link rel="stylesheet" href="missing/_static/rosmini.css">', ""), encoding="utf-8"
+        )
+    return folder
+
+
+@pytest.fixture
+def open_page(webgl, watch, site):
+    pages = []
+
+    def open_page(path, *, scheme="light", width=800, ready=True):
+        page = webgl.new_page(color_scheme=scheme, viewport={"width": width, "height": 560})
+        page.set_default_timeout(30_000)
+        watcher = watch(page)
+        pages.append((page, watcher))
+        page.goto((site / path).as_uri())
+        if ready:
+            page.wait_for_selector(READY)
+        return page
+
+    yield open_page
+    for page, watcher in pages:
+        page.close()
+        # Reading the picture back out of a software renderer is slow, and it says so.
+        assert [seen for seen in watcher.seen if "GPU stall due to ReadPixels" not in seen] == []
+
+
+def pixels(page, selector="iframe"):
+    """The picture (height, width, 3) in the viewer, after the next frame."""
+    page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    shot = page.locator(selector).first.screenshot()
+    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(float)
+
+
+def viewer(page, expression):
+    return page.evaluate(
+        f"(() => {{ const viewer = document.querySelector('iframe').contentWindow.viewer; return {expression}; }})()"
+    )
+
+
+def node(path):
+    return f"viewer.scene_tree.find({path.split('/')!r}).object"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize(
+    "path", ["deep/er/robot.html", "alone_robot.html", "deep/er/world.html", "alone_world.html"]
+)
+def test_the_viewer_draws_the_scene_in_the_colours_of_the_page(open_page, shared_tmp, path, scheme):
+    page = open_page(path, scheme=scheme)
+    picture = pixels(page)
+    page.screenshot(path=shared_tmp / f"meshcat-{path.replace('/', '_')}-{scheme}.png")
+    assert picture.std() > 20
+    assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 500
+    below = picture[-40:].mean()
+    assert below > 200 if scheme == "light" else below < 90
+    assert page.locator(".rosmini-still").is_hidden()
+    assert page.locator("iframe").get_attribute("title") == page.locator("figure").get_attribute("aria-label")
+
+
+def test_the_drawing_is_what_the_viewer_shows_first(open_page):
+    """Both have the same robot at the same place: dark pixels around it."""
+    page = open_page("deep/er/robot.html", width=776)
+    shown = pixels(page)
+    page.evaluate("(() => { document.querySelector('.rosmini-still').hidden = false; })()")
+    drawn = pixels(page, ".rosmini-still svg")
+    middles = []
+    for picture in (shown, drawn):
+        dark = np.argwhere(picture.max(axis=2) < 110)
+        middles.append(dark.mean(axis=0) / picture.shape[0])
+    assert middles[0] == pytest.approx(middles[1], abs=0.04)
+
+
+def test_the_page_follows_the_readers_change_of_theme(open_page):
+    page = open_page("deep/er/robot.html")
+    light = pixels(page)[-40:].mean()
+    page.evaluate("document.documentElement.dataset.theme = 'dark'")
+    assert pixels(page)[-40:].mean() < light - 100
+
+
+def test_several_on_a_page_share_one_script_and_wait_until_they_are_near(open_page):
+    page = open_page("deep/er/three.html")
+    assert page.locator("iframe").count() == 1
+    assert page.locator(".rosmini-still:visible").count() == 2
+    for figure in page.locator("figure").all():
+        figure.scroll_into_view_if_needed()
+        figure.locator(READY).wait_for()
+    assert page.locator("iframe").count() == 3
+    assert page.locator("head script").count() == 1
+
+
+def test_a_run_plays_and_the_robot_moves(open_page, shared_tmp):
+    page = open_page("deep/er/replay.html")
+    robot = node("meshcat/robots/robot")
+    wheel = node("meshcat/robots/robot/wheel_left")
+    assert viewer(page, f"{robot}.position.toArray()") == pytest.approx([0, 0, 0], abs=1e-3)
+    before = pixels(page)
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_function("Number(document.querySelector('input[type=range]').value) > 0.5")
+    page.get_by_role("button", name="Pause").click()
+    assert viewer(page, f"{robot}.position.x") > 0.05
+    assert viewer(page, f"{wheel}.rotation.y") != 0
+    assert np.abs(pixels(page) - before).mean() > 1
+    page.get_by_role("slider", name="Time").fill("7.5")
+    assert viewer(page, f"{robot}.position.toArray()") == pytest.approx([1.0, 0.0, 0.0], abs=0.01)
+    assert viewer(page, f"{robot}.rotation.z") == pytest.approx(0.75, abs=0.02)
+    assert "7.5 s of 10.0 s" in page.locator("output").inner_text()
+    # The camera follows: what it turns around is above the robot.
+    x, _, z = viewer(page, "viewer.controls.target.toArray()")
+    root = viewer(page, f"{node('meshcat')}.position.toArray()")
+    assert (x - root[0], -z - root[1]) == pytest.approx((1.0, 0.0), abs=0.01)
+    page.screenshot(path=shared_tmp / "meshcat-replay.png")
+
+
+def test_a_played_scan_is_the_recorded_one(open_page):
+    page = open_page("deep/er/replay.html")
+    page.get_by_role("slider", name="Time").fill("5.1")
+    points = viewer(
+        page, f"Array.from({node('meshcat/robots/robot/scan/<object>')}.geometry.attributes.position.array)"
+    )
+    points = np.array(points).reshape(-1, 3)
+    assert points.shape == (180, 3)
+    assert np.hypot(*points[:, :2].T) == pytest.approx(1.5, abs=0.002)
+    assert points[45, :2] == pytest.approx([0, 1.5], abs=0.01)
+
+
+def test_a_run_ends_and_begins_anew(open_page):
+    page = open_page("alone_replay.html")
+    slider = page.get_by_role("slider", name="Time")
+    slider.fill("9.9")
+    page.get_by_role("button", name="Play").click()
+    page.get_by_role("button", name="Play").wait_for()
+    assert float(slider.input_value()) == 10
+    slider.focus()
+    page.keyboard.press("Space")
+    page.wait_for_function("Number(document.querySelector('input[type=range]').value) < 9")
+
+
+def camera(page):
+    return np.array(viewer(page, "viewer.camera.position.toArray()"))
+
+
+def test_keys_turn_and_zoom_it(open_page):
+    page = open_page("deep/er/robot.html")
+    canvas = page.frame_locator("iframe").get_by_role("application")
+    assert "Arrow keys turn it" in canvas.get_attribute("aria-label")
+    focused = "document.querySelector('iframe').contentDocument.activeElement?.tagName"
+    for _ in range(4):
+        page.keyboard.press("Tab")
+        if page.evaluate(focused) == "CANVAS":
+            break
+    begin = camera(page)
+    page.keyboard.press("ArrowRight")
+    turned = camera(page)
+    assert np.linalg.norm(turned) == pytest.approx(np.linalg.norm(begin))
+    angle = math.atan2(turned[0], turned[2]) - math.atan2(begin[0], begin[2])
+    assert math.remainder(angle, math.tau) == pytest.approx(math.pi / 24, abs=1e-3)
+    page.keyboard.press("-")
+    assert np.linalg.norm(camera(page)) == pytest.approx(1.15 * np.linalg.norm(begin))
+    page.keyboard.press("Home")
+    assert camera(page) == pytest.approx(begin, abs=1e-6)
+
+
+def test_the_wheel_is_the_pages_until_the_picture_is_clicked(open_page):
+    page = open_page("deep/er/three.html")
+    begin = camera(page)
+    page.mouse.move(400, 200)
+    page.mouse.wheel(0, 120)
+    page.wait_for_function("scrollY > 0")
+    assert camera(page) == pytest.approx(begin)
+    page.evaluate("scrollTo(0, 0)")
+    page.mouse.click(400, 200)
+    page.mouse.wheel(0, 120)
+    page.wait_for_function(
+        f"document.querySelector('iframe').contentWindow.viewer.camera.position.length() > {np.linalg.norm(begin) * 1.01}"
+    )
+    assert page.evaluate("scrollY") == 0
+
+
+def test_dragging_turns_it(open_page):
+    page = open_page("alone_robot.html")
+    begin = camera(page)
+    page.mouse.move(300, 200)
+    page.mouse.down()
+    page.mouse.move(400, 200, steps=4)
+    page.mouse.up()
+    assert np.linalg.norm(camera(page) - begin) > 0.1
+
+
+def test_a_frame_that_is_taken_out_and_put_back_draws_again(open_page):
+    page = open_page("alone_replay.html")
+    page.get_by_role("slider", name="Time").fill("4")
+    page.evaluate(
+        "(() => { const frame = document.querySelector('iframe'); delete frame.dataset.ready;"
+        "const home = frame.parentNode; frame.remove(); home.prepend(frame); })()"
+    )
+    page.wait_for_selector(READY)
+    assert viewer(page, f"{node('meshcat/robots/robot')}.position.x") == pytest.approx(0.8, abs=0.01)
+    assert pixels(page).std() > 20
+
+
+def test_without_webgl_the_drawing_stays(chromium, watch, site):
+    page = chromium.new_page()
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    watcher = watch(page)
+    page.goto((site / "deep/er/robot.html").as_uri())
+    page.wait_for_function("globalThis.rosminiMeshcat !== undefined")
+    page.locator(".rosmini-still svg").wait_for()
+    assert page.locator("iframe").count() == 0
+    assert watcher.seen == []
+    page.close()
+
+
+def test_outside_the_book_the_drawing_stays(open_page, site):
+    """Committed outputs, opened in JupyterLab: there is no `_static` folder."""
+    text = (site / "deep/er/robot.html").read_text(encoding="utf-8")
+    (site / "notebook.html").write_text(
+        text.replace(' data-content_root="../../"', "").replace("../../_static", "_static"), encoding="utf-8"
+    )
+    page = open_page("notebook.html", ready=False)
+    assert page.locator(".rosmini-still svg").is_visible()
+    assert page.locator("head script").count() == 0
