@@ -474,3 +474,31 @@ recorder.recording().replay()
     finally:
         page.screenshot(path=shared_tmp / "screenshots" / "replay-jupyterlab.png")
         page.close()
+
+
+@pytest.mark.parametrize("width", ["desktop", "phone"])
+def test_the_theme_of_the_book_does_not_disturb_its_layout(
+    book_html, opened, recording, monkeypatch, tmp_path, width
+):
+    monkeypatch.setenv("ROSMINI_DISPLAY", "book")
+    chapter = (book_html / "notebooks" / "11_nodes_and_master.html").read_text(encoding="utf-8")
+    begin = chapter.index('<div class="output text_html">') + len('<div class="output text_html">')
+    (tmp_path / "notebooks").mkdir()
+    (tmp_path / "_static").symlink_to(book_html / "_static", target_is_directory=True)
+    path = tmp_path / "notebooks" / "chapter.html"
+    path.write_text(chapter[:begin] + recording.replay().html + chapter[begin:], encoding="utf-8")
+    page = opened(path.as_uri(), width=width, color_scheme="dark")
+    assert page.evaluate(SIDEWAYS) <= 0
+    boxes = {
+        name: page.locator(f".rosmini-replay {selector}").bounding_box()
+        for name, selector in [
+            ("play", "[data-do=play]"),
+            ("slider", "[type=range]"),
+            ("truth", "label:has([data-layer=truth])"),
+            ("odom", "label:has([data-layer=odom])"),
+        ]
+    }
+    middle = {name: box["y"] + box["height"] / 2 for name, box in boxes.items()}
+    assert middle["play"] == pytest.approx(middle["slider"], abs=3)
+    assert middle["truth"] == pytest.approx(middle["odom"], abs=3)
+    assert count(page, "page", style.DARK) > 5000

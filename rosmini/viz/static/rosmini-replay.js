@@ -26,9 +26,9 @@
 border-radius:8px;box-sizing:border-box;color:var(--ink);font:14px/1.4 var(--rosmini-font,system-ui,sans-serif);overflow:hidden}
 .rosmini-replay *{box-sizing:border-box}
 .rosmini-replay canvas{cursor:pointer;touch-action:manipulation}
-.rosmini-replay .row{align-items:center;display:flex;flex-wrap:wrap;gap:.4rem .6rem;padding:.45rem .7rem}
-.rosmini-replay .bar{background:var(--group-fill);border-top:1px solid color-mix(in srgb,var(--group-line) 40%,transparent)}
-.rosmini-replay .buttons{display:flex;gap:.25rem}
+.rosmini-replay .rr-row{align-items:center;display:flex;flex-wrap:wrap;gap:.4rem .6rem;padding:.45rem .7rem}
+.rosmini-replay .rr-bar{background:var(--group-fill);border-top:1px solid color-mix(in srgb,var(--group-line) 40%,transparent)}
+.rosmini-replay .rr-buttons{display:flex;gap:.25rem}
 .rosmini-replay button{align-items:center;background:transparent;border:0;border-radius:6px;color:var(--ink);cursor:pointer;
 display:inline-flex;height:38px;justify-content:center;margin:0;padding:0;width:38px}
 .rosmini-replay button[data-do=play]{background:var(--blue);color:var(--page)}
@@ -44,12 +44,12 @@ height:32px;margin-left:auto;padding:0 .3rem;width:auto}
 .rosmini-replay output,.rosmini-replay dd{font-variant-numeric:tabular-nums;white-space:nowrap}
 .rosmini-replay label{align-items:center;cursor:pointer;display:inline-flex;gap:.35rem;margin:0;min-height:28px}
 .rosmini-replay [hidden]{display:none}
-.rosmini-replay .layers{gap:.1rem .8rem;padding-bottom:.1rem}
+.rosmini-replay .rr-layers{gap:.1rem .8rem;padding-bottom:.1rem}
 .rosmini-replay i{border-top:2px solid;display:inline-block;width:18px}
 .rosmini-replay i.truth{border-color:var(--blue)}
 .rosmini-replay i.odom{border-color:var(--orange);border-top-style:dashed}
 .rosmini-replay i.scan{border-top:3px dotted var(--vermilion)}
-.rosmini-replay .keys{color:var(--muted);flex:1;font-size:12px;text-align:right;white-space:nowrap}
+.rosmini-replay .rr-keys{color:var(--muted);flex:1;font-size:12px;text-align:right;white-space:nowrap}
 .rosmini-replay kbd{all:unset;border:1px solid var(--group-line);border-radius:3px;padding:0 .3em}
 .rosmini-replay dl{display:grid;gap:.1rem 1.2rem;grid-auto-flow:column;grid-template-rows:auto auto;justify-content:start;
 margin:0;padding:.2rem .7rem .6rem}
@@ -57,7 +57,7 @@ margin:0;padding:.2rem .7rem .6rem}
 .rosmini-replay dt{color:var(--muted);flex:0 0 5.4rem;font-weight:400;margin:0}
 .rosmini-replay dd{margin:0;min-width:10.5rem}
 .rosmini-replay [role=status]{clip-path:inset(50%);height:1px;margin:0;overflow:hidden;position:absolute;width:1px}
-@container (max-width:620px){.rosmini-replay .keys{display:none}.rosmini-replay dl{grid-auto-flow:row;grid-template-rows:none}}`;
+@container (max-width:620px){.rosmini-replay .rr-keys{display:none}.rosmini-replay dl{grid-auto-flow:row;grid-template-rows:none}}`;
 
   const icon = (name) => `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${ICONS[name]}"/></svg>`;
   const button = (name, label, key) =>
@@ -67,14 +67,14 @@ margin:0;padding:.2rem .7rem .6rem}
   const reading = (name, label) => `<div><dt>${label}</dt><dd data-read="${name}"></dd></div>`;
   const CONTENT = `
 <canvas role="img"></canvas>
-<div class="row bar">
-<span class="buttons">${button("back", "Step back", "left arrow")}${button("play", "Play", "space")}${button("forward", "Step forward", "right arrow")}</span>
+<div class="rr-row rr-bar">
+<span class="rr-buttons">${button("back", "Step back", "left arrow")}${button("play", "Play", "space")}${button("forward", "Step forward", "right arrow")}</span>
 <input type="range" step="any" aria-label="Time">
 <output></output>
 <select aria-label="Speed">${SPEEDS.map((speed) => `<option value="${speed}">${speed}\u00d7</option>`).join("")}</select>
 </div>
-<div class="row layers">${layer("truth", "True path")}${layer("odom", "Odometry")}${layer("scan", "Laser")}
-<span class="keys"><kbd>space</kbd> <kbd>\u2190</kbd> <kbd>\u2192</kbd> <kbd>Home</kbd> <kbd>End</kbd> <kbd>+</kbd> <kbd>\u2212</kbd></span></div>
+<div class="rr-row rr-layers">${layer("truth", "True path")}${layer("odom", "Odometry")}${layer("scan", "Laser")}
+<span class="rr-keys"><kbd>space</kbd> <kbd>\u2190</kbd> <kbd>\u2192</kbd> <kbd>Home</kbd> <kbd>End</kbd> <kbd>+</kbd> <kbd>\u2212</kbd></span></div>
 <dl>${reading("truth", "Robot")}${reading("odom", "Odometry")}${reading("error", "Off by")}${reading("command", "Command")}</dl>
 <p role="status"></p>`;
 
