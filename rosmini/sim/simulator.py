@@ -315,6 +315,11 @@ class Simulator:
         found = self._robot_called(robot)
         return self.engine.peek(found.name, (self.node.clock.now_ns() - self._start_ns) * 1e-9)
 
+    @property
+    def odometry(self) -> Pose:
+        """Where the robot believes to be, by its last odometry: x [m], y [m], heading [rad, not wrapped], in the frame odom."""
+        return self._odometry.pose
+
     def place(self, pose: Pose) -> None:
         """Lift the robot and put it down elsewhere, at rest; its odometry does not notice. Raises `WorldError` and `RobotGone`."""
         self._there()

@@ -1,0 +1,535 @@
+"""The node: topics, rates, frames, commands, and what happens when something is wrong."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from collections import defaultdict
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rosmini.errors import ParameterError, RosminiError
+from rosmini.geometry.angles import yaw_from_quaternion
+from rosmini.graph import Graph
+from rosmini.msgs import message_class, service_class
+from rosmini.scripts import run_source
+from rosmini.sim.engine import RobotGone
+from rosmini.sim.imu import GRAVITY
+from rosmini.sim.models import BURGER, UnknownModel
+from rosmini.sim.simulator import Simulator
+from rosmini.sim.world import World, WorldError
+from rosmini.sim.worlds import world
+
+Twist = message_class("geometry_msgs/Twist")
+TOPICS = {
+    "scan": "sensor_msgs/LaserScan",
+    "odom": "nav_msgs/Odometry",
+    "/tf": "tf2_msgs/TFMessage",
+    "joint_states": "sensor_msgs/JointState",
+    "imu": "sensor_msgs/Imu",
+    "base_pose_ground_truth": "nav_msgs/Odometry",
+}
+RATES = {"scan": 5, "odom": 30, "/tf": 30, "joint_states": 30, "imu": 200, "base_pose_ground_truth": 30}
+
+
+class Driver:
+    """A node that listens to all topics and repeats a command ten times a second."""
+
+    def __init__(self, graph: Graph, topics=tuple(TOPICS), namespace: str = "/") -> None:
+        self.graph = graph
+        self.node = graph.node("driver", namespace=namespace)
+        self.heard: dict[str, list[Any]] = defaultdict(list)
+        for topic in topics:
+            self.node.subscriber(topic, message_class(TOPICS[topic]), self.heard[topic].append)
+        self.command = Twist()
+        self.publisher = self.node.publisher("cmd_vel", Twist, queue_size=1)
+
+    def go(self, seconds: float, v: float = 0.0, w: float = 0.0) -> None:
+        self.command.linear.x, self.command.angular.z = v, w
+        for _ in range(round(seconds * 10)):
+            self.publisher.publish(self.command)
+            self.graph.run(0.1)
+
+
+@pytest.fixture
+def graph():
+    with Graph() as made:
+        yield made
+
+
+def start(graph: Graph, **options: Any) -> Simulator:
+    """A simulator without noise, unless asked for."""
+    parameters = {"noise": 0.0, **options.pop("parameters", {})}
+    node = graph.node("simulator", namespace=options.pop("namespace", "/"))
+    for name, value in parameters.items():
+        node.set_param("~" + name, value)
+    return Simulator(node, **options)
+
+
+def seconds(message: Any) -> float:
+    return message.header.stamp.to_sec()
+
+
+# -- topics ----------------------------------------------------------------------------------------------------------
+
+
+def test_each_topic_comes_at_its_rate(graph):
+    start(graph)
+    driver = Driver(graph)
+    graph.run(0.5)
+    for messages in driver.heard.values():
+        messages.clear()
+    graph.run(4.0)
+    assert {topic: len(messages) / 4 for topic, messages in driver.heard.items()} == RATES
+    for topic, messages in driver.heard.items():
+        if topic != "/tf":
+            steps = np.diff([seconds(message) for message in messages])
+            np.testing.assert_allclose(steps, 1 / RATES[topic], atol=1e-6)
+
+
+def test_types_are_those_of_the_robot(graph):
+    start(graph)
+    published = dict(graph.master.getTopicTypes("/test")[2])
+    assert {name: published[name if name.startswith("/") else f"/{name}"] for name in TOPICS} == TOPICS
+    assert published["/cmd_vel"] == "geometry_msgs/Twist"
+
+
+def test_frames(graph):
+    start(graph)
+    driver = Driver(graph)
+    graph.run(1.0)
+    last = {topic: messages[-1] for topic, messages in driver.heard.items()}
+    assert last["scan"].header.frame_id == "base_scan"
+    assert last["imu"].header.frame_id == "imu_link"
+    assert (last["odom"].header.frame_id, last["odom"].child_frame_id) == ("odom", "base_footprint")
+    truth = last["base_pose_ground_truth"]
+    assert (truth.header.frame_id, truth.child_frame_id) == ("map", "base_footprint")
+    (transform,) = last["/tf"].transforms
+    assert (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_footprint")
+    assert last["joint_states"].name == ["wheel_left_joint", "wheel_right_joint"]
+
+
+def test_the_scan_is_that_of_the_lds(graph):
+    simulator = start(graph, world="arena", parameters={"x": 0.5, "y": 0.0, "yaw": 0.0})
+    driver = Driver(graph)
+    graph.run(0.45)
+    scan = driver.heard["scan"][-1]
+    assert (scan.angle_min, len(scan.ranges), len(scan.intensities)) == (0.0, 360, 0)
+    assert scan.angle_increment == pytest.approx(math.radians(1))
+    assert scan.angle_max == pytest.approx(math.radians(359))
+    assert (scan.time_increment, scan.scan_time) == (0.0, pytest.approx(0.2))
+    assert (scan.range_min, scan.range_max) == (pytest.approx(0.12), 3.5)
+    assert scan.ranges[0] == pytest.approx(1.532)
+    assert scan.ranges[90] == pytest.approx(2.0)
+    assert scan.ranges[180] == pytest.approx(2.468)
+    mine = simulator.last_scan()
+    assert mine.header.stamp == scan.header.stamp
+    np.testing.assert_array_equal(mine.ranges, scan.ranges)
+    assert simulator.scan_pose == (0.5, 0.0, 0.0)
+
+
+def test_what_is_too_far_is_infinite_or_zero(graph):
+    simulator = start(graph, world="empty")
+    graph.run(0.5)
+    assert set(simulator.last_scan().ranges.tolist()) == {math.inf}
+    zero = start(graph, namespace="/old", world="empty", parameters={"use_rep_117": False})
+    graph.run(0.5)
+    assert set(zero.last_scan().ranges.tolist()) == {0.0}
+
+
+def test_covariances(graph):
+    start(graph)
+    driver = Driver(graph)
+    graph.run(0.5)
+    odom, imu = driver.heard["odom"][-1], driver.heard["imu"][-1]
+    assert np.diag(odom.pose.covariance.reshape(6, 6)).tolist() == [1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3]
+    assert np.count_nonzero(odom.pose.covariance) == 6
+    assert np.diag(imu.orientation_covariance.reshape(3, 3)).tolist() == [0.0025] * 3
+    assert np.diag(imu.angular_velocity_covariance.reshape(3, 3)).tolist() == [0.02] * 3
+    assert np.diag(imu.linear_acceleration_covariance.reshape(3, 3)).tolist() == [0.04] * 3
+
+
+def test_a_drive_is_told_alike_on_all_topics(graph):
+    simulator = start(graph, world="arena")
+    driver = Driver(graph)
+    graph.run(0.1)
+    driver.go(4.0, 0.1, 0.3)
+    x, y, theta = simulator.truth()
+    assert math.hypot(x, y) > 0.3
+    truth, odom = driver.heard["base_pose_ground_truth"][-1], driver.heard["odom"][-1]
+    (transform,) = driver.heard["/tf"][-1].transforms
+    q = truth.pose.pose.orientation
+    assert (truth.pose.pose.position.x, truth.pose.pose.position.y) == pytest.approx((x, y), abs=4e-3)
+    assert yaw_from_quaternion(q.x, q.y, q.z, q.w) == pytest.approx(theta, abs=0.011)
+    assert (odom.pose.pose.position.x, odom.pose.pose.position.y) == pytest.approx(
+        (truth.pose.pose.position.x, truth.pose.pose.position.y), abs=1e-3
+    )
+    assert (transform.transform.translation.x, transform.transform.rotation.z) == (
+        odom.pose.pose.position.x,
+        odom.pose.pose.orientation.z,
+    )
+    assert (truth.twist.twist.linear.x, truth.twist.twist.angular.z) == pytest.approx((0.1, 0.3))
+    assert (odom.twist.twist.linear.x, odom.twist.twist.angular.z) == pytest.approx((0.1, 0.3), abs=0.03)
+    joints = driver.heard["joint_states"][-1]
+    assert joints.velocity == pytest.approx([(0.1 - 0.024) / 0.033, (0.1 + 0.024) / 0.033], abs=0.06)
+    assert joints.position[1] > joints.position[0] > 0
+    imu = driver.heard["imu"][-1]
+    assert imu.angular_velocity.z == pytest.approx(0.3)
+    assert imu.linear_acceleration.x == pytest.approx(0.032 * 0.09)
+    assert imu.linear_acceleration.y == pytest.approx(0.1 * 0.3)
+    assert imu.linear_acceleration.z == pytest.approx(GRAVITY)
+    q = imu.orientation
+    assert yaw_from_quaternion(q.x, q.y, q.z, q.w) == pytest.approx(theta, abs=0.002)
+
+
+def test_topics_follow_the_namespace(graph):
+    start(graph, namespace="/tb3_0", world="arena")
+    driver = Driver(graph, namespace="/tb3_0")
+    graph.run(0.1)
+    driver.go(1.0, 0.2)
+    assert driver.heard["odom"][-1].pose.pose.position.x == pytest.approx(0.18, abs=0.01)
+    assert "/tb3_0/scan" in dict(graph.master.getTopicTypes("/test")[2])
+
+
+def test_without_tf_nobody_publishes_it(graph):
+    start(graph, parameters={"tf": False})
+    assert "/tf" not in dict(graph.master.getTopicTypes("/test")[2])
+    driver = Driver(graph)
+    graph.run(1.0)
+    assert driver.heard["/tf"] == []
+    assert len(driver.heard["odom"]) > 20
+
+
+# -- commands --------------------------------------------------------------------------------------------------------
+
+
+def test_half_a_second_after_the_last_command_the_robot_stops(graph):
+    simulator = start(graph, world="empty")
+    driver = Driver(graph, topics=())
+    graph.run(0.1)
+    driver.go(0.1, 0.2)
+    graph.run(5.0)
+    assert simulator.truth()[0] == pytest.approx(0.2 * 0.5, abs=1e-6)
+
+
+def test_without_a_timeout_a_command_holds(graph):
+    simulator = start(graph, world="empty", parameters={"cmd_vel_timeout": 0.0})
+    driver = Driver(graph, topics=())
+    graph.run(0.1)
+    driver.go(0.1, 0.2)
+    graph.run(4.9)
+    assert simulator.truth()[0] == pytest.approx(0.2 * 5 - 0.02, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("v", "w", "field"),
+    [
+        (math.nan, 0.0, "linear.x = nan"),
+        (0.1, math.inf, "angular.z = inf"),
+        (-math.inf, 0.1, "linear.x = -inf"),
+    ],
+)
+def test_a_command_that_is_no_number_stops_the_robot_with_one_warning(graph, capsys, v, w, field):
+    simulator = start(graph, world="empty")
+    driver = Driver(graph)
+    graph.run(0.1)
+    driver.go(1.0, 0.2)
+    driver.go(1.0, v, w)
+    stopped = simulator.truth()
+    assert stopped[0] == pytest.approx(0.2, abs=1e-6)
+    assert stopped[2] == 0.0
+    written = capsys.readouterr().err
+    assert written.count("[WARN]") == 1
+    assert f"/driver published {field} on /cmd_vel" in written
+    driver.go(1.0, 0.2)
+    assert simulator.truth()[0] > 0.35
+    assert len(driver.heard["odom"]) >= 90
+
+
+# -- noise -----------------------------------------------------------------------------------------------------------
+
+
+def drive_with_noise(topics=tuple(TOPICS), *, seed: int = 0, company: bool = False) -> dict[str, list[Any]]:
+    """What is heard on a drive through the room, in the messages' bytes."""
+    with Graph(seed=seed) as graph:
+        start(graph, parameters={"noise": 1.0}, world="arena")
+        if company:
+            start(graph, namespace="/other", parameters={"noise": 1.0, "tf": False}, world="arena")
+        driver = Driver(graph, topics)
+        graph.run(0.1)
+        driver.go(2.0, 0.2, 0.3)
+        driver.go(1.0, -0.1, 1.0)
+        return {
+            topic: [type(message)._encode(message) for message in messages]
+            for topic, messages in driver.heard.items()
+        }
+
+
+def test_two_runs_are_equal_to_the_last_byte():
+    assert drive_with_noise() == drive_with_noise()
+
+
+def test_another_seed_is_another_run():
+    one, other = drive_with_noise(seed=1), drive_with_noise(seed=2)
+    assert one["scan"] != other["scan"]
+    assert one["base_pose_ground_truth"] != other["base_pose_ground_truth"]
+    assert one["imu"] != other["imu"]
+    # what the encoders count follows from the commands alone: of its errors a robot knows nothing
+    assert one["odom"] == other["odom"]
+
+
+def test_who_else_listens_or_drives_changes_nothing():
+    every = drive_with_noise()
+    assert drive_with_noise(topics=("scan", "odom"))["odom"] == every["odom"]
+    accompanied = drive_with_noise(company=True)
+    assert accompanied["scan"] == every["scan"]
+    assert accompanied["imu"] == every["imu"]
+
+
+def test_odometry_drifts_with_noise_and_only_then(graph):
+    true = start(graph, world="empty", parameters={"cmd_vel_timeout": 0.0})
+    wrong = start(graph, namespace="/w", world="empty", parameters={"cmd_vel_timeout": 0.0, "noise": 1.0})
+    for namespace in ("/", "/w"):
+        publisher = graph.node("driver", namespace=namespace).publisher("cmd_vel", Twist)
+        publisher.wait_for_subscribers()
+        command = Twist()
+        command.linear.x = 0.2
+        publisher.publish(command)
+    graph.run(20.0)
+
+    def error(simulator: Simulator) -> float:
+        return math.dist(simulator.odometry[:2], simulator.truth()[:2])
+
+    assert error(true) < 0.01
+    assert 0.02 < error(wrong) < 0.6
+
+
+# -- starting --------------------------------------------------------------------------------------------------------
+
+
+def test_the_parameters_choose_the_world_and_the_place(graph):
+    simulator = start(
+        graph, parameters={"world": "arena", "x": 1.0, "y": -0.5, "yaw": 1.5, "model": "burger"}
+    )
+    assert (simulator.world.name, simulator.model) == ("arena", BURGER)
+    assert simulator.truth() == (1.0, -0.5, 1.5)
+
+
+def test_by_default_it_is_a_burger_in_the_room(graph, monkeypatch):
+    monkeypatch.delenv("TURTLEBOT3_MODEL", raising=False)
+    simulator = start(graph)
+    assert (simulator.world.name, simulator.model.name) == ("room", "burger")
+    assert simulator.truth() == simulator.world.starts[0]
+    assert repr(simulator) == "<Simulator /simulator: burger at (0.00, 0.00) in room>"
+
+
+@pytest.mark.parametrize(
+    ("parameters", "error", "message"),
+    [
+        ({"world": "roon"}, WorldError, "did you mean room"),
+        ({"model": "burgr"}, UnknownModel, "did you mean burger"),
+        ({"model": "waffle"}, UnknownModel, "not in this version"),
+        ({"wrold": "room"}, ParameterError, r"did you mean ~world\?"),
+        ({"noise": -1.0}, ParameterError, "at least 0"),
+        ({"world": "arena", "x": 1.99}, WorldError, "the obstacle 'east wall' is in its way"),
+    ],
+)
+def test_what_cannot_be_started_says_why_and_leaves_nothing(graph, parameters, error, message):
+    before = graph.master.getSystemState("/test")[2][0]
+    with pytest.raises(error, match=message):
+        start(graph, parameters=parameters)
+    topics = [name for name, _ in graph.master.getSystemState("/test")[2][0]]
+    assert topics == [name for name, _ in before]
+    graph.run(1.0)
+
+
+def test_a_world_and_a_model_can_be_given_as_they_are(graph):
+    own = World("own", walls=np.array([(1.0, -1.0, 1.0, 1.0)]))
+    simulator = start(graph, world=own, model=BURGER)
+    graph.run(0.5)
+    assert simulator.world is own
+    assert simulator.last_scan().ranges[0] == pytest.approx(1.032)
+
+
+# -- looking, placing, resetting, removing ---------------------------------------------------------------------------
+
+
+def test_place_moves_the_truth_and_not_the_odometry(graph):
+    simulator = start(graph, world="arena")
+    driver = Driver(graph)
+    graph.run(0.1)
+    driver.go(1.0, 0.2)
+    before = simulator.odometry
+    simulator.place((-1.0, 1.0, 0.5))
+    graph.run(0.2)
+    assert simulator.truth() == (-1.0, 1.0, 0.5)
+    assert simulator.odometry == pytest.approx(before, abs=3e-3)
+    with pytest.raises(WorldError, match="'north wall'"):
+        simulator.place((0.0, 2.0, 0.0))
+    with pytest.raises(RobotGone, match="no robot 'tb3'"):
+        simulator.truth("tb3")
+
+
+def test_the_service_puts_the_robot_back(graph):
+    simulator = start(graph, world="arena")
+    driver = Driver(graph)
+    graph.run(0.1)
+    driver.go(2.0, 0.2, 0.5)
+    reset = driver.node.service_client("reset_positions", service_class("std_srvs/Empty"))
+    reset()
+    graph.run(0.2)
+    assert simulator.truth() == (0.0, 0.0, 0.0)
+    assert simulator.odometry == (0.0, 0.0, 0.0)
+    assert driver.heard["odom"][-1].pose.pose.position.x == 0.0
+    driver.go(1.0, 0.2)
+    assert simulator.truth()[0] == pytest.approx(0.18, abs=1e-6)
+
+
+def test_looking_changes_nothing():
+    def run(look: bool) -> tuple[float, float, float]:
+        with Graph() as graph:
+            simulator = start(graph, parameters={"noise": 1.0})
+            driver = Driver(graph, topics=())
+            graph.run(0.1)
+            for _ in range(50):
+                driver.go(0.1, 0.2, 0.3)
+                if look:
+                    simulator.truth()
+                    simulator.last_scan()
+            return simulator.truth()
+
+    assert run(look=True) == run(look=False)
+
+
+def test_a_removed_robot_leaves_the_graph_in_order(graph):
+    simulator = start(graph)
+    driver = Driver(graph)
+    graph.run(0.5)
+    simulator.remove()
+    simulator.remove()
+    graph.run(0.001)  # what was sent before arrives
+    heard = {topic: len(messages) for topic, messages in driver.heard.items()}
+    graph.run(2.0)
+    assert {topic: len(messages) for topic, messages in driver.heard.items()} == heard
+    topics = dict(graph.master.getSystemState("/test")[2][0])
+    assert not set(topics) & {"/scan", "/odom", "/imu", "/tf", "/joint_states", "/base_pose_ground_truth"}
+    for call in (simulator.truth, simulator.last_scan, simulator.reset, lambda: simulator.place((0, 0, 0))):
+        with pytest.raises(RobotGone, match="'burger' is no longer in the world 'room': it was removed"):
+            call()
+    driver.go(0.2, 0.1)
+    again = start(graph, namespace="/again")
+    graph.run(0.5)
+    assert again.last_scan() is not None
+
+
+def test_after_the_nodes_shutdown_nothing_is_left(graph):
+    simulator = start(graph)
+    Driver(graph)
+    graph.run(0.5)
+    simulator.node.shutdown("the test wants it")
+    assert graph.run(5.0).reason == "time"
+    assert graph.scheduler.waiting() == ()
+    with pytest.raises(RobotGone, match="the node /simulator was shut down"):
+        simulator.truth()
+    simulator.remove()
+
+
+def test_calls_from_another_thread_are_not_needed_to_draw_a_scan_before_there_is_one(graph):
+    assert start(graph).last_scan() is None
+
+
+# -- clocks and scripts ----------------------------------------------------------------------------------------------
+
+
+def test_in_wall_time_it_runs_too():
+    with Graph(simulated=False, rate=50.0) as graph:
+        simulator = start(graph, world="arena")
+        driver = Driver(graph, topics=("odom", "scan", "imu"))
+        driver.publisher.wait_for_subscribers()
+        graph.run(100.0, until=lambda: len(driver.heard["odom"]) > 0)
+        driver.command.linear.x = 0.2
+        driver.publisher.publish(driver.command)
+        graph.run(200.0, until=lambda: len(driver.heard["scan"]) > 20)
+        assert simulator.truth()[0] == pytest.approx(0.1, abs=0.02)
+        stamps = [seconds(message) for message in driver.heard["odom"]]
+        assert stamps == sorted(stamps)
+        assert len(driver.heard["imu"]) > len(driver.heard["odom"])
+
+
+def test_a_computer_that_stalls_does_not_make_the_robot_jump():
+    with Graph(simulated=False) as graph:
+        start(graph, world="empty", parameters={"cmd_vel_timeout": 0.0})
+        driver = Driver(graph, topics=("odom",))
+        driver.publisher.wait_for_subscribers()
+        driver.command.linear.x = 0.2
+        driver.publisher.publish(driver.command)
+        graph.run(5.0, until=lambda: len(driver.heard["odom"]) > 2)
+        graph.scheduler._mono_start -= 3_000_000_000  # the clock jumps on by 3 s
+        count = len(driver.heard["odom"])
+        graph.run(5.0, until=lambda: len(driver.heard["odom"]) > count + 2)
+        steps = np.diff([message.pose.pose.position.x for message in driver.heard["odom"]])
+        assert steps.max() < 0.02
+
+
+def test_a_rospy_script_drives_it_unmodified(graph):
+    simulator = start(graph, world="arena")
+    source = """
+import rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import LaserScan
+
+class Go:
+    def __init__(self):
+        self.x = None
+        rospy.Subscriber('/odom', Odometry, self.odom)
+        self.pub = rospy.Publisher('/cmd_vel', Twist, queue_size=1)
+
+    def odom(self, msg):
+        self.x = msg.pose.pose.position.x
+
+rospy.init_node('go')
+go = Go()
+rate = rospy.Rate(10)
+scan = rospy.wait_for_message('/scan', LaserScan)
+print('%.2f' % scan.ranges[0])
+twist = Twist()
+while not rospy.is_shutdown() and (go.x is None or go.x < 0.5):
+    twist.linear.x = 0.2
+    go.pub.publish(twist)
+    rate.sleep()
+go.pub.publish(Twist())
+rospy.sleep(1.0)
+print('%.2f' % go.x)
+"""
+    result = run_source(source, graph=graph)
+    assert result.status == 0
+    assert simulator.truth()[0] == pytest.approx(0.55, abs=0.05)
+
+
+def test_importing_rosmini_loads_no_physics():
+    code = "import rosmini, sys; sys.exit('pymunk' in sys.modules or 'numba' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_without_pymunk_the_error_says_what_to_install(graph, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pymunk", None)
+    monkeypatch.delitem(sys.modules, "rosmini.sim.physics", raising=False)
+    with pytest.raises(RosminiError, match="pip install pymunk"):
+        start(graph)
+
+
+def test_without_numba_it_drives_and_sees_the_same(monkeypatch):
+    monkeypatch.setenv("ROSMINI_RAYCAST", "numba")
+    with_numba = drive_with_noise(topics=("scan",))
+    monkeypatch.setenv("ROSMINI_RAYCAST", "numpy")
+    assert drive_with_noise(topics=("scan",)) == with_numba
+
+
+def test_the_rooms_start_is_free_for_every_robot_it_offers(graph):
+    for x, y, yaw in world("room").starts:
+        with Graph() as own:
+            assert start(own, parameters={"x": x, "y": y, "yaw": yaw}).truth() == (x, y, yaw)
