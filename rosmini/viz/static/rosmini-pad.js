@@ -63,6 +63,7 @@
       this.driver = driver;
       this.down = new Map(); // buttons that are held, and their timers
       this.spoken = "";
+      this.mood = driver.state.mood; // nothing is said of how it begins
       this.build(host);
       this.listen();
       if (data.scene) {
