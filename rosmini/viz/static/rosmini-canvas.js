@@ -39,7 +39,7 @@
   const FONT = '"Helvetica Neue", Helvetica, Arial, "Liberation Sans", "DejaVu Sans", sans-serif';
   const TURN = 2 * Math.PI;
   const LEAST_ROBOT = 16; // pixels
-  const TREAD = 0.55; // how wide a wheel is, in its radius
+  const WHEEL_WIDTH = 0.55; // how wide a wheel is, in its radius
   const FOOT = 26; // pixels under the world, for the scale bar
 
   let printing = false; // what a page looks like in print cannot be asked before it is printed
@@ -258,7 +258,7 @@
       const { wheel_radius: radius, wheel_separation: separation, lidar } = model;
       context.fillStyle = colours.ink;
       for (const side of [-separation / 2, separation / 2]) {
-        context.fillRect(-radius, side - TREAD * radius / 2, 2 * radius, TREAD * radius);
+        context.fillRect(-radius, side - WHEEL_WIDTH * radius / 2, 2 * radius, WHEEL_WIDTH * radius);
       }
       for (const [colour, size] of [[colours.page, 0.26], [colours.vermilion, 0.11]]) {
         context.beginPath();
