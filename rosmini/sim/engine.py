@@ -46,8 +46,11 @@ STEP = 0.005
 SAFE = 1e-4
 """From so near [m] on, a robot is looked at step by step."""
 
-EPSILON = 1e-12
+EPSILON = 1e-9
 """Times that differ by less [s] are the same."""
+
+ROUNDING = 1e-12
+"""Speeds that differ by less [m/s] are the same."""
 
 
 class RobotGone(RosminiError):
@@ -148,9 +151,9 @@ class Robot:
 
     def settle(self) -> None:
         """Make a speed that has reached its target, but for the last digits, equal to it."""
-        if abs(self.left - self.left_target) < EPSILON:
+        if abs(self.left - self.left_target) < ROUNDING:
             self.left = self.left_target
-        if abs(self.right - self.right_target) < EPSILON:
+        if abs(self.right - self.right_target) < ROUNDING:
             self.right = self.right_target
 
     def note(self) -> None:

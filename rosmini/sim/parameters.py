@@ -46,7 +46,8 @@ class Parameters:
     def read(cls, node: Node, **given: Any) -> Self:
         """The parameters as they are set in the node's private namespace; `given` comes before what is set there.
 
-        Raises `ParameterError`, which names the parameter, for a wrong type, a value out of range, and a name that is no parameter of the node.
+        Raises `ParameterError`, which names the parameter, for a wrong type, a value out of range, and a name that is no parameter of the node. Such a
+        name is deleted from the Parameter Server, where it would be in the way of the next attempt.
         """
         set_there = node.get_param("~", {})
         names = [declared.name for declared in fields(cls)]
@@ -54,6 +55,7 @@ class Parameters:
             if name not in names and name not in cls.allowed:
                 hint = nearest(name, names)
                 hint = f"did you mean ~{hint.removeprefix('did you mean ')}" if hint else _listing(names)
+                node.delete_param("~" + name)
                 msg = f"parameter {node.resolve_parameter('~' + name)}: the node {node.name} has no parameter ~{name}; {hint}"
                 raise ParameterError(msg)
         types = get_type_hints(cls)

@@ -222,7 +222,14 @@ class Simulator:
 
     def _wake(self) -> None:
         """Go on. An event of the queue without a lane, for nothing in it can block."""
-        self.node.guarded(self._tick, what="physics")
+        due = self._due_ns
+        try:
+            self.node.guarded(self._tick, what="physics")
+        finally:
+            if self._robot is not None and self._due_ns == due:  # an error or Ctrl-C came in between
+                for beat in self._beats:
+                    beat.skip(due)
+                self._next(min(beat.due_ns for beat in self._beats))
 
     def _next(self, due_ns: int) -> None:
         """Ask to be called then."""

@@ -73,6 +73,14 @@ def test_what_is_wrong_is_named(node, name, value, message):
         Settings.read(node)
 
 
+def test_after_a_wrong_name_the_next_attempt_is_clean(node):
+    node.set_param("~rat", 1.0)
+    node.set_param("~rate", 2.0)
+    with pytest.raises(ParameterError):
+        Settings.read(node)
+    assert Settings.read(node).rate == 2.0
+
+
 def test_the_table_says_all():
     assert Settings.table() == [
         ("~rate", "float", "10.0", "0.5 ... 100.0", "Hz", "how often to look"),
