@@ -142,7 +142,8 @@ globalThis.rosminiPadStyle = `
 .rp-bar, .rp-mark { position: absolute; }
 .rp-bar { background: var(--rosmini-blue); border-radius: 3px; height: 8px; }
 .rp-mark { background: var(--rosmini-ink); border-radius: 2px; height: 14px; margin-left: -1.5px; top: -3px; width: 3px; }
-.rp-actions { display: grid; gap: 8px; }
+.rp-actions { align-content: start; display: grid; gap: 8px; }
+.rp-side > * { flex: none; }
 .rosmini-pad button.rp-plain { min-height: 44px; padding: 4px 10px; }
 .rosmini-pad button[data-act="start"] { background: var(--rosmini-blue); border-color: var(--rosmini-blue); color: var(--rosmini-page); font-weight: 600; }
 .rp-readings { border-top: 1px solid var(--rp-edge); display: flex; flex-wrap: wrap; gap: 2px 28px; padding: 8px 16px; }
