@@ -26,6 +26,7 @@ from rosmini.errors import ROSException, ROSInterruptException, RosminiError
 from rosmini.graph import Graph, Node
 from rosmini.graph.notebook import kernel_shell
 from rosmini.msgs import message_class
+from rosmini.names import resolve
 from rosmini.viz.form import book_form
 from rosmini.viz.view import MimeBundle, View
 
@@ -40,6 +41,10 @@ if TYPE_CHECKING:
 
 CONNECT_S = 1.0
 """So long a new pad waits for those who listen already, so that its first message is not lost."""
+
+
+class PadNode(Node):
+    """The node of a pad. A new pad of its name takes its place without a complaint: a cell was run again."""
 
 
 class TeleopPad(View):
@@ -91,7 +96,10 @@ class TeleopPad(View):
         self.sent = 0
         """How many messages were published."""
         self.twist_class = message_class("geometry_msgs/Twist")
-        self.node = self.graph.node(name, namespace=namespace)
+        before = self.graph.nodes.get(resolve(name, namespace))
+        if isinstance(before, PadNode):
+            before.shutdown("a new pad took its place")
+        self.node = PadNode(name, self.graph, namespace=namespace)
         self._publisher = self.node.publisher(topic, self.twist_class, queue_size=10)
         self._twist = self.twist_class()
         self._timer: Timer | None = None

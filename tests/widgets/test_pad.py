@@ -182,3 +182,17 @@ def test_the_first_message_is_not_lost(graph, heard):
 def test_a_pad_needs_nobody_who_listens():
     with Graph() as graph:
         assert TeleopPad(graph).sent == 0
+
+
+def test_a_pad_that_is_made_again_takes_the_place_of_the_first(simulator, graph, heard, capfd):
+    first = TeleopPad(simulator)
+    first.press("w")
+    graph.run(0.25)
+    second = TeleopPad(simulator)
+    heard.clear()
+    second.press("a")
+    graph.run(0.15)
+    assert [entry[1:] for entry in heard] == [(0.0, 0.05), (0.0, 0.1)]  # the first is silent
+    assert "shut down" in first.text
+    captured = capfd.readouterr()
+    assert (captured.out, captured.err) == ("", "")
