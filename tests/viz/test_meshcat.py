@@ -179,8 +179,8 @@ def test_a_scan_is_where_the_laser_saw_it():
         robot_3d(SMALL, BURGER, POSE, np.ones(10))
 
 
-def test_obstacles_of_one_name_are_both_there():
-    twins = World("twins", (Obstacle("a/b", Cylinder(0.1)), Obstacle("a/b", Cylinder(0.2), (1, 0, 0))))
+def test_obstacles_of_names_that_look_alike_in_a_path_are_both_there():
+    twins = World("twins", (Obstacle("a/b", Cylinder(0.1)), Obstacle("a b", Cylinder(0.2), (1, 0, 0))))
     radii = [
         thing["geometries"][0]["radiusTop"]
         for path, thing in objects(world_3d(twins)).items()

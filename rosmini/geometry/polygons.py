@@ -1,0 +1,132 @@
+"""Polygons in the plane: what is inside, whether sides cross, what overlaps. An outline is its corners (n, 2), closed by itself.
+
+Things that only touch do not overlap: what goes in by less than `TOUCH` counts as touching.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+TOUCH = 1e-6
+"""[m]"""
+
+
+def sides_of(outline: Floats) -> Floats:
+    """The sides (n, 4) of a closed outline (n, 2), each x1, y1, x2, y2."""
+    return np.hstack([outline, np.roll(outline, -1, axis=0)])
+
+
+def area(outline: Floats) -> float:
+    """The area [m2] inside an outline; negative if its corners go clockwise."""
+    x, y = outline.T
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
+def inside(points: Floats, sides: Floats) -> Bools:
+    """Which of the points (n, 2) the closed outlines made of `sides` (m, 4) go around, by the even-odd rule."""
+    x, y = points[:, :1], points[:, 1:]
+    x1, y1, x2, y2 = sides.T
+    crossing = (y1 > y) != (y2 > y)
+    at = x1 + (y - y1) * (x2 - x1) / np.where(y1 == y2, 1.0, y2 - y1)
+    odd: Bools = np.count_nonzero(crossing & (x < at), axis=1) % 2 == 1
+    return odd
+
+
+def distances(points: Floats, sides: Floats) -> Floats:
+    """How far [m] each of the points (n, 2) is from the nearest of `sides` (m, 4); inf if there are none."""
+    nearest: Floats = each_distance(points, sides).min(axis=1, initial=np.inf)
+    return nearest
+
+
+def each_distance(points: Floats, sides: Floats) -> Floats:
+    """How far [m] each of the points (n, 2) is from each of `sides` (m, 4), as (n, m)."""
+    begin, way = sides[:, :2], sides[:, 2:] - sides[:, :2]
+    squares = (way * way).sum(axis=1)
+    offset = points[:, None, :] - begin
+    along = np.clip((offset * way).sum(axis=2) / np.where(squares > 0, squares, 1.0), 0.0, 1.0)
+    gaps = offset - along[..., None] * way
+    lengths: Floats = np.hypot(gaps[..., 0], gaps[..., 1])
+    return lengths
+
+
+def crossing_sides(outline: Floats) -> tuple[int, int] | None:
+    """The first two sides of an outline that meet elsewhere than at their common corner; side i begins at corner i. None if none do."""
+    count = len(outline)
+    ends = np.roll(outline, -1, axis=0)
+    for first in range(count):
+        way, following = ends[first] - outline[first], ends[(first + 1) % count] - ends[first]
+        if (
+            _cross(way, following) == 0 and way @ following <= 0
+        ):  # back along the same line, or a side of no length
+            return first, (first + 1) % count
+        for second in range(first + 2, count - (first == 0)):
+            if _meet(outline[first], ends[first], outline[second], ends[second]):
+                return first, second
+    return None
+
+
+def enters(sides: Floats, outline: Floats) -> Bools:
+    """Which of `sides` (n, 4) have a part inside the outline of a polygon (k, 2)."""
+    edges = sides_of(outline)
+    begin, way = sides[:, None, :2], (sides[:, 2:] - sides[:, :2])[:, None]
+    corner, edge = edges[:, :2], edges[:, 2:] - edges[:, :2]
+    slope = _cross(way, edge)
+    meets = slope != 0
+    divisor = np.where(meets, slope, 1.0)
+    along = np.where(meets, _cross(corner - begin, edge) / divisor, 0.0)
+    # Between two crossings that follow one another a side is inside or outside as a whole.
+    cuts = np.sort(np.clip(np.pad(along, ((0, 0), (1, 1)), constant_values=(0.0, 1.0)), 0.0, 1.0), axis=1)
+    middles = (begin + ((cuts[:, 1:] + cuts[:, :-1]) / 2)[..., None] * way).reshape(-1, 2)
+    deep = inside(middles, edges) & (distances(middles, edges) > TOUCH)
+    return np.asarray(deep.reshape(len(sides), len(edges) + 1).any(axis=1))
+
+
+def overlap(a: Floats, b: Floats) -> bool:
+    """Tell whether two polygons, each by its outline, share more than their borders."""
+    if (a.min(axis=0) > b.max(axis=0)).any() or (b.min(axis=0) > a.max(axis=0)).any():
+        return False
+    if enters(sides_of(a), b).any() or enters(sides_of(b), a).any():
+        return True
+    return bool(inside(_inner_point(a), sides_of(b))[0])  # alike
+
+
+def overlaps_disc(outline: Floats, x: float, y: float, radius: float) -> bool:
+    """Tell whether a polygon and a disc share more than their borders."""
+    centre, edges = np.array([[x, y]]), sides_of(outline)
+    return bool(distances(centre, edges)[0] < radius - TOUCH or inside(centre, edges)[0])
+
+
+def _inner_point(outline: Floats) -> Floats:
+    """A point (1, 2) inside a polygon: the middle of its leftmost part at a height where there is no corner."""
+    heights = np.unique(outline[:, 1])
+    y = (heights[0] + heights[1]) / 2
+    x1, y1, x2, y2 = sides_of(outline).T
+    cut = (y1 > y) != (y2 > y)
+    across = np.sort(x1[cut] + (y - y1[cut]) * (x2[cut] - x1[cut]) / (y2[cut] - y1[cut]))
+    return np.array([[(across[0] + across[1]) / 2, y]])
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    product: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    return product
+
+
+def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> bool:
+    """Tell whether the segments a b and c d have a point in common."""
+    abc, abd, cda, cdb = (
+        _cross(b - a, c - a),
+        _cross(b - a, d - a),
+        _cross(d - c, a - c),
+        _cross(d - c, b - c),
+    )
+    if abc == abd == cda == cdb == 0:  # on one line
+        low, high = (
+            np.maximum(np.minimum(a, b), np.minimum(c, d)),
+            np.minimum(np.maximum(a, b), np.maximum(c, d)),
+        )
+        return bool((low <= high).all())
+    return bool(abc * abd <= 0 and cda * cdb <= 0)
