@@ -106,7 +106,7 @@ class Contacts:
         for shape in shapes:
             self._add(shape, f"the obstacle {obstacle.name!r}")
         x, y, theta = obstacle.pose
-        body.position, body.angle = (x, y), theta
+        _put(body, (x, y, theta))
         ground = self._space.static_body
         slide = pymunk.PivotJoint(ground, body, (0, 0), body.center_of_gravity)
         turn = pymunk.GearJoint(ground, body, 0.0, 1.0)
@@ -232,10 +232,10 @@ class Contacts:
     def _make_way(self, poses: dict[str, Pose], dt: float) -> set[str]:
         """Bring the robots out of what they have driven into, and out of each other; return who was moved by that."""
         sliding = [crate.body for crate in self._crates if _slides(crate.body)]
-        kept = [(body.position, body.angle) for body in sliding]
+        kept = [(*body.position, body.angle) for body in sliding]
         for body in sliding:  # to where they will be when the step is over
-            body.position += body.velocity * dt
             body.angle += body.angular_velocity * dt
+            body.position += body.velocity * dt
             self._space.reindex_shapes_for_body(body)
         for name in poses:
             self._space.reindex_shapes_for_body(self._rovers[name].body)
@@ -245,8 +245,8 @@ class Contacts:
             if not pushed:
                 break
             moved.update(pushed)
-        for body, (position, angle) in zip(sliding, kept, strict=True):
-            body.position, body.angle = position, angle
+        for body, pose in zip(sliding, kept, strict=True):
+            _put(body, pose)
         return moved
 
     def _push_out(self, name: str, poses: dict[str, Pose]) -> list[str]:
@@ -313,7 +313,9 @@ def _depths(contacts: pymunk.ContactPointSet) -> list[float]:
 
 
 def _put(body: pymunk.Body, pose: Pose) -> None:
-    body.position, body.angle = (pose[0], pose[1]), pose[2]
+    # in this order: pymunk turns a body about its centre of mass, which takes its origin elsewhere
+    body.angle = pose[2]
+    body.position = (pose[0], pose[1])
 
 
 def _moved(obstacle: Obstacle, body: pymunk.Body) -> Obstacle:
