@@ -278,21 +278,26 @@ class Engine:
         if not all(math.isfinite(part) for part in pose):
             msg = f"a robot cannot be placed at {pose}: x, y and heading have to be finite numbers"
             raise WorldError(msg)
-        self._tell_places()
-        hindrance = self.contacts.hindrance(model, pose, name)
+        hindrance = self._hindrance(model, pose, name)
         if hindrance is not None:
             x, y, theta = pose
+            free = self.world.free_place(pose, model.footprint)
+            hint = "" if free is None else f". There is room at ({free[0]:.2f}, {free[1]:.2f})"
             msg = (
                 f"no robot can be placed at ({x:.2f}, {y:.2f}) with heading {theta:.2f} in the world {self.world.name!r}: "
-                f"{hindrance} is in its way"
+                f"{hindrance} is in its way{hint}"
             )
             raise WorldError(msg)
         return (float(pose[0]), float(pose[1]), float(pose[2]))
 
-    def _start(self, model: RobotModel) -> Pose:
+    def _hindrance(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
+        """Return what stands at `pose`, in words; None if a robot has room there."""
         self._tell_places()
+        return self.world.blocked(pose, model.footprint) or self.contacts.hindrance(model, pose, name)
+
+    def _start(self, model: RobotModel) -> Pose:
         for start in self.world.starts:
-            if self.contacts.hindrance(model, start) is None:
+            if self._hindrance(model, start) is None:
                 return start
         return self._free(model, self.world.starts[0])
 

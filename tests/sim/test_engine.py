@@ -351,6 +351,21 @@ def test_a_robot_is_not_placed_in_something(where, pose, culprit):
     assert engine.robots["burger"].pose == (-3.0, 0.0, 0.0)
 
 
+def test_who_is_refused_hears_where_there_is_room():
+    with pytest.raises(WorldError, match=r"There is room at \(1\.93, 0\.00\)"):
+        make("arena", (1.98, 0.0, 0.0))
+
+
+def test_in_a_map_a_robot_is_not_placed_inside_of_a_wall():
+    outline = np.array(
+        [(0.0, 0.0, 2.0, 0.0), (2.0, 0.0, 2.0, 2.0), (2.0, 2.0, 0.0, 2.0), (0.0, 2.0, 0.0, 0.0)]
+    )
+    block = World("block", walls=outline, solid=True)
+    with pytest.raises(WorldError, match="wall"):
+        make(block, (1.0, 1.0, 0.0))
+    make(World("yard", walls=outline), (1.0, 1.0, 0.0))
+
+
 def test_a_robot_is_not_placed_on_another_even_if_that_has_moved():
     engine = make()
     engine.command("burger", 0.2, 0.0)
