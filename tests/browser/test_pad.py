@@ -509,6 +509,10 @@ def test_the_theme_can_change_while_it_is_open(show):
     pad.run(0.2)
     ground = pad.page.evaluate("getComputedStyle(document.querySelector('.rosmini-pad')).backgroundColor")
     assert luminance(ground) < 0.05
+    corner = pad.page.evaluate(
+        "String([...document.querySelector('.rp-sight canvas').getContext('2d').getImageData(2, 2, 1, 1).data])"
+    )
+    assert luminance(f"rgb({corner})") < 0.05
 
 
 def test_print_shows_the_still(show, shared_tmp):

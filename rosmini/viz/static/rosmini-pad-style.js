@@ -182,7 +182,7 @@ globalThis.rosminiPadStyle = `
   .rp-log { grid-template-columns: 1fr; }
   .rp-log pre:nth-child(2) { display: none; }
   .rp-readings { display: grid; }
-  .rp-blind .rp-hint { display: none; }
+  .rp-hint { display: none; }
 }
 @media (hover: none) {
   .rp-hint { display: none; }

@@ -66,11 +66,8 @@
       this.mood = driver.state.mood; // nothing is said of how it begins
       this.build(host);
       this.listen();
-      if (data.scene) {
-        this.fit();
-        this.unwatch = globalThis.rosminiCanvas.watch(this.canvas, () => { this.fit(); this.draw(); });
-      }
-      this.paint();
+      this.fit();
+      this.unwatch = globalThis.rosminiCanvas.watch(data.scene ? this.canvas : this.stage, () => { this.fit(); this.draw(); });
       driver.changed = () => this.request();
       this.draw();
     }
@@ -264,8 +261,9 @@
     // -- drawing ------------------------------------------------------------------------------------------------------
 
     fit() {
+      this.paint(); // the canvas reads its colours from the pad
+      if (!this.data.scene) return;
       this.view = globalThis.rosminiCanvas.fit(this.canvas, this.data.scene.bounds, { maxHeight: 440 });
-      this.paint();
     }
 
     /* The palette of the page around the pad holds in it, whether that page has our style sheet or not. */
@@ -356,7 +354,7 @@
     close() {
       this.liftAll();
       clearTimeout(this.speaking);
-      this.unwatch?.();
+      this.unwatch();
       globalThis.removeEventListener("blur", this.leave);
       globalThis.removeEventListener("pagehide", this.leave);
       document.removeEventListener("visibilitychange", this.hide);

@@ -15,6 +15,7 @@
   "use strict";
 
   const TURN = 2 * Math.PI;
+  const LOOK = 0.3; // metres
   const clamp = (value, limit) => Math.max(-limit, Math.min(limit, value));
 
   class Teleop {
@@ -103,8 +104,7 @@
   }
 
   /* Whether a robot's footprint at `pose` touches something. Walls are lines: what is inside of one has crossed its outline. */
-  function touches(scene, pose, size = 1) {
-    const { sides, discs } = solid(scene);
+  function touches(scene, pose, size = 1, { sides, discs } = solid(scene)) {
     const footprint = scene.robot.footprint.map(([x, y]) => [size * x, size * y]);
     const corners = footprint.map((corner) => placed(pose, corner));
     const outline = corners.map((corner, i) => [...corner, ...corners[(i + 1) % corners.length]]);
@@ -139,6 +139,18 @@
       // A robot that already leans against something gets out again.
       this.size = 1;
       while (this.size > 0.8 && touches(this.scene, this.pose, this.size)) this.size -= 0.02;
+      this.look();
+    }
+
+    /* Gather what it can run into until it is LOOK metres from here. */
+    look() {
+      const corner = Math.max(...this.scene.robot.footprint.map(([x, y]) => Math.hypot(x, y)));
+      this.from = this.pose;
+      this.around = near(this.scene, this.pose, corner + 2 * LOOK);
+    }
+
+    touches(pose) {
+      return touches(this.scene, pose, this.size, this.around);
     }
 
     command(linear, angular) {
@@ -154,7 +166,8 @@
       const [left, right] = rims(this.wanted).map((goal, i) => ramp(now[i], goal, acceleration, dt));
       const [v, w] = [(left.way + right.way) / 2, (right.way - left.way) / width];
       const next = arc(this.pose, v, w);
-      this.blocked = (v !== 0 || w !== 0) && touches(this.scene, next, this.size);
+      if (Math.hypot(next[0] - this.from[0], next[1] - this.from[1]) > LOOK) this.look();
+      this.blocked = (v !== 0 || w !== 0) && this.touches(next);
       if (this.blocked) {
         this.pose = this.reach(v, w);
         this.speed = [0, 0];
@@ -169,7 +182,7 @@
       let [free, best] = [0, this.pose];
       for (let part = 0.5; part > 1e-3; part /= 2) {
         const pose = arc(this.pose, (free + part) * v, (free + part) * w);
-        if (!touches(this.scene, pose, this.size)) [free, best] = [free + part, pose];
+        if (!this.touches(pose)) [free, best] = [free + part, pose];
       }
       return best;
     }
@@ -190,17 +203,24 @@
     return [x + chord * Math.cos(theta + half), y + chord * Math.sin(theta + half), theta + turn];
   }
 
+  /* What is within `reach` of a point. */
+  function near(scene, [x, y], reach) {
+    const { sides, discs } = solid(scene);
+    return {
+      sides: sides.filter((wall) => distanceToSide(x, y, wall) <= reach),
+      discs: discs.filter(([cx, cy, r]) => Math.hypot(cx - x, cy - y) <= reach + r),
+    };
+  }
+
   /* A beam to each of `beams` directions, the first one ahead, counter-clockwise. REP 117: -Infinity is too close. */
   function laser(scene, pose) {
     const { x: mount, beams, min, max } = scene.robot.lidar;
-    const { sides, discs } = solid(scene);
     const [ox, oy] = placed(pose, [mount, 0]);
-    const near = sides.filter((wall) => distanceToSide(ox, oy, wall) <= max);
-    const round = discs.filter(([cx, cy, r]) => Math.hypot(cx - ox, cy - oy) <= max + r);
+    const { sides, discs } = near(scene, [ox, oy], max);
     const ranges = new Float64Array(beams);
     for (let i = 0; i < beams; i += 1) {
       const angle = pose[2] + (TURN * i) / beams;
-      const range = beam(near, round, ox, oy, Math.cos(angle), Math.sin(angle));
+      const range = beam(sides, discs, ox, oy, Math.cos(angle), Math.sin(angle));
       ranges[i] = range > max ? Infinity : range < min ? -Infinity : range;
     }
     return ranges;
