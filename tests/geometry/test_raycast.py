@@ -176,6 +176,7 @@ def test_no_ray_slips_between_walls_that_share_a_corner(name):
 
 
 @both
+@settings(deadline=None)
 @given(start=st.floats(-1e4, 1e4), x=st.floats(-1.9, 2.9), y=st.floats(-0.9, 3.9))
 def test_a_closed_room_is_closed_wherever_the_first_ray_looks(name, start, x, y):
     assert np.isfinite(look(ROOM, x=x, y=y, start=start, step=TURN / 97, count=97, backend=name)).all()
