@@ -247,6 +247,7 @@ class Engine:
         robot.pose = self._free(robot.model, pose, name)
         robot.left = robot.right = robot.left_target = robot.right_target = 0.0
         robot.expires = math.inf
+        robot.touching = False
         self.contacts.move(name, robot.pose)
         self._look_again()
 

@@ -42,8 +42,8 @@ from .worlds import world as world_called
 COMMAND_TIMEOUT = 0.5
 """How long a command holds [s]: CONTROL_MOTOR_TIMEOUT of TurtleBot3's firmware."""
 
-LAG_NS = 250_000_000
-"""A simulator that is farther behind the clock lets the time go instead of running after it."""
+LAG_S = 0.25
+"""A simulator that is farther behind the clock on the wall lets the time go instead of running after it."""
 
 
 @dataclass(frozen=True)
@@ -134,6 +134,10 @@ class Simulator:
         self.scan_pose: Pose = self._robot.pose
         """Where the robot was when it took the last scan."""
         self._complained: set[str] = set()
+        self._lag_ns = int(LAG_S * 1e9 * max(1.0, node.scheduler.rate))
+        self.engine.scan(
+            self.name
+        )  # where numba has to compile, it does so now and not while the robot drives
         self._open()
         self._begin()
         node.on_shutdown(self._end)
@@ -195,7 +199,7 @@ class Simulator:
             if not math.isfinite(value):
                 self._refuse(message, field, value)
                 v = w = 0.0
-        self._catch_up(self.node.clock.now_ns())
+        self.engine.advance(self._now())
         self.engine.command(self.name, v, w, self.parameters.cmd_vel_timeout)
 
     def _refuse(self, message: Any, field: str, value: float) -> None:
@@ -236,21 +240,18 @@ class Simulator:
         self._due_ns = due_ns
         self._cancel = self.node.clock.call_at(due_ns, self._wake)
 
-    def _catch_up(self, now_ns: int) -> None:
-        self.engine.advance((now_ns - self._start_ns) * 1e-9)
-
     def _tick(self) -> None:
         robot = self._robot
         if robot is None:
             return
         due = self._due_ns
         behind = self.node.clock.now_ns() - due
-        if behind > LAG_NS or behind < -LAG_NS:  # the computer is too slow, or the clock was set
+        if behind > self._lag_ns or behind < -self._lag_ns:  # the computer is too slow, or the clock was set
             self._start_ns += behind
             for beat in self._beats:
                 beat.delay(behind)
             due += behind
-        self._catch_up(due)
+        self.engine.advance((due - self._start_ns) * 1e-9)
         stamp = divmod(due, 1_000_000_000)
         drive, scan, imu = self._beats
         if drive.due_ns == due:
@@ -313,14 +314,17 @@ class Simulator:
             raise RobotGone(msg)
         return self._robot
 
-    def _robot_called(self, name: str) -> Robot:
-        robot = self._there()
-        return robot if name in ("", self.name) else self.engine.robot(name)
+    def _now(self) -> float:
+        return (self.node.clock.now_ns() - self._start_ns) * 1e-9
 
     def truth(self, robot: str = "") -> Pose:
         """Where the robot really is now: x [m], y [m], heading [rad, not wrapped], in the frame map. Raises `RobotGone`."""
-        found = self._robot_called(robot)
-        return self.engine.peek(found.name, (self.node.clock.now_ns() - self._start_ns) * 1e-9)
+
+        def look() -> Pose:
+            self._there()
+            return self.engine.peek(robot or self.name, self._now())
+
+        return self.node.scheduler.on_hub(look)
 
     @property
     def odometry(self) -> Pose:
@@ -329,24 +333,34 @@ class Simulator:
 
     def place(self, pose: Pose) -> None:
         """Lift the robot and put it down elsewhere, at rest; its odometry does not notice. Raises `WorldError` and `RobotGone`."""
-        self._there()
-        self._catch_up(self.node.clock.now_ns())
-        self.engine.place(self.name, pose)
+
+        def put() -> None:
+            self._there()
+            self.engine.advance(self._now())
+            self.engine.place(self.name, pose)
+
+        self.node.scheduler.on_hub(put)
 
     def reset(self) -> None:
         """Put the robot and all movable obstacles back to where they began, with odometry at zero. Raises `RobotGone`."""
-        self._there()
-        self._catch_up(self.node.clock.now_ns())
-        self.engine.reset()
-        self._odometry = Odometry(self.model)
+
+        def put_back() -> None:
+            self._there()
+            self.engine.advance(self._now())
+            self.engine.reset()
+            self._odometry = Odometry(self.model)
+
+        self.node.scheduler.on_hub(put_back)
 
     def last_scan(self) -> Any:
         """The last `sensor_msgs/LaserScan`, whether anybody heard it or not; None before the first. Raises `RobotGone`."""
-        self._there()
-        if not self._scanned:
-            return None
-        cls = type(self._scan.message)
-        return cls._thaw_numpy(cls._freeze(self._scan.message))
+
+        def copy() -> Any:
+            self._there()
+            cls = type(self._scan.message)
+            return cls._thaw_numpy(cls._freeze(self._scan.message)) if self._scanned else None
+
+        return self.node.scheduler.on_hub(copy)
 
     def remove(self) -> None:
         """Take the robot out of the world: its topics end, and the graph goes on. Harmless when repeated."""

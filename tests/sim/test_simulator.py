@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+import threading
 from collections import defaultdict
 from typing import Any
 
@@ -437,8 +438,28 @@ def test_after_the_nodes_shutdown_nothing_is_left(graph):
     simulator.remove()
 
 
-def test_calls_from_another_thread_are_not_needed_to_draw_a_scan_before_there_is_one(graph):
+def test_before_the_first_revolution_there_is_no_scan(graph):
     assert start(graph).last_scan() is None
+
+
+def test_another_thread_may_look_while_the_graph_is_driven(graph):
+    simulator = start(graph, world="arena")
+    driver = Driver(graph, topics=())
+    graph.run(0.1)
+    seen: list[Any] = []
+
+    def look() -> None:
+        seen.extend([simulator.truth(), simulator.last_scan()])
+
+    driver.go(1.0, 0.2)
+    thread = threading.Thread(target=look)
+    thread.start()
+    while thread.is_alive():
+        driver.go(0.1, 0.2)
+    thread.join()
+    (x, _, _), scan = seen
+    assert x >= 0.18 - 1e-6
+    assert len(scan.ranges) == 360
 
 
 # -- clocks and scripts ----------------------------------------------------------------------------------------------
