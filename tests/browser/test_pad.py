@@ -349,6 +349,18 @@ def test_shortcuts_of_the_browser_are_left_alone(show):
     assert pad.message == "Nothing was published yet."
 
 
+def test_capitals_and_other_alphabets_drive_too(show):
+    pad = show("light")
+    pad.stage.focus()
+    pad.page.keyboard.press("Shift+W")
+    pad.stage.dispatch_event("keydown", {"key": "ц", "code": "KeyW"})  # the same key on a Russian keyboard
+    pad.stage.dispatch_event(
+        "keydown", {"key": "z", "code": "KeyW"}
+    )  # and on a French one, which has a w elsewhere
+    pad.run(1.0)
+    assert "x: 0.02" in pad.message
+
+
 def test_the_keyboard_alone_is_enough(show):
     pad = show("light")
     pad.page.locator("#before").focus()

@@ -91,6 +91,7 @@ def test_keys_buttons_and_a_busy_kernel(open_lab, shared_tmp):
         stage = page.locator(".rp-stage")
         stage.wait_for()
         assert "press a key to start" in page.locator(".rp-pill").inner_text()
+        page.screenshot(path=shared_tmp / "pad_begin.png")
 
         # Keys: the first one starts the graph. In command mode `a`, `x` and `d d` would change the notebook.
         stage.focus()
@@ -134,6 +135,14 @@ def test_keys_buttons_and_a_busy_kernel(open_lab, shared_tmp):
         page.evaluate("window.dispatchEvent(new Event('blur'))")
         lab.mood("ready")
 
+        # A page that falls silent: the kernel stops the robot.
+        stage.focus()
+        page.keyboard.press("w")
+        lab.mood("driving")
+        page.evaluate("document.querySelector('.rosmini-pad').kernel.tell = () => {}")
+        lab.mood("ready")
+        page.evaluate("delete document.querySelector('.rosmini-pad').kernel.tell")
+
         # The robot goes, the graph stays.
         lab.run(5)
         lab.mood("gone")
@@ -165,7 +174,9 @@ def test_a_pad_without_a_robot_and_a_kernel_that_restarts(open_lab, shared_tmp):
         page.keyboard.press("w")
         page.locator(".rp-pill", has_text="run the cell of this pad again").wait_for()
         lab.run(0)
-        page.locator(".rp-pill", has_text="press a key").or_(page.locator(".rp-pill", has_text="live")).wait_for()
+        page.locator(".rp-pill", has_text="press a key").or_(
+            page.locator(".rp-pill", has_text="live")
+        ).wait_for()
         stage.focus()
         page.keyboard.press("w")
         lab.mood("driving")

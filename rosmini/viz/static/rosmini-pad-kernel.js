@@ -137,7 +137,7 @@
     }
 
     leave() {
-      if (!this.over && [...this.state.target, ...this.state.command].some((value) => value !== 0)) this.tell({ type: "stop" });
+      if (this.begun && !this.over) this.tell({ type: "stop" });
     }
 
     close() {

@@ -198,7 +198,9 @@
 
     keyOf(event) {
       if (event.ctrlKey || event.metaKey || event.altKey) return undefined;
-      const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+      // Where the keyboard writes another alphabet, the place of a key counts.
+      const named = event.key.length === 1 && event.key > "~" ? event.code.replace("Key", "") : event.key;
+      const key = named.length === 1 ? named.toLowerCase() : named;
       return key in this.data.teleop.keys ? key : undefined;
     }
 
