@@ -131,7 +131,7 @@ Footprint = Sequence[tuple[float, float]] | NDArray[np.float64] | float
 
 def edges(outline: NDArray[np.float64]) -> NDArray[np.float64]:
     """The sides (n, 4) of a closed outline (n, 2), each as x1, y1, x2, y2."""
-    return np.hstack([outline, np.roll(outline, -1, axis=0)])
+    return polygons.sides_of(outline)
 
 
 @dataclass(frozen=True, eq=False)

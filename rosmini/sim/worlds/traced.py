@@ -1,0 +1,71 @@
+"""Worlds whose walls are traced from a ROS map, as Stage makes its floor plans from an image."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rosmini.geometry.contours import trace
+from rosmini.geometry.poses import inverse, transform_points
+from rosmini.navigation.map_server import GridMap, load_map
+from rosmini.sim.world import Pose, World
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+ROOM = 0.25
+"""What has to be free around a start, to each side [m]."""
+ENOUGH = 1.0
+"""A place with more room around it is no better [m]."""
+
+
+def world_from_map(
+    yaml_path: str | os.PathLike[str], *, title: str = "", starts: tuple[Pose, ...] | None = None
+) -> World:
+    """The world that a map shows: its walls are the outlines of the occupied cells, in the frame of the map.
+
+    What is unknown is taken for free, since nothing is known to stand there. Without `starts` a robot starts in the origin of the frame if there is
+    room, as where a map is made by a robot it began there; else where there is most room. Raises `MapError` as `load_map` does.
+    """
+    grid = load_map(yaml_path)
+    return World(
+        Path(yaml_path).stem,
+        walls=trace(grid.occupied, grid.resolution, grid.origin),
+        starts=starts or (_start(grid),),
+        title=title or f"The map {Path(yaml_path).name}",
+        solid=True,
+    )
+
+
+def _start(grid: GridMap) -> Pose:
+    column, row = transform_points(inverse(grid.origin), [(0.0, 0.0)])[0] / grid.resolution
+    reach = ROOM / grid.resolution
+    height, width = grid.free.shape
+    if reach <= column <= width - reach and reach <= row <= height - reach:
+        around = grid.free[
+            int(row - reach) : int(np.ceil(row + reach)), int(column - reach) : int(np.ceil(column + reach))
+        ]
+        if around.all():
+            return (0.0, 0.0, 0.0)
+    rows, columns = np.nonzero(_roomiest(grid.free, int(np.ceil(ENOUGH / grid.resolution))))
+    if not len(rows):
+        return (0.0, 0.0, 0.0)
+    nearest = np.argmin(np.hypot(columns + 0.5 - column, rows + 0.5 - row))
+    cell = np.array([(columns[nearest] + 0.5, rows[nearest] + 0.5)]) * grid.resolution
+    x, y = transform_points(grid.origin, cell)[0]
+    return (float(x), float(y), 0.0)
+
+
+def _roomiest(free: NDArray[np.bool_], most: int) -> NDArray[np.bool_]:
+    """The free cells that are furthest from all others, in steps to the sides; from `most` steps on all are alike."""
+    left = free
+    for _ in range(most):
+        padded = np.pad(left, 1)
+        inner = left & padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
+        if not inner.any():
+            break
+        left = inner
+    return left
