@@ -117,16 +117,16 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> bool:
     """Tell whether the segments a b and c d have a point in common."""
-    abc, abd, cda, cdb = (
+    c_side, d_side, a_side, b_side = (
         _cross(b - a, c - a),
         _cross(b - a, d - a),
         _cross(d - c, a - c),
         _cross(d - c, b - c),
     )
-    if abc == abd == cda == cdb == 0:  # on one line
+    if c_side == d_side == a_side == b_side == 0:  # on one line
         low, high = (
             np.maximum(np.minimum(a, b), np.minimum(c, d)),
             np.minimum(np.maximum(a, b), np.maximum(c, d)),
         )
         return bool((low <= high).all())
-    return bool(abc * abd <= 0 and cda * cdb <= 0)
+    return bool(c_side * d_side <= 0 and a_side * b_side <= 0)
