@@ -379,6 +379,11 @@ def test_a_robot_may_be_placed_where_it_stands_and_where_it_just_touches():
     engine = make(BEHIND)
     engine.place("burger", (0.02, 0.0, 0.1))
     engine.place("burger", (1.0 - FRONT, 0.0, 0.0))
+    engine.place("burger", (0.5, 0.0, 0.7))
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(10.0)
+    assert engine.robots["burger"].touching
+    engine.place("burger", engine.robots["burger"].pose)
 
 
 @pytest.mark.parametrize("pose", [(math.nan, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 0.0, math.nan)])

@@ -15,6 +15,7 @@ import pytest
 from rosmini.errors import ParameterError, RosminiError
 from rosmini.geometry.angles import yaw_from_quaternion
 from rosmini.graph import Graph
+from rosmini.graph.byte_transport import ByteTransport
 from rosmini.msgs import message_class, service_class
 from rosmini.scripts import run_source
 from rosmini.sim.engine import RobotGone
@@ -478,6 +479,20 @@ def test_in_wall_time_it_runs_too():
         stamps = [seconds(message) for message in driver.heard["odom"]]
         assert stamps == sorted(stamps)
         assert len(driver.heard["imu"]) > len(driver.heard["odom"])
+
+
+def test_over_a_wire_of_bytes_it_tells_the_same():
+    with Graph(transport=ByteTransport) as graph:
+        start(graph, world="arena", parameters={"noise": 1.0})
+        driver = Driver(graph)
+        driver.publisher.wait_for_subscribers()
+        driver.go(1.0, 0.2, 0.1)
+        driver.go(0.5)
+        assert set(driver.heard) == set(TOPICS)
+        assert driver.heard["odom"][-1].pose.pose.position.x == pytest.approx(0.2, abs=0.02)
+        assert driver.heard["imu"][-1].linear_acceleration.z == pytest.approx(GRAVITY, abs=0.5)
+        (transform,) = driver.heard["/tf"][-1].transforms
+        assert transform.child_frame_id == "base_footprint"
 
 
 def test_a_computer_that_stalls_does_not_make_the_robot_jump():
