@@ -103,6 +103,8 @@ def test_manifests_name_the_packages_whose_types_they_use(own: PackageIndex) -> 
     for name in own.names():
         package = own.find(name)
         files = package.interfaces
+        if not any(files):
+            continue
         used = {"actionlib_msgs", "std_msgs"} if files.action else set()
         for path in [*files.msg.values(), *files.srv.values(), *files.action.values()]:
             words = [line.split("#")[0].split() for line in path.read_text(encoding="utf-8").splitlines()]
