@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from rosmini.geometry.poses import Pose
 from rosmini.msgs import message_class
 
-from .engine import Robot
 from .imu import Imu
 from .models import RobotModel
 from .odometry import Odometry
+from .robot import Robot
 
 Floats = NDArray[np.float64]
 

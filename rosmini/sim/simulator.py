@@ -18,7 +18,7 @@ from rosmini.graph import Node, Publisher
 from rosmini.graph.show import show
 from rosmini.msgs import message_class, service_class
 
-from .engine import Engine, Robot, RobotGone
+from .engine import Engine, RobotGone
 from .imu import Imu
 from .lidar import unmeasured
 from .messages import (
@@ -36,6 +36,7 @@ from .models import RobotModel
 from .models import model as model_called
 from .odometry import Odometry
 from .parameters import Parameters, parameter
+from .robot import Robot
 from .world import World
 from .worlds import world as world_called
 
