@@ -96,12 +96,7 @@ class Obstacle:
         if not isinstance(self.name, str) or not self.name.strip():
             raise WorldError(f"an obstacle has the name {self.name!r}; each needs one, to be spoken of")
         problem = (
-            (
-                ""
-                if isinstance(self.shape, Shape)
-                else f"shape is {self.shape!r}; it has to be a Box, a Cylinder or a Polygon"
-            )
-            or _shape_problem(self.shape)
+            _shape_problem(self.shape)
             or _pose_problem("pose", self.pose)
             or _positive("height", self.height)
             or (_positive("mass", self.mass) if self.mass is not None else "")
@@ -250,8 +245,11 @@ class World:
     def free_place(self, pose: Pose, footprint: Footprint) -> Pose | None:
         """The nearest place to `pose` that is free for a footprint, with the same heading; None if there seems to be none.
 
-        It is looked for within a metre, in steps of 5 cm, inside the bounds of the world; after that among the world's starts.
+        It is looked for within a metre, in steps of 5 cm, inside the bounds of the world; after that among the world's starts. Raises
+        `WorldError` for a pose that is not finite.
         """
+        if self.blocked(pose, footprint) is None:
+            return pose
         x0, y0, x1, y1 = self.bounds
         steps = np.arange(-20, 21) * 0.05
         across, up = (each.ravel() for each in np.meshgrid(steps, steps))
@@ -350,8 +348,17 @@ def _colour_problem(colour: object) -> str:
     return f"colour is {colour!r}; it has to be one of {', '.join(get_args(Colour))}{'; ' + hint if hint else ''}"
 
 
+def _shape_problem(shape: object) -> str:
+    if not isinstance(shape, Shape):
+        return f"shape is {shape!r}; it has to be a Box, a Cylinder or a Polygon"
+    try:
+        return _size_problem(shape)
+    except TypeError:  # what has no hash is no number
+        return f"shape is {shape!r}; its sizes have to be finite numbers"
+
+
 @lru_cache(maxsize=256)
-def _shape_problem(shape: Shape) -> str:
+def _size_problem(shape: Shape) -> str:
     if isinstance(shape, Box):
         return _positive("shape.length", shape.length) or _positive("shape.width", shape.width)
     if isinstance(shape, Cylinder):

@@ -29,6 +29,8 @@ NAN = math.nan
         ({"shape": Polygon(((0, 0), (1, math.inf), (1, 0)))}, r"shape\.corners\[1\]"),
         ({"shape": Polygon(((0, 0), (1, 0, 0), (1, 1)))}, r"shape\.corners\[1\]"),
         ({"shape": [1, 2]}, "it has to be a Box"),
+        ({"shape": Box([1], 2)}, "finite numbers"),
+        ({"shape": Polygon(((0, 0), (1, [0]), (1, 1)))}, "finite numbers"),
         ({"pose": (NAN, 0, 0)}, r"pose is \(nan, 0, 0\)"),
         ({"pose": (0, 0)}, "pose is"),
         ({"height": 0}, "height is 0"),
@@ -89,7 +91,10 @@ def test_a_world_without_anything_works():
     assert world.discs.shape == (0, 3)
     assert world.blocked((1e6, 0, 0), FOOTPRINT) is None
     assert world.free_place((1, 2, 3), FOOTPRINT) == (1, 2, 3)
+    assert world.free_place((1e6, 2, 3), FOOTPRINT) == (1e6, 2, 3)
     assert World("lists", walls=[]).walls.shape == (0, 4)
+    with pytest.raises(WorldError, match="finite"):
+        world.free_place((NAN, 0, 0), FOOTPRINT)
 
 
 def test_what_a_world_is_made_of():
