@@ -26,7 +26,7 @@ VIEW = 0.5
 """So far [m] a robot looks around itself; what is farther away does not matter yet."""
 
 GRIP = 0.7
-"""Friction of rubber wheels on the ground."""
+"""Friction of rubber wheels on the ground. This number and the next two are ordinary ones for such materials; none is published for the robot."""
 
 DRAG = 0.5
 """Friction of a movable obstacle on the ground."""

@@ -32,18 +32,22 @@ class Robot:
         """The truth, in the frame map; the heading is not wrapped."""
         self.start = pose
         self.wheels = wheels
-        self.touching = False
-        """True while something is in its way."""
         self.stop()
 
     def stop(self) -> None:
         """Stand still, with encoders at zero and no command."""
         self.left = self.right = 0.0
+        """How fast the wheels' rims go [m/s], if the wheels had the radius on paper."""
         self.left_target = self.right_target = 0.0
+        """How fast they were told to go [m/s]."""
         self.left_way = self.right_way = 0.0
+        """How far they have gone [m]."""
         self.expires = math.inf
+        """When the command is too old [s]."""
         self.room = 0.0
+        """How far it can move [m] before it has to be looked again whether anything is in its way."""
         self.touching = False
+        """True while something keeps it from where its wheels would take it."""
         self.seen = (0.0, 0.0)
         """How fast it went, ahead [m/s] and to the left [rad/s], when that was last looked at."""
         self._rates = (0.0, 0.0)
