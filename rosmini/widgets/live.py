@@ -179,12 +179,12 @@ class Link:
 
     def _show(self, now: float) -> None:
         pad = self.pad
-        pose, blocked = (np.nan, np.nan, np.nan), False
+        pose, blocked, pushed = (np.nan, np.nan, np.nan), False, None
         if pad.sight is not None:
-            pose, blocked = pad.sight.look(), pad.sight.blocked
+            pose, blocked, pushed = pad.sight.look(), pad.sight.blocked, pad.sight.pushed()
         scan, self._scan = self._scan, None
         shown = (pose[0], pose[1], pose[2], *pad.teleop.target, *pad.teleop.command, blocked, pad.sent)
-        if shown == self._last and scan is None and now - self._last_sent < QUIET_S:
+        if shown == self._last and scan is None and pushed is None and now - self._last_sent < QUIET_S:
             return
         self._last, self._last_sent = shown, now
         content = {
@@ -195,6 +195,8 @@ class Link:
             "blocked": blocked,
             "scan": scan is not None,
         }
+        if pushed is not None:
+            content["pushed"] = pushed
         numbers = np.array([*pad.teleop.target, *pad.teleop.command, *pose], dtype=np.float64)
         buffers = [numbers.tobytes()] if scan is None else [numbers.tobytes(), scan.tobytes()]
         self._send(content, buffers)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.sim.world import Pose
+from rosmini.sim.world import Pose, World
 from rosmini.viz.replay.scene import scene_data
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ class Sight:
     def __init__(self, simulator: Simulator) -> None:
         self.simulator = simulator
         self.trail: list[tuple[float, float]] = []
+        self._poses: list[Pose] = []
 
     @property
     def rate(self) -> float:
@@ -41,8 +43,28 @@ class Sight:
         return self.simulator.node.resolve("scan")
 
     def scene(self) -> dict[str, Any]:
-        """The world and the robot for the scripts in a page."""
-        return scene_data(self.simulator.world, self.simulator.model)
+        """The world as it is now, with the robot, for the scripts in a page: what can be pushed comes last among the shapes."""
+        simulator = self.simulator
+        world, height = simulator.world, simulator.model.lidar.mount[2]
+        fixed = [obstacle for obstacle in world.obstacles if not obstacle.movable]
+        obstacles = (*fixed, *simulator.engine.obstacles())
+        scene = scene_data(replace(world, obstacles=obstacles), simulator.model)
+        for obstacle, shape in zip(obstacles, scene["shapes"], strict=True):
+            if obstacle.height < height:
+                shape["low"] = True  # the laser looks over it
+        if world.wall_height < height:
+            scene["low_walls"] = True
+        return scene
+
+    def pushed(self) -> list[dict[str, Any]] | None:
+        """The shapes of what can be pushed, if it has moved since this was asked last; else None."""
+        obstacles = self.simulator.engine.obstacles()
+        poses = [obstacle.pose for obstacle in obstacles]
+        if poses == self._poses:
+            return None
+        self._poses = poses
+        shapes: list[dict[str, Any]] = scene_data(World("pushed", obstacles))["shapes"]
+        return shapes
 
     def look(self) -> Pose:
         """Where the robot is, noted for the trail. Raises what the simulator raises when it has been removed."""

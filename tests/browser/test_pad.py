@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -26,9 +27,10 @@ HALL = World(
     obstacles=(
         Obstacle("crate", Box(0.4, 0.3), (1.2, -0.9, 0.0), colour="orange"),
         Obstacle("pillar", Cylinder(0.15), (1.5, 0.9, 0.0), colour="green"),
+        Obstacle("sill", Box(0.3, 0.3), (-1.2, 0.9, 0.0), height=0.1, colour="purple"),  # the laser looks over it
         Obstacle("wedge", Polygon(((0.0, 0.0), (0.6, 0.0), (0.0, 0.5))), (-1.8, -1.4, 0.0), colour="blue"),
     ),
-    title="a hall with three obstacles",
+    title="a hall with four obstacles",
 )  # fmt: skip
 """All its corners are whole millimetres, as the page knows them."""
 
@@ -232,6 +234,17 @@ def test_motion_and_laser_are_the_engines(bare, name):
     assert np.abs(cast[hit] - measured[hit]).max() < 1e-3
 
 
+def test_the_laser_looks_over_walls_that_are_low(bare):
+    _, simulator = simulated(world=replace(HALL, wall_height=0.1))
+    data = pad_data(TeleopPad(simulator))
+    hits = bare.evaluate(
+        "({scene, pose}) => [...rosminiTeleop.laser(scene, pose)].filter((range) => range < Infinity).length",
+        data,
+    )
+    assert hits == np.isfinite(simulator.engine.scan(simulator.name, None)).sum()
+    assert 0 < hits < 100
+
+
 def test_a_robot_that_leans_against_a_wall_gets_away(bare):
     graph, simulator = simulated()
     pad = TeleopPad(simulator)
@@ -251,7 +264,7 @@ def test_a_robot_that_leans_against_a_wall_gets_away(bare):
 
 
 def test_discs_and_corners_stop_a_robot(bare):
-    """A robot drives from each side at the pillar, at a corner of the crate and at a wall: it never gets through."""
+    """A robot drives in each direction, at obstacles low and high, at corners and at walls: it never gets through."""
     _, simulator = simulated()
     data = pad_data(TeleopPad(simulator))
     ends = bare.evaluate(
@@ -268,6 +281,7 @@ def test_discs_and_corners_stop_a_robot(bare):
         }""",
         data,
     )
+    assert any(x < -0.7 and y > 0.5 for x, y, *_ in ends)  # one is stopped by what its laser does not see
     for x, y, _, blocked, touches in ends:
         assert blocked
         assert not touches
@@ -308,7 +322,7 @@ def test_a_wall_stops_the_robot(show):
     pad.stage.focus()
     pad.keys("w" * 30)
     pad.run(16.0)
-    assert (pad.mood, pad.note) == ("blocked", "at a wall")
+    assert (pad.mood, pad.note) == ("blocked", "something is in the way")
     assert pad.pose[0] == pytest.approx(3 - 0.041, abs=0.006)
     pad.keys("x" * 30)
     pad.run(4.0)

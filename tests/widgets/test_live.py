@@ -203,6 +203,25 @@ def test_a_page_that_opens_later_gets_the_way_so_far(page, pad, graph):
     assert steps.max() < 0.03
 
 
+def test_the_page_sees_what_the_robot_pushes(page, simulator):
+    crate = next(obstacle for obstacle in simulator.world.obstacles if obstacle.movable)
+    x, y, _ = crate.pose
+    simulator.place((x - 0.3, y, 0.0))
+    page.say("start")
+    page.run(0.3)
+    for _ in range(20):
+        page.say("key", key="w")
+    page.run(1.0)
+    page.sent.clear()
+    page.run(1.0)
+    shapes = [content["pushed"] for content, _ in page.frames() if "pushed" in content]
+    assert len(shapes) > 10
+    middle = np.mean(shapes[-1][0]["points"], axis=0)
+    assert middle == pytest.approx(simulator.engine.obstacles()[0].pose[:2], abs=0.01)
+    assert middle[0] > x + 0.05
+    assert page.link.widget.data["scene"]["shapes"][-1]["colour"] == crate.colour
+
+
 def test_reset_puts_the_robot_back(page, pad, simulator):
     page.say("key", key="w")
     page.run(2.0)

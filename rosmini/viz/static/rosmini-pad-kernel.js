@@ -3,7 +3,7 @@
 
    To the kernel:  {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "key", key}, {type: "stop"} it is left,
                    {type: "reset"}, {type: "start"}.
-   From the kernel: {type: "frame", messages, sent, at_rest, blocked, scan} with a buffer of seven float64 (target and command, each linear and
+   From the kernel: {type: "frame", messages, sent, at_rest, blocked, scan, pushed?} with a buffer of seven float64 (target and command, each linear and
                    angular, and x, y, theta), and one of float32 (ranges, then the pose of the scan) if `scan` is true;
                    {type: "trail"} with one of float32 (x, y, ...); {type: "still"} nobody drives the graph; {type: "gone", text} and
                    {type: "error", text}. */
@@ -18,6 +18,7 @@
   class Kernel {
     constructor(model, data) {
       this.model = model;
+      this.data = data;
       this.changed = () => {};
       this.begun = false; // whether frames are to be expected
       this.heard = performance.now();
@@ -103,6 +104,10 @@
         state.pose = [x, y, theta];
         extend(state.trail, state.pose);
       }
+      if (content.pushed) {
+        const { scene } = this.data; // what can be pushed is last among its shapes
+        state.scene = { ...scene, shapes: [...scene.shapes.slice(0, scene.shapes.length - content.pushed.length), ...content.pushed] };
+      }
       if (content.scan) {
         const all = floats(Float32Array, buffers[1]);
         state.ranges = all.subarray(0, all.length - 3);
@@ -110,11 +115,11 @@
       }
       const mood = content.blocked ? "blocked" : content.at_rest ? "ready" : "driving";
       const driving = state.pose ? `driving, ${this.rates.length} frames/s` : "driving";
-      this.show(mood, content.blocked ? "at a wall" : content.at_rest ? "live" : driving);
+      this.show(mood, content.blocked ? "something is in the way" : content.at_rest ? "live" : driving);
     }
 
     press(key) {
-      const stop = this.model.get("data").teleop.keys[key].every((steps) => steps === 0);
+      const stop = this.data.teleop.keys[key].every((steps) => steps === 0);
       if (this.over || (this.waiting && !stop)) return; // it would move the robot when nobody expects it any more
       this.begin();
       this.tell({ type: "key", key });

@@ -11,7 +11,7 @@
    `scene` and `pose` are null, and only the messages are shown.
 
    A driver is what stands behind the page: press(key), reset(), close(), and `state`, which the page draws whenever
-   the driver calls `changed()`: {pose, ranges, scanPose, trail, target, command, messages, sent, mood, note, startable}. */
+   the driver calls `changed()`: {pose, ranges, scanPose, scene, trail, target, command, messages, sent, mood, note, startable}. */
 
 (() => {
   "use strict";
@@ -286,7 +286,7 @@
       const { scene } = this.data;
       if (scene) {
         const { world, trail, scan, robot, scaleBar } = globalThis.rosminiCanvas;
-        world(this.view, scene);
+        world(this.view, state.scene ?? scene);
         trail(this.view, [...state.trail, ...(state.pose ? [state.pose] : [])]);
         if (state.pose) {
           if (state.ranges) scan(this.view, scene.robot, state.scanPose ?? state.pose, state.ranges);
@@ -384,7 +384,7 @@
         pose, ranges: run.ranges, scanPose: run.scanPose, trail: this.trail,
         target: run.teleop.target, command: run.teleop.command, messages: run.messages, sent: run.sent,
         mood: blocked ? "blocked" : still ? "ready" : "driving",
-        note: blocked ? "at a wall" : still ? "ready" : "driving",
+        note: blocked ? "something is in the way" : still ? "ready" : "driving",
       };
       this.changed();
     }

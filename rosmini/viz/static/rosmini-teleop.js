@@ -67,11 +67,12 @@
     y + Math.sin(theta) * px + Math.cos(theta) * py,
   ];
 
-  /* Everything that stops a laser or a robot: sides [x1, y1, x2, y2], and discs [x, y, r]. */
-  function solids(scene) {
-    const sides = scene.segments.map((segment) => [...segment]);
+  /* Everything that stops a robot: sides [x1, y1, x2, y2], and discs [x, y, r]; `seen` is what stops a laser. */
+  function solids(scene, seen) {
+    const sides = seen && scene.low_walls ? [] : [...scene.segments];
     const discs = [];
     for (const shape of scene.shapes) {
+      if (seen && shape.low) continue;
       if (shape.kind === "disc") discs.push([shape.x, shape.y, shape.r]);
       else shape.points.forEach((point, i) => sides.push([...point, ...shape.points[(i + 1) % shape.points.length]]));
     }
@@ -79,9 +80,9 @@
   }
 
   const solidsOf = new WeakMap();
-  function solid(scene) {
-    if (!solidsOf.has(scene)) solidsOf.set(scene, solids(scene));
-    return solidsOf.get(scene);
+  function solid(scene, seen = false) {
+    if (!solidsOf.has(scene)) solidsOf.set(scene, [solids(scene, false), solids(scene, true)]);
+    return solidsOf.get(scene)[Number(seen)];
   }
 
   /* How far it is from (x, y) to the nearest point of a side. */
@@ -146,7 +147,7 @@
     look() {
       const corner = Math.max(...this.scene.robot.footprint.map(([x, y]) => Math.hypot(x, y)));
       this.from = this.pose;
-      this.around = near(this.scene, this.pose, corner + 2 * LOOK);
+      this.around = near(this.scene, this.pose, corner + 2 * LOOK, false);
     }
 
     touches(pose) {
@@ -203,9 +204,9 @@
     return [x + chord * Math.cos(theta + half), y + chord * Math.sin(theta + half), theta + turn];
   }
 
-  /* What is within `reach` of a point. */
-  function near(scene, [x, y], reach) {
-    const { sides, discs } = solid(scene);
+  /* What is within `reach` of a point; `seen` by a laser, or all. */
+  function near(scene, [x, y], reach, seen) {
+    const { sides, discs } = solid(scene, seen);
     return {
       sides: sides.filter((wall) => distanceToSide(x, y, wall) <= reach),
       discs: discs.filter(([cx, cy, r]) => Math.hypot(cx - x, cy - y) <= reach + r),
@@ -216,7 +217,7 @@
   function laser(scene, pose) {
     const { x: mount, beams, min, max } = scene.robot.lidar;
     const [ox, oy] = placed(pose, [mount, 0]);
-    const { sides, discs } = near(scene, [ox, oy], max);
+    const { sides, discs } = near(scene, [ox, oy], max, true);
     const ranges = new Float64Array(beams);
     for (let i = 0; i < beams; i += 1) {
       const angle = pose[2] + (TURN * i) / beams;
