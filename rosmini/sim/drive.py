@@ -26,7 +26,7 @@ _NODES = (
 )
 
 PANEL = 0.2
-"""So far at most the robot turns [rad] within one panel of the quadrature: four points are then exact to a part in 1e12."""
+"""So far at most the robot turns [rad] within one panel of the quadrature: four points are then exact to a part in 1e11."""
 
 
 def limited(v: float, w: float, max_linear: float, max_angular: float) -> tuple[float, float]:
