@@ -1,0 +1,323 @@
+"""What is right in the exercises of chapter 40, TurtleBot3."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rosmini.book.checks import Wrong, exercise, expect
+from rosmini.graph import Graph
+from rosmini.msgs import message_class
+from rosmini.scripts import rosrun
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.sim.simulator import Simulator
+
+
+def _twist(v: float, w: float) -> Any:
+    twist = message_class("geometry_msgs/Twist")()
+    twist.linear.x, twist.angular.z = v, w
+    return twist
+
+
+def _robot(graph: Graph, *parameters: str) -> Simulator:
+    found: Simulator = rosrun("rosmini_sim", "simulator", "_world:=empty", *parameters, graph=graph)
+    return found
+
+
+def _number(found: Any, what: str) -> float:
+    if isinstance(found, bool) or not isinstance(found, int | float | np.number) or math.isnan(found):
+        raise Wrong(f"It returned {found!r}, which is no {what}.", "return one number")
+    return float(found)
+
+
+# ---- 40.1: a circle ----
+
+
+def _circle(v: Callable[[float, float], float], w: Callable[[float, float], float]) -> Callable[[], Any]:
+    return lambda: lambda radius, seconds: _twist(v(radius, seconds), w(radius, seconds))
+
+
+def _driven(command: Any, seconds: float) -> list[tuple[float, float, float]]:
+    """Where a robot without errors is after 0, 0.1 ... seconds, if it hears this command ten times a second."""
+    with Graph() as graph:
+        sim = _robot(graph, "_noise:=0")
+        cmd_vel = graph.node("driver").publisher("cmd_vel", type(command), queue_size=1)
+        cmd_vel.wait_for_subscribers()
+        way = [sim.truth()]
+        for _ in range(round(10 * seconds)):
+            cmd_vel.publish(command)
+            graph.run(0.1)
+            way.append(sim.truth())
+    return way
+
+
+@exercise(
+    "40.1",
+    praise="A robot without errors drove your circles: each has the right size, and ends where it began.",
+    mistakes=[
+        _circle(lambda r, t: 2 * math.pi * r / t, lambda _r, t: -2 * math.pi / t),
+        _circle(lambda r, t: 2 * math.pi * r / t, lambda r, t: 2 * math.pi * r / t),
+        _circle(lambda r, t: 2 * math.pi * r / t, lambda _r, t: 360 / t),
+        _circle(lambda r, t: math.pi * r / t, lambda _r, t: math.pi / t),
+        _circle(lambda r, t: 2 * r / t, lambda _r, t: 2 * math.pi / t),
+        _circle(lambda _r, _t: 0.157, lambda _r, _t: 0.314),
+        lambda: lambda radius, seconds: (2 * math.pi * radius / seconds, 2 * math.pi / seconds),
+    ],
+)
+def circle(answer: Any) -> None:
+    """The command for a circle to the left, of a radius, in a time."""
+    for radius, seconds in ((0.5, 20.0), (0.2, 10.0)):
+        asked = f"For a radius of {radius} m in {seconds:.0f} s"
+        command = answer(radius, seconds)
+        expect(
+            getattr(command, "_type", "") == "geometry_msgs/Twist",
+            f"It returned a {type(command).__name__}, not a Twist.",
+            "make a Twist(), set linear.x and angular.z, and return it",
+        )
+        v, w = command.linear.x, command.angular.z
+        expect(w > 0, f"{asked} your robot does not turn to the left.", "a turn to the left is positive")
+        expect(
+            v <= 0.22 and w <= 2.84,
+            f"{asked} you ask for {v:.2f} m/s and {w:.2f} rad/s, more than the robot can do.",
+            "a circle of this size needs less; angles are in radians",
+        )
+        way = _driven(command, seconds)
+        across = max(y for _, y, _ in way)
+        expect(
+            abs(across / 2 - radius) < 0.02 * radius,
+            f"{asked} the robot drove on a circle of radius {across / 2:.2f} m.",
+            "the radius is v / w",
+        )
+        expect(
+            math.dist(way[-1][:2], way[0][:2]) < 0.05 * radius,
+            f"{asked} the robot turned by {math.degrees(way[-1][2]):.0f} degrees, not by 360.",
+            "a full circle is 2 pi, and w is how much of it goes by in a second",
+        )
+
+
+# ---- 40.2: what is in front ----
+
+
+def _scan(ranges: Any, first: float = 0.0) -> Any:
+    """A scan of a whole turn, of which the first beam looks at `first` [rad]."""
+    scan = message_class("sensor_msgs/LaserScan")()
+    scan.ranges = np.asarray(ranges, dtype=np.float32)
+    scan.angle_min, scan.angle_increment = first, 2 * math.pi / len(ranges)
+    scan.angle_max = first + scan.angle_increment * (len(ranges) - 1)
+    scan.range_min, scan.range_max = 0.12, 3.5
+    return scan
+
+
+def _front(
+    *,
+    wrap: bool = True,
+    angles: bool = True,
+    good: Callable[[Any], Any] = lambda s: (s.ranges >= s.range_min) & (s.ranges <= s.range_max),
+    nothing: Any = math.inf,
+) -> Callable[[], Any]:
+    def distance(scan: Any, half_width: float) -> Any:
+        at = (scan.angle_min if angles else 0.0) + np.arange(len(scan.ranges)) * scan.angle_increment
+        off = np.abs((at + math.pi) % (2 * math.pi) - math.pi) if wrap else np.abs(at)
+        chosen = scan.ranges[good(scan) & (off <= half_width)]
+        return chosen.min() if len(chosen) else nothing
+
+    return lambda: distance
+
+
+@exercise(
+    "40.2",
+    praise="It works with any laser: it asked the message where its beams look.",
+    mistakes=[
+        _front(wrap=False),
+        _front(angles=False),
+        _front(good=lambda scan: np.isfinite(scan.ranges)),
+        _front(good=lambda scan: scan.ranges >= scan.range_min),
+        _front(good=lambda scan: scan.ranges == scan.ranges),
+        _front(nothing=3.5),
+        _front(nothing=None),
+        lambda: lambda scan, _half_width: scan.ranges[0],
+        lambda: lambda scan, _half_width: scan.ranges.min(),
+        lambda: lambda scan, _half_width: min(scan.ranges[:31].min(), scan.ranges[-30:].min()),
+    ],
+)
+def front_distance(answer: Any) -> None:
+    """The shortest measured range within an angle of ahead."""
+
+    def far(**at: float) -> Any:
+        ranges = np.full(360, 3.0)
+        for beam, value in at.items():
+            ranges[int(beam[1:])] = value
+        return ranges
+
+    wide = math.radians(30)
+    shown = (
+        (_scan(far(b10=0.8)), wide, 0.8, "an obstacle 10 degrees to the left", "angles in radians"),
+        (
+            _scan(far(b350=0.7)),
+            wide,
+            0.7,
+            "an obstacle 10 degrees to the right",
+            "beam 350 of 360 looks 10 degrees to the right: the sector goes over the end of the list",
+        ),
+        (
+            _scan(far(b45=0.5, b300=0.6)),
+            wide,
+            3.0,
+            "obstacles 45 and 60 degrees aside",
+            "what is beside the sector does not count",
+        ),
+        (_scan(far(b20=0.9)), math.radians(15), 3.0, "a sector of 15 degrees, and an obstacle at 20", "half_width is the limit"),
+        (_scan(far(b3=0.0, b5=1.1)), wide, 1.1, "a beam that says 0.0", "0.0 is less than range_min: not measured"),
+        (
+            _scan(far(b3=-math.inf, b355=math.nan, b7=1.2)),
+            wide,
+            1.2,
+            "beams that say -inf and nan",
+            "take only what lies between range_min and range_max",
+        ),
+        (
+            _scan(np.full(360, math.inf)),
+            wide,
+            math.inf,
+            "a scan in which nothing was measured",
+            "return math.inf if no beam is left",
+        ),
+        (
+            _scan(np.full(360, 6.0)),
+            wide,
+            math.inf,
+            "a scan whose ranges are all beyond range_max",
+            "what is more than range_max was not measured",
+        ),
+        (
+            _scan(far(b180=0.4, b0=0.3), first=-math.pi),
+            wide,
+            0.4,
+            "a laser whose first beam looks back",
+            "the angle of beam i is angle_min + i * angle_increment",
+        ),
+    )  # fmt: skip
+    for scan, half_width, right, what, hint in shown:
+        found = _number(answer(scan, half_width), "distance")
+        expect(
+            found == right or abs(found - right) < 1e-6,
+            f"For {what} it returned {found:.2f}, not {right:.2f}.",
+            hint,
+        )
+
+
+# ---- 40.3: how far apart are the wheels ----
+
+NARROW, WIDE = 2, 7
+"""Seeds of graphs whose robots have their wheels 158.3 mm and 163.7 mm apart."""
+
+
+def _calibration(measure: Callable[[float, float], float]) -> Callable[[], Any]:
+    """An answer that spins for a while; `measure` is given the difference of the wheels' ways [m] and the turn [rad]."""
+
+    def separation(graph: Graph, sim: Simulator) -> float:
+        node = graph.node("calibration")
+        ways: dict[str, Any] = {}
+        node.subscriber("joint_states", message_class("sensor_msgs/JointState"), lambda m: ways.update(now=m))
+        cmd_vel = node.publisher("cmd_vel", message_class("geometry_msgs/Twist"), queue_size=1)
+        cmd_vel.wait_for_subscribers()
+        command = _twist(0.0, 1.0)
+        for _ in range(300):
+            cmd_vel.publish(command)
+            graph.run(0.1)
+        graph.run(1.0)
+        left, right = sim.model.wheel_radius * ways["now"].position
+        return measure(right - left, sim.truth()[2])
+
+    return lambda: separation
+
+
+@exercise(
+    "40.3",
+    praise="With this number in its firmware the robot would turn far truer than with the one on paper.",
+    mistakes=[
+        lambda: lambda _graph, sim: sim.model.wheel_separation,
+        lambda: lambda _graph, _sim: 0.16,
+        _calibration(lambda way, turn: 0.16**2 * turn / way),
+        _calibration(lambda way, turn: way / (turn % (2 * math.pi))),
+        _calibration(lambda way, turn: way / turn / 2),
+        _calibration(lambda way, turn: 1000 * way / turn),
+    ],
+)
+def wheel_separation(answer: Any) -> None:
+    """The effective distance of a robot's wheels, measured by a spin; two robots, of which one is wide and one is narrow."""
+    for seed in (NARROW, WIDE):
+        with Graph(seed=seed) as graph:
+            sim = _robot(graph)
+            wheels = sim.engine.robot(sim.name).wheels
+            found = _number(answer(graph, sim), "distance")
+            right = wheels.separation
+        expect(
+            0.1 < found < 0.25,
+            f"It returned {found:.3f}, which is not the distance of the wheels of a TurtleBot3 in metres.",
+            "(way of the right wheel - way of the left wheel) / turn, with the turn in radians",
+        )
+        expect(
+            abs(found - right) < 5e-4,
+            f"One of the robots has its wheels {1000 * right:.1f} mm apart, and you found {1000 * found:.1f} mm.",
+            "spin for several turns; odometry believes in 160 mm, the truth shows how far the robot really turned",
+        )
+
+
+# ---- 40.4: not faster than it can see ----
+
+
+def _speed(
+    distance: float,
+    period: float = 0.2,
+    acceleration: float = 1.0,
+    *,
+    halves: float = 2.0,
+    most: float = 0.22,
+) -> float:
+    a, t = acceleration, period
+    return min(most, a * (math.sqrt(t * t + halves * distance / a) - t))
+
+
+@exercise(
+    "40.4",
+    praise="Half a metre is plenty for a TurtleBot3; a car at 0.2 s and 8 m/s2 has to think more about it.",
+    mistakes=[
+        lambda: lambda distance, period=0.2, acceleration=1.0: _speed(distance, period, acceleration, most=9.0),
+        lambda: lambda distance, period=0.2, acceleration=1.0: _speed(distance, period, acceleration, halves=1.0),
+        lambda: lambda distance, _period=0.2, acceleration=1.0: min(0.22, math.sqrt(2 * acceleration * distance)),
+        lambda: lambda distance, period=0.2, _acceleration=1.0: min(0.22, distance / period),
+        lambda: lambda distance, _period=0.2, acceleration=1.0: _speed(distance, 0.2, acceleration),
+        lambda: lambda distance, period=0.2, _acceleration=1.0: _speed(distance, period, 1.0),
+        lambda: lambda _distance, _period=0.2, _acceleration=1.0: 0.22,
+    ],
+)  # fmt: skip
+def safe_speed(answer: Any) -> None:
+    """The greatest speed at which a robot that sees late still stops in time."""
+    for distance, period, acceleration in (
+        (0.05, 0.2, 1.0), (0.02, 0.2, 1.0), (0.03, 0.1, 1.0), (0.04, 0.2, 0.5), (0.0, 0.2, 1.0), (1.0, 0.2, 1.0),
+    ):  # fmt: skip
+        found = _number(answer(distance, period, acceleration), "speed")
+        right = _speed(distance, period, acceleration)
+        case = f"{1000 * distance:.0f} mm, {period} s and {acceleration} m/s2"
+        expect(
+            found <= 0.22 + 1e-9,
+            f"For {case} it goes {found:.2f} m/s, and no TurtleBot3 can.",
+            "min(0.22, ...)",
+        )
+        needed = found * period + found * found / (2 * acceleration)
+        expect(
+            found <= right + 1e-6,
+            f"For {case} it goes {found:.3f} m/s and needs {1000 * needed:.1f} mm to stand.",
+            "first v * period, then v * v / (2 * acceleration)",
+        )
+        expect(
+            found >= right - 1e-6,
+            f"For {case} it goes {found:.3f} m/s; it could go faster, {1000 * needed:.1f} mm are enough for it to stand.",
+            "the speed at which both ways together are the distance",
+        )  # fmt: skip

@@ -1,0 +1,73 @@
+"""Chapter 40: the script that it lists prints what the page shows; its figures are numbered; its boxes name what there is."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rosmini.book import notebooks
+
+CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "40_turtlebot3.ipynb"
+
+FIGURES = ("rqt_graph(", "scan_picture(", ".show(", ".show3d(", ".plots(", ".replay(", ".replay3d(")
+
+
+@pytest.fixture(scope="module")
+def chapter():
+    return notebooks.read(CHAPTER)
+
+
+@pytest.fixture(scope="module")
+def prose(chapter):
+    return "\n\n".join(cell.source for cell in chapter.cells if cell.cell_type == "markdown")
+
+
+def test_the_listed_script_prints_what_is_shown(prose, tmp_path):
+    scripts = dict(re.findall(r"^`(\w+\.py)`:\n\n```python\n(.*?)^```", prose, re.DOTALL | re.MULTILINE))
+    assert set(scripts) == {"square.py"}
+    (tmp_path / "square.py").write_text(scripts["square.py"], encoding="utf-8")
+    command, shown = re.search(
+        r"^```console\n\$ uv run rosmini (run .*?)\n(.*?)^```", prose, re.DOTALL | re.MULTILINE
+    ).groups()
+    done = subprocess.run(
+        [sys.executable, "-m", "rosmini", *shlex.split(command)],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, shown, "")
+
+
+def test_every_figure_is_numbered_in_order(chapter):
+    code = [cell.source for cell in chapter.cells if cell.cell_type == "code"]
+    numbers = [int(number) for source in code for number in re.findall(r"Figure 40\.(\d+): ", source)]
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert sum(source.count(word) for source in code for word in FIGURES) == len(numbers) > 0
+
+
+def test_a_page_holds_few_moving_pictures(chapter):
+    code = "".join(cell.source for cell in chapter.cells if cell.cell_type == "code")
+    assert sum(code.count(word) for word in (".show3d(", ".replay(", ".replay3d(")) == 3
+
+
+def test_parameters_that_the_text_names_exist(chapter):
+    from rosmini.sim.simulator import SimulatorParameters
+
+    everything = "\n".join(cell.source for cell in chapter.cells)
+    named = set(re.findall(r"[\s`\"](_\w+):=", everything))
+    assert {"_world", "_noise", "_x"} <= named
+    assert named <= {row[0].replace("~", "_") for row in SimulatorParameters.table()}
+
+
+def test_scripts_take_the_same_half_second_as_the_text(prose):
+    from rosmini.sim.simulator import COMMAND_TIMEOUT
+
+    assert "A command holds for **half a second**" in prose
+    assert COMMAND_TIMEOUT == 0.5
