@@ -5,18 +5,29 @@
     String = rosmini.msgs.message_class("std_msgs/String")
 
 All three give the same class. Classes exist for every package that can be found (those that come with rosmini and
-those on ROS_PACKAGE_PATH) and are made when they are first asked for.
+those on ROS_PACKAGE_PATH) and are made when they are first asked for. ``define_message`` makes a class from a text that is in no file.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
+from .define import define_message, define_service
 from .importer import enable_own_imports, install, installed, uninstall
 from .message import Message
 from .registry import registry as _registry
 
-__all__ = ["Message", "action_class", "install", "installed", "message_class", "service_class", "uninstall"]
+__all__ = [
+    "Message",
+    "action_class",
+    "define_message",
+    "define_service",
+    "install",
+    "installed",
+    "message_class",
+    "service_class",
+    "uninstall",
+]
 
 enable_own_imports()
 

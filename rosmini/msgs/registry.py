@@ -23,7 +23,7 @@ from .sources import PackageSource
 if TYPE_CHECKING:
     from .sources import Source
 
-__all__ = ["Registry", "Service", "registry"]
+__all__ = ["Registry", "Service", "make_service_class", "registry"]
 
 MODULE_PREFIX = "rosmini.msgs"
 
@@ -35,6 +35,25 @@ class Service:
     _md5sum: ClassVar[str]
     _request_class: ClassVar[type[Message]]
     _response_class: ClassVar[type[Message]]
+
+
+def make_service_class(
+    spec: ServiceSpec, request: type[Message], response: type[Message], md5sum: str
+) -> type[Service]:
+    """Make the class for ``spec``; ``request`` and ``response`` are the classes of its two messages."""
+    package, _, short = spec.name.partition("/")
+    return type(
+        short,
+        (Service,),
+        {
+            "__module__": f"{MODULE_PREFIX}.{package}.srv",
+            "__doc__": f"{spec.name}: a service (request: {spec.request.name}, response: {spec.response.name})",
+            "_type": spec.name,
+            "_md5sum": md5sum,
+            "_request_class": request,
+            "_response_class": response,
+        },
+    )
 
 
 class Registry:
@@ -67,18 +86,11 @@ class Registry:
         with self._lock:
             if name not in self._services:
                 spec = self.service_definition(name)
-                package, _, short = name.partition("/")
-                self._services[name] = type(
-                    short,
-                    (Service,),
-                    {
-                        "__module__": f"{MODULE_PREFIX}.{package}.srv",
-                        "__doc__": f"{name}: a service (request: {spec.request.name}, response: {spec.response.name})",
-                        "_type": name,
-                        "_md5sum": service_md5(spec, self.definition),
-                        "_request_class": self.message_class(spec.request.name),
-                        "_response_class": self.message_class(spec.response.name),
-                    },
+                self._services[name] = make_service_class(
+                    spec,
+                    self.message_class(spec.request.name),
+                    self.message_class(spec.response.name),
+                    service_md5(spec, self.definition),
                 )
             return self._services[name]
 
