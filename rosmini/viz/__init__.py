@@ -12,6 +12,7 @@ from rosmini.viz.rqt import GraphState, rqt_graph
 from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 
 if TYPE_CHECKING:
+    from rosmini.viz.plots import plot
     from rosmini.viz.recording import recording_picture, recording_plots
     from rosmini.viz.scan import scan_picture
     from rosmini.viz.simulation import simulation_picture
@@ -23,6 +24,7 @@ __all__ = [
     "View",
     "ViewError",
     "matplotlib_picture",
+    "plot",
     "recording_picture",
     "recording_plots",
     "rqt_graph",
@@ -32,6 +34,7 @@ __all__ = [
 ]
 
 _LATER = {
+    "plot": "rosmini.viz.plots",
     "recording_picture": "rosmini.viz.recording",
     "recording_plots": "rosmini.viz.recording",
     "scan_picture": "rosmini.viz.scan",
