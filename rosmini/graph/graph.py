@@ -108,7 +108,12 @@ class Graph:
     def _start_rosout(self) -> None:
         node = Node("rosout", self)
         aggregate = node.publisher("/rosout_agg", self.log_class, queue_size=None)
-        node.subscriber("/rosout", self.log_class, aggregate.publish)
+
+        def pass_on(message: Any) -> None:
+            if not node.is_shutdown():  # the last words of others may still be on their way then
+                aggregate.publish(message)
+
+        node.subscriber("/rosout", self.log_class, pass_on)
 
     # -- driving -------------------------------------------------------------------------------------------------
 

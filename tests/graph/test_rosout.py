@@ -12,6 +12,7 @@ import pytest
 from rosmini.errors import ServiceException
 from rosmini.graph.rosout import LEVELS
 from rosmini.msgs.roscpp.srv import GetLoggers, SetLoggerLevel
+from rosmini.scripts import run_source
 
 from .conftest import settle, until
 
@@ -112,3 +113,11 @@ def test_an_unknown_level_is_refused(graph: Graph, capsys: pytest.CaptureFixture
 def test_what_is_logged_need_not_be_text(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:
     graph.node("node").loginfo({"a": 1})
     assert "{'a': 1}" in capsys.readouterr().out
+
+
+def test_last_words_before_the_end_of_a_graph_are_no_error(capfd: pytest.CaptureFixture[str]) -> None:
+    text = "import rospy\nrospy.init_node('talker')\nrospy.sleep(1)\nrospy.loginfo('goodbye')"
+    run_source(text)
+    shown = capfd.readouterr()
+    assert "goodbye" in shown.out
+    assert shown.err == ""
