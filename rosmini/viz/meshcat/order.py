@@ -58,4 +58,4 @@ def _between(own: Floats, other: Floats, eye: Floats) -> bool | None:
     widest = int(np.argmax(snap(gaps, 1e-6)))
     if gaps[widest] < -TOUCH:
         return None
-    return bool((eye - own[widest]) @ outwards[widest] > 0)
+    return bool(snap((eye - own[widest]) @ outwards[widest], 1e-6) > 0)

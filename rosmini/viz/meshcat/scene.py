@@ -353,7 +353,8 @@ def keyframes(times: Floats, values: Floats, tolerance: float) -> list[int]:
             continue
         part = (times[first + 1 : last] - times[first]) / (times[last] - times[first])
         line = values[first] + part[:, None] * (values[last] - values[first])
-        off = np.abs(values[first + 1 : last] - line).max(axis=1)
+        # Snapped, so that of two samples that are equally far off the same one is taken everywhere.
+        off = snap(np.abs(values[first + 1 : last] - line).max(axis=1), 1e-7)
         worst = int(np.argmax(off))
         if off[worst] > tolerance:
             middle = first + 1 + worst

@@ -15,6 +15,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.viz.rounding import snap
+
 Floats = NDArray[np.float64]
 Outline = Floats
 """Corners (n, 2) of a simple polygon, counter-clockwise seen from above."""
@@ -27,7 +29,7 @@ RESOLUTION = 1e-5
 
 def rounded(values: Floats) -> Floats:
     """`values` to a hundredth of a millimetre, with no negative zero."""
-    return np.round(np.asarray(values, dtype=float) / RESOLUTION) * RESOLUTION + 0.0
+    return snap(values, RESOLUTION)
 
 
 @dataclass(frozen=True)

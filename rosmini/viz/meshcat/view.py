@@ -111,11 +111,11 @@ def camera_for(
         raise ViewError(f"the distance of the camera is a number of metres above 0, not {distance!r}")
     x0, y0, x1, y1 = world.bounds
     if focus == "robot" and pose is not None:
-        middle, usual = (pose[0], pose[1], 0.09), (0.8, float(np.rint(np.rad2deg(pose[2]))) - 38.0, 26.0)
+        middle, usual = (pose[0], pose[1], 0.09), (0.65, float(snap(np.rad2deg(pose[2]), 1.0)) - 38.0, 25.0)
     else:
         size = math.hypot(x1 - x0, y1 - y0)
-        middle, usual = ((x0 + x1) / 2, (y0 + y1) / 2, 0.0), (1.15 * size + 0.3, -68.0, 42.0)
-    x, y, z = (round(c, 3) + 0.0 for c in middle)
+        middle, usual = ((x0 + x1) / 2, (y0 + y1) / 2, 0.0), (1.2 * size + 0.3, -68.0, 42.0)
+    x, y, z = (round(c, 3) for c in snap(middle).tolist())
     return Camera(
         (x, y, z),
         usual[0] if distance is None else distance,
