@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .definition import parse_message, parse_service
+from rosmini.errors import UnknownPackage, UnknownType, nearest
+
+from .definition import BUILTIN_TYPES, parse_message, parse_service
 from .fingerprint import full_text, message_md5, service_md5
 from .message import make_message_class
 from .registry import MODULE_PREFIX, make_service_class, registry
@@ -20,8 +22,7 @@ def define_message(name: str, text: str) -> type[Any]:
     """The class of a message type "package/Type" that ``text`` defines, in the language of ``.msg`` files (http://wiki.ros.org/msg).
 
     Each call makes a class of its own, also for a name that was given before or that has a file: so two versions of a type can stand
-    side by side. Only types that have files can be nested. Raises :class:`~rosmini.errors.DefinitionError` with the line that is wrong,
-    and :class:`~rosmini.errors.UnknownType` or :class:`~rosmini.errors.UnknownPackage` for a nested type that does not exist.
+    side by side. Only types that have files can be nested. Raises :class:`~rosmini.errors.DefinitionError` with the line that is wrong.
     """
     return _class_of(parse_message(text, name), "msg")
 
@@ -37,8 +38,15 @@ def define_service(name: str, text: str) -> type[Any]:
 
 
 def _class_of(spec: MessageSpec, folder: str) -> type[Message]:
-    known = registry()
-    nested = {field.base: known.message_class(field.base) for field in spec.fields if not field.builtin}
+    known, nested = registry(), {}
+    for field in spec.fields:
+        if field.builtin:
+            continue
+        try:
+            nested[field.base] = known.message_class(field.base)
+        except (UnknownType, UnknownPackage) as error:
+            hint = nearest(field.base.removeprefix(f"{spec.package}/"), BUILTIN_TYPES)
+            raise spec.error(field.line, f"unknown type '{field.base}': {hint or error}") from error
     return make_message_class(
         spec,
         nested,

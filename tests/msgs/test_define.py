@@ -7,7 +7,7 @@ from io import BytesIO
 import pytest
 
 from rosmini import Graph
-from rosmini.errors import DefinitionError, TypeMismatch, UnknownType
+from rosmini.errors import DefinitionError, TypeMismatch
 from rosmini.msgs import define_message, define_service, message_class
 
 
@@ -51,7 +51,9 @@ def test_the_service_of_a_file_has_its_md5_sum() -> None:
 def test_what_is_wrong_is_named() -> None:
     with pytest.raises(DefinitionError, match="int33"):
         define_message("my_robot/Wrong", "int32 a\nint33 B=1")
-    with pytest.raises(UnknownType, match="Pont"):
+    with pytest.raises(DefinitionError, match=r"^2: .*did you mean float32"):
+        define_message("my_robot/Wrong", "int32 a\nflaot32 b")
+    with pytest.raises(DefinitionError, match="did you mean Point"):
         define_message("my_robot/Wrong", "geometry_msgs/Pont a")
     with pytest.raises(DefinitionError, match="---"):
         define_service("my_robot/Wrong", "int32 a")
