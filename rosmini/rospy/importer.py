@@ -50,6 +50,7 @@ _HOMES = {
             "roslib.message",
             "roslib.names",
             "roslib.packages",
+            "rosparam",
         )
     },
 }
@@ -57,7 +58,7 @@ _HOMES = {
 
 
 def modules() -> dict[str, ModuleType]:
-    """Return the modules ``rospy``, ``genpy``, ``roslib``, ``rosgraph`` and those in them, by the names that scripts import."""
+    """Return the modules ``rospy``, ``genpy``, ``roslib``, ``rosgraph``, ``rosparam`` and those in them, by the names that scripts import."""
     return {name: import_module(home) for name, home in _HOMES.items()}
 
 
@@ -106,7 +107,7 @@ def ros_is_installed() -> bool:
 def install(*, shadow: bool = False) -> None:
     """Let ``import rospy`` and ``from std_msgs.msg import String`` find what is in rosmini.
 
-    ``rospy``, ``genpy``, ``roslib``, ``rosgraph`` and the messages of every ROS package that can be found. Where a real ROS is
+    ``rospy``, ``genpy``, ``roslib``, ``rosgraph``, ``rosparam`` and the messages of every ROS package that can be found. Where a real ROS is
     installed it wins, unless ``shadow`` is true. A second call changes ``shadow``.
     """
     uninstall()

@@ -1,0 +1,33 @@
+"""Parameters as YAML: what the ROS package ``rosparam`` does, with files and with the Parameter Server.
+
+>>> from rosmini import Graph
+>>> from rosmini.rosparam import ParamClient
+>>> with Graph() as graph:
+...     params = ParamClient(graph)
+...     params.loads("{gains: {p: 1.0, i: 2}, heading: deg(180)}", "/robot")
+...     print(params.dumps("/robot"), end="")
+['/robot/gains/p', '/robot/gains/i', '/robot/heading']
+gains:
+  i: 2
+  p: 1.0
+heading: 3.141592653589793
+
+Scripts that rosmini runs have it as ``import rosparam``, with the functions of ROS's own module.
+"""
+
+from .client import ParamClient
+from .documents import NS, Document, assignments, dumps, load_file, load_str, parse
+from .errors import RosParamException, RosParamIOException
+
+__all__ = [
+    "NS",
+    "Document",
+    "ParamClient",
+    "RosParamException",
+    "RosParamIOException",
+    "assignments",
+    "dumps",
+    "load_file",
+    "load_str",
+    "parse",
+]

@@ -1,0 +1,244 @@
+"""Parameter files: YAML in and out as ``rosparam`` reads and writes it (http://wiki.ros.org/rosparam).
+
+YAML is version 1.1, as PyYAML has it: ``yes`` is a truth value, ``010`` is eight, ``1e5`` without a point is text.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import yaml
+
+from rosmini.errors import ParameterError
+from rosmini.graph.parameter_api import check_value
+from rosmini.names import join
+
+from .angles import degrees, radians
+from .errors import RosParamException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+__all__ = ["NS", "Document", "assignments", "dumps", "load_file", "load_str", "parse"]
+
+NS = "_ns"
+"""A document with this key says itself into which namespace it goes."""
+
+_MOST = 100_000
+"""How many values a file may have; aliases (``*name``) can make a small file huge."""
+
+
+@dataclass(frozen=True)
+class Document:
+    """One YAML document: ``values`` (a dictionary, as a rule) for the namespace ``namespace``."""
+
+    values: Any
+    namespace: str
+    source: str = ""
+    lines: Mapping[str, int] = field(default_factory=dict, repr=False)
+    """The line of each value by its place in the document: ``/a/b``, ``/a/sizes[2]``."""
+    own_namespace: bool = False
+    """Whether the document names its namespace itself."""
+
+    def assignments(self) -> list[tuple[str, Any]]:
+        """Return the parameters to set, one by one, all checked. Raises ``RosParamException`` with file and line."""
+        try:
+            return list(assignments(self.namespace, self.values))
+        except _Refused as error:
+            line = self.lines.get(error.place) or self.lines.get("/")
+            raise RosParamException(str(error), self.source, line) from error
+
+
+class _Refused(RosParamException):
+    """What the Parameter Server cannot hold, and at which place of the document."""
+
+    def __init__(self, message: str, place: str) -> None:
+        super().__init__(message)
+        self.place = place
+
+
+def assignments(name: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the settings that rosparam makes of a value for the parameter ``name``.
+
+    A dictionary is merged into what is there: one setting for each of its values. Anything else, a list too, replaces what was there. An empty
+    dictionary sets nothing. Raises ``RosParamException`` for what the Parameter Server cannot hold.
+    """
+    if name == "/" and not isinstance(value, dict):
+        raise _Refused(
+            f"the root of the Parameter Server is a dictionary, and this is a {type(value).__name__} ({value!r}): "
+            "write lines of the form `name: value`, or give a namespace",
+            "/",
+        )
+    return _assignments(name, value, "")
+
+
+def _assignments(name: str, value: Any, place: str) -> Iterator[tuple[str, Any]]:
+    if not isinstance(value, dict):
+        yield name, _checked(name, value, place)
+        return
+    for key, item in value.items():
+        if not isinstance(key, str):
+            raise _Refused(
+                f"parameter {name}: the key {key!r} is a {type(key).__name__}, and keys are strings: put it into quotes",
+                f"{place}/{key}",
+            )
+        yield from _assignments(join(name, key), item, f"{place}/{key}")
+
+
+def _checked(name: str, value: Any, place: str) -> Any:
+    if isinstance(value, list):
+        return [
+            _checked(f"{name}[{number}]", item, f"{place}[{number}]") for number, item in enumerate(value)
+        ]
+    if isinstance(value, dict):
+        for key in value:
+            if not isinstance(key, str):
+                raise _Refused(f"parameter {name}: the key {key!r} is no string", f"{place}/{key}")
+        return {key: _checked(f"{name}/{key}", item, f"{place}/{key}") for key, item in value.items()}
+    if value is None:
+        raise _Refused(
+            f"parameter {name} has no value (YAML's null), which a parameter cannot be: write '' for an empty text, {{}} for an empty namespace",
+            place,
+        )
+    try:
+        return check_value(name, value)
+    except ParameterError as error:
+        raise _Refused(str(error), place) from error
+
+
+# ---- reading ----
+
+
+class _Loader(yaml.SafeLoader):
+    """YAML with angles; a class of its own, so that nobody else's YAML gets them."""
+
+    def angle(self, node: Any, read: Callable[[str], float]) -> float:
+        try:
+            return read(str(self.construct_scalar(node)))
+        except RosParamException as error:
+            raise RosParamException(error.message, self.name, _line(node)) from error
+
+
+class _Dumper(yaml.SafeDumper):
+    """Writes a text that looks like an angle in quotes."""
+
+
+for _tag, _word, _read in (("!degrees", "deg", degrees), ("!radians", "rad", radians)):
+    _Loader.add_constructor(_tag, partial(_Loader.angle, read=_read))
+    for _kind in (_Loader, _Dumper):
+        _kind.add_implicit_resolver(_tag, re.compile(rf"^{_word}\([^)]*\)$"), [_word[0]])
+
+
+def load_file(path: str | Path, namespace: str = "/") -> list[Document]:
+    """Read a parameter file, for a namespace. Raises ``RosParamException``, which names file and line."""
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError as error:
+        raise RosParamException(f"file [{path}] does not exist") from error
+    except (OSError, UnicodeDecodeError) as error:
+        raise RosParamException(f"cannot read this file: {error}", path) from error
+    return load_str(text, str(path), namespace)
+
+
+def load_str(text: str, source: str = "", namespace: str = "/") -> list[Document]:
+    """Read the documents of a YAML text; ``source`` is what errors call it. Raises ``RosParamException``."""
+    found: list[Document] = []
+    loader: _Loader | None = None
+    try:
+        loader = _Loader(text)
+        loader.name = source
+        while loader.check_node():
+            node: Any = loader.get_node()
+            _refuse_endless(node, source)
+            values = loader.construct_document(node)
+            if values is None:
+                raise RosParamException("this document is empty (YAML's null)", source, _line(node))
+            ns = namespace
+            named = isinstance(values, dict) and NS in values
+            if named:
+                ns = join(namespace, str(values.pop(NS)))
+            found.append(Document(values, ns, source, dict(_lines(node, "")), named))
+    except (yaml.MarkedYAMLError, yaml.reader.ReaderError) as error:
+        raise _no_yaml(error, source) from error
+    except (ValueError, RecursionError, OverflowError) as error:  # 2026-13-45, .e999, thousands of brackets
+        raise RosParamException(f"this is not YAML: {error}", source) from error
+    finally:
+        if loader is not None:
+            loader.dispose()
+    return found
+
+
+def parse(text: str) -> Any:
+    """Return the value of a YAML text with one document, as in ``rosparam set /gains '[1, 2.5]'``. Raises ``RosParamException``."""
+    documents = load_str(text)
+    if len(documents) > 1:
+        raise RosParamException(f"{text!r} is {len(documents)} YAML documents, and one value is needed")
+    return documents[0].values if documents else None
+
+
+def _no_yaml(error: yaml.MarkedYAMLError | yaml.reader.ReaderError, source: str) -> RosParamException:
+    if isinstance(error, yaml.MarkedYAMLError):
+        mark = error.problem_mark or error.context_mark
+        text = ", ".join(part for part in (error.context, error.problem) if part)
+        hint = " (indent with spaces, not with tabs)" if "'\\t'" in text else ""
+        return RosParamException(
+            f"this is not YAML: {text}{hint}", source, None if mark is None else mark.line + 1
+        )
+    return RosParamException(f"this is not YAML: {error.reason}, at character {error.position}", source)
+
+
+def _line(node: yaml.Node | None) -> int | None:
+    return None if node is None or node.start_mark is None else node.start_mark.line + 1
+
+
+def _children(node: yaml.Node) -> Iterator[tuple[str, yaml.Node, yaml.Node]]:
+    """Yield how each value in a node is reached, where that is written, and its node."""
+    if isinstance(node, yaml.MappingNode):
+        for key, value in node.value:
+            yield f"/{key.value if isinstance(key, yaml.ScalarNode) else '?'}", key, value
+    elif isinstance(node, yaml.SequenceNode):
+        for number, value in enumerate(node.value):
+            yield f"[{number}]", value, value
+
+
+def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
+    yield place or "/", _line(node) or 1
+    for step, written, value in _children(node):
+        yield from _lines(value, place + step)
+        yield place + step, _line(written) or 1
+
+
+def _refuse_endless(node: yaml.Node, source: str) -> None:
+    """Refuse a document that holds itself, or that grows out of all bounds through its aliases."""
+    sizes: dict[int, int] = {}
+    open_nodes: set[int] = set()
+
+    def size(part: yaml.Node) -> int:
+        if id(part) in open_nodes:
+            raise RosParamException("this value contains itself, through an alias", source, _line(part))
+        if id(part) not in sizes:
+            open_nodes.add(id(part))
+            sizes[id(part)] = 1 + sum(size(value) for _, _, value in _children(part))
+            open_nodes.discard(id(part))
+        return sizes[id(part)]
+
+    if size(node) > _MOST:
+        raise RosParamException(
+            f"this document has {size(node)} values with its aliases; {_MOST} are allowed",
+            source,
+            _line(node),
+        )
+
+
+# ---- writing ----
+
+
+def dumps(value: Any) -> str:
+    """Return a value as the YAML text that rosparam prints and writes: keys sorted, one value in a line."""
+    text: str = yaml.dump(value, Dumper=_Dumper, default_flow_style=False, sort_keys=True)
+    return text.removesuffix("...\n")
