@@ -1,0 +1,40 @@
+"""Bags: recordings of what goes over topics, in ROS's file format 2.0 (http://wiki.ros.org/Bags/Format/2.0).
+
+:class:`Bag` reads and writes them; :class:`Recorder` and :class:`Player` are nodes of a graph; the rest are the tools of the command ``rosbag``.
+"""
+
+from __future__ import annotations
+
+from .bag import Bag, BagMessage, BagMessageWithConnectionHeader
+from .errors import (
+    BagFull,
+    BagTypeChanged,
+    FilterError,
+    ROSBagEncryptException,
+    ROSBagEncryptNotSupportedException,
+    ROSBagException,
+    ROSBagFormatException,
+    ROSBagUnindexedException,
+)
+from .records import Compression
+from .tools import changed_types, filter_bag, merge, recompress, reindex
+
+__all__ = [
+    "Bag",
+    "BagFull",
+    "BagMessage",
+    "BagMessageWithConnectionHeader",
+    "BagTypeChanged",
+    "Compression",
+    "FilterError",
+    "ROSBagEncryptException",
+    "ROSBagEncryptNotSupportedException",
+    "ROSBagException",
+    "ROSBagFormatException",
+    "ROSBagUnindexedException",
+    "changed_types",
+    "filter_bag",
+    "merge",
+    "recompress",
+    "reindex",
+]

@@ -1,0 +1,603 @@
+"""A bag as an object, with the interface of ROS's ``rosbag.Bag`` (http://wiki.ros.org/rosbag/Code%20API).
+
+>>> import io
+>>> from rosmini.bag import Bag
+>>> from rosmini.msgs.std_msgs.msg import String
+>>> from rosmini.time import Time
+>>> file = io.BytesIO()
+>>> with Bag(file, "w") as bag:
+...     bag.write("/chatter", String("hello"), Time(3))
+>>> for topic, message, t in Bag(file):
+...     print(topic, message.data, t.to_sec())
+/chatter hello 3.0
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from io import BufferedReader, BytesIO, FileIO, IOBase
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, Self
+
+from rosmini.errors import nearest
+from rosmini.graph import default_graph
+from rosmini.names import canonicalize
+from rosmini.time import Time
+
+from .errors import ROSBagException, ROSBagUnindexedException
+from .index import Connection, Index, connection
+from .reader import RawMessage, Reader, index_position, read_index
+from .records import Compression, check_compression
+from .scan import Scan, scan
+from .types import Types
+from .writer import CHUNK_THRESHOLD, Writer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from types import TracebackType
+
+    from rosmini.time import TVal
+
+    from .table import Table
+
+    ConnectionFilter = Callable[[str, str, str, str, dict[str, bytes]], bool]
+
+
+class BagMessage(NamedTuple):
+    """What :meth:`Bag.read_messages` yields."""
+
+    topic: str
+    message: Any
+    timestamp: Time
+
+
+class BagMessageWithConnectionHeader(NamedTuple):
+    """What :meth:`Bag.read_messages` yields with ``return_connection_header``; the header's values are bytes."""
+
+    topic: str
+    message: Any
+    timestamp: Time
+    connection_header: dict[str, bytes]
+
+
+class CompressionTuple(NamedTuple):
+    """How most chunks are compressed, and how many bytes all are without and with it."""
+
+    compression: str
+    uncompressed: int
+    compressed: int
+
+
+class TopicTuple(NamedTuple):
+    """What a bag has of a topic; ``frequency`` is one over the median period [Hz], None if there is none."""
+
+    msg_type: str
+    message_count: int
+    connections: int
+    frequency: float | None
+
+
+class TypesAndTopicsTuple(NamedTuple):
+    """The md5 sums of the types by name, and what there is of each topic."""
+
+    msg_types: dict[str, str]
+    topics: dict[str, TopicTuple]
+
+
+class _Input(BufferedReader):
+    """A file that is read, and closed without a word by whoever forgets to: nothing is lost by it."""
+
+    def __del__(self) -> None:
+        self.close()
+
+
+class Bag:
+    """A bag, open for reading ("r"), writing ("w": it begins empty) or appending ("a").
+
+    Args:
+        f: the file's path, or a file open in binary mode.
+        mode: "r", "w" or "a". In all of them messages can be read.
+        compression: of what is written: "none", "bz2" or "lz4" (`Compression`).
+        chunk_threshold: from this size on a chunk is closed [bytes].
+        allow_unindexed: read a bag whose recording did not come to an end as far as it goes; in mode "a", repair it.
+        options: {"compression": ..., "chunk_threshold": ...}, as the two arguments.
+        skip_index: for ROS's sake; an index is never read before it is needed.
+        numpy: give numeric arrays as read-only numpy arrays, else as rospy's tuples and bytes.
+
+    Raises:
+        ROSBagException: the file is empty, damaged, encrypted or not a bag; `ROSBagUnindexedException` if it has no index.
+        OSError: the file cannot be opened.
+
+    """
+
+    def __init__(
+        self,
+        f: str | os.PathLike[str] | BinaryIO,
+        mode: str = "r",
+        compression: str = Compression.NONE,
+        chunk_threshold: int = CHUNK_THRESHOLD,
+        allow_unindexed: bool = False,
+        options: Mapping[str, Any] | None = None,
+        skip_index: bool = False,  # noqa: ARG002 - rosbag's signature
+        *,
+        numpy: bool = True,
+    ) -> None:
+        if not f:
+            raise ValueError("filename (or stream) is invalid")
+        if mode not in ("r", "w", "a"):
+            raise ValueError(f'mode "{mode}" is invalid: use "r", "w" or "a"')
+        given = dict(options or {})
+        self._compression = check_compression(given.get("compression", compression))
+        self._chunk_threshold = _positive(given.get("chunk_threshold", chunk_threshold))
+        self._mode = mode
+        self._numpy = numpy
+        self._filename = None if isinstance(f, IOBase) else os.fspath(f)  # type: ignore[arg-type]
+        self._file: BinaryIO | None = None
+        self._input: BinaryIO | None = None
+        self._writer: Writer | None = None
+        self._types = Types()
+        self._numbers: dict[tuple[str, bytes], int] = {}
+        self._by_topic: dict[str, int] = {}
+        self.problems: list[str] = []
+        """What is wrong with a bag without an index that was opened all the same."""
+        try:
+            self._index = self._open(f, allow_unindexed)
+        except BaseException:
+            self._close_files()
+            raise
+
+    def __repr__(self) -> str:
+        state = {"r": "reading", "w": "writing", "a": "appending"}[self._mode]
+        return f"<Bag {self._name}, {'closed' if self._file is None else f'open for {state}'}>"
+
+    @property
+    def _name(self) -> str:
+        return self._filename or "the bag"
+
+    # -- opening and closing -----------------------------------------------------------------------------------------
+
+    def _open(self, f: Any, allow_unindexed: bool) -> Index:
+        stream = self._filename is None
+        if self._mode == "a" and not stream and not Path(f).exists():
+            self._mode = "w"
+        if self._mode == "r":
+            self._file = self._input = f if stream else _Input(FileIO(f))
+            return self._read_index(self._file, allow_unindexed)
+        # no buffer: what a full disk refuses must not wait in one
+        self._file = f if stream else FileIO(f, "w+" if self._mode == "w" else "r+")
+        self._input = f if stream else _Input(FileIO(f))
+        if self._mode == "w":
+            self._writer = self._new_writer(self._file)
+        else:
+            self._append(self._file, self._input, allow_unindexed)
+        assert self._writer is not None  # noqa: S101 - both ways have set it
+        return self._writer.index
+
+    def _new_writer(self, file: BinaryIO, index: Index | None = None, position: int | None = None) -> Writer:
+        return Writer(
+            file,
+            self._name,
+            compression=self._compression,
+            chunk_threshold=self._chunk_threshold,
+            index=index,
+            position=position,
+        )
+
+    def _read_index(self, file: BinaryIO, allow_unindexed: bool) -> Index:
+        try:
+            return read_index(file, self._name)
+        except ROSBagUnindexedException:
+            if not allow_unindexed:
+                raise
+        found = scan(file, self._name)
+        self.problems = found.problems
+        if not found.tail and found.bare is None:
+            return found.index
+        # what is whole in an unfinished chunk is read from a copy in memory, and the file stays as it is
+        copy = BytesIO()
+        file.seek(0)
+        copy.write(file.read(found.end))
+        self._finish(copy, found)
+        if self._filename is not None:
+            file.close()
+        self._file = self._input = copy
+        return read_index(copy, self._name)
+
+    def _append(self, file: BinaryIO, source: BinaryIO, allow_unindexed: bool) -> None:
+        try:
+            index = read_index(source, self._name)
+        except ROSBagUnindexedException:
+            if not allow_unindexed:
+                raise
+            found = scan(source, self._name)
+            self.problems = found.problems
+            self._writer = self._resume(file, found)
+        else:
+            end = index_position(source)
+            file.truncate(end)
+            self._writer = self._new_writer(file, index, end)
+        for number, known in self._writer.index.connections.items():
+            self._numbers[known.topic, known.raw] = number
+            self._by_topic.setdefault(known.topic, number)
+
+    def _resume(self, file: BinaryIO, found: Scan) -> Writer:
+        """Return a writer that goes on behind what was found, with the messages of the unfinished chunk."""
+        file.truncate(found.end)
+        writer = self._new_writer(file, found.index, found.end)
+        if found.bare is not None:
+            writer.write_index_data(found.bare)
+        for known in found.index.chunks:
+            known.entries = None  # they are in the file now
+        for known_connection, time, data in found.tail:
+            writer.write(known_connection.id, time, data)
+        return writer
+
+    def _finish(self, copy: BytesIO, found: Scan) -> None:
+        self._resume(copy, found).close()
+
+    def reindex(self) -> Iterator[int]:
+        """Make a new index, for a bag opened with mode "a" and ``allow_unindexed``; yield positions in the file.
+
+        Opening has done it already; this is for programs that ask for it, as ROS's own does.
+        """
+        yield from (chunk.position for chunk in self._index.chunks)
+
+    def flush(self) -> None:
+        """Write everything that is not in the file yet, except the index."""
+        if self._writer is not None:
+            self._writer.flush()
+
+    def close(self) -> None:
+        """Write the index, and close the file. Harmless when repeated. Raises ``BagFull`` if there is no room."""
+        try:
+            if self._writer is not None and self._file is not None:
+                self._writer.close()
+        finally:
+            self._close_files()
+
+    def _close_files(self) -> None:
+        if self._filename is not None:
+            for file in (self._file, self._input):
+                if file is not None:
+                    file.close()
+        self._file = self._input = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    # -- what it is --------------------------------------------------------------------------------------------------
+
+    @property
+    def filename(self) -> str | None:
+        """The file's path, None if the bag was made from an open file."""
+        return self._filename
+
+    @property
+    def version(self) -> int:
+        """The version of the format, 200 for 2.0."""
+        return 200
+
+    @property
+    def mode(self) -> str:
+        """How it was opened."""
+        return self._mode
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The options for writing."""
+        return {"compression": self._compression, "chunk_threshold": self._chunk_threshold}
+
+    @property
+    def size(self) -> int:
+        """How long the file is [bytes]; while it is written, with what is still in memory."""
+        if self._writer is not None and not self._writer.closed:
+            return self._writer.size
+        if self._filename is not None:
+            return Path(self._filename).stat().st_size
+        file = self._reading()
+        file.seek(0, os.SEEK_END)
+        return file.tell()
+
+    @property
+    def compression(self) -> str:
+        """How chunks are compressed that are written from now on."""
+        return self._compression
+
+    @compression.setter
+    def compression(self, compression: str) -> None:
+        self.flush()
+        self._compression = check_compression(compression)
+        if self._writer is not None:
+            self._writer.compression = compression
+
+    @property
+    def chunk_threshold(self) -> int:
+        """From which size on a chunk is closed [bytes]."""
+        return self._chunk_threshold
+
+    @chunk_threshold.setter
+    def chunk_threshold(self, chunk_threshold: int) -> None:
+        self.flush()
+        self._chunk_threshold = _positive(chunk_threshold)
+        if self._writer is not None:
+            self._writer.chunk_threshold = chunk_threshold
+
+    @property
+    def index(self) -> Index:
+        """The connections and chunks."""
+        self.flush()
+        return self._index
+
+    def connections(
+        self, topics: str | Iterable[str] | None = None, connection_filter: ConnectionFilter | None = None
+    ) -> list[Connection]:
+        """Return the connections of one topic, some, or all; ``connection_filter(topic, type, md5, definition, header)`` chooses."""
+        if isinstance(topics, str):
+            topics = [topics]
+        names = None if not topics else {name for topic in topics for name in (topic, canonicalize(topic))}
+        return [
+            found
+            for found in self._index.connections.values()
+            if (names is None or found.topic in names or canonicalize(found.topic) in names)
+            and (
+                connection_filter is None
+                or connection_filter(
+                    found.topic, found.type, found.md5sum, found.definition, dict(found.header)
+                )
+            )
+        ]
+
+    def message_class(self, topic_or_connection: str | Connection) -> Any:
+        """Return the class of the messages on a topic. Raises ``ROSBagException``, with the nearest name, for an unknown topic."""
+        if isinstance(topic_or_connection, Connection):
+            return self._types.of(topic_or_connection)
+        found = self.connections(topic_or_connection)
+        if not found:
+            raise self.no_topic(topic_or_connection)
+        return self._types.of(found[0])
+
+    def no_topic(self, topic: str) -> ROSBagException:
+        """Return the error for a topic that is not in the bag."""
+        topics = sorted({found.topic for found in self._index.connections.values()})
+        hint = nearest(topic, topics) or f"it has {', '.join(topics) or 'no topics'}"
+        return ROSBagException(f"{self._name} has no topic {topic}: {hint}")
+
+    # -- reading -----------------------------------------------------------------------------------------------------
+
+    def _reading(self) -> BinaryIO:
+        if self._input is None:
+            raise ValueError(f"I/O operation on a closed bag: {self._name}")
+        return self._input
+
+    def reader(self) -> Reader:
+        """Return what reads the bag's bytes; everything written so far is there."""
+        file = self._reading()
+        self.flush()
+        return Reader(file, self._index)
+
+    def read_raw(
+        self,
+        topics: str | Iterable[str] | None = None,
+        start_time: TVal | None = None,
+        end_time: TVal | None = None,
+        connection_filter: ConnectionFilter | None = None,
+    ) -> Iterator[RawMessage]:
+        """Yield messages as bytes, with their connections; the arguments are those of :meth:`read_messages`."""
+        wanted = {found.id for found in self.connections(topics, connection_filter)}
+        start, end = (None if time is None else time.to_nsec() for time in (start_time, end_time))
+        return self.reader().messages(wanted, start, end)
+
+    def read_messages(
+        self,
+        topics: str | Iterable[str] | None = None,
+        start_time: TVal | None = None,
+        end_time: TVal | None = None,
+        connection_filter: ConnectionFilter | None = None,
+        raw: bool = False,
+        return_connection_header: bool = False,
+    ) -> Iterator[Any]:
+        """Yield (topic, message, time) in the order of time, of one topic, some, or all, between two times (both included).
+
+        With ``raw`` a message is (type, bytes, md5 sum, (chunk, offset), class). Raises ``ROSBagException`` at damage.
+        """
+        found = self.read_raw(topics, start_time, end_time, connection_filter)
+        return self._messages(found, raw, return_connection_header)
+
+    def _messages(self, found: Iterator[RawMessage], raw: bool, with_header: bool) -> Iterator[Any]:
+        decoders: dict[int, Callable[[bytes], Any]] = {}
+        for conn, nanoseconds, data, chunk, offset in found:
+            if raw:
+                position = (self._index.chunks[chunk].position, offset)
+                message: Any = (conn.type, data, conn.md5sum, position, self._types.of(conn))
+            else:
+                decode = decoders.get(conn.id)
+                if decode is None:
+                    decode = decoders[conn.id] = self._decoder(conn)
+                message = decode(data)
+            time = Time(*divmod(nanoseconds, 1_000_000_000))
+            if with_header:
+                yield BagMessageWithConnectionHeader(conn.topic, message, time, dict(conn.header))
+            else:
+                yield BagMessage(conn.topic, message, time)
+
+    def _decoder(self, conn: Connection) -> Callable[[bytes], Any]:
+        cls = self._types.of(conn)
+        decode = cls._decode
+        if cls._plain:
+            return decode  # type: ignore[no-any-return]
+        thaw = cls._thaw_numpy if self._numpy else cls._thaw
+        return lambda data: thaw(decode(data))
+
+    def __iter__(self) -> Iterator[Any]:
+        return self.read_messages()
+
+    def table(self, topic: str) -> Table:
+        """Return a topic as columns, ready for ``pandas.DataFrame``; see :func:`rosmini.bag.table.table`."""
+        from .table import table
+
+        return table(self, topic)
+
+    # -- writing -----------------------------------------------------------------------------------------------------
+
+    def write(
+        self,
+        topic: str,
+        msg: Any,
+        t: TVal | None = None,
+        raw: bool = False,
+        connection_header: Mapping[str, str | bytes] | None = None,
+    ) -> None:
+        """Write a message, recorded at ``t`` (the graph's time now, if not given).
+
+        With ``raw`` a message is (type, bytes, md5 sum, class), or the same with a position before the class. Messages with another
+        ``connection_header`` get a connection of their own. Raises ``ValueError`` for a closed bag, an empty topic or no message,
+        ``BagFull`` when there is no more room, ``SerializationError`` for a field of the wrong type.
+        """
+        if self._file is None:
+            raise ValueError(f"I/O operation on a closed bag: {self._name}")
+        writer = self._writer
+        if writer is None:
+            raise ROSBagException(f'{self._name} is open for reading: open it with mode "w" or "a" to write')
+        if not topic:
+            raise ValueError("topic is invalid: it is empty")
+        if msg is None or (raw and len(msg) not in (4, 5)):
+            raise ValueError("msg is invalid: a message, or with raw=True (type, bytes, md5sum, class)")
+        data: bytes
+        if raw:
+            kind, data, md5sum, cls = msg[0], msg[1], msg[2], msg[-1]
+        else:
+            kind, data, md5sum, cls = msg._type, _serialized(msg), msg._md5sum, type(msg)
+        time = default_graph().now() if t is None else t
+        number = self._by_topic.get(topic) if connection_header is None else None
+        if number is None or writer.index.connections[number].md5sum != md5sum:
+            number = self._connect(topic, kind, md5sum, cls, connection_header)
+        writer.write(number, time.to_nsec(), data)
+
+    def _connect(
+        self,
+        topic: str,
+        kind: str,
+        md5sum: str,
+        cls: Any,
+        header: Mapping[str, str | bytes] | None,
+    ) -> int:
+        if header is None:
+            if cls is None:
+                raise ROSBagException(f"{kind} on {topic}: give its class, or a connection header")
+            header = {"topic": topic, "type": kind, "md5sum": md5sum, "message_definition": cls._full_text}
+        return self.connect(connection(0, topic, header))
+
+    def connect(self, conn: Connection) -> int:
+        """Return this bag's number for a connection of another bag, or of a graph; its header is kept to the byte."""
+        if self._writer is None:
+            raise ROSBagException(f"{self._name} is not open for writing")
+        key = conn.topic, conn.raw
+        number = self._numbers.get(key)
+        if number is None:
+            number = self._numbers[key] = self._writer.add(conn).id
+            self._by_topic.setdefault(conn.topic, number)
+        return number
+
+    def write_raw(self, number: int, nanoseconds: int, data: bytes) -> None:
+        """Write a message of the connection with a number that :meth:`connect` gave, recorded at a time [ns]."""
+        if self._writer is None or self._file is None:
+            raise ROSBagException(f"{self._name} is not open for writing")
+        self._writer.write(number, nanoseconds, data)
+
+    def sync(self) -> None:
+        """Write what is in memory, so that it survives a crash, and go on with the chunk that is open."""
+        if self._writer is not None:
+            self._writer.sync()
+
+    # -- summaries ---------------------------------------------------------------------------------------------------
+
+    def get_message_count(self, topic_filters: str | list[str] | None = None) -> int:
+        """Return how many messages there are, on one topic, some, or all."""
+        if topic_filters is None:
+            return self.index.messages
+        return sum(self.index.count(found.id) for found in self.connections(topic_filters))
+
+    def get_start_time(self) -> float:
+        """Return when the first message was recorded [s]. Raises ``ROSBagException`` if there is none."""
+        return self._time(self.index.start)
+
+    def get_end_time(self) -> float:
+        """Return when the last message was recorded [s]. Raises ``ROSBagException`` if there is none."""
+        return self._time(self.index.end)
+
+    @staticmethod
+    def _time(nanoseconds: int | None) -> float:
+        if nanoseconds is None:
+            raise ROSBagException("Bag contains no message")
+        return Time.from_nsec(nanoseconds).to_sec()
+
+    def get_compression_info(self) -> CompressionTuple:
+        """Return how most chunks are compressed, and their bytes without and with it."""
+        chunks = self.index.chunks
+        ranked = sorted(
+            ((count, name) for name, count in Counter(chunk.compression for chunk in chunks).items()),
+            reverse=True,
+        )
+        return CompressionTuple(
+            ranked[0][1] if ranked else self._compression,
+            sum(chunk.size for chunk in chunks),
+            sum(chunk.compressed for chunk in chunks),
+        )
+
+    def get_type_and_topic_info(self, topic_filters: str | list[str] | None = None) -> TypesAndTopicsTuple:
+        """Return the types, and what there is of one topic, some, or all."""
+        from .info import frequency
+
+        reader = self.reader()
+        types: dict[str, str] = {}
+        for found in self._index.connections.values():
+            types.setdefault(found.type, found.md5sum)
+        topics = {}
+        for topic in sorted({found.topic for found in self.connections(topic_filters)}):
+            here = self.connections(topic)
+            topics[topic] = TopicTuple(
+                here[0].type,
+                sum(self._index.count(found.id) for found in here),
+                len(here),
+                frequency(reader, here),
+            )
+        return TypesAndTopicsTuple(dict(sorted(types.items())), topics)
+
+    def set_encryptor(self, encryptor: str | None = None, param: str | None = None) -> None:  # noqa: ARG002
+        """Accept that there is no encryption. Raises ``ROSBagEncryptNotSupportedException`` for any other."""
+        if encryptor:
+            from .errors import ROSBagEncryptNotSupportedException
+
+            raise ROSBagEncryptNotSupportedException(
+                f"bags are not encrypted here ({encryptor}): use real ROS's `rosbag encrypt`"
+            )
+
+    def __str__(self) -> str:
+        from .info import info_text
+
+        return info_text(self)
+
+    def _get_yaml_info(self, key: str | None = None) -> str | None:
+        from .info import info_yaml
+
+        return info_yaml(self, key)
+
+
+def _serialized(msg: Any) -> bytes:
+    if hasattr(type(msg), "_encode"):
+        return type(msg)._encode(msg)  # type: ignore[no-any-return]
+    buffer = BytesIO()
+    msg.serialize(buffer)
+    return buffer.getvalue()
+
+
+def _positive(size: Any) -> int:
+    if not isinstance(size, int) or size < 0:
+        raise ValueError(f"chunk_threshold must be a number of bytes, not {size!r}")
+    return size

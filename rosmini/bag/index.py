@@ -1,0 +1,122 @@
+"""What a bag's index says: connections, chunks, and where in a chunk each message is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from .errors import ROSBagFormatException
+from .records import pack_fields, parse_fields
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+
+@dataclass(frozen=True)
+class Connection:
+    """A publisher's connection, as it was recorded: the topic it stood under, and its header to the byte.
+
+    ``raw`` holds the fields of the connection header (http://wiki.ros.org/ROS/Connection%20Header) as the file has them.
+    """
+
+    id: int
+    topic: str
+    raw: bytes
+
+    @cached_property
+    def header(self) -> dict[str, bytes]:
+        """The fields of the connection header."""
+        return parse_fields(self.raw, f"the connection of {self.topic}")
+
+    def text(self, name: str) -> str:
+        """Return a field of the header as text; empty if it has no such field."""
+        return self.header.get(name, b"").decode("utf-8", "replace")
+
+    @cached_property
+    def type(self) -> str:
+        """The message type, such as ``std_msgs/String``."""
+        return self.text("type")
+
+    @cached_property
+    def md5sum(self) -> str:
+        """The md5 sum of the message definition."""
+        return self.text("md5sum")
+
+    @cached_property
+    def definition(self) -> str:
+        """The full text of the message definition."""
+        return self.text("message_definition")
+
+    @property
+    def caller(self) -> str:
+        """The node that published; empty if the bag does not say."""
+        return self.text("callerid")
+
+    @property
+    def latching(self) -> bool:
+        """Whether the publisher latched its last message."""
+        return self.text("latching") == "1"
+
+    def fits(self, topics: Iterable[str] | None) -> bool:
+        """Tell whether the topic is one of ``topics`` (None: all are)."""
+        return topics is None or self.topic in topics
+
+
+def connection(number: int, topic: str, header: Mapping[str, str | bytes]) -> Connection:
+    """Return a connection made from header fields."""
+    raw = {name: value if isinstance(value, bytes) else str(value).encode() for name, value in header.items()}
+    for needed in ("type", "md5sum", "message_definition"):
+        if needed not in raw:
+            raise ROSBagFormatException(f"the connection header of {topic} has no field {needed!r}")
+    if "topic" not in raw:
+        raw = {"topic": topic.encode(), **raw}
+    return Connection(number, topic, pack_fields(raw))
+
+
+@dataclass
+class Chunk:
+    """A chunk: where it is, which times it spans [ns], and how many messages of which connection are in it."""
+
+    position: int
+    data_position: int
+    compression: str
+    compressed: int
+    size: int
+    start: int = 0
+    end: int = 0
+    counts: dict[int, int] = field(default_factory=dict)
+    entries: dict[int, bytes] | None = None
+    """Packed (seconds, nanoseconds, offset) of each connection's messages; None while they are only in the file."""
+
+    @property
+    def messages(self) -> int:
+        """How many messages are in it."""
+        return sum(self.counts.values())
+
+
+@dataclass
+class Index:
+    """All connections by number, and all chunks in the order in which they were written."""
+
+    connections: dict[int, Connection] = field(default_factory=dict)
+    chunks: list[Chunk] = field(default_factory=list)
+
+    @property
+    def messages(self) -> int:
+        """How many messages are in the bag."""
+        return sum(chunk.messages for chunk in self.chunks)
+
+    def count(self, number: int) -> int:
+        """Return how many messages a connection has."""
+        return sum(chunk.counts.get(number, 0) for chunk in self.chunks)
+
+    @property
+    def start(self) -> int | None:
+        """The time of the first message [ns]; None without messages."""
+        return min((chunk.start for chunk in self.chunks if chunk.counts), default=None)
+
+    @property
+    def end(self) -> int | None:
+        """The time of the last message [ns]; None without messages."""
+        return max((chunk.end for chunk in self.chunks if chunk.counts), default=None)

@@ -1,0 +1,257 @@
+"""Reading a bag: its index first, then messages in the order of time, one chunk after another."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections import OrderedDict
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+
+from .errors import ROSBagFormatException, ROSBagUnindexedException
+from .index import Chunk, Connection, Index
+from .records import (
+    MAGIC,
+    MESSAGE_MARK,
+    NSECS,
+    OP_BAG_HEADER,
+    OP_CHUNK,
+    OP_CHUNK_INFO,
+    OP_CONNECTION,
+    OP_INDEX,
+    Record,
+    Truncated,
+    check_magic,
+    decompress,
+    encryption,
+    field,
+    index_entry,
+    read_exactly,
+    read_record,
+    time_field,
+    u32,
+    u64,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
+KEPT_CHUNKS = 8
+"""So many chunks stay in memory: those that overlap in time are read in turn."""
+
+
+class RawMessage(NamedTuple):
+    """A message as the bag has it; ``time`` is when it was recorded [ns]."""
+
+    connection: Connection
+    time: int
+    data: bytes
+    chunk: int
+    offset: int
+
+
+def read_data(file: BinaryIO, record: Record, what: str) -> bytes:
+    """Read a record's data. Raises ``Truncated`` if the file ends in it."""
+    file.seek(record.data_position)
+    return read_exactly(file, record.data_length, what)
+
+
+def read_index(file: BinaryIO, name: str) -> Index:
+    """Read the index at the end of a bag.
+
+    Raises ``ROSBagUnindexedException`` if it has none, ``ROSBagFormatException`` if the file is damaged or no bag,
+    ``ROSBagEncryptNotSupportedException`` if it is encrypted.
+    """
+    check_magic(file, name)
+    first = read_record(file, len(MAGIC))
+    if first is None:
+        raise ROSBagUnindexedException(
+            f"{name} ends after its first line: nothing was recorded, or it is truncated"
+        )
+    if first.op != OP_BAG_HEADER:
+        raise ROSBagFormatException(f"{name} has no bag header after its first line: it is damaged")
+    encryption(first, name)
+    position = field(first, "index_pos", u64)
+    if position == 0:
+        raise ROSBagUnindexedException(
+            f"{name} has no index: its recording did not come to an end. `rosbag reindex {name}` makes one."
+        )
+    index = Index()
+    try:
+        for _ in range(field(first, "conn_count", u32)):
+            record = _expected(file, position, OP_CONNECTION)
+            found = connection_of(file, record)
+            index.connections[found.id] = found
+            position = record.end
+        for _ in range(field(first, "chunk_count", u32)):
+            record = _expected(file, position, OP_CHUNK_INFO)
+            index.chunks.append(_chunk_of(file, record))
+            position = record.end
+    except Truncated as error:
+        raise ROSBagUnindexedException(
+            f"{name} is truncated: {error.value} Its index is lost with its end: `rosbag reindex {name}` makes a new one."
+        ) from error
+    return index
+
+
+def index_position(file: BinaryIO) -> int:
+    """Return where the index of a bag begins that has one: there an appending writer goes on."""
+    first = read_record(file, len(MAGIC))
+    return 0 if first is None else field(first, "index_pos", u64)
+
+
+def _expected(file: BinaryIO, position: int, op: int) -> Record:
+    record = read_record(file, position)
+    if record is None:
+        raise Truncated("the file ends within its index.")
+    if record.op != op:
+        raise ROSBagFormatException(
+            f"the index has a record of kind {record.op} at byte {position} where kind {op} belongs: the file is damaged"
+        )
+    return record
+
+
+def connection_of(file: BinaryIO, record: Record) -> Connection:
+    """Return the connection that a record describes."""
+    raw = read_data(file, record, "a connection")
+    topic = record.fields.get("topic", b"").decode("utf-8", "replace")
+    return Connection(field(record, "conn", u32), topic, raw)
+
+
+def chunk_at(file: BinaryIO, position: int) -> Chunk:
+    """Return what the chunk's own header says; times and counts are those of the index."""
+    record = read_record(file, position)
+    if record is None:
+        raise Truncated(f"the file ends before the chunk at byte {position}.")
+    if record.op != OP_CHUNK:
+        raise ROSBagFormatException(
+            f"the index names a chunk at byte {position}, and there is none: the file is damaged"
+        )
+    compression = record.fields.get("compression", b"").decode("utf-8", "replace")
+    return Chunk(position, record.data_position, compression, record.data_length, field(record, "size", u32))
+
+
+def _chunk_of(file: BinaryIO, record: Record) -> Chunk:
+    if field(record, "ver", u32) != 1:
+        raise ROSBagFormatException(f"unknown version of the chunk info at byte {record.position}")
+    counts = read_data(file, record, "the index")
+    chunk = chunk_at(file, field(record, "chunk_pos", u64))
+    chunk.start, chunk.end = time_field(record, "start_time"), time_field(record, "end_time")
+    chunk.counts = {
+        u32.unpack_from(counts, at)[0]: u32.unpack_from(counts, at + 4)[0]
+        for at in range(0, 8 * field(record, "count", u32), 8)
+    }
+    return chunk
+
+
+class Reader:
+    """Reads the messages of an open bag, of which the index is known.
+
+    It keeps a few chunks, so memory does not grow with the bag. The index may grow while it reads.
+    """
+
+    def __init__(self, file: BinaryIO, index: Index) -> None:
+        self._file = file
+        self.index = index
+        self._chunks: OrderedDict[int, bytes] = OrderedDict()
+
+    def forget(self, position: int) -> None:
+        """Forget a chunk, which was written again."""
+        self._chunks.pop(position, None)
+
+    def messages(
+        self, wanted: Collection[int] | None = None, start: int | None = None, end: int | None = None
+    ) -> Iterator[RawMessage]:
+        """Yield the messages of the ``wanted`` connections from ``start`` to ``end`` [ns], both included, in the order of time.
+
+        Messages of the same time come in the order in which they were recorded. Raises ``ROSBagFormatException`` at damage.
+        """
+        if wanted is None:
+            wanted = self.index.connections.keys()
+        pending: list[tuple[int, int, int, int]] = []
+        numbered = sorted(enumerate(self.index.chunks), key=lambda pair: pair[1].start)
+        for number, chunk in numbered:
+            if (end is not None and chunk.start > end) or (start is not None and chunk.end < start):
+                continue
+            ready = bisect_left(pending, (chunk.start,))
+            yield from self._read(pending[:ready])
+            pending = pending[ready:]
+            pending += self._entries(number, chunk, wanted, start, end)
+            pending.sort()
+        yield from self._read(pending)
+
+    def times(self, number: int) -> list[int]:
+        """Return the times of a connection's messages [ns], in order, without reading a message."""
+        found: list[int] = []
+        for chunk in self.index.chunks:
+            packed = self.entries(chunk).get(number, b"")
+            found += [secs * NSECS + nsecs for secs, nsecs, _ in index_entry.iter_unpack(packed)]
+        return sorted(found)
+
+    def _entries(
+        self, number: int, chunk: Chunk, wanted: Collection[int], start: int | None, end: int | None
+    ) -> Iterator[tuple[int, int, int, int]]:
+        for conn, packed in self.entries(chunk).items():
+            if conn not in wanted:
+                continue
+            for secs, nsecs, offset in index_entry.iter_unpack(packed):
+                time = secs * NSECS + nsecs
+                if (start is None or time >= start) and (end is None or time <= end):
+                    yield time, number, offset, conn
+
+    def entries(self, chunk: Chunk) -> dict[int, bytes]:
+        """Return the packed entries (see `Chunk`) of each connection's messages in a chunk, from the records that follow it."""
+        if chunk.entries is not None:
+            return chunk.entries
+        entries: dict[int, bytes] = {}
+        position = chunk.data_position + chunk.compressed
+        for _ in chunk.counts:
+            record = _expected(self._file, position, OP_INDEX)
+            if field(record, "ver", u32) != 1 or record.data_length % index_entry.size:
+                raise ROSBagFormatException(f"the index data at byte {position} is of an unknown form")
+            entries[field(record, "conn", u32)] = read_data(self._file, record, "the index of a chunk")
+            position = record.end
+        return entries
+
+    def data(self, chunk: Chunk) -> bytes:
+        """Return a chunk's data, decompressed."""
+        data = self._chunks.get(chunk.position)
+        if data is None:
+            self._file.seek(chunk.data_position)
+            packed = read_exactly(self._file, chunk.compressed, f"the chunk at byte {chunk.position}")
+            data = decompress(packed, chunk.compression, chunk.size, chunk.position)
+            while len(self._chunks) >= KEPT_CHUNKS:
+                self._chunks.popitem(last=False)
+            self._chunks[chunk.position] = data
+        else:
+            self._chunks.move_to_end(chunk.position)
+        return data
+
+    def _read(self, entries: list[tuple[int, int, int, int]]) -> Iterator[RawMessage]:
+        connections, chunks = self.index.connections, self.index.chunks
+        last, data = -1, b""
+        for time, number, offset, conn in entries:
+            if number != last:
+                data = self.data(chunks[number])
+                last = number
+            yield RawMessage(
+                connections[conn], time, message_at(data, offset, chunks[number]), number, offset
+            )
+
+
+def message_at(data: bytes, offset: int, chunk: Chunk) -> bytes:
+    """Return the message whose record is at ``offset`` of a chunk's data; connections before it are skipped."""
+    try:
+        while True:
+            begin = offset + 4
+            end = begin + u32.unpack_from(data, offset)[0]
+            length = u32.unpack_from(data, end)[0]
+            if data.find(MESSAGE_MARK, begin, end) >= 0:
+                break
+            offset = end + 4 + length
+    except Exception as error:
+        raise ROSBagFormatException(
+            f"the chunk at byte {chunk.position} has no message at its byte {offset}: the file is damaged"
+        ) from error
+    message = data[end + 4 : end + 4 + length]
+    if len(message) != length:
+        raise ROSBagFormatException(f"a message is cut off in the chunk at byte {chunk.position}")
+    return message

@@ -1,0 +1,280 @@
+"""The bytes of a ROS bag, version 2.0 (http://wiki.ros.org/Bags/Format/2.0): records, their headers, compression.
+
+A record is a header and data, each after its length. A header is a row of ``name=value`` fields, each after its length.
+
+rosbags reads and writes bags, too, and the tests hold ours against it. It cannot be what stands here: it keeps of a connection header
+only the fields that it knows, opens no bag without an index, and writes a chunk's file only at the end of the chunk.
+"""
+
+from __future__ import annotations
+
+import bz2
+import struct
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+
+from .errors import ROSBagEncryptNotSupportedException, ROSBagException, ROSBagFormatException
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+MAGIC = b"#ROSBAG V2.0\n"
+HEADER_ROOM = 4096
+"""So long are header and padding of the first record, which is written again when the bag is closed."""
+
+OP_MESSAGE, OP_BAG_HEADER, OP_INDEX, OP_CHUNK, OP_CHUNK_INFO, OP_CONNECTION = 2, 3, 4, 5, 6, 7
+MESSAGE_MARK = b"\x04\x00\x00\x00op=\x02"
+"""The field that tells a message's header from a connection's."""
+
+LONGEST = 2**31
+"""No header and no chunk is as long as this: a length beyond it is not one."""
+
+NSECS = 1_000_000_000
+
+
+class Compression:
+    """How chunks can be compressed."""
+
+    NONE = "none"
+    BZ2 = "bz2"
+    LZ4 = "lz4"
+
+
+COMPRESSIONS = (Compression.NONE, Compression.BZ2, Compression.LZ4)
+
+u32 = struct.Struct("<I")
+u64 = struct.Struct("<Q")
+stamp = struct.Struct("<II")
+index_entry = struct.Struct("<III")
+
+
+class Truncated(ROSBagFormatException):
+    """The file ends within a record."""
+
+
+class Record(NamedTuple):
+    """Where a record is and what its header says; the data is still in the file."""
+
+    position: int
+    fields: dict[str, bytes]
+    data_position: int
+    data_length: int
+
+    @property
+    def op(self) -> int:
+        """What kind of record it is."""
+        return self.fields["op"][0]
+
+    @property
+    def end(self) -> int:
+        """Where the next record begins."""
+        return self.data_position + self.data_length
+
+
+def pack_fields(fields: Mapping[str, bytes]) -> bytes:
+    """Return the bytes of header fields, without a length before them."""
+    parts = []
+    for name, value in fields.items():
+        entry = name.encode() + b"=" + value
+        parts += [u32.pack(len(entry)), entry]
+    return b"".join(parts)
+
+
+def parse_fields(header: bytes, where: str) -> dict[str, bytes]:
+    """Return the fields of a header. Raises ``ROSBagFormatException``, which says ``where``, if it is none."""
+    fields: dict[str, bytes] = {}
+    at, end = 0, len(header)
+    while at < end:
+        if at + 4 > end:
+            raise ROSBagFormatException(f"{where}: a header field is cut off: the file is damaged")
+        length = u32.unpack_from(header, at)[0]
+        name, equals, value = header[at + 4 : at + 4 + length].partition(b"=")
+        if at + 4 + length > end or not equals:
+            raise ROSBagFormatException(
+                f"{where}: a header field is no name=value: the file is damaged or not a bag"
+            )
+        fields[name.decode("utf-8", "replace")] = value
+        at += 4 + length
+    return fields
+
+
+def pack_record(fields: Mapping[str, bytes], data: bytes = b"") -> bytes:
+    """Return the bytes of a record."""
+    header = pack_fields(fields)
+    return b"".join((u32.pack(len(header)), header, u32.pack(len(data)), data))
+
+
+def read_exactly(file: BinaryIO, length: int, what: str) -> bytes:
+    """Read ``length`` bytes. Raises ``Truncated`` if there are fewer."""
+    data = file.read(length)
+    if len(data) < length:
+        raise Truncated(
+            f"the file ends within {what}: it is truncated. `rosbag reindex` saves what is in it."
+        )
+    return data
+
+
+def read_record(file: BinaryIO, position: int) -> Record | None:
+    """Read the header of the record at ``position``; None at the end of the file.
+
+    Raises ``Truncated`` if the file ends in it, ``ROSBagFormatException`` if it is no record.
+    """
+    file.seek(position)
+    start = file.read(4)
+    if not start:
+        return None
+    where = f"the record at byte {position}"
+    if len(start) < 4:
+        raise Truncated(f"the file ends within {where}: it is truncated")
+    length = u32.unpack(start)[0]
+    if length > LONGEST:
+        raise ROSBagFormatException(
+            f"{where}: a header of {length} bytes: the file is damaged or not a bag (or encrypted)"
+        )
+    fields = parse_fields(read_exactly(file, length, where), where)
+    if len(fields.get("op", b"")) != 1:
+        raise ROSBagFormatException(f"{where} does not say what it is (no field op): the file is damaged")
+    data_length = u32.unpack(read_exactly(file, 4, where))[0]
+    return Record(position, fields, position + 8 + length, data_length)
+
+
+def field(record: Record, name: str, layout: struct.Struct) -> int:
+    """Return a number in a record's header. Raises ``ROSBagFormatException`` if it is not there."""
+    value = record.fields.get(name)
+    if value is None or len(value) != layout.size:
+        raise ROSBagFormatException(
+            f"the record at byte {record.position} has no valid field {name!r}: the file is damaged"
+        )
+    return int(layout.unpack(value)[0])
+
+
+def time_field(record: Record, name: str) -> int:
+    """Return a time in a record's header [ns]."""
+    packed = field(record, name, u64)
+    return (packed & 0xFFFFFFFF) * NSECS + (packed >> 32)
+
+
+def pack_time(nanoseconds: int) -> bytes:
+    """Return a time as a bag holds it."""
+    return stamp.pack(*divmod(nanoseconds, NSECS))
+
+
+def compress(data: bytes, compression: str) -> bytes:
+    """Return a chunk's data as it stands in the file."""
+    if compression == Compression.BZ2:
+        return bz2.compress(data)
+    if compression == Compression.LZ4:
+        import lz4.frame
+
+        # The one form that ROS's own reader takes: blocks that stand alone, with a sum over the content.
+        packed: bytes = lz4.frame.compress(
+            data,
+            block_size=lz4.frame.BLOCKSIZE_MAX4MB,
+            block_linked=False,
+            content_checksum=True,
+            store_size=False,
+        )
+        return packed
+    return data
+
+
+def decompress(data: bytes, compression: str, size: int, position: int) -> bytes:
+    """Return a chunk's data. Raises ``ROSBagFormatException`` if it is damaged or compressed in an unknown way."""
+    try:
+        if compression == Compression.NONE:
+            plain = data
+        elif compression == Compression.BZ2:
+            plain = bz2.decompress(data)
+        elif compression == Compression.LZ4:
+            import lz4.frame
+
+            plain = lz4.frame.decompress(data)
+        else:
+            raise ROSBagException(
+                f"the chunk at byte {position} is compressed with {compression!r}; "
+                f"a bag may use {', '.join(COMPRESSIONS)}"
+            )
+    except (OSError, ValueError, EOFError, RuntimeError) as error:
+        raise ROSBagFormatException(
+            f"the {compression} chunk at byte {position} does not decompress: the file is damaged ({error})"
+        ) from error
+    if len(plain) != size:
+        raise ROSBagFormatException(
+            f"the chunk at byte {position} should have {size} bytes and has {len(plain)}: the file is damaged"
+        )
+    return plain
+
+
+def rescue(data: bytes, compression: str) -> bytes:
+    """Return as much of a chunk that was cut off as can be had."""
+    if compression == Compression.NONE:
+        return data
+    if compression == Compression.BZ2:
+        decompressor = bz2.BZ2Decompressor()
+    elif compression == Compression.LZ4:
+        import lz4.frame
+
+        decompressor = lz4.frame.LZ4FrameDecompressor()
+    else:
+        return b""
+    saved = bytearray()
+    try:
+        for start in range(0, len(data), 4096):
+            saved += decompressor.decompress(data[start : start + 4096])
+    except (OSError, EOFError, RuntimeError):
+        pass  # what came before the damage counts
+    return bytes(saved)
+
+
+def check_compression(compression: str) -> str:
+    """Return ``compression`` if there is such a one. Raises ``ROSBagException`` otherwise."""
+    if compression not in COMPRESSIONS:
+        raise ROSBagException(f"no compression {compression!r}: use one of {', '.join(COMPRESSIONS)}")
+    return compression
+
+
+def check_magic(file: BinaryIO, name: str) -> None:
+    """Go to the first record. Raises ``ROSBagFormatException`` if ``file`` is no bag of version 2.0."""
+    file.seek(0)
+    start = file.read(len(MAGIC))
+    if not start:
+        raise ROSBagFormatException(
+            f"{name} is an empty file, not a bag: was its recording ended before it began?"
+        )
+    if start == MAGIC:
+        return
+    if start.startswith(b"#ROS") and b" V" in start:
+        version = start.partition(b" V")[2][:3].decode("ascii", "replace")
+        raise ROSBagFormatException(
+            f"{name} is a bag of version {version}; only 2.0 is read here. Real ROS converts it: `rosbag fix`."
+        )
+    if MAGIC.startswith(start):
+        raise ROSBagFormatException(
+            f"{name} has only {len(start)} bytes of a bag in it: nothing was recorded"
+        )
+    if start.startswith(b"SQLite"):
+        raise ROSBagFormatException(f"{name} is a database, perhaps a bag of ROS 2: not a ROS 1 bag")
+    if start.startswith(b"\x89MCAP"):
+        raise ROSBagFormatException(f"{name} is an MCAP file: not a ROS 1 bag")
+    raise ROSBagFormatException(f"{name} does not appear to be a bag file: it begins with {start[:8]!r}")
+
+
+def bag_header(index_position: int, connections: int, chunks: int) -> bytes:
+    """Return the first record, padded to its fixed length."""
+    fields = {
+        "chunk_count": u32.pack(chunks),
+        "conn_count": u32.pack(connections),
+        "index_pos": u64.pack(index_position),
+        "op": bytes([OP_BAG_HEADER]),
+    }
+    return pack_record(fields, b" " * (HEADER_ROOM - len(pack_fields(fields))))
+
+
+def encryption(record: Record, name: str) -> None:
+    """Raise ``ROSBagEncryptNotSupportedException`` if the first record says that the bag is encrypted."""
+    encryptor = record.fields.get("encryptor", b"").decode("utf-8", "replace")
+    if encryptor:
+        user = record.fields.get("gpg_user", b"").decode("utf-8", "replace")
+        whom = f" for the GPG user {user}" if user else ""
+        raise ROSBagEncryptNotSupportedException(
+            f"{name} is encrypted ({encryptor}){whom}: decrypt it with real ROS first: `rosbag decrypt {name}`"
+        )

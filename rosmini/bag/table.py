@@ -1,0 +1,75 @@
+"""A topic of a bag as a table: one row for each message, one column for each number or text in it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rosmini.time import TVal
+
+if TYPE_CHECKING:
+    from .bag import Bag
+
+TIME = "time"
+"""The column with the times at which messages were recorded [s]."""
+
+
+class Table(dict[str, Any]):
+    """Columns by name, all of one length, in the order of the fields: ``pandas.DataFrame(table)`` is a data frame.
+
+    Columns of numbers are numpy arrays; those of texts and of arrays (``ranges`` of a scan) are lists, with one entry a message.
+    """
+
+    @property
+    def rows(self) -> int:
+        """How many messages there are."""
+        return len(self[TIME]) if TIME in self else 0
+
+    def __repr__(self) -> str:
+        return f"<Table of {self.rows} messages with the columns {', '.join(self)}>"
+
+
+def table(bag: Bag, topic: str) -> Table:
+    """Return the messages of a topic as columns.
+
+    Fields in fields are written with dots: ``pose.pose.position.x``; ``header.stamp`` and other times are seconds. ``time`` is when the message
+    was recorded [s]. A message array gives a list column of its messages. Raises ``ROSBagException`` if the bag has no such topic.
+    """
+    found = bag.connections(topic)
+    if not found:
+        raise bag.no_topic(topic)
+    columns: dict[str, list[Any]] = {TIME: []}
+    for name in _columns(bag.message_class(found[0]), ""):
+        columns[name] = []
+    for _, message, time in bag.read_messages(topic):
+        columns[TIME].append(time.to_sec())
+        _fill(columns, message, "")
+    return Table((name, _packed(values)) for name, values in columns.items())
+
+
+def _columns(cls: Any, prefix: str) -> list[str]:
+    """Return the columns of a message class, so that a topic without messages has them, too."""
+    names: list[str] = []
+    for field in cls._spec.fields:
+        name = prefix + field.name
+        nested = cls._nested.get(field.base)
+        names += [name] if nested is None or field.size is not None else _columns(nested, name + ".")
+    return names
+
+
+def _fill(columns: dict[str, list[Any]], message: Any, prefix: str) -> None:
+    for field in message._spec.fields:
+        value = getattr(message, field.name)
+        name = prefix + field.name
+        if hasattr(value, "_spec"):
+            _fill(columns, value, name + ".")
+        else:
+            columns[name].append(value.to_sec() if isinstance(value, TVal) else value)
+
+
+def _packed(values: list[Any]) -> Any:
+    """Return numbers as an array, anything else as the list that it is."""
+    if values and all(isinstance(value, bool | int | float) for value in values):
+        return np.array(values)
+    return values

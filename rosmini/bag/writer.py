@@ -1,0 +1,314 @@
+"""Writing a bag: messages are gathered into chunks, each chunk is followed by its index data, the index comes last.
+
+A bag is whole at each moment up to its last flush: if the power goes, ``rosbag reindex`` finds everything that was flushed. If the disk is full,
+as many of the messages at hand as fit are written, with an index, so that no bag is left without one.
+"""
+
+from __future__ import annotations
+
+import errno
+from typing import TYPE_CHECKING, BinaryIO
+
+from .errors import BagFull, ROSBagException
+from .index import Chunk, Connection, Index
+from .records import (
+    MAGIC,
+    NSECS,
+    OP_CHUNK,
+    OP_CHUNK_INFO,
+    OP_CONNECTION,
+    OP_INDEX,
+    OP_MESSAGE,
+    Compression,
+    bag_header,
+    check_compression,
+    compress,
+    index_entry,
+    pack_record,
+    pack_time,
+    u32,
+    u64,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+CHUNK_THRESHOLD = 768 * 1024
+"""From this size on a chunk is closed [bytes]."""
+
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
+
+
+class Writer:
+    """Writes a bag into an open file, at its end.
+
+    Args:
+        file: open for reading and writing; it stays the caller's to close.
+        name: the file's name, for messages.
+        index: what is in the bag already, in front of ``position``; a new bag without it.
+        position: where the writer goes on.
+
+    """
+
+    def __init__(
+        self,
+        file: BinaryIO,
+        name: str,
+        *,
+        compression: str = Compression.NONE,
+        chunk_threshold: int = CHUNK_THRESHOLD,
+        index: Index | None = None,
+        position: int | None = None,
+    ) -> None:
+        self._file = file
+        self._name = name
+        self.compression = check_compression(compression)
+        self.chunk_threshold = chunk_threshold
+        self.index = Index() if index is None else index
+        self.closed = False
+        self._prefixes: dict[int, bytes] = {}
+        self._records: list[tuple[int, int, bytes]] = []
+        """The open chunk: connection (-1: a record of a connection), time [ns], record."""
+        self._size = 0
+        self._end = 0
+        self._described = set(self.index.connections)
+        if position is None:
+            self._put(0, MAGIC + bag_header(0, 0, 0))
+            position = self._end
+        else:
+            self._put(len(MAGIC), bag_header(0, 0, 0))  # until it is closed, this bag has no index
+        self._position = position
+
+    # -- messages --------------------------------------------------------------------------------------------------
+
+    def add(self, connection: Connection) -> Connection:
+        """Learn of a connection, which gets the next number of this bag; return it with that number."""
+        number = max(self.index.connections, default=-1) + 1
+        mine = Connection(number, connection.topic, connection.raw)
+        self.index.connections[number] = mine
+        return mine
+
+    def write(self, number: int, nanoseconds: int, data: bytes) -> None:
+        """Write a message of the connection ``number``, recorded at a time [ns].
+
+        Raises ``BagFull`` when there is no more room; the bag is closed then, and has an index.
+        """
+        if self.closed:
+            raise ROSBagException(f"{self._name} is closed: no message can be written to it any more")
+        prefix = self._prefixes.get(number)
+        if prefix is None:
+            prefix = self._begin(number)
+        secs, nsecs = divmod(nanoseconds, NSECS)
+        record = prefix + index_entry.pack(secs, nsecs, len(data)) + data
+        self._records.append((number, nanoseconds, record))
+        self._size += len(record)
+        if self._size >= self.chunk_threshold:
+            self.flush()
+
+    def _begin(self, number: int) -> bytes:
+        """Put a connection's record before its first message; return how the records of its messages begin."""
+        if number not in self._described:
+            record = self._connection_record(self.index.connections[number])
+            self._records.append((-1, 0, record))
+            self._size += len(record)
+            self._described.add(number)
+        whole = pack_record({"op": bytes([OP_MESSAGE]), "conn": u32.pack(number), "time": b"\0" * 8})
+        prefix = self._prefixes[number] = whole[:-12]  # without time and length of the data
+        return prefix
+
+    @property
+    def size(self) -> int:
+        """How long the file will be, without the index and what compression saves [bytes]."""
+        return self._position + self._size
+
+    # -- chunks ----------------------------------------------------------------------------------------------------
+
+    def flush(self) -> Chunk | None:
+        """Write the open chunk and return it. Raises ``BagFull`` as :meth:`write` does."""
+        chunk = self.sync()
+        if chunk is not None:
+            self._records, self._size = [], 0
+            self._position = self._end
+            self.index.chunks.append(chunk)
+        return chunk
+
+    def sync(self) -> Chunk | None:
+        """Write the open chunk, which stays open and will be written again: what is in it now survives a crash."""
+        if not self._records:
+            return None
+        try:
+            return self._write_chunk(self._records)
+        except OSError as error:
+            if error.errno not in FULL:
+                raise
+            records, self._records, self._size = self._records, [], 0
+            raise self._salvage(records, error) from error
+
+    def _write_chunk(self, records: list[tuple[int, int, bytes]]) -> Chunk:
+        data = b"".join(record for _, _, record in records)
+        packed = compress(data, self.compression)
+        fields = {
+            "compression": self.compression.encode(),
+            "op": bytes([OP_CHUNK]),
+            "size": u32.pack(len(data)),
+        }
+        whole = pack_record(fields, packed)
+        begin = len(whole) - len(packed)
+        chunk = Chunk(self._position, self._position + begin, self.compression, len(packed), len(data))
+        entries = _fill(chunk, records)
+        self._put(self._position, whole + b"".join(index_records(chunk, entries)))
+        return chunk
+
+    def _put(self, position: int, data: bytes) -> None:
+        """Write all of ``data`` at a position: a file without a buffer may take less at a time."""
+        self._file.seek(position)
+        rest = memoryview(data)
+        while rest:
+            rest = rest[self._file.write(rest) :]
+        self._end = position + len(data)
+
+    def write_index_data(self, chunk: Chunk) -> None:
+        """Write the index data of a chunk that stands at the end of the file without it."""
+        self._put(self._position, b"".join(index_records(chunk, chunk.entries or {})))
+        self._position = self._end
+
+    def _salvage(self, records: list[tuple[int, int, bytes]], error: OSError) -> BagFull:
+        """Write as many of the messages at hand as fit beside the index, and close the bag."""
+        total = self.index.messages + sum(number >= 0 for number, _, _ in records)
+        indexed = self._finish_with_some(records)
+        while not indexed and self.index.chunks:  # there is no room for an index: the last chunk makes some
+            chunk = self.index.chunks.pop()
+            records = self._records_of(chunk)
+            self._position = chunk.position
+            indexed = self._finish_with_some(records)
+        self.closed = True
+        kept = self.index.messages
+        return BagFull(
+            f"{self._name} cannot grow any more ({error.strerror}). It holds {kept:,} messages and is closed; "
+            f"the last {total - kept:,} did not fit. Make room, or record with --lz4 or --bz2."
+        )
+
+    def _finish_with_some(self, records: list[tuple[int, int, bytes]]) -> bool:
+        """Write half of some records, or a quarter of them and so on, and the index; False if there is no room at all."""
+        keep = len(records)
+        while keep:
+            keep //= 2
+            if self._finish_with(records[:keep]):
+                return True
+        return False
+
+    def _finish_with(self, records: list[tuple[int, int, bytes]]) -> bool:
+        """Write a last chunk and the index; False, and the file as long as before, if there is no room for them."""
+        at, chunks = self._position, len(self.index.chunks)
+        self._file.truncate(at)
+        try:
+            if records:
+                self.index.chunks.append(self._write_chunk(records))
+                self._position = self._end
+            self._write_end()
+        except OSError as error:
+            if error.errno not in FULL:
+                raise
+            self._position = at
+            del self.index.chunks[chunks:]
+            self._file.truncate(at)
+            return False
+        return True
+
+    # -- the end ---------------------------------------------------------------------------------------------------
+
+    def close(self) -> None:
+        """Write the open chunk and the index. Raises ``BagFull`` as :meth:`write` does. Harmless when repeated."""
+        if self.closed:
+            return
+        self.flush()
+        try:
+            self._write_end()
+        except OSError as error:
+            if error.errno not in FULL:
+                raise
+            raise self._salvage([], error) from error
+        self.closed = True
+
+    def _records_of(self, chunk: Chunk) -> list[tuple[int, int, bytes]]:
+        from .reader import Reader, message_at
+
+        reader = Reader(self._file, self.index)
+        data = reader.data(chunk)
+        entries = sorted(
+            (offset, number, secs * NSECS + nsecs)
+            for number, packed in reader.entries(chunk).items()
+            for secs, nsecs, offset in index_entry.iter_unpack(packed)
+        )
+        records: list[tuple[int, int, bytes]] = [
+            (-1, 0, self._connection_record(self.index.connections[number])) for number in chunk.counts
+        ]
+        for offset, number, when in entries:
+            message = message_at(data, offset, chunk)
+            head = index_entry.pack(*divmod(when, NSECS), len(message))
+            records.append((number, when, self._begin(number) + head + message))
+        return records
+
+    def _write_end(self) -> None:
+        """Write the index behind the last chunk, then where it is into the first record."""
+        index = self.index
+        parts = [self._connection_record(connection) for connection in index.connections.values()]
+        parts += [_chunk_info(chunk) for chunk in index.chunks]
+        self._put(self._position, b"".join(parts))
+        self._file.truncate(self._end)
+        self._put(len(MAGIC), bag_header(self._position, len(index.connections), len(index.chunks)))
+
+    @staticmethod
+    def _connection_record(connection: Connection) -> bytes:
+        fields = {
+            "conn": u32.pack(connection.id),
+            "op": bytes([OP_CONNECTION]),
+            "topic": connection.topic.encode(),
+        }
+        return pack_record(fields, connection.raw)
+
+
+def _fill(chunk: Chunk, records: Iterable[tuple[int, int, bytes]]) -> dict[int, bytes]:
+    """Note times and counts of a chunk's records, and return their packed entries."""
+    entries: dict[int, list[tuple[int, int]]] = {}
+    packed: dict[int, bytes] = {}
+    offset = 0
+    for number, nanoseconds, record in records:
+        if number >= 0:
+            entries.setdefault(number, []).append((nanoseconds, offset))
+        offset += len(record)
+    for number, pairs in entries.items():
+        pairs.sort()
+        packed[number] = b"".join(
+            index_entry.pack(*divmod(nanoseconds, NSECS), offset) for nanoseconds, offset in pairs
+        )
+        chunk.counts[number] = len(pairs)
+    if entries:
+        chunk.start = min(pairs[0][0] for pairs in entries.values())
+        chunk.end = max(pairs[-1][0] for pairs in entries.values())
+    return packed
+
+
+def index_records(chunk: Chunk, entries: dict[int, bytes]) -> Iterable[bytes]:
+    """Yield the index data of a chunk: a record for each connection with messages in it."""
+    for number, packed in entries.items():
+        fields = {
+            "conn": u32.pack(number),
+            "count": u32.pack(chunk.counts[number]),
+            "op": bytes([OP_INDEX]),
+            "ver": u32.pack(1),
+        }
+        yield pack_record(fields, packed)
+
+
+def _chunk_info(chunk: Chunk) -> bytes:
+    fields = {
+        "chunk_pos": u64.pack(chunk.position),
+        "count": u32.pack(len(chunk.counts)),
+        "end_time": pack_time(chunk.end),
+        "op": bytes([OP_CHUNK_INFO]),
+        "start_time": pack_time(chunk.start),
+        "ver": u32.pack(1),
+    }
+    counts = b"".join(u32.pack(number) + u32.pack(count) for number, count in chunk.counts.items())
+    return pack_record(fields, counts)
