@@ -2,7 +2,7 @@
 
 Beam i looks at the angle i 2 pi / n, counter-clockwise from ahead, and measures the distance to the first thing in its way plus Gaussian noise.
 What it cannot measure follows REP 117 (https://www.ros.org/reps/rep-0117.html), as in Gazebo: inf where nothing is within reach, -inf where something is
-too close. The driver of the real LDS-01, `hls_lfcd_lds_driver`, writes 0.0 for both; `unmeasured` makes its form of ours.
+too close. A real LDS-01 sends 0 for what it cannot measure, and its driver, `hls_lfcd_lds_driver`, passes that on; `unmeasured` makes this form of ours.
 
 All beams are measured at one moment, so a message's `time_increment` is 0; the real one takes 0.2 s for them, while the robot moves on.
 """
@@ -49,5 +49,5 @@ def measured(lidar: LidarModel, distances: Floats) -> Floats:
 
 
 def unmeasured(ranges: Floats, value: float = 0.0) -> Floats:
-    """Ranges (n,) with `value` in place of what was not measured: 0.0, as the driver of the LDS-01 writes it."""
+    """Ranges (n,) with `value` in place of what was not measured: 0.0, as a real LDS-01 has it."""
     return np.where(np.isfinite(ranges), ranges, value)

@@ -65,7 +65,7 @@ class SimulatorParameters(Parameters):
     tf: bool = parameter(True, "publish the transform from odom to base_footprint")
     use_rep_117: bool = parameter(
         True,
-        "write inf for what is too far and -inf for what is too near; else 0.0, as the driver of the LDS-01 does",
+        "write inf for what is too far and -inf for what is too near; else 0.0, as a real LDS-01 does",
     )
 
 

@@ -35,7 +35,7 @@ LEAST_ROBOT = 16.0
 """A robot is drawn to scale, but never shorter than this [px]."""
 TOLERANCE = 0.137
 """By how much a line may be drawn too straight [px]: nobody sees it, and most of its points need not be written."""
-TREAD = 0.55
+WHEEL_WIDTH = 0.55
 """The width of a wheel by its radius."""
 
 
@@ -135,8 +135,8 @@ def draw_robot(axes: Axes, model: RobotModel, pose: Pose, scale: float, *, ghost
         return
     _patch(axes, plate, fill="blue", edge="page", opacity=1.0, width=1.2, z=7.0)
     _patch(axes, _path([arrow], closed=True), fill="blue", edge="page", opacity=1.0, width=0.8, z=7.0)
-    r, side, tread = model.wheel_radius, model.wheel_separation / 2, TREAD * model.wheel_radius / 2
-    wheels = [put([(-r, y - tread), (r, y - tread), (r, y + tread), (-r, y + tread)]) for y in (-side, side)]
+    r, side, half = model.wheel_radius, model.wheel_separation / 2, WHEEL_WIDTH * model.wheel_radius / 2
+    wheels = [put([(-r, y - half), (r, y - half), (r, y + half), (-r, y + half)]) for y in (-side, side)]
     _patch(axes, _path(wheels, closed=True), fill="ink", opacity=1.0, z=7.1)
     centre = put([model.lidar.mount[:2]])[0]
     _patch(axes, _circle(centre, 0.26 * length * grown), fill="page", opacity=1.0, z=7.2)
