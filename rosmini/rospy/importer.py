@@ -39,6 +39,11 @@ _HOMES = {
     **{
         name: f"{_HERE}.aliases.{name}"
         for name in (
+            "actionlib",
+            "actionlib.action_client",
+            "actionlib.action_server",
+            "actionlib.simple_action_client",
+            "actionlib.simple_action_server",
             "genpy",
             "genpy.message",
             "genpy.rostime",
@@ -53,12 +58,13 @@ _HOMES = {
             "rosparam",
         )
     },
+    "actionlib.msg": "rosmini.msgs.actionlib.msg",
 }
 """Where each module really is, by the name under which scripts import it."""
 
 
 def modules() -> dict[str, ModuleType]:
-    """Return the modules ``rospy``, ``genpy``, ``roslib``, ``rosgraph``, ``rosparam`` and those in them, by the names that scripts import."""
+    """Return the modules ``rospy``, ``actionlib``, ``genpy``, ``roslib``, ``rosgraph``, ``rosparam`` and those in them, by the names that scripts import."""
     return {name: import_module(home) for name, home in _HOMES.items()}
 
 

@@ -1,0 +1,142 @@
+"""The client's state machine: what a client concludes from what the server tells (http://wiki.ros.org/actionlib/DetailedDescription).
+
+Pure: statuses in, states out. The server publishes the status of a goal only now and then, so that a client may miss some: on hearing
+``SUCCEEDED`` while ``PENDING`` it goes through ``ACTIVE`` first, as if it had heard of it. :data:`CLIENT_TRANSITIONS` has all of these ways.
+
+>>> machine = ClientMachine()
+>>> machine.hear(Status.SUCCEEDED)
+>>> machine.state.name
+'WAITING_FOR_RESULT'
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .errors import IllegalTransition
+from .states import CommState, Status
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["CANCELLABLE", "CLIENT_TRANSITIONS", "ClientMachine", "path"]
+
+_LETTERS = {
+    "P": CommState.PENDING,
+    "A": CommState.ACTIVE,
+    "W": CommState.WAITING_FOR_RESULT,
+    "r": CommState.RECALLING,
+    "p": CommState.PREEMPTING,
+}
+
+_HEARD = (
+    Status.PENDING,
+    Status.ACTIVE,
+    Status.RECALLING,
+    Status.PREEMPTING,
+    Status.REJECTED,
+    Status.RECALLED,
+    Status.PREEMPTED,
+    Status.SUCCEEDED,
+    Status.ABORTED,
+)
+
+# One row for each state, one column for each status above: through which states it goes. "-": it stays; "!": this cannot be.
+_TABLE = """
+    WAITING_FOR_GOAL_ACK    P  A  Pr Ap PW PW  ApW AW AW
+    PENDING                 -  A  r  Ap W  rW  ApW AW AW
+    ACTIVE                  !  -  !  p  !  !   pW  W  W
+    WAITING_FOR_RESULT      !  -  !  !  -  -   -   -  -
+    WAITING_FOR_CANCEL_ACK  -  -  r  p  W  rW  pW  pW pW
+    RECALLING               !  !  -  p  W  W   pW  pW pW
+    PREEMPTING              !  !  !  -  !  !   W   W  W
+    DONE                    !  !  !  !  -  -   -   -  -
+"""
+
+CLIENT_TRANSITIONS: dict[CommState, dict[Status, tuple[CommState, ...] | None]] = {
+    CommState[row.split()[0]]: {
+        status: None if way == "!" else tuple(_LETTERS[letter] for letter in way if letter != "-")
+        for status, way in zip(_HEARD, row.split()[1:], strict=True)
+    }
+    for row in _TABLE.strip().splitlines()
+}
+"""For each state and each status heard: through which states the client goes, the last one stays; None where that cannot be."""
+
+CANCELLABLE = frozenset({CommState.WAITING_FOR_GOAL_ACK, CommState.PENDING, CommState.ACTIVE})
+"""Where asking for cancellation makes sense; elsewhere the goal is being cancelled already, or over."""
+
+_MAY_BE_UNHEARD = frozenset({CommState.WAITING_FOR_GOAL_ACK, CommState.WAITING_FOR_RESULT, CommState.DONE})
+"""Where a status list without the goal means nothing: the server has not got it yet, or has forgotten what it finished."""
+
+
+def path(state: CommState, status: int) -> tuple[CommState, ...]:
+    """Return the states through which a client in ``state`` goes on hearing ``status``; empty if it stays.
+
+    Raises ``IllegalTransition`` if a server that keeps to the protocol cannot say so, or if there is no such status.
+    """
+    row = CLIENT_TRANSITIONS.get(state, {})
+    if status not in row:
+        known = ", ".join(f"{one.value} {one.name}" for one in _HEARD)
+        raise IllegalTransition(
+            f"the server told the status {Status.to_string(status)}, which no server may: there are {known}"
+        )
+    way = row[Status(status)]
+    if way is None:
+        raise IllegalTransition(
+            f"the server says that the goal is {Status(status).name}, and the client was {state.name} already: "
+            "that order cannot be. Do two servers, or two nodes of one name, answer on the same topics?"
+        )
+    return way
+
+
+class ClientMachine:
+    """One goal, as its client knows it.
+
+    ``on_transition(state)`` is called in each state that it comes through, in order.
+    """
+
+    def __init__(self, on_transition: Callable[[CommState], object] | None = None) -> None:
+        self.state = CommState.WAITING_FOR_GOAL_ACK
+        self.status: int = Status.PENDING
+        self.text = ""
+        self._on_transition = on_transition
+
+    def _enter(self, state: CommState) -> None:
+        self.state = state
+        if self._on_transition is not None:
+            self._on_transition(state)
+
+    def hear(self, status: int, text: str = "") -> None:
+        """Learn the goal's status. Raises ``IllegalTransition``; when done it hears nothing any more."""
+        if self.state is CommState.DONE:
+            return
+        self.status, self.text = status, text
+        for state in path(self.state, status):
+            self._enter(state)
+
+    def miss(self) -> bool:
+        """Learn that the server's list of goals lacks this one; return True if it is therefore lost."""
+        if self.state in _MAY_BE_UNHEARD:
+            return False
+        self.status = Status.LOST
+        self._enter(CommState.DONE)
+        return True
+
+    def finish(self, status: int, text: str = "") -> None:
+        """Learn of the result, which comes with the last status. Raises ``IllegalTransition``, and is done all the same."""
+        if self.state is CommState.DONE:
+            raise IllegalTransition(
+                f"a second result arrived for a goal that is over ({Status.to_string(self.status)}): "
+                f"now {Status.to_string(status)}"
+            )
+        try:
+            self.hear(status, text)
+        finally:
+            self._enter(CommState.DONE)
+
+    def cancel(self) -> bool:
+        """Ask for cancellation; False if that makes no sense in this state, and nothing happens."""
+        if self.state not in CANCELLABLE:
+            return False
+        self._enter(CommState.WAITING_FOR_CANCEL_ACK)
+        return True

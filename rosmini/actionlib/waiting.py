@@ -1,0 +1,45 @@
+"""Waiting on a node's own clock, as rospy's time-outs of actions do."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rosmini.errors import ROSInterruptException
+from rosmini.time import Duration
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.graph import Node, Waiter
+
+__all__ = ["Timeout", "seconds_of", "wait_on"]
+
+Timeout = float | Duration | None
+"""Seconds; None and zero (rospy's default) are "for ever"."""
+
+
+def seconds_of(timeout: Timeout) -> float | None:
+    """Return a time-out in seconds, None for "for ever"."""
+    seconds = timeout.to_sec() if isinstance(timeout, Duration) else timeout
+    return seconds or None
+
+
+def wait_on(node: Node, waiter: Waiter, timeout: Timeout, holds: Callable[[], bool]) -> bool:
+    """Block until ``waiter`` is woken, for at most ``timeout`` of the node's time; return ``holds()``.
+
+    A node that shuts down meanwhile ends the wait, as in rospy: what it says then is what holds.
+    """
+    seconds = seconds_of(timeout)
+    cancel = None
+    if seconds is not None:
+        when = node.clock.now_ns() + max(int(seconds * 1e9), 0)
+        cancel = node.scheduler.on_hub(lambda: node.clock.call_at(when, waiter.wake))
+    try:
+        if not holds():
+            node.wait(waiter)
+    except ROSInterruptException:
+        return holds()
+    finally:
+        if cancel is not None:
+            cancel()
+    return holds()

@@ -1,0 +1,30 @@
+"""What scripts import as ``actionlib``: http://wiki.ros.org/actionlib.
+
+Names and signatures are those of actionlib 1.14; the node is that of the script. What is wrong is logged, not raised, as there. The work is
+done in :mod:`rosmini.actionlib`.
+"""
+
+from __future__ import annotations
+
+from rosmini.actionlib.errors import ActionException
+from rosmini.msgs.actionlib import msg
+
+from .action_client import ActionClient, ClientGoalHandle, CommState, GoalStatus, TerminalState
+from .action_server import ActionServer, ServerGoalHandle
+from .simple_action_client import SimpleActionClient, SimpleGoalState
+from .simple_action_server import SimpleActionServer
+
+__all__ = [
+    "ActionClient",
+    "ActionException",
+    "ActionServer",
+    "ClientGoalHandle",
+    "CommState",
+    "GoalStatus",
+    "ServerGoalHandle",
+    "SimpleActionClient",
+    "SimpleActionServer",
+    "SimpleGoalState",
+    "TerminalState",
+    "msg",
+]

@@ -1,0 +1,73 @@
+"""Scripts with actionlib as students write them, unmodified, in simulated and in wall time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from rosmini.scripts import ScriptSpec
+
+HERE = Path(__file__).parent / "actionlib"
+
+
+def said_by(ran, name):
+    return [line.removeprefix(f"[{name}] ") for line in ran.lines if line.startswith(f"[{name}] ")]
+
+
+@pytest.mark.parametrize(("order", "status"), [(3, 0), (1000, 3)])
+def test_the_tutorials_server_and_client(run, order, status):
+    ran = run(
+        ScriptSpec(str(HERE / "fibonacci_server.py")),
+        ScriptSpec(str(HERE / "fibonacci_client.py"), (str(order),)),
+        duration=6,
+        rate=4,
+    )
+    told = said_by(ran, "fibonacci_client")
+    assert told[:2] == ["server True", "active"]
+    assert told[-1] == "listed [['/fibonacci_client', '1']]"
+    if status == 0:
+        assert told[2:-1] == ["done SUCCEEDED (0, 1, 1, 2)", "(0, 1, 1, 2) tuple", "SUCCEEDED"]
+        assert said_by(ran, "fibonacci") == ["/fibonacci: order 3 from 0, 1", "/fibonacci: succeeded"]
+    else:
+        assert told[2:-1] == ["too slow True", "done PREEMPTED ()", "() tuple", "PREEMPTED"]
+        assert said_by(ran, "fibonacci") == ["/fibonacci: order 1000 from 0, 1", "/fibonacci: preempted"]
+    assert ran.status == status
+
+
+def test_handles_and_modules_by_their_names(run):
+    ran = run(ScriptSpec(str(HERE / "handles.py")), duration=10)
+    told = said_by(ran, "handles")
+    assert "True" in told
+    assert told[-3:] == ["3 added 3", "5 negative 0", "DONE DONE"]
+    assert any("the action server ~add starts by itself (auto_start=True)" in line for line in told)
+    assert any(
+        "set_aborted() is for a goal that is ACTIVE or PREEMPTING; this one is SUCCEEDED" in line
+        for line in told
+    )
+    assert ran.result.reason == "ended"
+    assert ran.status == 0
+
+
+def test_before_init_node(run):
+    source = """
+        import actionlib, rospy
+        from actionlib_tutorials.msg import FibonacciAction
+        for make in (actionlib.SimpleActionClient, actionlib.SimpleActionServer, actionlib.ActionClient):
+            try:
+                make("fibonacci", FibonacciAction)
+            except rospy.ROSInitException as error:
+                print(str(error).partition(",")[0])
+        rospy.init_node("late")
+        try:
+            actionlib.SimpleActionClient("fibonacci", rospy.Header)
+        except actionlib.ActionException as error:
+            print(error)
+    """
+    ran = run(source, prefix=False)
+    assert ran.lines == [
+        "an action client of fibonacci needs a node",
+        "an action server of fibonacci needs a node",
+        "an action client of fibonacci needs a node",
+        "Header is not an action type, such as FibonacciAction",
+    ]
