@@ -16,6 +16,8 @@ from .errors import (
     ROSBagFormatException,
     ROSBagUnindexedException,
 )
+from .player import Player, PlayOptions
+from .recorder import Recorder, RecordOptions
 from .records import Compression
 from .tools import changed_types, filter_bag, merge, recompress, reindex
 
@@ -27,11 +29,15 @@ __all__ = [
     "BagTypeChanged",
     "Compression",
     "FilterError",
+    "PlayOptions",
+    "Player",
     "ROSBagEncryptException",
     "ROSBagEncryptNotSupportedException",
     "ROSBagException",
     "ROSBagFormatException",
     "ROSBagUnindexedException",
+    "RecordOptions",
+    "Recorder",
     "changed_types",
     "filter_bag",
     "merge",

@@ -74,6 +74,11 @@ class Publication:
         else:
             self._send(frozen)
 
+    def relay(self, message: Any) -> None:
+        """Send a message that another node published first: its header keeps its number."""
+        frozen = self._freeze(message)
+        self._scheduler.on_hub(lambda: self._send(frozen))
+
     def _send(self, frozen: Any) -> None:
         self.sent += 1
         if self._latch:
@@ -214,6 +219,13 @@ class Publisher:
             publication.send(args[0])
         else:
             publication.send(self._build(args, fields))
+
+    def relay(self, message: Any) -> None:
+        """Publish a message as it is, with the number in its header: for what another node published first. Raises as :meth:`publish`."""
+        publication = self._publication
+        if publication is None:
+            raise ROSException(self._closed_message())
+        publication.relay(message)
 
     def publish_to(self, destination: str, message: Any) -> None:
         """Publish ``message`` to one connected node only; harmless when that has gone. Raises as :meth:`publish` does."""
