@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from .bag import Bag, BagMessage, BagMessageWithConnectionHeader
+from .bag import Bag
 from .errors import (
     BagFull,
     BagTypeChanged,
@@ -19,6 +19,7 @@ from .errors import (
 from .player import Player, PlayOptions
 from .recorder import Recorder, RecordOptions
 from .records import Compression
+from .summary import BagMessage, BagMessageWithConnectionHeader
 from .tools import changed_types, filter_bag, merge, recompress, reindex
 
 __all__ = [

@@ -15,10 +15,9 @@
 from __future__ import annotations
 
 import os
-from collections import Counter
 from io import BufferedReader, BytesIO, FileIO, IOBase
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, BinaryIO, Self
 
 from rosmini.errors import nearest
 from rosmini.graph import default_graph
@@ -30,6 +29,7 @@ from .index import Connection, Index, connection
 from .reader import RawMessage, Reader, index_position, read_index
 from .records import Compression, check_compression
 from .scan import Scan, scan
+from .summary import BagMessage, BagMessageWithConnectionHeader, Summaries
 from .types import Types
 from .writer import CHUNK_THRESHOLD, Writer
 
@@ -44,47 +44,6 @@ if TYPE_CHECKING:
     ConnectionFilter = Callable[[str, str, str, str, dict[str, bytes]], bool]
 
 
-class BagMessage(NamedTuple):
-    """What :meth:`Bag.read_messages` yields."""
-
-    topic: str
-    message: Any
-    timestamp: Time
-
-
-class BagMessageWithConnectionHeader(NamedTuple):
-    """What :meth:`Bag.read_messages` yields with ``return_connection_header``; the header's values are bytes."""
-
-    topic: str
-    message: Any
-    timestamp: Time
-    connection_header: dict[str, bytes]
-
-
-class CompressionTuple(NamedTuple):
-    """How most chunks are compressed, and how many bytes all are without and with it."""
-
-    compression: str
-    uncompressed: int
-    compressed: int
-
-
-class TopicTuple(NamedTuple):
-    """What a bag has of a topic; ``frequency`` is one over the median period [Hz], None if there is none."""
-
-    msg_type: str
-    message_count: int
-    connections: int
-    frequency: float | None
-
-
-class TypesAndTopicsTuple(NamedTuple):
-    """The md5 sums of the types by name, and what there is of each topic."""
-
-    msg_types: dict[str, str]
-    topics: dict[str, TopicTuple]
-
-
 class _Input(BufferedReader):
     """A file that is read, and closed without a word by whoever forgets to: nothing is lost by it."""
 
@@ -92,7 +51,7 @@ class _Input(BufferedReader):
         self.close()
 
 
-class Bag:
+class Bag(Summaries):
     """A bag, open for reading ("r"), writing ("w": it begins empty) or appending ("a").
 
     Args:
@@ -514,60 +473,6 @@ class Bag:
         """Write what is in memory, so that it survives a crash, and go on with the chunk that is open."""
         if self._writer is not None:
             self._writer.sync()
-
-    # -- summaries ---------------------------------------------------------------------------------------------------
-
-    def get_message_count(self, topic_filters: str | list[str] | None = None) -> int:
-        """Return how many messages there are, on one topic, some, or all."""
-        if topic_filters is None:
-            return self.index.messages
-        return sum(self.index.count(found.id) for found in self.connections(topic_filters))
-
-    def get_start_time(self) -> float:
-        """Return when the first message was recorded [s]. Raises ``ROSBagException`` if there is none."""
-        return self._time(self.index.start)
-
-    def get_end_time(self) -> float:
-        """Return when the last message was recorded [s]. Raises ``ROSBagException`` if there is none."""
-        return self._time(self.index.end)
-
-    @staticmethod
-    def _time(nanoseconds: int | None) -> float:
-        if nanoseconds is None:
-            raise ROSBagException("Bag contains no message")
-        return Time.from_nsec(nanoseconds).to_sec()
-
-    def get_compression_info(self) -> CompressionTuple:
-        """Return how most chunks are compressed, and their bytes without and with it."""
-        chunks = self.index.chunks
-        ranked = sorted(
-            ((count, name) for name, count in Counter(chunk.compression for chunk in chunks).items()),
-            reverse=True,
-        )
-        return CompressionTuple(
-            ranked[0][1] if ranked else self._compression,
-            sum(chunk.size for chunk in chunks),
-            sum(chunk.compressed for chunk in chunks),
-        )
-
-    def get_type_and_topic_info(self, topic_filters: str | list[str] | None = None) -> TypesAndTopicsTuple:
-        """Return the types, and what there is of one topic, some, or all."""
-        from .info import frequency
-
-        reader = self.reader()
-        types: dict[str, str] = {}
-        for found in self._index.connections.values():
-            types.setdefault(found.type, found.md5sum)
-        topics = {}
-        for topic in sorted({found.topic for found in self.connections(topic_filters)}):
-            here = self.connections(topic)
-            topics[topic] = TopicTuple(
-                here[0].type,
-                sum(self._index.count(found.id) for found in here),
-                len(here),
-                frequency(reader, here),
-            )
-        return TypesAndTopicsTuple(dict(sorted(types.items())), topics)
 
     def set_encryptor(self, encryptor: str | None = None, param: str | None = None) -> None:  # noqa: ARG002
         """Accept that there is no encryption. Raises ``ROSBagEncryptNotSupportedException`` for any other."""
