@@ -1,0 +1,278 @@
+"""What is right in the exercises of chapter 12, Topics and messages."""
+
+from __future__ import annotations
+
+import hashlib
+import struct
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from rosmini.book.checks import exercise, expect
+from rosmini.errors import RosminiError
+from rosmini.graph import Graph
+from rosmini.msgs import define_message, message_class
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+# ---- 12.1: a type of one's own ----
+
+WHEEL = """\
+uint8 LEFT=0
+uint8 RIGHT=1
+Header header
+uint8 side
+float64 angle
+float32[4] speeds
+"""
+
+
+def _wheel_but(old: str, new: str) -> Callable[[], Any]:
+    return lambda: WHEEL.replace(old, new)
+
+
+@exercise(
+    "12.1",
+    praise="Its md5 sum is that of every other text with these lines.",
+    mistakes=[
+        _wheel_but("uint8 LEFT=0\n", ""),
+        _wheel_but("RIGHT=1", "RIGHT=2"),
+        _wheel_but("uint8 LEFT", "int8 LEFT"),
+        _wheel_but("float64", "float32"),
+        _wheel_but("float32[4]", "float32[]"),
+        _wheel_but("uint8 side\nfloat64 angle\n", "float64 angle\nuint8 side\n"),
+        _wheel_but("Header header", "Header head"),
+        _wheel_but("float32[4] speeds", "float32[4] speeds\nbool slips"),
+        _wheel_but("float64", "double"),
+        lambda: 42,
+    ],
+)
+def definition(answer: Any) -> None:
+    """The definition of a message with constants, a header, and an array of a fixed length."""
+    expect(
+        isinstance(answer, str),
+        f"definition is a {type(answer).__name__}, not a text.",
+        'use """three quotes"""',
+    )
+    try:
+        cls = define_message("my_robot/Wheel", answer)
+    except RosminiError as error:
+        expect(False, f"This is no definition: {error}")
+        return
+    wanted = define_message("my_robot/Wheel", WHEEL)
+    given = {constant.name: (constant.type, constant.value) for constant in cls._spec.constants}
+    for constant in wanted._spec.constants:
+        expect(
+            given.get(constant.name) == (constant.type, constant.value),
+            f"There is no constant {constant.name} of type {constant.type} with the value {constant.value}.",
+            "a constant is 'type NAME=value'",
+        )
+    fields = [(field.type, field.ros_name) for field in cls._spec.fields]
+    expected = [(field.type, field.ros_name) for field in wanted._spec.fields]
+    for kind, name in expected:
+        kinds = [found for found, other in fields if other == name]
+        expect(kinds, f"There is no field {name}.", "a field is 'type name'")
+        expect(
+            kinds == [kind],
+            f"The field {name} is a {kinds[0]}.",
+            "look at the table of the types, and at the arrays",
+        )
+    extra = [name for _, name in fields if name not in [wanted for _, wanted in expected]]
+    expect(not extra, f"A field that was not asked for: {', '.join(extra)}.")
+    expect(fields == expected, "The fields are not in the order that was asked for.")
+    expect(cls._md5sum == wanted._md5sum, "There is a constant that was not asked for.")
+
+
+# ---- 12.2: md5 sums ----
+
+TEXTS = (
+    "string data",
+    "float64 x\nfloat64 y\nfloat64 z\n",
+    "# a comment\n\nint8   a   # another\n\n  uint16[] b\n",
+    "float32 volts\nuint8 LOW=10\nuint8 HIGH = 90 # percent\nstring name\n",
+    "# a=b is no constant here\nint32 id # nor=here\n",
+)
+
+
+def _lines(text: str) -> list[str]:
+    return [line.partition("#")[0].strip() for line in text.splitlines() if line.partition("#")[0].strip()]
+
+
+def _md5(lines: list[str]) -> str:
+    return hashlib.md5("\n".join(lines).encode(), usedforsecurity=False).hexdigest()
+
+
+def _squeezed(line: str) -> str:
+    left, equals, value = line.partition("=")
+    return " ".join(left.split()) + equals + value.strip()
+
+
+def _as_they_come(text: str) -> str:
+    return _md5([_squeezed(line) for line in _lines(text)])
+
+
+def _spaces_kept(text: str) -> str:
+    return _md5(sorted(_lines(text), key=lambda line: "=" not in line))
+
+
+def _fields_only(text: str) -> str:
+    return _md5([_squeezed(line) for line in _lines(text) if "=" not in line])
+
+
+def _in_capitals(text: str) -> str:
+    return str(define_message("demo/Type", text)._md5sum).upper()
+
+
+@exercise(
+    "12.2",
+    praise="With nested types in it, it would be all that ROS compares.",
+    mistakes=[
+        lambda: lambda text: hashlib.md5(text.encode(), usedforsecurity=False).hexdigest(),
+        lambda: _as_they_come,
+        lambda: _spaces_kept,
+        lambda: _fields_only,
+        lambda: _in_capitals,
+        lambda: lambda _: "",
+    ],
+)
+def fingerprint(answer: Any) -> None:
+    """The md5 sum of a definition without nested types."""
+    hints = (
+        "md5(...) of this chapter makes the digits of a text",
+        "is there a newline at the end, which does not belong to it?",
+        "comments, empty lines and spaces beyond one do not count",
+        "constants come first, and have no spaces around the =",
+        "what stands behind a # is a comment, also if there is a = in it",
+    )
+    for text, hint in zip(TEXTS, hints, strict=True):
+        found = answer(text)
+        expect(isinstance(found, str), f"It returned {found!r}, not a text of 32 digits.", hints[0])
+        expect(found == define_message("demo/Type", text)._md5sum, f"Not the md5 sum of {text!r}.", hint)
+
+
+# ---- 12.3: bytes ----
+
+TABLES: tuple[dict[str, float], ...] = (
+    {"left": 1.5, "right": -2.0},
+    {},
+    {"größe": 0.1, "": 3.0, "température": -40.0},
+)
+
+
+def _encode(table: dict[str, float]) -> bytes:
+    parts = [struct.pack("<I", len(table))]
+    parts += [struct.pack("<I", len(name.encode())) + name.encode() for name in table]
+    return b"".join(parts) + struct.pack(f"<I{len(table)}d", len(table), *table.values())
+
+
+def _decoder(kind: str = "d", *, order: str = "<", letters: bool = False) -> Callable[[], Any]:
+    def decode(data: bytes) -> dict[str, float]:
+        (count,) = struct.unpack_from(f"{order}I", data)
+        offset, names = 4, []
+        for _ in range(count):
+            (length,) = struct.unpack_from(f"{order}I", data, offset)
+            name = data[offset + 4 : offset + 4 + length].decode()
+            names.append(name)
+            offset += 4 + (len(name) if letters else length)
+        return dict(zip(names, struct.unpack_from(f"{order}{count}{kind}", data, offset + 4), strict=True))
+
+    return lambda: decode
+
+
+@exercise(
+    "12.3",
+    praise="You can read what a node of any language sends.",
+    mistakes=[
+        _decoder("f"),
+        _decoder(order=">"),
+        _decoder(letters=True),
+        lambda: lambda _: {"left": 1.5, "right": -2.0},
+        lambda: list,
+    ],
+)
+def decode(answer: Any) -> None:
+    """The names and values of a message, from its bytes."""
+    for table in TABLES:
+        data = _encode(table)
+        found = answer(data)
+        expect(isinstance(found, dict), f"It returned a {type(found).__name__}, not a dictionary.")
+        expect(
+            found == table,
+            f"For the {len(data)} bytes of {table} it returned {found}.",
+            "the count, then each name with its length in bytes; then the count again, and the numbers",
+        )
+
+
+# ---- 12.4: many writers ----
+
+
+def _string() -> Any:
+    return message_class("std_msgs/String")
+
+
+def _board(
+    *, latch: bool = True, ordered: bool = True, name: str = "board", between: str = "; ", keep: bool = True
+) -> Callable[[], Any]:
+    def start(graph: Graph) -> None:
+        node = graph.node(name)
+        board = node.publisher("board", _string(), queue_size=10, latch=latch)
+        notes: dict[str, str] = {}
+
+        def pin(message: Any) -> None:
+            if not keep:
+                notes.clear()
+            notes[message._connection_header["callerid"]] = message.data
+            board.publish(
+                between.join(f"{who}: {notes[who]}" for who in (sorted(notes) if ordered else notes))
+            )
+
+        node.subscriber("note", _string(), pin)
+
+    return lambda: start
+
+
+@exercise(
+    "12.4",
+    praise="Latched, it never has to be asked for.",
+    mistakes=[
+        _board(latch=False),
+        _board(ordered=False),
+        _board(name="notice_board"),
+        _board(between=", "),
+        _board(keep=False),
+        lambda: lambda graph: graph.node("board"),
+    ],
+)
+def board(answer: Any) -> None:
+    """A node that publishes, latched, what each writer said last."""
+    early: list[str] = []
+    late: list[str] = []
+    with Graph() as graph:
+        answer(graph)
+        expect("/board" in graph.nodes, "There is no node /board.", 'graph.node("board")')
+        graph.node("reader").subscriber("board", _string(), lambda message: early.append(message.data))
+        writers = {name: graph.node(name).publisher("note", _string()) for name in ("ben", "anna")}
+        graph.run(0.1)
+        expect(
+            writers["ben"].num_connections(),
+            "Nobody subscribes to /note.",
+            "subscriber(...) with the type String",
+        )
+        for writer, note in (("ben", "here"), ("anna", "back at ten"), ("ben", "gone")):
+            writers[writer].publish(note)
+            graph.run(0.1)
+        graph.node("late_reader").subscriber("board", _string(), lambda message: late.append(message.data))
+        graph.run(0.1)
+    steps = ["/ben: here", "/anna: back at ten; /ben: here", "/anna: back at ten; /ben: gone"]
+    for before, after in pairwise(["", *steps]):
+        place = steps.index(after)
+        found = early[place] if place < len(early) else None
+        expect(
+            found == after,
+            f"After {place + 1} of three notes the board says {found!r}, not {after!r}.",
+            "a dictionary from the writer's name to the last note"
+            if before
+            else "the writer is message._connection_header['callerid']",
+        )
+    expect(len(early) == len(steps), f"After three notes it published {len(early)} times.")
+    expect(late == steps[-1:], f"A late reader gets {late!r}.", "latch=True")
