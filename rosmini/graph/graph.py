@@ -7,12 +7,14 @@ import zlib
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError
+from rosmini.errors import RosminiError, UnknownPackage, UnknownType
 from rosmini.msgs import message_class, service_class
 from rosmini.names import AnonymousNames
 from rosmini.time import Time
 
+from .console import Console
 from .lanes import Lane, Waiter
+from .log_file import log_folder
 from .master import Master
 from .node import Node
 from .notebook import kernel_shell
@@ -25,6 +27,7 @@ from .transport import LocalTransport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
     from types import TracebackType
     from typing import Self
 
@@ -52,6 +55,8 @@ class Graph:
         strict: raise an exception that a callback lets out at the call that drives the graph; else log it, as ROS does.
         transport: makes the transport from the scheduler; in-process hand-over if not given.
         rosout: run the node ``/rosout``, which ``roscore`` starts.
+        log_dir: write a log file for each node, ``<log_dir>/<run_id>/<node>-<number>.log``; if not given, the folder that the environment variable
+            ``ROS_LOG_DIR`` names, and no files if there is none. A graph writes its files anew.
 
     Only the graph's creator drives it, with :meth:`run` or by any call that blocks.
 
@@ -66,6 +71,7 @@ class Graph:
         strict: bool = True,
         transport: Callable[[Scheduler], Transport] | None = None,
         rosout: bool = True,
+        log_dir: str | Path | None = None,
     ) -> None:
         self.scheduler = Scheduler(simulated=simulated, rate=rate)
         self.scheduler.on_error = self._lane_failed
@@ -90,6 +96,9 @@ class Graph:
         self._check_queued = False
         for key, value in ROSCORE_PARAMETERS.items():
             self.master.setParam("/roscore", key, value)
+        self.log_folder = log_folder(log_dir, ROSCORE_PARAMETERS["/run_id"])
+        """Where the log files are, if there are any."""
+        self._nodes_started = 0
         if rosout:
             self._start_rosout()
 
@@ -193,6 +202,10 @@ class Graph:
         """Return a picture of the graph, as the tool ``rqt_graph`` draws it; the options are those of ``rosmini.viz.rqt_graph``."""
         return show("computation_graph", self, **options)
 
+    def console(self, **options: Any) -> Console:
+        """Keep the log messages of all nodes from now on; the options are those of :class:`Console`."""
+        return Console(self, **options)
+
     @property
     def unreachable(self) -> tuple[str, ...]:
         """The nodes that the Master knows and that do not answer: they ended without a word."""
@@ -220,12 +233,17 @@ class Graph:
         """Learn of a new node; an older one of its name hears from the Master at the new one's first registration."""
         self.nodes[node.name] = node
         self._by_uri[node.uri] = node
+        self._nodes_started += 1
+        if self.log_folder is not None:
+            base = node.name.lstrip("/").replace("/", "-")
+            node.logger.open_file(self.log_folder / f"{base}-{self._nodes_started}.log")
 
     def remove_node(self, node: Node) -> None:
         """Learn that a node has ended."""
         if self.nodes.get(node.name) is node:
             del self.nodes[node.name]
         self._by_uri.pop(node.uri, None)
+        node.logger.close_file()
         self.changed()
 
     def anonymous_name(self, base: str) -> str:
@@ -260,8 +278,11 @@ class Graph:
         return topic == "/rosout_agg"
 
     def type_of_header(self, header: Header, default: Any) -> Any:
-        """Return the class of what a connection carries, for subscribers that take any type."""
-        return message_class(header["type"]) if "type" in header else default
+        """Return the class of what a connection carries, for subscribers that take any type; ``default`` if it is not known here."""
+        try:
+            return message_class(header["type"]) if "type" in header else default
+        except (UnknownType, UnknownPackage):
+            return default
 
     # -- conditions ----------------------------------------------------------------------------------------------
 

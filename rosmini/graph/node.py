@@ -16,7 +16,6 @@ heard hello
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import (
@@ -35,6 +34,7 @@ from .blocking_api import BlockingApi
 from .callbacks import describe_failure
 from .clock import GraphClock, Rate, Timer, TimerEvent, TopicClock
 from .lanes import Lane, LaneContext, Waiter
+from .logging_api import LoggingApi
 from .parameter_api import ParameterApi
 from .publisher import Publication, Publisher
 from .rosout import LEVELS, Logger
@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from .transport import Header, Sender, Triple
 
 
-class Node(BlockingApi, ParameterApi):
+class Node(BlockingApi, ParameterApi, LoggingApi):
     """A node of a :class:`~rosmini.graph.graph.Graph`; made by ``graph.node(name)`` or ``Node(name)``.
 
     Args:
@@ -96,6 +96,7 @@ class Node(BlockingApi, ParameterApi):
         self._waiters: dict[Waiter, None] = {}
         self._connections = 0
         self._parameter_callbacks: dict[str, list[Callable[[Any], object]]] = {}
+        self._parameter_told: dict[str, Any] = {}
         self._stopped = False
         self.clock: GraphClock | TopicClock = GraphClock(self.scheduler)
         self.logger = Logger(self)
@@ -111,6 +112,7 @@ class Node(BlockingApi, ParameterApi):
         for key, value in self.remappings.private_parameters.items():
             graph.master.setParam(self.name, resolve("~" + key, self.namespace, self.name), value)
         publication = Publication(self, "/rosout", graph.log_class)
+        publication.latch = True  # as rospy's: the last message is for a listener that comes later, too
         self.publications["/rosout"] = publication
         self._ask("registerPublisher", "/rosout", graph.log_class._type, self.uri)
         graph.offer_logger_services(self)
@@ -369,28 +371,6 @@ class Node(BlockingApi, ParameterApi):
             return self.graph.closing
         return self._stopped and isinstance(error, ROSInterruptException)
 
-    # -- logging -------------------------------------------------------------------------------------------------
-
-    def logdebug(self, text: object) -> None:
-        """Log at level DEBUG."""
-        self.logger.log(LEVELS["DEBUG"], str(text))
-
-    def loginfo(self, text: object) -> None:
-        """Log at level INFO."""
-        self.logger.log(LEVELS["INFO"], str(text))
-
-    def logwarn(self, text: object) -> None:
-        """Log at level WARN."""
-        self.logger.log(LEVELS["WARN"], str(text))
-
-    def logerr(self, text: object) -> None:
-        """Log at level ERROR."""
-        self.logger.log(LEVELS["ERROR"], str(text))
-
-    def logfatal(self, text: object) -> None:
-        """Log at level FATAL."""
-        self.logger.log(LEVELS["FATAL"], str(text))
-
     # -- the end -------------------------------------------------------------------------------------------------
 
     def on_shutdown(self, hook: Callable[[], object]) -> None:
@@ -481,19 +461,6 @@ class Node(BlockingApi, ParameterApi):
         """Return a number for a new connection."""
         self._connections += 1
         return self._connections
-
-    def parameter_changed(self, key: str, value: Any) -> None:
-        """Learn that a parameter to which this node subscribes has changed."""
-        changed = canonicalize(key)
-        for name, callbacks in self._parameter_callbacks.items():
-            if name != changed and not changed.startswith(name.rstrip("/") + "/"):
-                continue
-            now = value if name == changed else self.get_param(name, {})
-            for callback in callbacks:
-                self.spawn(
-                    f"{self.name} parameter {name}",
-                    partial(self.guarded, callback, now, what=f"parameter {name}"),
-                )
 
     def connections_changed(self) -> None:
         """Learn that a connection opened or closed."""

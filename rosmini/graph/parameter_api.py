@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from datetime import datetime
+from functools import partial
+from typing import TYPE_CHECKING, Any, cast
 
-from rosmini.errors import ParameterError, ParameterNotSet, nearest
-from rosmini.names import resolve
+from rosmini.errors import ParameterError, ParameterNotSet, ROSException, nearest
+from rosmini.names import canonicalize, resolve
+
+from .parameters import wire_copy
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -14,6 +18,7 @@ if TYPE_CHECKING:
     from rosmini.names import Remappings
 
     from .graph import Graph
+    from .node import Node
 
 _UNSET: Any = object()
 
@@ -28,6 +33,8 @@ def check_value(name: str, value: Any) -> Any:
         return str.__str__(value)  # an enumeration's member is its value
     if isinstance(value, bytes):
         return bytes(value)
+    if isinstance(value, datetime):
+        return value
     if isinstance(value, float):
         return float.__float__(value)
     if isinstance(value, int):
@@ -45,7 +52,7 @@ def check_value(name: str, value: Any) -> Any:
         return [check_value(f"{name}[{index}]", item) for index, item in enumerate(value)]
     msg = (
         f"parameter {name}: a {type(value).__name__} cannot be stored ({value!r}). "
-        "Parameters are bool, int, float, str, bytes, lists of these, and dictionaries with string keys."
+        "Parameters are bool, int, float, str, bytes, datetime, lists of these, and dictionaries with string keys."
     )
     raise ParameterError(msg)
 
@@ -57,7 +64,9 @@ class ParameterApi:
     namespace: str
     remappings: Remappings
     graph: Graph
+    _hooks: list[Callable[[], object]]
     _parameter_callbacks: dict[str, list[Callable[[Any], object]]]
+    _parameter_told: dict[str, Any]
 
     def resolve_parameter(self, name: str) -> str:
         """Return the global name that a parameter's ``name`` means here; as in rospy its characters are not checked."""
@@ -110,6 +119,7 @@ class ParameterApi:
     def set_param(self, name: str, value: Any) -> None:
         """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` for what ROS cannot hold."""
         resolved = self.resolve_parameter(name)
+        self._parameter_told.clear()
         code, status, _ = self.graph.master.setParam(self.name, resolved, check_value(resolved, value))
         if code != 1:
             raise ParameterError(status)
@@ -121,6 +131,7 @@ class ParameterApi:
     def delete_param(self, name: str) -> None:
         """Delete a parameter or a tree. Raises ``ParameterNotSet``."""
         resolved = self.resolve_parameter(name)
+        self._parameter_told.clear()
         if self.graph.master.deleteParam(self.name, resolved)[0] != 1:
             raise ParameterNotSet(self._not_set(name, resolved))
 
@@ -136,11 +147,68 @@ class ParameterApi:
     def on_param(self, name: str, callback: Callable[[Any], object]) -> Any:
         """Call ``callback(value)`` when a parameter, or anything in a tree of them, changes; return its value now.
 
-        ``{}`` stands for a parameter that is not set, as in ROS.
+        ``{}`` stands for a parameter that is not set, or not any more, as in ROS. The node does not hear of what it sets itself, and to set a
+        parameter to the value that it has is no change.
+        Raises ``ROSException`` if the Master refuses.
         """
         resolved = self.resolve_parameter(name)
-        self._parameter_callbacks.setdefault(resolved, []).append(callback)
-        return self.graph.master.subscribeParam(self.name, self._uri(), resolved)[2]
+        code, status, value = self.graph.master.subscribeParam(self.name, self._uri(), resolved)
+        if code != 1:
+            raise ROSException(f"the Master refused subscribeParam of node {self.name}: {status}")
+        if not self._parameter_callbacks:
+            self._hooks.append(self._leave_parameters)
+        key = canonicalize(resolved)
+        self._parameter_callbacks.setdefault(key, []).append(callback)
+        self._parameter_told[key] = value
+        return wire_copy(value)
+
+    def off_param(self, name: str, callback: Callable[[Any], object] | None = None) -> None:
+        """Undo :meth:`on_param`: for one callback, or for all callbacks of a parameter. Raises ``ParameterError`` if there is none."""
+        resolved = canonicalize(self.resolve_parameter(name))
+        callbacks = self._parameter_callbacks.get(resolved, [])
+        if not callbacks or (callback is not None and callback not in callbacks):
+            hint = nearest(resolved, self._parameter_callbacks)
+            msg = f"node {self.name} has no such callback for changes of parameter {resolved}"
+            raise ParameterError(f"{msg}; {hint}" if hint else msg)
+        kept = list(callbacks)
+        if callback is not None:
+            kept.remove(callback)
+        if callback is not None and kept:
+            self._parameter_callbacks[resolved] = kept
+            return
+        del self._parameter_callbacks[resolved]
+        self._parameter_told.pop(resolved, None)
+        self.graph.master.unsubscribeParam(self.name, self._uri(), resolved)
+
+    def parameter_changed(self, key: str, value: Any) -> None:
+        """Learn from the Master that a parameter has changed to which this node subscribes.
+
+        The Master calls once for each subscription, so that one change may be told several times.
+        """
+        changed = canonicalize(key)
+        for name, callbacks in self._parameter_callbacks.items():
+            if name != changed and not changed.startswith(name.rstrip("/") + "/"):
+                continue
+            now = value if name == changed else self.get_param(name, {})
+            if repr(self._parameter_told.get(name, _UNSET)) == repr(
+                now
+            ):  # 1, 1.0 and True are equal, but not the same
+                continue
+            self._parameter_told[name] = now
+            for callback in callbacks:
+                self._tell(name, callback, wire_copy(now))
+
+    def _tell(self, name: str, callback: Callable[[Any], object], value: Any) -> None:
+        node = cast("Node", self)
+        node.spawn(
+            f"{self.name} parameter {name}",
+            partial(node.guarded, callback, value, what=f"parameter {name}"),
+        )
+
+    def _leave_parameters(self) -> None:
+        """Leave no subscription at the Master when the node ends."""
+        for name in list(self._parameter_callbacks):
+            self.off_param(name)
 
     def _uri(self) -> str:
         return str(getattr(self, "uri", ""))

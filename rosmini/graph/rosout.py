@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 from rosmini.time import Time
 
 from .clock import TopicClock
+from .log_file import LogFile
+from .log_gates import LogGates
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -21,6 +23,8 @@ LEVELS = {"DEBUG": 1, "INFO": 2, "WARN": 4, "ERROR": 8, "FATAL": 16}
 
 NAMES = {value: name for name, value in LEVELS.items()}
 
+INTERNAL = ("rospy", "rospy.client", "rospy.core", "rospy.init", "rospy.internal")
+"""The loggers of the client library itself, by rospy's names: they write to log files only."""
 
 OWN = str(Path(__file__).resolve().parents[1]) + os.sep
 """How the names of rosmini's own source files begin."""
@@ -33,8 +37,37 @@ def source_of(filename: str) -> str:
     return filename
 
 
+class LoggerTree:
+    """The loggers of a node and their levels. ``rosout.camera.driver`` is below ``rosout.camera``, and that below ``rosout``.
+
+    A logger without a level of its own has that of the nearest above it; above all is a root at INFO.
+    """
+
+    def __init__(self) -> None:
+        self._own: dict[str, int] = {"rosout": LEVELS["INFO"]}
+        self._known: dict[str, None] = dict.fromkeys(("rosout", *INTERNAL))
+
+    def level(self, name: str) -> int:
+        """Return the level from which ``name`` logs; it is known from now on."""
+        if name not in self._known:
+            parts = name.split(".")
+            self._known.update(dict.fromkeys(".".join(parts[: n + 1]) for n in range(len(parts))))
+        while name not in self._own and "." in name:
+            name = name.rpartition(".")[0]
+        return self._own.get(name, LEVELS["INFO"])
+
+    def set(self, name: str, level: int) -> None:
+        """Give a logger a level of its own."""
+        self._own[name] = level
+        self.level(name)
+
+    def listing(self) -> list[tuple[str, int]]:
+        """Return the name and the level of each logger that is known."""
+        return [(name, self.level(name)) for name in self._known]
+
+
 class Logger:
-    """One node's logger.
+    """One node's loggers. ``rosout`` and what is below it go to the console, to ``/rosout`` and to the log file, all others to the file.
 
     What is logged before the node is on a topic is kept for the console only. ``set_level`` is what the service
     ``~set_logger_level`` calls.
@@ -42,13 +75,24 @@ class Logger:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self.levels = {"rosout": LEVELS["INFO"], "rospy": LEVELS["INFO"]}
+        self.tree = LoggerTree()
+        self.gates = LogGates()
+        self._file: LogFile | None = None
+
+    def is_enabled(self, level: int, logger: str = "rosout") -> bool:
+        """Tell whether a message of this level is logged."""
+        return level >= self.tree.level(logger)
 
     def log(self, level: int, text: str, *, logger: str | None = None, depth: int = 2) -> None:
         """Log ``text``; ``depth`` is how many frames above this call the user's code stands."""
-        if level < self.levels.get(logger or "rosout", self.levels["rosout"]):
+        logger = logger or "rosout"
+        if not self.is_enabled(level, logger):
             return
         node = self._node
+        if self._file is not None:
+            self._file.write(logger, level, node.graph.scheduler.now_ns(), text)
+        if logger.partition(".")[0] != "rosout":
+            return
         now = node.now()
         shown = _shown(now)
         if isinstance(node.clock, TopicClock):
@@ -58,8 +102,32 @@ class Logger:
         self.console(level, f"[{NAMES[level]}] [{shown}]: {text}")
         publication = node.publications.get("/rosout")
         if publication is not None:
-            frame = _frame(depth + 1)
-            publication.send(self._message(level, text, now, frame))
+            publication.send(self._message(level, text, now, caller(depth + 1)))
+
+    # -- the file ------------------------------------------------------------------------------------------------
+
+    @property
+    def path(self) -> Path | None:
+        """The log file, if there is one."""
+        return None if self._file is None else self._file.path
+
+    def open_file(self, path: Path) -> None:
+        """Write to a log file from now on."""
+        node = self._node
+        self._file = LogFile(path, simulated=node.graph.simulated)
+        self.log(LEVELS["INFO"], f"init_node, name[{node.name}]", logger="rospy.client")
+        self.log(LEVELS["INFO"], f"ROS Slave URI: [{node.uri}]", logger="rospy.init")
+
+    def close_file(self) -> None:
+        """Write the last line of the log file, and close it. Harmless when repeated."""
+        if self._file is not None:
+            self.log(
+                LEVELS["INFO"], f"signal_shutdown [{self._node.shutdown_reason or ''}]", logger="rospy.core"
+            )
+            self._file.close()
+            self._file = None
+
+    # -- where messages go ---------------------------------------------------------------------------------------
 
     def console(self, level: int, line: str) -> None:
         """Write a line: warnings and worse to standard error, as rospy does, and in a notebook all to standard output."""
@@ -69,36 +137,35 @@ class Logger:
         stream: TextIO = getattr(sys, name) if own is None else own(name)
         stream.write(line + "\n")
 
-    def _message(self, level: int, text: str, now: Time, frame: FrameType | None) -> Any:
+    def _message(self, level: int, text: str, now: Time, frame: FrameType) -> Any:
         node = self._node
         message = node.graph.log_class()
         message.header.stamp = Time(now.secs, now.nsecs)
         message.level = level
         message.name = node.name
         message.msg = text
-        if frame is not None:
-            message.file = source_of(frame.f_code.co_filename)
-            message.function = frame.f_code.co_name
-            message.line = frame.f_lineno
+        message.file = source_of(frame.f_code.co_filename)
+        message.function = frame.f_code.co_name
+        message.line = frame.f_lineno
         message.topics = list(node.publications)
         return message
 
     def set_level(self, logger: str, level: str) -> None:
-        """Show only messages of ``level`` and above. Raises ``KeyError`` for an unknown level."""
-        self.levels[logger.removeprefix("ros.")] = LEVELS[level.upper()]
+        """Log only what is at ``level`` and above. Raises ``KeyError`` for an unknown level."""
+        self.tree.set(logger.removeprefix("ros."), LEVELS[level.upper()])
 
     def listing(self) -> list[tuple[str, str]]:
         """Return (logger, level) pairs."""
-        return [(name, NAMES[level]) for name, level in self.levels.items()]
+        return [(name, NAMES[level]) for name, level in self.tree.listing()]
 
 
 def _shown(when: Time) -> str:
     return f"{when.secs}.{when.nsecs // 1000:06d}"
 
 
-def _frame(depth: int) -> FrameType | None:
+def caller(depth: int) -> FrameType:
     """Return the frame ``depth`` calls up, leaving rosmini's own files out."""
-    frame: FrameType | None = sys._getframe(depth)  # noqa: SLF001 - the documented way to find a caller
-    while frame is not None and frame.f_back is not None and frame.f_code.co_filename.startswith(OWN):
+    frame = sys._getframe(depth)  # noqa: SLF001 - the documented way to find a caller
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(OWN):
         frame = frame.f_back
     return frame

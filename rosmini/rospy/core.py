@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ROSException, RosminiError
 
-from .logs import DEBUG, ERROR, FATAL, INFO, WARN, once, plainly, throttled, throttled_identical
+from .logs import DEBUG, ERROR, FATAL, INFO, WARN, internally, once, plainly, throttled, throttled_identical
 from .names import get_caller_id, get_name
 from .session import any_node, current_node, current_session
 
@@ -48,7 +48,7 @@ logdebug_throttle, loginfo_throttle, logwarn_throttle, logerr_throttle, logfatal
 ) = (throttled_identical(level) for level in (DEBUG, INFO, WARN, ERROR, FATAL))
 logout = loginfo
 logerror = logerr
-rospydebug, rospyinfo, rospywarn, rospyerr = logdebug, loginfo, logwarn, logerr
+rospydebug, rospyinfo, rospywarn, rospyerr = (internally(level) for level in (DEBUG, INFO, WARN, ERROR))
 
 TICKS_PER_LOOK = 10
 """A loop that polls ``is_shutdown`` alone takes a few microseconds a turn."""

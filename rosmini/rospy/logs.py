@@ -35,8 +35,10 @@ class ThrottledLogFunction(Protocol):
         """Log, if it is time."""
 
 
-def log(level: int, text: Any, args: tuple[Any, ...], options: dict[str, Any]) -> None:
+def log(level: int, text: Any, args: tuple[Any, ...], options: dict[str, Any], base: str = "rosout") -> None:
     """Log ``text % args``. Before ``init_node`` only warnings are shown, plainly, on standard error, as in rospy.
+
+    ``base`` is the logger, or the one above that of the option ``logger_name``.
 
     Raises ``TypeError`` for an unknown option.
     """
@@ -47,20 +49,13 @@ def log(level: int, text: Any, args: tuple[Any, ...], options: dict[str, Any]) -
         )
     node = current_node()
     name: str | None = options.get("logger_name")
-    logger = f"rosout.{name}" if name else "rosout"
+    logger = f"{base}.{name}" if name else base
     if node is None:
         if level >= WARN:
             sys.stderr.write(_text(text, args, options) + "\n")
         return
-    if level >= _threshold(node.logger.levels, logger):
+    if node.logger.is_enabled(level, logger):
         node.logger.log(level, _text(text, args, options), logger=logger)
-
-
-def _threshold(levels: dict[str, int], logger: str) -> int:
-    """Return the level of the nearest logger upwards that has one."""
-    while logger not in levels and "." in logger:
-        logger = logger.rpartition(".")[0]
-    return levels.get(logger, INFO)
 
 
 def _text(text: Any, args: tuple[Any, ...], options: dict[str, Any]) -> str:
@@ -114,27 +109,17 @@ def is_due(where: Any, period: float) -> bool:
     """Tell whether ``period`` seconds of the node's time have passed since this place logged last."""
     session, node = current_session(), current_node()
     now = session.graph.scheduler.now_ns() if node is None else node.clock.now_ns()
-    last = session.log_times.get(where)
-    if last is None or now - last > Duration.from_sec(period).to_nsec() or last > now:
-        session.log_times[where] = now
-        return True
-    return False
+    return session.log_gates.is_due(where, now, Duration.from_sec(period).to_nsec())
 
 
 def is_new(where: Any, text: Any) -> bool:
     """Tell whether this place logs another text than last time."""
-    texts = current_session().log_texts
-    changed = texts.get(where) != str(text)
-    texts[where] = str(text)
-    return changed
+    return current_session().log_gates.is_new(where, str(text))
 
 
 def is_first(where: Any) -> bool:
     """Tell whether this place logs for the first time."""
-    seen = current_session().logged_once
-    fresh = where not in seen
-    seen.add(where)
-    return fresh
+    return current_session().log_gates.is_first(where)
 
 
 # ---- the functions: one maker for each kind, one function for each level ----
@@ -156,6 +141,16 @@ def plainly(level: int) -> LogFunction:
         log(level, msg, args, kwargs)
 
     return cast("LogFunction", _named(log_plainly, level, ""))
+
+
+def internally(level: int) -> LogFunction:
+    """Make ``rospy.core.rospyinfo`` for ``level``: what the client library tells of itself."""
+
+    def log_internally(msg: Any, *args: Any, **kwargs: Any) -> None:
+        """Log ``msg % args`` to the node's log file only."""
+        log(level, msg, args, kwargs, base="rospy.internal")
+
+    return cast("LogFunction", _named(log_internally, level, "_internally"))
 
 
 def once(level: int) -> LogFunction:

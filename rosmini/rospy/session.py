@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import ROSInitException, ROSInterruptException
 from rosmini.graph import Graph, Node, default_graph
 from rosmini.graph.lanes import LaneContext
+from rosmini.graph.log_gates import LogGates
 from rosmini.names import Remappings, canonicalize
 
 if TYPE_CHECKING:
@@ -50,9 +51,7 @@ class Session:
         self.shutdown_hooks: list[Callable[[str], object]] = []
         self.shutdown_reason: str | None = None
         self.stopped = False
-        self.log_times: dict[Any, Any] = {}
-        self.log_texts: dict[Any, str] = {}
-        self.logged_once: set[Any] = set()
+        self.log_gates = LogGates()
         self._unnamed: UnnamedNode | None = None
         self._armed = False
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from rosmini.viz.rqt import GraphState, rqt_graph
+from rosmini.viz.rqt import GraphState, rqt_console, rqt_graph
 from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ __all__ = [
     "plot",
     "recording_picture",
     "recording_plots",
+    "rqt_console",
     "rqt_graph",
     "scan_picture",
     "simulation_picture",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +19,19 @@ if TYPE_CHECKING:
 
 
 @pytest.mark.parametrize(
-    "value", [True, 5, -1.5, "text", b"bytes", [1, 2.5, "x", [True]], {"a": 1, "b": {"c": [1]}}, {}, []]
+    "value",
+    [
+        True,
+        5,
+        -1.5,
+        "text",
+        b"bytes",
+        datetime(2020, 1, 2, 3, 4, 5),
+        [1, 2.5, "x", [True]],
+        {"a": 1, "b": {"c": [1]}},
+        {},
+        [],
+    ],
 )
 def test_what_is_set_is_got_as_a_copy(simulated: Graph, value: Any) -> None:
     node = simulated.node("node")
@@ -219,6 +232,104 @@ def test_a_node_hears_when_a_whole_tree_is_set(graph: Graph) -> None:
     other.set_param("/robotics", {"speed": 3})
     settle(graph)
     assert heard == [2]
+
+
+def test_a_node_hears_when_what_it_knows_goes_with_its_namespace(graph: Graph) -> None:
+    heard: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    other.set_param("/robot", {"speed": 1, "wheel": {"radius": 2}})
+    assert node.on_param("/robot/wheel", lambda value: heard.append(("wheel", value))) == {"radius": 2}
+    node.on_param("/robot", lambda value: heard.append(("robot", value)))
+    other.delete_param("/robot/speed")
+    until(graph, lambda: len(heard) == 1)
+    other.delete_param("/robot")
+    until(graph, lambda: len(heard) == 3)
+    assert heard[0] == ("robot", {"wheel": {"radius": 2}})
+    assert sorted(heard[1:]) == [("robot", {}), ("wheel", {})]
+
+
+def test_a_node_does_not_hear_of_what_it_sets_itself(graph: Graph) -> None:
+    heard: list[Any] = []
+    node = graph.node("node")
+    node.on_param("rate", heard.append)
+    node.set_param("rate", 1)
+    settle(graph)
+    assert heard == []
+    other = graph.node("other")
+    other.set_param("rate", 2)
+    settle(graph)
+    node.set_param("rate", 3)
+    other.set_param("rate", 2)
+    settle(graph)
+    other.set_param("rate", 2)  # no change
+    settle(graph)
+    assert heard == [2, 2]
+    other.set_param("rate", 2.0)
+    settle(graph)
+    assert [type(value) for value in heard] == [int, int, float]
+
+
+def test_a_change_is_told_once_to_each_callback(graph: Graph) -> None:
+    heard: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    for name in ("/", "/a", "/a/b", "/a/b/c"):
+        node.on_param(name, lambda value, name=name: heard.append((name, value)))
+    other.set_param("/a/b/c", 1)
+    settle(graph)
+    assert sorted(name for name, _ in heard) == ["/", "/a", "/a/b", "/a/b/c"]
+    assert dict(heard)["/a"] == {"b": {"c": 1}}
+    heard.clear()
+    other.set_param("/a", {"b": {"c": 2, "d": 3}})
+    settle(graph)
+    assert sorted(name for name, _ in heard) == ["/", "/a", "/a/b", "/a/b/c"]
+    assert (dict(heard)["/a/b"], dict(heard)["/a/b/c"]) == ({"c": 2, "d": 3}, 2)
+
+
+def test_what_a_callback_is_told_is_its_own(graph: Graph) -> None:
+    heard: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    node.on_param("/a", lambda value: value.clear())
+    node.on_param("/a", heard.append)
+    other.set_param("/a", {"b": 1})
+    settle(graph)
+    assert heard == [{"b": 1}]
+    assert other.get_param("/a") == {"b": 1}
+
+
+def test_subscriptions_to_parameters_end(graph: Graph) -> None:
+    one: list[Any] = []
+    two: list[Any] = []
+    node, other = graph.node("node"), graph.node("other")
+    node.on_param("rate", one.append)
+    node.on_param("/rate/", two.append)  # the same one
+    other.set_param("rate", 1)
+    until(graph, lambda: two)
+    node.off_param("rate", one.append)
+    other.set_param("rate", 2)
+    until(graph, lambda: len(two) == 2)
+    node.off_param("rate")
+    other.set_param("rate", 3)
+    settle(graph)
+    assert (one, two) == ([1], [1, 2])
+    with pytest.raises(
+        ParameterError, match="node /node has no such callback for changes of parameter /rate"
+    ):
+        node.off_param("rate")
+    node.on_param("rate", one.append)
+    with pytest.raises(ParameterError, match=r"parameter /rat; did you mean /rate\?"):
+        node.off_param("rat")
+    with pytest.raises(ParameterError, match="no such callback"):
+        node.off_param("rate", two.append)
+
+
+def test_a_node_that_ends_leaves_no_subscription_behind(graph: Graph) -> None:
+    node, other = graph.node("node"), graph.node("other")
+    node.on_param("rate", lambda _: None)
+    node.on_param("/robot", lambda _: None)
+    node.shutdown("enough")
+    assert graph.master.lookupNode("/test", "/node")[0] == -1
+    other.set_param("rate", 1)
+    settle(graph)
 
 
 def test_a_parameters_name_may_have_characters_that_a_topics_may_not(graph: Graph) -> None:

@@ -1,0 +1,56 @@
+"""The log of a graph, as the window of ``rqt_console`` gathers it (http://wiki.ros.org/rqt_console)."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+from .show import show
+
+if TYPE_CHECKING:
+    from .graph import Graph
+
+__all__ = ["Console"]
+
+
+class Console:
+    """Keeps what comes on ``/rosout_agg`` from now on; made by ``graph.console()``.
+
+    Args:
+        graph: whose log.
+        limit: how many messages to keep, the newest; rqt_console's own limit if not given.
+        name: of the node that listens.
+
+    """
+
+    def __init__(self, graph: Graph, *, limit: int = 20000, name: str = "rqt_console") -> None:
+        self._messages: deque[Any] = deque(maxlen=limit)
+        self.total = 0
+        """How many messages came; those over the limit are gone."""
+        self._node = graph.node(name)
+        self._node.subscriber("/rosout_agg", graph.log_class, self._take)
+
+    def _take(self, message: Any) -> None:
+        self.total += 1
+        self._messages.append(message)
+
+    @property
+    def messages(self) -> list[Any]:
+        """The messages (``rosgraph_msgs/Log``), in the order in which they came."""
+        return list(self._messages)
+
+    def clear(self) -> None:
+        """Forget all messages."""
+        self._messages.clear()
+        self.total = 0
+
+    def close(self) -> None:
+        """Listen no more. What came is kept."""
+        self._node.shutdown("the console was closed")
+
+    def __repr__(self) -> str:
+        return f"<Console with {len(self._messages)} messages>"
+
+    def show(self, **filters: Any) -> Any:
+        """Return a table of the messages; the filters are those of ``rosmini.viz.rqt_console``."""
+        return show("log_console", self, **filters)

@@ -1,0 +1,286 @@
+"""`rqt_console`: log messages as a table, with the filters of the tool of that name (http://wiki.ros.org/rqt_console)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Iterable, Sequence
+from typing import Any, Literal, get_args
+
+from rosmini.errors import nearest
+from rosmini.graph.rosout import LEVELS, NAMES
+from rosmini.viz.rqt.selection import matches
+from rosmini.viz.rqt.wording import plural
+from rosmini.viz.style import themed, variable
+from rosmini.viz.svg import element, escape
+from rosmini.viz.view import View, ViewError
+
+__all__ = ["LogTable", "rqt_console"]
+
+Column = Literal["stamp", "severity", "node", "message", "location", "topics"]
+COLUMNS: tuple[Column, ...] = ("stamp", "severity", "node", "message", "location")
+
+INKS = {"DEBUG": "muted", "INFO": "ink", "WARN": "label", "ERROR": "bad-line", "FATAL": "bad-line"}
+"""The colour of each level; its name stands beside it in any case."""
+
+ALT_MESSAGES = 3
+"""How many messages the alt text spells out."""
+
+
+def rqt_console(
+    source: object,
+    *,
+    level: str | Collection[str] = "DEBUG",
+    node: str = "/",
+    text: str = "",
+    exclude: str = "",
+    highlight: str = "",
+    regex: bool = False,
+    topic: str = "/",
+    location: str = "",
+    start: Any = None,
+    end: Any = None,
+    columns: Sequence[Column] = COLUMNS,
+    limit: int | None = None,
+    title: str | None = None,
+) -> LogTable:
+    """Show log messages as rqt_console does, the oldest first.
+
+    Args:
+        source: what ``graph.console()`` returned, or any messages of the type ``rosgraph_msgs/Log``.
+        level: the lowest level to show ("WARN"), or a collection of the levels to show.
+        node: filter for nodes: names or regular expressions with commas between, `-` excludes. "/" is all.
+        text: show only messages that contain this.
+        exclude: hide messages that contain this.
+        highlight: mark messages that contain this.
+        regex: the three above are regular expressions; else upper and lower case are alike.
+        topic: filter for the topics that the message's node publishes, in the form of `node`.
+        location: show only messages whose `file:line function` contains this.
+        start: show nothing earlier, in seconds of the messages' time, or as a `rosmini.Time`.
+        end: show nothing later.
+        columns: which columns, in which order.
+        limit: show the newest `limit` of what passes the filters.
+        title: a caption under the table, and the first words of its text form.
+
+    Raises:
+        ViewError: the source has no log messages, or a level, a column or a pattern is not known.
+
+    """
+    messages = _messages(source)
+    levels = _levels(level)
+    for column in columns:
+        _check(column, get_args(Column), "column")
+    wanted, unwanted, marked = (_matcher(pattern, regex) for pattern in (text, exclude, highlight))
+    rows = [
+        message
+        for message in messages
+        if message.level in levels
+        and matches(message.name, node)
+        and (not text or wanted(message.msg))
+        and not (exclude and unwanted(message.msg))
+        and (topic in ("", "/") or any(matches(name, topic) for name in message.topics))
+        and location in _location(message)
+        and (start is None or message.header.stamp.to_sec() >= _seconds(start))
+        and (end is None or message.header.stamp.to_sec() <= _seconds(end))
+    ]
+    marks = [bool(highlight) and marked(message.msg) for message in rows]
+    if limit is not None:
+        rows, marks = rows[max(0, len(rows) - limit) :], marks[max(0, len(rows) - limit) :]
+    return LogTable(rows, marks, columns, total=len(messages), title=title)
+
+
+class LogTable(View):
+    """A table of log messages: what passed the filters, of `total` messages."""
+
+    def __init__(
+        self,
+        rows: Sequence[Any],
+        marks: Sequence[bool],
+        columns: Sequence[Column],
+        *,
+        total: int,
+        title: str | None,
+    ) -> None:
+        self.rows = list(rows)
+        self.columns = tuple(columns)
+        self.total = total
+        self.title = title
+        self._marks = list(marks)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    @property
+    def counted(self) -> str:
+        """How many messages are shown, and of how many."""
+        if len(self.rows) == self.total:
+            return plural(self.total, "message")
+        return f"{len(self.rows)} of {plural(self.total, 'message')}"
+
+    @property
+    def text(self) -> str:
+        """A line of counts, then a line for each message; `*` marks those that are highlighted."""
+        head = f"{self.title or 'rqt_console'}: {self.counted}"
+        cells = [[_cell(message, column) for column in self.columns] for message in self.rows]
+        widths = [
+            max((len(line) for row in cells for line in row[number].split("\n")), default=0)
+            for number in range(len(self.columns))
+        ]
+        lines = [head]
+        for row, mark in zip(cells, self._marks, strict=True):
+            parts = [cell.split("\n") for cell in row]
+            for number in range(max(len(part) for part in parts)):
+                shown = [part[number] if number < len(part) else "" for part in parts]
+                joined = "  ".join(cell.ljust(width) for cell, width in zip(shown, widths, strict=True))
+                lines.append(f"{'*' if mark and number == 0 else ' '} {joined}".rstrip())
+        return "\n".join(lines)
+
+    @property
+    def alt(self) -> str:
+        """Counts by level, and the first messages."""
+        counts = [(name, sum(message.level == LEVELS[name] for message in self.rows)) for name in LEVELS]
+        found = ", ".join(f"{count} {name}" for name, count in counts if count)
+        first = "; ".join(f"{message.name}: {message.msg}" for message in self.rows[:ALT_MESSAGES])
+        return f"Table of log messages, {self.counted}{f' ({found})' if found else ''}. {first}".strip()
+
+    def _images(self) -> dict[str, bytes]:
+        return {}
+
+    @property
+    def html(self) -> str:
+        """A `<figure>` with the table, which scrolls by itself where a page is narrow."""
+        head = element(
+            "tr", "".join(element("th", column.capitalize(), scope="col") for column in self.columns)
+        )
+        body = "".join(
+            element(
+                "tr",
+                "".join(_data(message, column) for column in self.columns),
+                class_="marked" if mark else None,
+            )
+            for message, mark in zip(self.rows, self._marks, strict=True)
+        )
+        if not self.rows:
+            body = element("tr", element("td", "no message passes the filters", colspan=len(self.columns)))
+        table = element("table", element("thead", head) + element("tbody", body))
+        caption = f"{self.title} ({self.counted})" if self.title else self.counted
+        return element(
+            "figure",
+            f"<style>{CSS}</style>"
+            + element(
+                "div", table, class_="rosmini-console", role="region", aria_label="Log messages", tabindex="0"
+            )
+            + element("figcaption", escape(caption)),
+            class_="rosmini-figure",
+            style="margin:0.5em 0",
+        )
+
+
+def _rules(selector: str, **properties: str) -> str:
+    scoped = ",".join(f".rosmini-console {part}" for part in selector.split(","))
+    return (
+        f"{scoped}{{{''.join(f'{name}:{value};' for name, value in properties.items()).replace('_', '-')}}}"
+    )
+
+
+CSS = (
+    f".rosmini-console{{overflow-x:auto;color:{variable('ink')};}}"
+    + _rules(
+        "table", border_collapse="collapse", font_size="0.9em", margin="0", min_width="100%", border="none"
+    )
+    + _rules("tr,tbody tr:nth-child(odd),tbody tr:hover", background="none")
+    + _rules(
+        "th,td",
+        text_align="left",
+        vertical_align="top",
+        padding="0.25em 0.75em 0.25em 0.4em",
+        border="none",
+        border_bottom=f"1px solid {variable('group-line')}",
+        color="inherit",
+    )
+    + _rules("th", background=variable("group-fill"), font_weight="600")
+    + _rules("td", white_space="nowrap")
+    + _rules("td.message", white_space="pre-wrap", min_width="14em", max_width="44em")
+    + _rules("td.stamp,td.location", font_family="monospace", font_size="0.92em")
+    + _rules("tr.marked td", background=variable("topic-fill"))
+    + _rules("td.FATAL", font_weight="700")
+    + "".join(_rules(f"td.{name}", color=variable(ink)) for name, ink in INKS.items())
+    + themed(
+        ".rosmini-console", ["ink", "muted", "label", "bad-line", "group-fill", "group-line", "topic-fill"]
+    )
+)
+
+
+def _data(message: Any, column: Column) -> str:
+    kinds = f"{column} {NAMES[message.level]}" if column in ("severity", "message") else column
+    return f'<td class="{kinds}">{escape(_cell(message, column))}</td>'
+
+
+def _cell(message: Any, column: Column) -> str:
+    match column:
+        case "stamp":
+            return f"{message.header.stamp.to_sec():.3f}"
+        case "severity":
+            return NAMES[message.level]
+        case "node":
+            return str(message.name)
+        case "message":
+            return str(message.msg)
+        case "location":
+            return _location(message)
+        case "topics":
+            return ", ".join(message.topics)
+
+
+def _location(message: Any) -> str:
+    """Where the message was logged: the file without its folder, which differs between machines."""
+    if not message.file:
+        return ""
+    name = message.file.replace("\\", "/").rpartition("/")[2]
+    return f"{name}:{message.line} {message.function}".rstrip()
+
+
+# ---- what was asked for ----
+
+
+def _messages(source: object) -> list[Any]:
+    messages = getattr(source, "messages", source)
+    if isinstance(messages, Iterable):
+        found = list(messages)
+        if all(getattr(message, "_type", None) == "rosgraph_msgs/Log" for message in found):
+            return found
+    raise ViewError(
+        f"{type(source).__name__} has no log messages: give what graph.console() returned, or messages of the type rosgraph_msgs/Log"
+    )
+
+
+def _levels(level: str | Collection[str]) -> set[int]:
+    names = [level] if isinstance(level, str) else list(level)
+    for name in names:
+        _check(name.upper(), LEVELS, "level")
+    if isinstance(level, str):
+        return {number for number in NAMES if number >= LEVELS[level.upper()]}
+    return {LEVELS[name.upper()] for name in names}
+
+
+def _check(name: str, known: Iterable[str], what: str) -> None:
+    names = list(known)
+    if name not in names:
+        hint = nearest(name, names)
+        raise ViewError(
+            f"rqt_console has no {what} {name!r}{': ' + hint if hint else ''}. It has {', '.join(names)}."
+        )
+
+
+def _matcher(pattern: str, regex: bool) -> Callable[[str], bool]:
+    if not regex:
+        folded = pattern.casefold()
+        return lambda text: folded in text.casefold()
+    try:
+        expression = re.compile(pattern)
+    except re.error as error:
+        raise ViewError(f"{pattern!r} is no regular expression: {error}") from error
+    return lambda text: expression.search(text) is not None
+
+
+def _seconds(when: Any) -> float:
+    return float(when.to_sec() if hasattr(when, "to_sec") else when)
