@@ -38,6 +38,7 @@ class Entry(NamedTuple):
 
 COMMANDS: dict[str, Entry] = {
     "run": Entry("rosmini.cli.run", "run scripts written for rospy as nodes of one graph"),
+    "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
     "book": Entry("rosmini.cli.book", "build the book from the stored outputs and open it"),
     "lab": Entry("rosmini.cli.lab", "open the notebooks in JupyterLab"),
     "bench": Entry("rosmini.cli.bench", "measure rosmini, and real ROS where it is installed"),

@@ -47,6 +47,8 @@ _HOMES = {
             "genpy",
             "genpy.message",
             "genpy.rostime",
+            "rosbag",
+            "rosbag.bag",
             "rosgraph",
             "rosgraph.masterapi",
             "rosgraph.names",

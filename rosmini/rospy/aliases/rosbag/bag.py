@@ -1,0 +1,52 @@
+"""``rosbag.bag``: bags, whose messages have rospy's types (tuples and bytes, no arrays)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from rosmini import bag as _bag
+from rosmini.bag import (
+    BagMessage,
+    BagMessageWithConnectionHeader,
+    Compression,
+    ROSBagEncryptException,
+    ROSBagEncryptNotSupportedException,
+    ROSBagException,
+    ROSBagFormatException,
+    ROSBagUnindexedException,
+)
+from rosmini.bag.writer import CHUNK_THRESHOLD
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping
+
+__all__ = [
+    "Bag",
+    "BagMessage",
+    "BagMessageWithConnectionHeader",
+    "Compression",
+    "ROSBagEncryptException",
+    "ROSBagEncryptNotSupportedException",
+    "ROSBagException",
+    "ROSBagFormatException",
+    "ROSBagUnindexedException",
+]
+
+
+class Bag(_bag.Bag):
+    """`rosmini.bag.Bag` with rosbag's own arguments."""
+
+    def __init__(
+        self,
+        f: str | os.PathLike[str] | BinaryIO,
+        mode: str = "r",
+        compression: str = Compression.NONE,
+        chunk_threshold: int = CHUNK_THRESHOLD,
+        allow_unindexed: bool = False,
+        options: Mapping[str, Any] | None = None,
+        skip_index: bool = False,
+    ) -> None:
+        super().__init__(
+            f, mode, compression, chunk_threshold, allow_unindexed, options, skip_index, numpy=False
+        )
