@@ -6,8 +6,8 @@ package has.
 
 from __future__ import annotations
 
+from .by_name import rosrun
 from .context import ScriptContext, current_script
-from .rosrun import rosrun
 from .runner import NodeSpec, RunResult, ScriptSpec, run_scripts, run_source
 
 __all__ = [
