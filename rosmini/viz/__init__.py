@@ -12,6 +12,7 @@ from rosmini.viz.rqt import GraphState, rqt_console, rqt_graph
 from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 
 if TYPE_CHECKING:
+    from rosmini.viz.parameters import parameter_tree
     from rosmini.viz.plots import plot
     from rosmini.viz.recording import recording_picture, recording_plots
     from rosmini.viz.scan import scan_picture
@@ -24,6 +25,7 @@ __all__ = [
     "View",
     "ViewError",
     "matplotlib_picture",
+    "parameter_tree",
     "plot",
     "recording_picture",
     "recording_plots",
@@ -35,6 +37,7 @@ __all__ = [
 ]
 
 _LATER = {
+    "parameter_tree": "rosmini.viz.parameters",
     "plot": "rosmini.viz.plots",
     "recording_picture": "rosmini.viz.recording",
     "recording_plots": "rosmini.viz.recording",
