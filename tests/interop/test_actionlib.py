@@ -1,0 +1,37 @@
+"""One script, ``actionlib_peer.py``, run by real actionlib and by ours: every transition of both machines, and the simple ones together.
+
+Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rosmini.graph.graph import Graph
+from rosmini.scripts import ScriptSpec
+
+from .test_rospy_api import differences, master, run_ours, run_real  # noqa: F401 - master is a fixture
+
+PEER = Path(__file__).with_name("actionlib_peer.py")
+
+
+@pytest.fixture(scope="module")
+def real(master: dict[str, str]) -> dict[str, Any]:  # noqa: F811
+    return dict(json.loads(run_real(master, [str(PEER)])[0].splitlines()[-1]))
+
+
+DIFFERENT: dict[tuple[str, ...], tuple[Any, Any]] = {}
+"""What differs on purpose: (real, ours)."""
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
+def test_ours_does_what_actionlib_does(real: dict[str, Any], simulated: bool) -> None:
+    assert len(real["client"]) == 72
+    assert len(real["server"]) == 54
+    out, _ = run_ours(Graph(simulated=simulated, strict=False), ScriptSpec(str(PEER)))
+    assert differences(real, json.loads(out.splitlines()[-1])) == DIFFERENT
