@@ -33,8 +33,11 @@ ELSEWHERE = ("decrypt", "encrypt", "fix")
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
     """Add `rosbag`; its words are read here, in the form of ROS's tool."""
-    parser = subparsers.add_parser("rosbag", help="record, play and look into bags", add_help=False)
-    parser.add_argument("words", nargs=argparse.REMAINDER)
+    # No word is an option for argparse: they are those of ROS's tool, and so is their order.
+    parser = subparsers.add_parser(
+        "rosbag", help="record, play and look into bags", add_help=False, prefix_chars="\0"
+    )
+    parser.add_argument("words", nargs="*")
     return parser
 
 
@@ -54,6 +57,9 @@ def main(args: argparse.Namespace) -> int:
     words: list[str] = args.words
     if not words or (words[0] in ("-h", "--help", "help") and len(words) == 1):
         print(usage())
+        if words:
+            print("\nusage: rosmini rosbag <subcommand> [options] [args]")
+            raise SystemExit(0)  # as argparse ends after a help text
         return 0
     if words[0] == "help":
         words = [words[1], "-h"]

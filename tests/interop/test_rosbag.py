@@ -1,0 +1,226 @@
+"""Debian's rosbag and ours: each opens what the other wrote, with the same messages, times and connection headers.
+
+Skipped where there is no rosbag, unless ROSMINI_REQUIRE_ROS is set.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import socket
+import subprocess
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from rosmini.bag import Bag, Player, Recorder, filter_bag, merge, recompress, reindex
+from rosmini.graph import Graph
+from rosmini.rospy.aliases import rosbag
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+PEER = Path(__file__).with_name("rosbag_peer.py")
+SYSTEM_PYTHON = "/usr/bin/python3"
+ENV = {"PATH": "/usr/bin:/bin", "TZ": "UTC", "HOME": "/tmp", "COLUMNS": "80"}
+COMPRESSIONS = ["none", "bz2", "lz4"]
+
+
+def _missing() -> str | None:
+    if shutil.which("/usr/bin/rosbag") is None or shutil.which(SYSTEM_PYTHON) is None:
+        return "rosbag"
+    code = "import rosbag, roslz4, sensor_msgs.msg"
+    done = subprocess.run([SYSTEM_PYTHON, "-c", code], env=ENV, capture_output=True, check=False)
+    return "rosbag for Python" if done.returncode else None
+
+
+if _absent := _missing():
+    if os.environ.get("ROSMINI_REQUIRE_ROS"):
+        pytest.fail(f"ROSMINI_REQUIRE_ROS is set, but there is no {_absent}", pytrace=False)
+    pytest.skip(f"there is no {_absent}", allow_module_level=True)
+
+
+def real(*words: str, status: int = 0) -> str:
+    done = subprocess.run(words, env=ENV, capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode == status, done.stdout + done.stderr
+    return done.stdout
+
+
+def peer(*words: object) -> Any:
+    out = real(SYSTEM_PYTHON, str(PEER), *map(str, words))
+    return json.loads(out) if words[0] == "read" else None
+
+
+def ours(path: Path) -> dict[str, Any]:
+    """What `rosbag_peer.content` says, by our module."""
+    import hashlib
+
+    found = []
+    with rosbag.Bag(path) as bag:
+        for topic, raw, t, head in bag.read_messages(raw=True, return_connection_header=True):
+            fields = {key: value.decode() for key, value in head.items()}
+            found.append([topic, t.to_nsec(), hashlib.md5(raw[1]).hexdigest(), fields])
+        strings = [m.data for _, m, _ in bag.read_messages(["/chatter"])]
+        info = bag.get_type_and_topic_info()
+        summary = [
+            bag.get_message_count(), bag.get_message_count(["/scan"]), bag.get_start_time(), bag.get_end_time(), bag.version,
+            list(bag.get_compression_info()), info.msg_types, {name: list(one) for name, one in info.topics.items()},
+            str(bag), bag.size,
+        ]  # fmt: skip
+    return {"messages": found, "strings": strings, "summary": summary}
+
+
+@pytest.fixture(scope="module")
+def theirs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Bags that real rosbag wrote."""
+    folder = tmp_path_factory.mktemp("theirs")
+    for compression in COMPRESSIONS:
+        peer("write", folder / f"{compression}.bag", compression)
+    return {compression: folder / f"{compression}.bag" for compression in COMPRESSIONS}
+
+
+@pytest.fixture(autouse=True)
+def _utc(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.setenv("TZ", "UTC")
+    time.tzset()
+    yield
+    monkeypatch.undo()
+    time.tzset()
+
+
+def test_we_read_theirs_as_they_do(theirs):
+    paths = list(theirs.values())
+    for path, expected in zip(paths, peer("read", *paths), strict=True):
+        found = ours(path)
+        assert sorted(found.pop("messages"), key=str) == sorted(expected.pop("messages"), key=str)
+        assert found == expected
+
+
+def test_they_read_ours_as_we_do(theirs, tmp_path):
+    paths = []
+    for compression in COMPRESSIONS:
+        path = tmp_path / f"{compression}.bag"
+        recompress(theirs["none"], path, compression)
+        paths.append(path)
+    filter_bag(paths[2], tmp_path / "filtered.bag", "topic != '/scan' or m.header.seq % 3 == 0")
+    merge([paths[0], tmp_path / "filtered.bag"], tmp_path / "merged.bag")
+    with Bag(tmp_path / "filtered.bag", "a") as bag:
+        bag.compression = "lz4"
+        for _, m, t in Bag(paths[1]).read_messages("/chatter"):
+            bag.write("/more", m, t)
+    paths += [tmp_path / "filtered.bag", tmp_path / "merged.bag"]
+    for path, expected in zip(paths, peer("read", *paths), strict=True):
+        found = ours(path)
+        assert sorted(found.pop("messages"), key=str) == sorted(expected.pop("messages"), key=str)
+        assert found == expected
+    assert [len(Bag(path).connections()) for path in paths] == [4, 4, 4, 5, 4]
+
+
+def test_info_prints_the_same(theirs, capsys):
+    from rosmini.cli.main import main
+
+    for path in map(str, theirs.values()):
+        for options in (
+            ["--freq"],
+            [],
+            ["-y"],
+            ["-y", "--freq"],
+            ["-y", "-k", "topics[1].messages"],
+            ["-y", "-k", "end"],
+        ):
+            main(["rosbag", "info", *options, path])
+            assert capsys.readouterr().out == real("/usr/bin/rosbag", "info", *options, path)
+
+
+def test_what_we_reindex_they_read(theirs, tmp_path):
+    for compression, path in theirs.items():
+        cut = tmp_path / path.name
+        cut.write_bytes(path.read_bytes()[: int(path.stat().st_size * 0.7)])
+        assert "unindexed" in subprocess.run(
+            ["/usr/bin/rosbag", "info", str(cut)], env=ENV, capture_output=True, text=True, check=False
+        ).stderr  # fmt: skip
+        count = reindex(cut).messages
+        (read,) = peer("read", cut)
+        assert len(read["messages"]) == count
+        whole = [message for message in ours(path)["messages"] if message[0] == "/scan"]
+        found = [message for message in read["messages"] if message[0] == "/scan"]
+        assert found == whole[: len(found)]
+        assert len(found) > 20, compression
+
+
+def test_their_tools_work_on_ours(theirs, tmp_path):
+    path = tmp_path / "ours.bag"
+    recompress(theirs["bz2"], path, "lz4")
+    assert real("/usr/bin/rosbag", "check", str(path)) == "Bag file does not need any migrations.\n"
+    real("/usr/bin/rosbag", "filter", str(path), str(tmp_path / "f.bag"), "topic == '/chatter'")
+    assert len(ours(tmp_path / "f.bag")["strings"]) == 200
+    real("/usr/bin/rosbag", "decompress", "-q", str(path))
+    assert ours(path)["strings"] == ours(theirs["none"])["strings"]
+
+
+def test_real_record_and_play(theirs, tmp_path):
+    """Their roscpp player and recorder work on our bag, and we play what they recorded."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    env = {
+        **ENV,
+        "ROS_MASTER_URI": f"http://127.0.0.1:{port}",
+        "ROS_IP": "127.0.0.1",
+        "HOME": str(tmp_path),
+        "ROS_HOME": str(tmp_path),
+    }
+    source, target = tmp_path / "source.bag", tmp_path / "recorded.bag"
+    filter_bag(theirs["lz4"], source, "topic in ('/chatter', '/map') and t.secs < 1050")
+    quiet = {"env": env, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    started = [subprocess.Popen(["/usr/bin/rosmaster", "--core", "-p", str(port)], **quiet)]
+    try:
+        wait_until(lambda: answers(port))
+        started.append(
+            subprocess.Popen(["/usr/lib/rosbag/record", "-O", str(target), "/chatter", "/map"], **quiet)
+        )
+        wait_until(lambda: target.with_suffix(".bag.active").exists())
+        command = [
+            "/usr/lib/rosbag/play",
+            "--rate",
+            "100",
+            "--delay",
+            "1.5",
+            "--wait-for-subscribers",
+            "--quiet",
+            str(source),
+        ]
+        subprocess.run(command, check=True, timeout=60, **quiet)
+        time.sleep(0.5)
+        started[1].send_signal(2)
+        started[1].wait(20)
+    finally:
+        for process in started:
+            process.terminate()
+            process.wait(10)
+    recorded = ours(target)
+    assert recorded["strings"] == [f"hello {i}" for i in range(50)]
+    with Bag(target) as bag:
+        latching = {conn.topic: conn.latching for conn in bag.connections()}
+    assert latching == {"/chatter": False, "/map": True}
+    with Graph() as graph:
+        recorder = Recorder(graph.node("record"), all=True, output_name=str(tmp_path / "again"), quiet=True)
+        Player(graph.node("play"), target, quiet=True)
+        graph.run()
+        recorder.stop()
+    assert ours(recorder.path)["strings"] == recorded["strings"]
+
+
+def wait_until(condition) -> None:
+    deadline = time.monotonic() + 30
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def answers(port: int) -> bool:
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
