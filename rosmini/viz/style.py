@@ -130,6 +130,7 @@ FIGURE_CSS = """\
 }
 
 .rosmini-figure > svg,
+.rosmini-figure > .rosmini-still > svg,
 .rosmini-figure > img {
   display: block;
   height: auto;

@@ -62,6 +62,10 @@ def test_a_clean_notebook_has_no_problems():
         (code("x", 1, stream("in /home/me/x.py")), "cell 1 printed a path of this machine ('/home/m'): 'x'"),
         (code("x", 1, stream("http://127.0.0.1:7000")), "cell 1 printed a local address ('127.0.0.1'): 'x'"),
         (
+            code("x", 1, stream("<script>const book = false, packed = {}</script>")),
+            "cell 1 holds a moving picture in its live form: `execute` stores the small one that the book shows: 'x'",
+        ),
+        (
             code("\n".join("x = 1" for _ in range(21))),
             "cell 1 has 21 lines of code, over 20: split it, or move a helper into rosmini: 'x = 1'",
         ),

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import re
 from io import StringIO
+from types import SimpleNamespace
 
 import pytest
 
 pytest.importorskip("sphinx")
+
+from rosmini.book.sphinx_ext import copy_viewer
+from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 
 PAGE = r"""# A page
 
@@ -110,6 +114,23 @@ def test_solutions_are_folded_with_their_code_highlighted(page):
 def test_thebe_is_silent(page):
     assert "THEBE_JS_URL" not in page
     assert "sphinx-thebe.js" not in page
+
+
+def test_the_scripts_of_moving_pictures_are_there_to_be_loaded_and_no_page_begins_with_them(html, page):
+    for script in STATIC.glob("*.js"):
+        assert (html / "_static" / script.name).is_file()
+        assert f'{script.name}"' not in page
+
+
+def test_meshcats_viewer_is_copied_for_a_page_that_shows_something_in_it(html, tmp_path):
+    assert not (html / "_static" / MESHCAT).exists()
+    (tmp_path / "_static").mkdir()
+    (tmp_path / "deep").mkdir()
+    app = SimpleNamespace(outdir=tmp_path, builder=SimpleNamespace(format="html"))
+    (tmp_path / "deep" / "a.html").write_text("globalThis.rosminiMeshcat.mount(host)")
+    copy_viewer(app, None)
+    assert (tmp_path / "_static" / MESHCAT).read_bytes() == asset_path(MESHCAT).read_bytes()
+    assert "license" in (tmp_path / "_static" / f"{MESHCAT}.LICENSE.txt").read_text().lower()
 
 
 def test_the_theme_writes_nothing_to_the_console(html):
