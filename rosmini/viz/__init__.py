@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rosmini.viz.recording import recording_picture, recording_plots
     from rosmini.viz.scan import scan_picture
     from rosmini.viz.simulation import simulation_picture
+    from rosmini.viz.states import action_states
     from rosmini.viz.world import world_picture
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "Picture",
     "View",
     "ViewError",
+    "action_states",
     "matplotlib_picture",
     "parameter_tree",
     "plot",
@@ -37,6 +39,7 @@ __all__ = [
 ]
 
 _LATER = {
+    "action_states": "rosmini.viz.states",
     "parameter_tree": "rosmini.viz.parameters",
     "plot": "rosmini.viz.plots",
     "recording_picture": "rosmini.viz.recording",

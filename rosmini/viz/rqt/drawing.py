@@ -109,7 +109,7 @@ def _box(rect: Rect, shift: float, paint: dict[str, str]) -> str:
 
 
 def _edge(route: Route, edge: Edge, labels: dict[str, str]) -> str:
-    points, arrow = _with_arrow(route.points)
+    points, arrow = with_arrow(route.points)
     line = element("path", d=bezier(points), fill="none", stroke=style.LIGHT["line"])
     head = element("path", d=arrow, fill=style.LIGHT["line"])
     source, target = edge.source[2:], edge.target[2:]
@@ -124,7 +124,7 @@ def _edge(route: Route, edge: Edge, labels: dict[str, str]) -> str:
     return element("g", element("title", escape(tip)) + line + head + label, class_="rm-edge")
 
 
-def _with_arrow(points: tuple[Point, ...]) -> tuple[tuple[Point, ...], str]:
+def with_arrow(points: tuple[Point, ...]) -> tuple[tuple[Point, ...], str]:
     """The curve, cut off where its arrow head begins, and the head's outline."""
     tip, before = points[-1], points[-2]
     dx, dy = tip[0] - before[0], tip[1] - before[1]
