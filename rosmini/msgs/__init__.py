@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .define import define_message, define_service
+from .define import define_action, define_message, define_service
 from .importer import enable_own_imports, install, installed, uninstall
 from .message import Message
 from .registry import registry as _registry
@@ -20,6 +20,7 @@ from .registry import registry as _registry
 __all__ = [
     "Message",
     "action_class",
+    "define_action",
     "define_message",
     "define_service",
     "install",

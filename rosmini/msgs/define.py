@@ -1,4 +1,4 @@
-"""Message and service classes from a text at hand, for types that have no file: in notebooks, and to compare two versions of one type."""
+"""Message, service and action classes from a text at hand, for types that have no file: in notebooks, and to compare two versions of one type."""
 
 from __future__ import annotations
 
@@ -6,16 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import UnknownPackage, UnknownType, nearest
 
-from .definition import BUILTIN_TYPES, parse_message, parse_service
+from .definition import BUILTIN_TYPES, parse_message, parse_service, split_action
 from .fingerprint import full_text, message_md5, service_md5
 from .message import make_message_class
 from .registry import MODULE_PREFIX, make_service_class, registry
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from .definition import MessageSpec
     from .message import Message
 
-__all__ = ["define_message", "define_service"]
+__all__ = ["define_action", "define_message", "define_service"]
 
 
 def define_message(name: str, text: str) -> type[Any]:
@@ -37,13 +39,33 @@ def define_service(name: str, text: str) -> type[Any]:
     return make_service_class(spec, request, response, service_md5(spec, registry().definition))
 
 
-def _class_of(spec: MessageSpec, folder: str) -> type[Message]:
-    known, nested = registry(), {}
+def define_action(name: str, text: str) -> tuple[type[Any], type[Any], type[Any], type[Any]]:
+    """The classes of an action "package/Type" that ``text`` defines, in the language of ``.action`` files (http://wiki.ros.org/actionlib).
+
+    Four of the seven: the action itself, as clients and servers take it, and its goal, result and feedback. Raises as
+    :func:`define_message` does.
+    """
+    specs = split_action(text, name)
+    own: dict[str, type[Message]] = {}
+    for suffix in ("Goal", "Result", "Feedback", "ActionGoal", "ActionResult", "ActionFeedback", "Action"):
+        own[name + suffix] = _class_of(specs[name + suffix], "msg", own)
+    return own[f"{name}Action"], own[f"{name}Goal"], own[f"{name}Result"], own[f"{name}Feedback"]
+
+
+def _class_of(
+    spec: MessageSpec, folder: str, own: Mapping[str, type[Message]] | None = None
+) -> type[Message]:
+    """Make a class; ``own`` are those that it may nest beside the ones that have files."""
+    known, mine, nested = registry(), own or {}, {}
+
+    def definition(name: str) -> MessageSpec:
+        return mine[name]._spec if name in mine else known.definition(name)
+
     for field in spec.fields:
         if field.builtin:
             continue
         try:
-            nested[field.base] = known.message_class(field.base)
+            nested[field.base] = mine.get(field.base) or known.message_class(field.base)
         except (UnknownType, UnknownPackage) as error:
             hint = nearest(field.base.removeprefix(f"{spec.package}/"), BUILTIN_TYPES)
             raise spec.error(field.line, f"unknown type '{field.base}': {hint or error}") from error
@@ -51,7 +73,7 @@ def _class_of(spec: MessageSpec, folder: str) -> type[Message]:
         spec,
         nested,
         known,
-        message_md5(spec, known.definition),
-        full_text(spec, known.definition),
+        message_md5(spec, definition),
+        full_text(spec, definition),
         f"{MODULE_PREFIX}.{spec.package}.{folder}",
     )
