@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Self
 
 from rosmini.errors import nearest
 from rosmini.graph import default_graph
+from rosmini.graph.show import show
 from rosmini.names import canonicalize
 from rosmini.time import Time
 
@@ -401,6 +402,10 @@ class Bag(Summaries):
         from .table import table
 
         return table(self, topic)
+
+    def show(self, **options: Any) -> Any:
+        """Return a picture of what is in the bag over time, as the tool ``rqt_bag`` draws it; the options are those of ``rosmini.viz.rqt_bag``."""
+        return show("bag", self, **options)
 
     # -- writing -----------------------------------------------------------------------------------------------------
 

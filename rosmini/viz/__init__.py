@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rosmini.viz.parameters import parameter_tree
     from rosmini.viz.plots import plot
     from rosmini.viz.recording import recording_picture, recording_plots
+    from rosmini.viz.rqt.bag import rqt_bag
     from rosmini.viz.scan import scan_picture
     from rosmini.viz.simulation import simulation_picture
     from rosmini.viz.states import action_states
@@ -32,6 +33,7 @@ __all__ = [
     "recording_picture",
     "recording_plots",
     "rqt_console",
+    "rqt_bag",
     "rqt_graph",
     "scan_picture",
     "simulation_picture",
@@ -44,6 +46,7 @@ _LATER = {
     "plot": "rosmini.viz.plots",
     "recording_picture": "rosmini.viz.recording",
     "recording_plots": "rosmini.viz.recording",
+    "rqt_bag": "rosmini.viz.rqt.bag",
     "scan_picture": "rosmini.viz.scan",
     "simulation_picture": "rosmini.viz.simulation",
     "world_picture": "rosmini.viz.world",
