@@ -270,6 +270,10 @@ class World:
         """A picture of the world; the options are those of `rosmini.viz.world_picture`."""
         return show("world", self, **options)
 
+    def show3d(self, **options: Any) -> Any:
+        """The world in three dimensions; the options are those of `rosmini.viz.meshcat.world_3d`."""
+        return show("world_3d", self, **options)
+
 
 class _Place:
     """A footprint at a pose."""

@@ -227,7 +227,7 @@ def test_bytes_are_the_same_in_processes_that_hash_differently_and_nothing_is_st
 
 def test_the_pages_html_in_both_forms(monkeypatch):
     monkeypatch.setenv("ROSMINI_DISPLAY", "book")
-    view = robot_3d(SMALL, BURGER, POSE, caption="A robot")
+    view = robot_3d(SMALL, BURGER, POSE, title="A robot")
     book = view.html
     assert len(book) < 160_000
     assert "packed" not in book
@@ -383,7 +383,8 @@ def test_a_simulator_shows_itself_as_it_is_now():
         before = simulator.show3d()
         assert "beams" not in before.text
         graph.run(1.0)
-        view = simulator.show3d(focus="world", caption="Now")
+        view = simulator.show3d(focus="world", title="Now")
+        assert view.text.startswith("Now\n3D: burger at ")
         assert "of 360 beams hit\nsmall with 1 wall, 3 obstacles" in view.text
         assert len(view.scene.scans) == 1
     finally:

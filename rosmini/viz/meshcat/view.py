@@ -35,18 +35,20 @@ HEIGHT = 420
 class MeshcatView(View):
     """A scene that can be turned, and played if something in it moves; its image is a drawing of the same scene.
 
+    `title` is a caption under it and the first line of its text form; `label` names it for those who do not see it.
+
     In the book, the page's one copy of meshcat's viewer shows the recorded commands, with no server. A page should hold
     at most six: browsers draw no more than some eight three-dimensional pictures at a time.
     """
 
     def __init__(
-        self, scene: Scene3D, *, title: str, text: str, alt: str, follow: str | None = None,
-        height: int = HEIGHT, caption: str | None = None,
+        self, scene: Scene3D, *, label: str, text: str, alt: str, follow: str | None = None,
+        height: int = HEIGHT, title: str | None = None,
     ) -> None:  # fmt: skip
         self.scene = scene
+        self.label = label
         self.title = title
-        self.caption = caption
-        self._text = text
+        self._text = f"{title}\n{text}" if title else text
         self._alt = alt
         self._follow = follow
         self._height = height
@@ -65,7 +67,7 @@ class MeshcatView(View):
     @cached_property
     def svg(self) -> str:
         """The drawing: the scene as the viewer shows it first."""
-        return draw(self.scene, title=self.title, alt=self.alt)
+        return draw(self.scene, title=self.label, alt=self.alt)
 
     def _images(self) -> dict[str, bytes]:
         return {SVG_MIME: self.svg.encode()}
@@ -90,8 +92,8 @@ class MeshcatView(View):
             **self.extra,
         }
         return embed(
-            ["rosmini-meshcat.js"], "rosminiMeshcat.mount", data, title=self.title, alt=self.alt,
-            height=self._height, fallback_html=self.svg, caption=self.caption, assets=[MESHCAT], book=book,
+            ["rosmini-meshcat.js"], "rosminiMeshcat.mount", data, title=self.label, alt=self.alt,
+            height=self._height, fallback_html=self.svg, caption=self.title, assets=[MESHCAT], book=book,
         )  # fmt: skip
 
 
@@ -126,21 +128,21 @@ def camera_for(
 
 def world_3d(
     world: World, *, distance: float | None = None, azimuth: float | None = None, elevation: float | None = None,
-    caption: str | None = None, height: int = HEIGHT,
+    title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
     """A world in three dimensions: what stands in it, as high as it is."""
     camera = camera_for(world, None, focus="world", distance=distance, azimuth=azimuth, elevation=elevation)
     scene = Scene3D(camera)
     scene.add_world(world)
-    title = f"{_title(world)} in 3D"
+    label = f"{_title(world)} in 3D"
     text = f"3D: {_contents(world)}"
     alt = f"{_title(world)} in three dimensions, seen from above at an angle: {_contents(world)}."
-    return MeshcatView(scene, title=title, text=text, alt=alt, caption=caption, height=height)
+    return MeshcatView(scene, label=label, text=text, alt=alt, title=title, height=height)
 
 
 def replay_3d(
     recording: Recording, *, focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
-    elevation: float | None = None, scans: bool = True, caption: str | None = None, height: int = HEIGHT,
+    elevation: float | None = None, scans: bool = True, title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
     """A recorded run to play: the robot on its way, its wheels turning, its trail and where odometry saw it.
 
@@ -161,7 +163,7 @@ def replay_3d(
     if seen is not None:
         scene.add_scan(model, np.full(seen["beams"], np.inf))
     scene.animate(recording.times - recording.times[0], _tracks(model, truth))
-    title = f"{model.title or model.name} in {_title(world)}: a run in 3D"
+    label = f"{model.title or model.name} in {_title(world)}: a run in 3D"
     driven = f"{fixed(recording.duration, 1)} s, {fixed(recording.distance, 2)} m"
     off = fixed(float(recording.drift().position[-1]), 2)
     text = (
@@ -173,7 +175,7 @@ def replay_3d(
         f"Lines on the ground show its way and, {off} m off at its end, the way that odometry believes in."
     )
     view = MeshcatView(
-        scene, title=title, text=text, alt=alt, caption=caption, height=height,
+        scene, label=label, text=text, alt=alt, title=title, height=height,
         follow=f"/meshcat/{ROBOT}" if focus == "robot" else None,
     )  # fmt: skip
     if seen is not None:
@@ -183,7 +185,7 @@ def replay_3d(
 
 def simulation_3d(
     simulator: Simulator, *, focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
-    elevation: float | None = None, caption: str | None = None, height: int = HEIGHT,
+    elevation: float | None = None, title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
     """A simulator at this moment: its world, its robot where it truly is, and the last scan from where it was taken.
 
@@ -197,14 +199,14 @@ def simulation_3d(
     scan = simulator.last_scan()
     return robot_3d(
         world, simulator.model, simulator.truth(), None if scan is None else np.asarray(scan.ranges, dtype=float),
-        scan_from=simulator.scan_pose, focus=focus, distance=distance, azimuth=azimuth, elevation=elevation, caption=caption, height=height,
+        scan_from=simulator.scan_pose, focus=focus, distance=distance, azimuth=azimuth, elevation=elevation, title=title, height=height,
     )  # fmt: skip
 
 
 def robot_3d(
     world: World, model: RobotModel, pose: Pose, ranges: Floats | None = None, *, scan_from: Pose | None = None,
     focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None, elevation: float | None = None,
-    caption: str | None = None, height: int = HEIGHT,
+    title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
     """A robot in a world at a pose, with what its laser saw: ranges (beams,) [m], not finite where nothing was hit.
 
@@ -228,7 +230,7 @@ def robot_3d(
     text = f"3D: {model.name} at {_pose(pose)}{hits}\n{_contents(world)}"
     alt = f"{name} in {_title(world)}, in three dimensions, at {_pose(pose)}{hits}."
     return MeshcatView(
-        scene, title=f"{name} in {_title(world)}, in 3D", text=text, alt=alt, caption=caption, height=height
+        scene, label=f"{name} in {_title(world)}, in 3D", text=text, alt=alt, title=title, height=height
     )
 
 
