@@ -1,0 +1,276 @@
+"""What is right in the exercises of chapter 17, Names."""
+
+from __future__ import annotations
+
+from io import StringIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from rosmini import names
+from rosmini.book.checks import exercise, expect
+from rosmini.graph import Graph
+from rosmini.msgs import message_class
+from rosmini.scripts import run_source
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+
+# ---- 17.1: resolve ----
+
+CASES = [
+    ("/map", "/", "/camera"),
+    ("/map", "/robot1", "/robot1/camera"),
+    ("scan", "/", "/camera"),
+    ("scan", "/robot1", "/robot1/camera"),
+    ("arm/scan", "/lab/robot2", "/lab/robot2/camera"),
+    ("~rate", "/", "/camera"),
+    ("~rate", "/robot1", "/robot1/camera"),
+    ("~arm/rate", "/lab/robot2", "/lab/robot2/driver"),
+]
+
+
+def _resolve(
+    *, in_root: str = "/", private: Callable[[str, str], str] = lambda node, rest: f"{node}/{rest}"
+) -> Callable[[], Any]:
+    def resolve(name: str, namespace: str, node_name: str) -> str:
+        if name[0] == "/":
+            return name
+        if name[0] == "~":
+            return private(node_name, name[1:])
+        return (in_root if namespace == "/" else namespace + "/") + name
+
+    return lambda: resolve
+
+
+@exercise(
+    "17.1",
+    praise="Three cases, told apart by the first character, and that is all there is to it.",
+    mistakes=[
+        _resolve(in_root="//"),
+        _resolve(in_root=""),
+        _resolve(private=lambda node, rest: f"{node}/~{rest}"),
+        _resolve(private=lambda node, rest: f"{node.rpartition('/')[0]}/{rest}"),
+        _resolve(private=lambda node, rest: node + rest),
+        lambda: lambda name, namespace, _: name if name[0] == "/" else f"{namespace.rstrip('/')}/{name}",
+        lambda: lambda name, namespace, _: f"{namespace.rstrip('/')}/{name}",
+        lambda: lambda *_: "/map",
+    ],
+)
+def resolve(answer: Any) -> None:
+    """The full name that a name stands for."""
+    for name, namespace, node in CASES:
+        found, right = answer(name, namespace, node), names.resolve(name, namespace, node)
+        hint = {
+            "/": "a global name is the full name already",
+            "~": "a private name is below the node's own full name, and the ~ goes away",
+        }.get(name[0], "the namespace / ends with a slash already, the others do not")
+        expect(
+            found == right, f"{name} means {right} to {node} (namespace {namespace}), not {found!r}.", hint
+        )
+
+
+# ---- 17.2: arguments ----
+
+TALKER = """
+import rospy
+from std_msgs.msg import String
+
+rospy.init_node("talker")
+chatter = rospy.Publisher("chatter", String, queue_size=10, latch=True)
+print(rospy.get_name(), chatter.resolved_name, rospy.get_param("~text", "hello"), sep="|")
+"""
+
+
+def _started(arguments: Sequence[str]) -> list[str]:
+    """The node, the topic and the text of a talker that was started with these arguments."""
+    out, err = StringIO(), StringIO()
+    run_source(TALKER, arguments, name="talker.py", stdout=out, stderr=err, prefix=False)
+    lines = out.getvalue().strip().splitlines()
+    last = (err.getvalue().strip().splitlines() or ["it printed nothing"])[-1]
+    expect(bool(lines), f"The talker did not start with these arguments: {last}", "one := in each")
+    return lines[-1].split("|")
+
+
+@exercise(
+    "17.2",
+    praise="The namespace stands in one place, and everything else is relative to it.",
+    mistakes=[
+        list,
+        lambda: ["__ns:=/crew", "__name:=eve", "chatter:=/crew/radio/news", "_text:=landed"],
+        lambda: ["__ns:=/crew", "__name:=eve", "chatter:=news", "_text:=landed"],
+        lambda: ["__ns:=/crew", "_name:=eve", "chatter:=radio/news", "_text:=landed"],
+        lambda: ["__ns:=/crew", "__name:=eve", "chatter:=radio/news", "text:=landed"],
+        lambda: ["__name:=eve", "chatter:=/crew/radio/news", "_text:=landed"],
+        lambda: ["__ns:=/crew", "__name:=eve", "/chatter:=radio/news", "_text:=landed"],
+        lambda: ["__ns:=/crew", "__name:=crew/eve", "chatter:=radio/news", "_text:=landed"],
+        lambda: "__ns:=/crew __name:=eve chatter:=radio/news _text:=landed",
+    ],
+)
+def arguments(answer: Any) -> None:
+    """The command line that gives a talker its node name, its topic and its text."""
+    expect(isinstance(answer, (list, tuple)), f"arguments is a {type(answer).__name__}, not a list.", "[...]")
+    expect(all(isinstance(word, str) for word in answer), "Each argument is a string.", '"from:=to"')
+    node, topic, text = _started(answer)
+    expect(
+        node == "/crew/eve",
+        f"The node is called {node}, not /crew/eve.",
+        "__ns:= and __name:=, two underscores",
+    )
+    expect(text == "landed", f"It says {text!r}, not 'landed'.", "_text:=, one underscore")
+    expect(
+        topic == "/crew/radio/news",
+        f"It publishes on {topic}, not on /crew/radio/news.",
+        "chatter:= something",
+    )
+    moved = ["__ns:=/team" if word.startswith("__ns:=") else word for word in answer]
+    node, topic, _ = _started(moved)
+    expect(
+        (node, topic) == ("/team/eve", "/team/radio/news"),
+        f"With the namespace /team instead, it runs as {node} and publishes on {topic}.",
+        "the right side of a remapping may be a relative name",
+    )
+
+
+# ---- 17.3: one report for all ----
+
+
+def _reporter(
+    battery: str = "battery",
+    report: str = "/report",
+    text: str = "{ns}: {value:.1f} V",
+    name: str = "reporter",
+) -> Callable[[], Any]:
+    def start(graph: Graph, namespace: str) -> None:
+        node = graph.node(name, namespace=namespace)
+        out = node.publisher(report, message_class("std_msgs/String"), queue_size=10)
+        node.subscriber(
+            battery,
+            message_class("std_msgs/Float32"),
+            lambda message: out.publish(text.format(ns=node.namespace, value=message.data, name=node.name)),
+        )
+
+    return lambda: start
+
+
+def _without_namespace(graph: Graph, _: str) -> None:
+    _reporter()()(graph, "/")
+
+
+@exercise(
+    "17.3",
+    praise="A third robot costs one more call, and the screen need not know of it.",
+    mistakes=[
+        _reporter(battery="/battery"),
+        _reporter(battery="~battery"),
+        _reporter(report="report"),
+        _reporter(text="{name}: {value:.1f} V"),
+        _reporter(text="{ns}: {value} V"),
+        _reporter(name="reporter1"),
+        lambda: _without_namespace,
+        lambda: lambda graph, namespace: graph.node("reporter", namespace=namespace),
+    ],
+)
+def start_reporter(answer: Any) -> None:
+    """One node for each robot, with a topic of its own to read and a common one to write."""
+    got: list[str] = []
+    robots = ["/robot1", "/robot2", "/lab/robot3"]
+    with Graph() as graph:
+        graph.node("screen").subscriber(
+            "/report", message_class("std_msgs/String"), lambda message: got.append(message.data)
+        )
+        feeds = {}
+        for robot in robots:
+            answer(graph, robot)
+            feeds[robot] = graph.node("driver", namespace=robot).publisher(
+                "battery", message_class("std_msgs/Float32")
+            )
+        graph.run(0.1)
+        for robot, feed in feeds.items():
+            expect(
+                f"{robot}/reporter" in graph.nodes,
+                f"There is no node {robot}/reporter.",
+                'graph.node("reporter", namespace=...)',
+            )
+            expect(
+                feed.num_connections() == 1,
+                f"{feed.num_connections()} nodes listen to {robot}/battery, not 1.",
+                "battery is a relative name: each reporter has its own",
+            )
+        for robot, volts in zip(robots, (11.5, 12.04, 10.96), strict=True):
+            feeds[robot].publish(volts)
+            graph.run(0.1)
+    right = ["/robot1: 11.5 V", "/robot2: 12.0 V", "/lab/robot3: 11.0 V"]
+    expect(
+        got == right,
+        f"On /report came {got or 'nothing'}, not {right}.",
+        "the topic is global; the text is node.namespace and the number with :.1f",
+    )
+
+
+# ---- 17.4: find the file ----
+
+
+def _finder(
+    *, manifest: bool = True, first_only: bool = True, check: bool = True, cut: int = 1
+) -> Callable[[], Any]:
+    def find(url: str, folders: list[Path]) -> Path | None:
+        name, *rest = url.removeprefix("package://").split("/", cut)
+        for folder in folders:
+            if (folder / name / ("package.xml" if manifest else "")).exists():
+                file = folder.joinpath(name, rest[0])
+                if file.exists() or (first_only and not check):
+                    return file
+                if first_only:
+                    return None
+        return None
+
+    return lambda: find
+
+
+def _last_first(url: str, folders: list[Path]) -> Path | None:
+    found: Path | None = _finder()()(url, folders[::-1])
+    return found
+
+
+@exercise(
+    "17.4",
+    praise="The reader of such an address need not know where the package lies, and an overlay can take its place.",
+    mistakes=[
+        _finder(manifest=False),
+        _finder(first_only=False),
+        _finder(check=False),
+        _finder(cut=2),
+        lambda: _last_first,
+        lambda: lambda _, folders: folders[0],
+    ],
+)
+def find_file(answer: Any) -> None:
+    """What an address package://NAME/PATH means in a list of folders."""
+    with TemporaryDirectory() as made:
+        root = Path(made)
+        files = [
+            "a/robot/package.xml",
+            "a/robot/readme",
+            "b/robot/package.xml",
+            "b/robot/maps/floor.yaml",
+            "b/arm/package.xml",
+            "b/arm/meshes/left/hand.stl",
+            "a/arm/meshes/left/hand.stl",
+            "b/arm/readme",
+        ]
+        for file in files:
+            (root / file).parent.mkdir(parents=True, exist_ok=True)
+            (root / file).touch()
+        folders = [root / "none", root / "a", root / "b"]
+        for url, right, hint in [
+            ("package://robot/readme", "a/robot/readme", "search the folders in turn"),
+            ("package://arm/readme", "b/arm/readme", "search the folders in turn"),
+            ("package://arm/meshes/left/hand.stl", "b/arm/meshes/left/hand.stl", "no manifest, no package"),
+            ("package://robot/maps/floor.yaml", None, "the first package wins, with all that it lacks"),
+            ("package://leg/readme", None, "there is no such package"),
+        ]:
+            found = answer(url, list(folders))
+            shown = found.relative_to(root).as_posix() if isinstance(found, Path) else found
+            expect(shown == right, f"{url} means {right}, not {shown}.", hint)

@@ -1,0 +1,58 @@
+"""Chapter 17: its figures are numbered, its program starts from a terminal as the page says, and its exercises ask for that program."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rosmini.book import notebooks
+
+CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "17_names.ipynb"
+
+
+@pytest.fixture(scope="module")
+def cells():
+    return notebooks.read(CHAPTER).cells
+
+
+@pytest.fixture(scope="module")
+def talker(cells):
+    sources = [cell.source for cell in cells if cell.cell_type == "code" and 'TALKER = """' in cell.source]
+    return re.search(r'TALKER = """\n(.*?)"""', sources[0], re.DOTALL)[1]
+
+
+def test_the_talker_starts_from_a_terminal_as_shown(cells, talker, tmp_path):
+    (tmp_path / "talker.py").write_text(talker, encoding="utf-8")
+    prose = "\n\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+    command, shown = re.search(
+        r"^> \$ uv run rosmini (run .*?)\n> (.*?)\n> ~~~", prose, re.MULTILINE
+    ).groups()
+    done = subprocess.run(
+        [sys.executable, "-m", "rosmini", *shlex.split(command)],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, shown + "\n", "")
+
+
+def test_the_exercise_starts_the_same_talker(talker):
+    from rosmini.book.exercises.chapter_17 import TALKER
+
+    for line in ('rospy.init_node("talker")', 'rospy.Publisher("chatter", String', 'rospy.get_param("~text"'):
+        assert line in talker
+        assert line in TALKER
+
+
+def test_every_figure_is_numbered_in_order(cells):
+    code = [cell.source for cell in cells if cell.cell_type == "code"]
+    numbers = [int(number) for source in code for number in re.findall(r"Figure 17\.(\d+): ", source)]
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert sum(source.count("rqt_graph(") for source in code) == len(numbers) > 0
