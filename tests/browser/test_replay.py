@@ -353,7 +353,8 @@ def test_who_wants_less_motion_gets_a_picture_each_half_second(write, opened, re
           })();
         })"""
     )
-    assert 2 <= pictures <= 2 * seconds + 1
+    # one more for the press, and one for a page that was held up; without the wish it would be 60 a second
+    assert 2 <= pictures <= 2 * seconds + 2
 
 
 def test_it_does_not_run_where_nobody_sees_it(write, opened, recording):
