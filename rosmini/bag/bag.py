@@ -488,16 +488,6 @@ class Bag(Summaries):
                 f"bags are not encrypted here ({encryptor}): use real ROS's `rosbag encrypt`"
             )
 
-    def __str__(self) -> str:
-        from .info import info_text
-
-        return info_text(self)
-
-    def _get_yaml_info(self, key: str | None = None) -> str | None:
-        from .info import info_yaml
-
-        return info_yaml(self, key)
-
 
 def _serialized(msg: Any) -> bytes:
     if hasattr(type(msg), "_encode"):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 from rosmini.time import Time
 
 from .errors import ROSBagException
-from .info import frequency
+from .info import frequency, info_text, info_yaml
 
 if TYPE_CHECKING:
     from .index import Connection, Index
@@ -115,6 +115,16 @@ class Summaries:
                 frequency(reader, here),
             )
         return TypesAndTopicsTuple(dict(sorted(types.items())), topics)
+
+    def info(self: Any, *, freq: bool = False, utc: bool = False) -> str:
+        """Return what ``rosbag info`` prints; with how often messages came if asked for, with times of UTC or of this machine's zone."""
+        return info_text(self, freq=freq, utc=utc)
+
+    def __str__(self: Any) -> str:
+        return info_text(self)
+
+    def _get_yaml_info(self: Any, key: str | None = None) -> str | None:
+        return info_yaml(self, key)
 
 
 def _time(nanoseconds: int | None) -> float:

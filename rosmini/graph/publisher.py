@@ -75,17 +75,17 @@ class Publication:
             self._send(frozen)
 
     def relay(self, message: Any) -> None:
-        """Send a message that another node published first: its header keeps its number."""
+        """Send a message that another node published first: its header keeps its number, and it may go unheard without a word."""
         frozen = self._freeze(message)
-        self._scheduler.on_hub(lambda: self._send(frozen))
+        self._scheduler.on_hub(lambda: self._send(frozen, warn=False))
 
-    def _send(self, frozen: Any) -> None:
+    def _send(self, frozen: Any, *, warn: bool = True) -> None:
         self.sent += 1
         if self._latch:
             self._latched = self._copy(frozen)
         senders = self._list
         if not senders:
-            if not self._warned and not self.latch:
+            if warn and not self._warned and not self.latch:
                 self._warn_unheard()
             return
         size = self.queue_size

@@ -1,0 +1,184 @@
+"""What is right in the exercises of chapter 15, Bags."""
+
+from __future__ import annotations
+
+import math
+from io import BytesIO
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from rosmini.bag import Bag, FilterError
+from rosmini.bag.expressions import compile_expression
+from rosmini.book.checks import exercise, expect
+from rosmini.msgs import message_class
+from rosmini.time import Time
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+
+def _bag(messages: Iterable[tuple[str, Any, float]]) -> Bag:
+    """A bag in memory, with messages recorded at times [s]."""
+    file = BytesIO()
+    with Bag(file, "w") as bag:
+        for topic, message, time in messages:
+            bag.write(topic, message, Time.from_nsec(round(time * 1e9)))
+    return Bag(file)
+
+
+def _string(text: str = "x") -> Any:
+    return message_class("std_msgs/String")(text)
+
+
+def _twist(speed: float, turn: float = 0.0) -> Any:
+    message = message_class("geometry_msgs/Twist")()
+    message.linear.x, message.angular.z = speed, turn
+    return message
+
+
+def _odometry(x: float, y: float) -> Any:
+    message = message_class("nav_msgs/Odometry")()
+    message.pose.pose.position.x, message.pose.pose.position.y = x, y
+    return message
+
+
+# ---- 15.1: how many messages on which topic ----
+
+
+@exercise(
+    "15.1",
+    praise="One line of `rosbag info` for each topic.",
+    mistakes=[
+        lambda: lambda bag: {topic: 1 for topic, _, _ in bag.read_messages()},
+        lambda: lambda bag: bag.get_message_count(),
+        lambda: lambda bag: {"/chatter": bag.get_message_count("/chatter")},
+        lambda: lambda bag: [topic for topic, _, _ in bag.read_messages()],
+    ],
+)
+def message_counts(answer: Any) -> None:
+    """A dictionary from topics to numbers of messages."""
+    bag = _bag([("/chatter", _string(), float(i)) for i in range(5)] + [("/news", _string(), 2.5)])
+    found = answer(bag)
+    expect(isinstance(found, dict), f"It returned a {type(found).__name__}, not a dictionary.")
+    expect(
+        set(found) == {"/chatter", "/news"},
+        f"The topics of my bag are /chatter and /news, not {sorted(found)}.",
+    )
+    expect(
+        found == {"/chatter": 5, "/news": 1},
+        f"My bag has 5 messages on /chatter and 1 on /news; you counted {found['/chatter']} and {found['/news']}.",
+        "add one for each message that read_messages() gives",
+    )
+
+
+# ---- 15.2: the longest silence ----
+
+
+def _silences(bag: Bag, topic: str) -> list[float]:
+    times = [t.to_sec() for _, _, t in bag.read_messages(topic)]
+    return [after - before for before, after in pairwise(times)]
+
+
+@exercise(
+    "15.2",
+    praise="The timeline frames it; your function measures it.",
+    mistakes=[
+        lambda: lambda bag, topic: min(_silences(bag, topic)),
+        lambda: lambda bag, topic: sum(_silences(bag, topic)),
+        lambda: lambda bag, topic: _silences(bag, topic)[0],
+        lambda: lambda bag, _: bag.get_end_time() - bag.get_start_time(),
+        lambda: lambda bag, _: max(_silences(bag, "/chatter")),
+    ],
+)
+def longest_silence(answer: Any) -> None:
+    """The longest time between two messages of one topic."""
+    times = (10.0, 10.5, 14.25, 15.0)
+    messages = [("/chatter", _string(), time) for time in times]
+    bag = _bag([*messages, *(("/news", _string(), float(time)) for time in range(10, 17))])
+    found = answer(bag, "/chatter")
+    expect(isinstance(found, int | float), f"It returned a {type(found).__name__}, not a number of seconds.")
+    expect(
+        math.isclose(found, 3.75, abs_tol=1e-6),
+        f"/chatter of my bag is silent from 10.5 to 14.25 s, for 3.75 s; you say {found:g} s.",
+        "the times of one topic only, and the largest difference of two that follow each other",
+    )
+    other = answer(bag, "/news")
+    expect(
+        math.isclose(other, 1.0, abs_tol=1e-6),
+        f"/news has a message each second; you say {other:g} s.",
+        "use the topic that you are given",
+    )
+
+
+# ---- 15.3: a filter ----
+
+
+@exercise(
+    "15.3",
+    praise="And `and` looks at the field only where the topic has it.",
+    mistakes=[
+        lambda: "topic == '/cmd_vel'",
+        lambda: "m.linear.x > 0.1",
+        lambda: "topic == '/cmd_vel' and m.linear.x >= 0.1",
+        lambda: "topic == '/cmd_vel' and m.angular.z > 0.1",
+        lambda: "topic == '/cmd_vel' and abs(m.linear.x) > 0.1",
+        lambda: "topic == '/odom' and m.linear.x > 0.1",
+        lambda: 1,
+    ],
+)
+def fast_commands(answer: Any) -> None:
+    """An expression that keeps the commands to drive ahead faster than 0.1 m/s."""
+    expect(isinstance(answer, str), f"The expression is text between quotes, not a {type(answer).__name__}.")
+    cases = [
+        ("/cmd_vel", _twist(0.2), True, "a command of 0.2 m/s"),
+        ("/cmd_vel", _twist(0.05), False, "a command of 0.05 m/s"),
+        ("/cmd_vel", _twist(0.1), False, "a command of exactly 0.1 m/s"),
+        ("/cmd_vel", _twist(-0.2), False, "a command to drive backwards"),
+        ("/cmd_vel", _twist(0.0, 1.0), False, "a command to turn on the spot"),
+        ("/odom", _odometry(1.0, 1.0), False, "a message on /odom"),
+    ]
+    try:
+        chosen = compile_expression(answer)
+        results = [bool(chosen(topic, message, Time(1))) for topic, message, _, _ in cases]
+    except FilterError as error:
+        expect(False, str(error))
+        return
+    for found, (_, _, wanted, what) in zip(results, cases, strict=True):
+        expect(
+            found == wanted, f"It {'keeps' if found else 'drops'} {what}.", "topic == ... and m. ... > ..."
+        )
+
+
+# ---- 15.4: how far did it drive ----
+
+
+@exercise(
+    "15.4",
+    praise="Small steps add up to the way; the distance between its ends would forget every turn.",
+    mistakes=[
+        lambda: lambda _: 2.0,
+        lambda: lambda bag: len(list(bag.read_messages("/odom"))),
+        lambda: lambda bag: math.hypot(*_ends(bag)),
+        lambda: lambda bag: sum(_ends(bag)),
+    ],
+)
+def distance_driven(answer: Any) -> None:
+    """The length of the way that /odom tells, in metres."""
+    square = [(0, 0), (1, 0), (1, 2), (-0.5, 2), (-0.5, 0)]
+    bag = _bag(
+        [("/odom", _odometry(x, y), float(i)) for i, (x, y) in enumerate(square)]
+        + [("/news", _string(), 1.5)]
+    )
+    found = answer(bag)
+    expect(isinstance(found, int | float), f"It returned a {type(found).__name__}, not a number of metres.")
+    expect(
+        math.isclose(found, 6.5, abs_tol=1e-6),
+        f"In my bag the robot drives 1 + 2 + 1.5 + 2 = 6.5 m; you say {found:.2f} m.",
+        "add up the distances from each position to the next: math.dist((x0, y0), (x1, y1))",
+    )
+
+
+def _ends(bag: Bag) -> tuple[float, float]:
+    table = bag.table("/odom")
+    x, y = table["pose.pose.position.x"], table["pose.pose.position.y"]
+    return float(x[-1] - x[0]), float(y[-1] - y[0])
