@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rosmini.cli.bench import Figure, Measure, graph, sim, table
+from rosmini.cli.bench import Figure, Measure, bags, graph, sim, table
 from rosmini.cli.bench.peer import find_rospy
 from rosmini.cli.main import main
 from rosmini.errors import RosminiError
@@ -22,7 +22,9 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
     assert main(["bench", "--no-peer", "--rounds", "1", "--scale", "0.001", "--json", str(file)]) == 0
     written = json.loads(file.read_text())
     shown = capsys.readouterr().out
-    assert len(written["figures"]) == len([*graph.measures(None, 1), *sim.measures(None, 1)])
+    assert len(written["figures"]) == len(
+        [*graph.measures(None, 1), *bags.measures(tmp_path, None, 1), *sim.measures(None, 1)]
+    )
     for row in written["figures"]:
         assert row["ours"] > 0
         assert row["peer"] is None or row["peer_name"] == "pymunk"
@@ -42,6 +44,23 @@ def test_real_rospy_is_measured_beside_it() -> None:
     compared = [figure for figure in figures if figure.peer is not None]
     assert len(compared) >= 5
     assert all(figure.peer and figure.peer > 0 for figure in compared)
+
+
+@pytest.mark.ros
+def test_real_rosbag_is_measured_beside_it(tmp_path: Path) -> None:
+    peer = bags.find_rosbag(tmp_path)
+    if peer is None:
+        assert os.environ.get("ROSMINI_REQUIRE_ROS") != "1", "real ROS is required here"
+        pytest.skip("real ROS is not installed")
+    figures = [measure.run(1) for measure in bags.measures(tmp_path, peer, 0.01)]
+    assert sum(bool(figure.peer) for figure in figures) == 6
+    assert figures[-1].ours == 100.0
+
+
+def test_a_bag_that_is_not_what_was_written_gives_no_figure(tmp_path: Path) -> None:
+    bags.write(tmp_path / "x.bag", "string", 10)
+    with pytest.raises(RosminiError, match="no figure"):
+        bags.read(tmp_path / "x.bag", "string", 11)
 
 
 def test_a_figure_is_the_median_and_the_two_take_turns() -> None:

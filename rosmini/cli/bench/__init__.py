@@ -160,6 +160,12 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         elif not args.no_peer:
             print("real ROS is not installed here: no peer")
         yield from graph.measures(rospy, args.scale)
+        from . import bags
+
+        folder = bags.Folder()
+        peers.callback(folder.close)
+        rosbag = None if args.no_peer else bags.find_rosbag(folder.path)
+        yield from bags.measures(folder.path, rosbag, args.scale)
     if args.subject in (None, "sim"):
         from . import sim
         from .sim_peer import find_irsim
