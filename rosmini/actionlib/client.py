@@ -289,7 +289,7 @@ class ActionClient:
             count = len(self._goals)
             self.node.logwarn(
                 f"the action server {peer} of {self.ns} has gone, with {count} goal{'s' * (count > 1)} open. "
-                "As in ROS nothing tells how they ended, unless a new server on these topics says that it does not know them (LOST): "
+                "As in ROS nothing tells how such a goal ends, unless a new server comes that does not know it (LOST): "
                 "wait with a time-out."
             )
 

@@ -1,0 +1,363 @@
+"""What is right in the exercises of chapter 91, Actions."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from rosmini.actionlib import (
+    SERVER_TRANSITIONS,
+    ActionClient,
+    ActionServer,
+    CommState,
+    SimpleActionClient,
+    SimpleActionServer,
+    Status,
+)
+from rosmini.book.checks import exercise, expect
+from rosmini.graph import Graph
+from rosmini.msgs import message_class
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+
+def _type(name: str) -> Any:
+    return message_class(f"actionlib/{name}")
+
+
+@contextmanager
+def _graph() -> Iterator[Graph]:
+    """A graph in which a mistake of the reader's server is raised where the check drives it."""
+    with Graph() as graph:
+        yield graph
+
+
+# ---- 91.1: where can it end? ----
+
+
+def _ends(status: Status) -> set[Status]:
+    if status.is_terminal:
+        return {status}
+    nexts = {table[status] for table in SERVER_TRANSITIONS.values() if status in table}
+    return {end for after in nexts for end in _ends(after)}
+
+
+def _one_step(status: Status) -> set[Status]:
+    return {
+        table[status]
+        for table in SERVER_TRANSITIONS.values()
+        if status in table and table[status].is_terminal
+    }
+
+
+@exercise(
+    "91.1",
+    praise="A goal that was accepted can no longer be rejected or recalled: the robot may have moved.",
+    mistakes=[
+        lambda: _one_step,
+        lambda: lambda _: {status for status in Status if status.is_terminal},
+        lambda: lambda status: _ends(status) if not status.is_terminal else set(),
+        lambda: lambda status: sorted(_ends(status)),
+        lambda: lambda status: {end.name for end in _ends(status)},
+        lambda: lambda status: _ends(status) | {status},
+    ],
+)
+def possible_ends(answer: Any) -> None:
+    """The final statuses that a goal can still come to."""
+    for status in Status:
+        if status is Status.LOST:
+            continue
+        found, expected = answer(status), _ends(status)
+        expect(
+            isinstance(found, set),
+            f"It returned a {type(found).__name__}, not a set.",
+            "set() makes an empty one, and | unites two",
+        )
+        expect(
+            all(isinstance(end, Status) for end in found),
+            "The set holds something else than statuses.",
+            "take them from the dictionaries as they are",
+        )
+        if status.is_terminal:
+            expect(
+                found == expected, f"{status.name} is final: it comes to itself only.", "status.is_terminal"
+            )
+        missing = sorted(end.name for end in expected - found)
+        expect(
+            not missing,
+            f"From {status.name} a goal can also come to {', '.join(missing)}.",
+            "follow the arrows from each status that you reach, not only from the first",
+        )
+        extra = sorted(end.name for end in found - expected)
+        expect(
+            not extra,
+            f"From {status.name} no way leads to the end {', '.join(extra)}.",
+            "look at figure 91.2",
+        )
+
+
+# ---- 91.2: count ----
+
+
+def _counter(
+    *, period: float = 1.0, first: int = 1, heeds: bool = True, says: bool = True, ends: str = "set_preempted"
+) -> Callable[[], Any]:
+    def start(graph: Graph) -> None:
+        node = graph.node("counter")
+
+        def count(goal: Any) -> None:
+            number = first - 1
+            while number < goal.goal:
+                node.sleep(period)
+                if heeds and server.is_preempt_requested():
+                    getattr(server, ends)(_type("TestResult")(number))
+                    return
+                number += 1
+                if says:
+                    server.publish_feedback(_type("TestFeedback")(number))
+            server.set_succeeded(_type("TestResult")(number))
+
+        server = SimpleActionServer(node, "count", _type("TestAction"), count)
+
+    return lambda: start
+
+
+def _jumper(graph: Graph) -> None:
+    node = graph.node("counter")
+
+    def count(goal: Any) -> None:
+        node.sleep(float(goal.goal))
+        server.set_succeeded(_type("TestResult")(goal.goal))
+
+    server = SimpleActionServer(node, "count", _type("TestAction"), count)
+
+
+def _named_otherwise(graph: Graph) -> None:
+    SimpleActionServer(graph.node("count"), "counter", _type("TestAction"), lambda _: None)
+
+
+@exercise(
+    "91.2",
+    praise="Between two looks at `is_preempt_requested` nobody can stop it: keep them close together.",
+    mistakes=[
+        _counter(period=0.5),
+        _counter(first=2),
+        _counter(heeds=False),
+        _counter(says=False),
+        _counter(ends="set_succeeded"),
+        lambda: _jumper,
+        lambda: _named_otherwise,
+        lambda: lambda graph: graph.node("counter"),
+    ],
+)
+def start_counter(answer: Any) -> None:
+    """An action server that counts, tells, and stops."""
+    with _graph() as graph:
+        answer(graph)
+        expect("/counter" in graph.nodes, "There is no node /counter in the graph.", 'graph.node("counter")')
+        client = SimpleActionClient(graph.node("check"), "count", _type("TestAction"))
+        expect(
+            client.wait_for_server(1.0),
+            "No action server answers on /count.",
+            'SimpleActionServer(node, "count", TestAction, ...)',
+        )
+        heard: list[tuple[int, int]] = []
+        begin = graph.now()
+
+        def note(feedback: Any) -> None:
+            heard.append((round((graph.now() - begin).to_sec()), feedback.feedback))
+
+        client.send_goal(_type("TestGoal")(3), feedback_cb=note)
+        expect(client.wait_for_result(20.0), "A goal of 3 has not ended after 20 s.", "set_succeeded(...)")
+        numbers = [number for _, number in heard]
+        expect(
+            numbers == [1, 2, 3],
+            f"With the goal 3 the feedback was {numbers}, not [1, 2, 3].",
+            "publish_feedback(TestFeedback(number)) for each number, from 1",
+        )
+        seconds = [second for second, _ in heard]
+        expect(
+            seconds == [1, 2, 3],
+            f"The numbers came after {seconds} s, not one each second.",
+            "node.sleep(1.0) before each",
+        )
+        _expect_end(client, Status.SUCCEEDED, 3)
+        client.send_goal(_type("TestGoal")(100))
+        expect(not client.wait_for_result(4.5), "A goal of 100 ended within 4.5 s.", "one number each second")
+        client.cancel_goal()
+        expect(
+            client.wait_for_result(3.0),
+            "It was asked to stop, and went on for three seconds and more.",
+            "ask is_preempt_requested() before each number",
+        )
+        _expect_end(client, Status.PREEMPTED, 4)
+
+
+def _expect_end(client: SimpleActionClient, status: Status, number: int) -> None:
+    found, result = client.get_state(), client.get_result()
+    step = "set_preempted" if status is Status.PREEMPTED else "set_succeeded"
+    expect(
+        found is status,
+        f"A goal that should end as {status.name} ended as {found.name}.",
+        f"{step}(TestResult(number))",
+    )
+    expect(
+        result.result == number,
+        f"The result is {result.result}, and the last number was {number}.",
+        f"{step}(TestResult(number))",
+    )
+
+
+# ---- 91.3: patience ----
+
+
+def _never_cancels(client: Any, goal: Any, seconds: float) -> tuple[str, Any]:
+    client.send_goal(goal)
+    client.wait_for_result(seconds)
+    return client.get_state().name, client.get_result()
+
+
+def _does_not_wait(client: Any, goal: Any, seconds: float) -> tuple[str, Any]:
+    client.send_goal(goal)
+    if not client.wait_for_result(seconds):
+        client.cancel_goal()
+    return client.get_state().name, client.get_result()
+
+
+def _always_cancels(client: Any, goal: Any, seconds: float) -> tuple[str, Any]:
+    client.send_goal(goal)
+    client.node.sleep(seconds)
+    client.cancel_goal()
+    client.wait_for_result()
+    return client.get_state().name, client.get_result()
+
+
+def _without_limit(client: Any, goal: Any, _: float) -> tuple[str, Any]:
+    return client.send_goal_and_wait(goal).name, client.get_result()
+
+
+@exercise(
+    "91.3",
+    praise="After a cancellation it waits for the end: until then the robot may still move.",
+    mistakes=[
+        lambda: _never_cancels,
+        lambda: _does_not_wait,
+        lambda: _always_cancels,
+        lambda: _without_limit,
+        lambda: lambda client, goal, seconds: client.send_goal_and_wait(goal, seconds),
+        lambda: lambda client, goal, seconds: ("SUCCEEDED", client.send_goal_and_wait(goal, seconds)),
+    ],
+)
+def ask_with_patience(answer: Any) -> None:
+    """A goal that is cancelled after a while."""
+    with _graph() as graph:
+        _counter()()(graph)
+        client = SimpleActionClient(graph.node("check"), "count", _type("TestAction"))
+        client.wait_for_server(1.0)
+        for far, seconds, status, number, took in (
+            (2, 10.0, "SUCCEEDED", 2, 2.0),
+            (9, 3.5, "PREEMPTED", 3, 4.0),
+        ):
+            begin = graph.now()
+            found = answer(client, _type("TestGoal")(far), seconds)
+            spent = (graph.now() - begin).to_sec()
+            expect(
+                isinstance(found, tuple) and len(found) == 2,
+                "It did not return two things.",
+                "return client.get_state().name, client.get_result()",
+            )
+            case = f"a goal that takes {far} s and a patience of {seconds} s"
+            expect(
+                abs(spent - took) < 0.1,
+                f"With {case} it returned after {spent:.1f} s, not after {took:.1f} s.",
+                "wait for the end at most so long; then cancel, and wait for the end once more",
+            )
+            expect(
+                found[0] == status,
+                f"With {case} the status is {found[0]!r}, not {status!r}.",
+                "client.get_state().name, after the goal has ended",
+            )
+            expect(
+                getattr(found[1], "result", None) == number,
+                f"With {case} the second thing is not the result.",
+                "client.get_result()",
+            )
+
+
+# ---- 91.4: choose your goals ----
+
+
+def _adder(
+    *, limit: int = 0, both: bool = True, accept: bool = True, reject: str = "set_rejected"
+) -> Callable[[], Any]:
+    def start(graph: Graph) -> None:
+        def on_goal(handle: Any) -> None:
+            goal = handle.get_goal()
+            if goal.a < limit or (both and goal.b < limit):
+                if reject != "set_rejected":
+                    handle.set_accepted()
+                getattr(handle, reject)()
+                return
+            if accept:
+                handle.set_accepted()
+            handle.set_succeeded(_type("TwoIntsResult")(goal.a + goal.b))
+
+        ActionServer(graph.node("adder"), "add", _type("TwoIntsAction"), on_goal)
+
+    return lambda: start
+
+
+def _accepts_only(graph: Graph) -> None:
+    ActionServer(graph.node("adder"), "add", _type("TwoIntsAction"), lambda handle: handle.set_accepted())
+
+
+@exercise(
+    "91.4",
+    praise="A rejected goal was never ACTIVE: its client knows that nothing was begun.",
+    mistakes=[
+        _adder(limit=1),
+        _adder(both=False),
+        _adder(accept=False),
+        _adder(reject="set_aborted"),
+        _adder(limit=-100),
+        lambda: _accepts_only,
+        lambda: lambda graph: graph.node("adder"),
+    ],
+)
+def start_adder(answer: Any) -> None:
+    """A server that rejects some goals."""
+    with _graph() as graph:
+        answer(graph)
+        expect("/adder" in graph.nodes, "There is no node /adder in the graph.", 'graph.node("adder")')
+        client = ActionClient(graph.node("check"), "add", _type("TwoIntsAction"))
+        expect(
+            client.wait_for_server(1.0),
+            "No action server answers on /add.",
+            'ActionServer(node, "add", TwoIntsAction, on_goal)',
+        )
+        for a, b in ((2, 3), (0, 0), (-1, 5), (5, -1)):
+            _check_sum(graph, client, a, b)
+
+
+def _check_sum(graph: Graph, client: ActionClient, a: int, b: int) -> None:
+    states: list[CommState] = []
+    goal = _type("TwoIntsGoal")(a, b)
+    handle = client.send_goal(goal, lambda one: states.append(one.get_comm_state()))
+    graph.run(1.0)
+    text = f"The goal a={a}, b={b}"
+    expect(
+        handle.get_comm_state() is CommState.DONE,
+        f"{text} has not ended after a second.",
+        "after set_accepted() comes set_succeeded(...)",
+    )
+    wanted = Status.REJECTED if min(a, b) < 0 else Status.SUCCEEDED
+    found = handle.get_terminal_state()
+    expect(
+        found is wanted,
+        f"{text} ended as {found.name}, not as {wanted.name}.",
+        "set_rejected() for a goal with a negative number, set_accepted() and set_succeeded(...) for any other",
+    )
+    if wanted is Status.SUCCEEDED:
+        total = handle.get_result().sum
+        expect(total == a + b, f"{text}: the sum is said to be {total}.", "TwoIntsResult(a + b)")
