@@ -99,8 +99,13 @@ def parse_fields(header: bytes, where: str) -> dict[str, bytes]:
 
 def pack_record(fields: Mapping[str, bytes], data: bytes = b"") -> bytes:
     """Return the bytes of a record."""
+    return record_start(fields, len(data)) + data
+
+
+def record_start(fields: Mapping[str, bytes], length: int) -> bytes:
+    """Return the bytes of a record up to its data, which have this length."""
     header = pack_fields(fields)
-    return b"".join((u32.pack(len(header)), header, u32.pack(len(data)), data))
+    return b"".join((u32.pack(len(header)), header, u32.pack(length)))
 
 
 def read_exactly(file: BinaryIO, length: int, what: str) -> bytes:

@@ -26,6 +26,7 @@ from .records import (
     index_entry,
     pack_record,
     pack_time,
+    record_start,
     u32,
     u64,
 )
@@ -35,6 +36,9 @@ if TYPE_CHECKING:
 
 CHUNK_THRESHOLD = 768 * 1024
 """From this size on a chunk is closed [bytes]."""
+
+Entry = tuple[int, int, bytes, bytes]
+"""A record of an open chunk: connection (-1: it describes one), time [ns], and its bytes in two parts, of which the second may be large."""
 
 FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
@@ -67,8 +71,8 @@ class Writer:
         self.index = Index() if index is None else index
         self.closed = False
         self._prefixes: dict[int, bytes] = {}
-        self._records: list[tuple[int, int, bytes]] = []
-        """The open chunk: connection (-1: a record of a connection), time [ns], record."""
+        self._records: list[Entry] = []
+        """The open chunk."""
         self._size = 0
         self._end = 0
         self._described = set(self.index.connections)
@@ -99,9 +103,9 @@ class Writer:
         if prefix is None:
             prefix = self._begin(number)
         secs, nsecs = divmod(nanoseconds, NSECS)
-        record = prefix + index_entry.pack(secs, nsecs, len(data)) + data
-        self._records.append((number, nanoseconds, record))
-        self._size += len(record)
+        head = prefix + index_entry.pack(secs, nsecs, len(data))
+        self._records.append((number, nanoseconds, head, data))
+        self._size += len(head) + len(data)
         if self._size >= self.chunk_threshold:
             self.flush()
 
@@ -109,7 +113,7 @@ class Writer:
         """Put a connection's record before its first message; return how the records of its messages begin."""
         if number not in self._described:
             record = self._connection_record(self.index.connections[number])
-            self._records.append((-1, 0, record))
+            self._records.append((-1, 0, record, b""))
             self._size += len(record)
             self._described.add(number)
         whole = pack_record({"op": bytes([OP_MESSAGE]), "conn": u32.pack(number), "time": b"\0" * 8})
@@ -144,37 +148,37 @@ class Writer:
             records, self._records, self._size = self._records, [], 0
             raise self._salvage(records, error) from error
 
-    def _write_chunk(self, records: list[tuple[int, int, bytes]]) -> Chunk:
-        data = b"".join(record for _, _, record in records)
+    def _write_chunk(self, records: list[Entry]) -> Chunk:
+        data = b"".join(part for _, _, *parts in records for part in parts)
         packed = compress(data, self.compression)
         fields = {
             "compression": self.compression.encode(),
             "op": bytes([OP_CHUNK]),
             "size": u32.pack(len(data)),
         }
-        whole = pack_record(fields, packed)
-        begin = len(whole) - len(packed)
-        chunk = Chunk(self._position, self._position + begin, self.compression, len(packed), len(data))
+        start = record_start(fields, len(packed))
+        chunk = Chunk(self._position, self._position + len(start), self.compression, len(packed), len(data))
         entries = _fill(chunk, records)
-        self._put(self._position, whole + b"".join(index_records(chunk, entries)))
+        self._put(self._position, start, packed, *index_records(chunk, entries))
         return chunk
 
-    def _put(self, position: int, data: bytes) -> None:
-        """Write all of ``data`` at a position: a file without a buffer may take less at a time."""
+    def _put(self, position: int, *parts: bytes) -> None:
+        """Write all parts, one after another, from a position on: a file without a buffer may take less at a time."""
         self._file.seek(position)
-        rest = memoryview(data)
-        while rest:
-            rest = rest[self._file.write(rest) :]
-        self._end = position + len(data)
+        for part in parts:
+            rest = memoryview(part)
+            while rest:
+                rest = rest[self._file.write(rest) :]
+        self._end = position + sum(map(len, parts))
 
     def write_index_data(self, chunk: Chunk) -> None:
         """Write the index data of a chunk that stands at the end of the file without it."""
         self._put(self._position, b"".join(index_records(chunk, chunk.entries or {})))
         self._position = self._end
 
-    def _salvage(self, records: list[tuple[int, int, bytes]], error: OSError) -> BagFull:
+    def _salvage(self, records: list[Entry], error: OSError) -> BagFull:
         """Write as many of the messages at hand as fit beside the index, and close the bag."""
-        total = self.index.messages + sum(number >= 0 for number, _, _ in records)
+        total = self.index.messages + sum(record[0] >= 0 for record in records)
         indexed = self._finish_with_some(records)
         while not indexed and self.index.chunks:  # there is no room for an index: the last chunk makes some
             chunk = self.index.chunks.pop()
@@ -188,7 +192,7 @@ class Writer:
             f"the last {total - kept:,} did not fit. Make room, or record with --lz4 or --bz2."
         )
 
-    def _finish_with_some(self, records: list[tuple[int, int, bytes]]) -> bool:
+    def _finish_with_some(self, records: list[Entry]) -> bool:
         """Write half of some records, or a quarter of them and so on, and the index; False if there is no room at all."""
         keep = len(records)
         while keep:
@@ -197,7 +201,7 @@ class Writer:
                 return True
         return False
 
-    def _finish_with(self, records: list[tuple[int, int, bytes]]) -> bool:
+    def _finish_with(self, records: list[Entry]) -> bool:
         """Write a last chunk and the index; False, and the file as long as before, if there is no room for them."""
         at, chunks = self._position, len(self.index.chunks)
         self._file.truncate(at)
@@ -230,7 +234,7 @@ class Writer:
             raise self._salvage([], error) from error
         self.closed = True
 
-    def _records_of(self, chunk: Chunk) -> list[tuple[int, int, bytes]]:
+    def _records_of(self, chunk: Chunk) -> list[Entry]:
         from .reader import Reader, message_at
 
         reader = Reader(self._file, self.index)
@@ -240,13 +244,13 @@ class Writer:
             for number, packed in reader.entries(chunk).items()
             for secs, nsecs, offset in index_entry.iter_unpack(packed)
         )
-        records: list[tuple[int, int, bytes]] = [
-            (-1, 0, self._connection_record(self.index.connections[number])) for number in chunk.counts
+        records: list[Entry] = [
+            (-1, 0, self._connection_record(self.index.connections[number]), b"") for number in chunk.counts
         ]
         for offset, number, when in entries:
             message = message_at(data, offset, chunk)
             head = index_entry.pack(*divmod(when, NSECS), len(message))
-            records.append((number, when, self._begin(number) + head + message))
+            records.append((number, when, self._begin(number) + head, message))
         return records
 
     def _write_end(self) -> None:
@@ -268,15 +272,15 @@ class Writer:
         return pack_record(fields, connection.raw)
 
 
-def _fill(chunk: Chunk, records: Iterable[tuple[int, int, bytes]]) -> dict[int, bytes]:
+def _fill(chunk: Chunk, records: Iterable[Entry]) -> dict[int, bytes]:
     """Note times and counts of a chunk's records, and return their packed entries."""
     entries: dict[int, list[tuple[int, int]]] = {}
     packed: dict[int, bytes] = {}
     offset = 0
-    for number, nanoseconds, record in records:
+    for number, nanoseconds, head, data in records:
         if number >= 0:
             entries.setdefault(number, []).append((nanoseconds, offset))
-        offset += len(record)
+        offset += len(head) + len(data)
     for number, pairs in entries.items():
         pairs.sort()
         packed[number] = b"".join(
