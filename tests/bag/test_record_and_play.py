@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import hashlib
 import itertools
+import signal
+import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
 from rosmini.bag import Bag, BagFull, Player, Recorder, ROSBagException
+from rosmini.bag.index import connection
+from rosmini.errors import TypeMismatch
 from rosmini.graph import Graph
+from rosmini.graph.byte_transport import ByteTransport
 from rosmini.msgs import message_class
 from rosmini.time import Time
 
@@ -196,8 +202,6 @@ print(recorder.done, sorted(recorder.counts.values())[0] > Bag(recorder.path).ge
 
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of file sizes are POSIX's")
 def test_a_full_disk_ends_the_recording_and_keeps_what_is_recorded(tmp_path):
-    import subprocess
-
     done = subprocess.run(
         [sys.executable, "-c", FULL, str(tmp_path / "x")],
         capture_output=True,
@@ -444,3 +448,87 @@ def test_what_cannot_be_played(graph, bag, tmp_path):
     with pytest.raises(ROSBagException, match="rate"):
         play(graph, bag, rate=0)
     assert issubclass(BagFull, ROSBagException)
+
+
+# -- types, transports, and the end by a signal ------------------------------------------------------------------------
+
+
+@pytest.fixture
+def changed(tmp_path: Path) -> Path:
+    """A bag from a time when std_msgs/String had one more field, with a type that nobody here knows."""
+    path = tmp_path / "old.bag"
+    text = "string data\nint32 since\n"
+    md5 = hashlib.md5(text.strip().encode()).hexdigest()
+    with Bag(path, "w") as bag:
+        for topic, kind in (("/mine", "my_msgs/Whole"), ("/old", "std_msgs/String")):
+            header = {"type": kind, "md5sum": md5, "message_definition": text}
+            bag.write_raw(bag.connect(connection(0, topic, header)), 10**9, b"\2\0\0\0hi\7\0\0\0")
+    return path
+
+
+def test_types_that_are_not_known_here_are_played_and_recorded(graph, changed, tmp_path):
+    recorder = record(graph, tmp_path / "again", all=True, exclude="/rosout.*")
+    play(graph, changed)
+    graph.run()
+    recorder.stop()
+    fields = ("type", "md5sum", "message_definition")
+    before = {conn.topic: [conn.text(name) for name in fields] for conn in Bag(changed).connections()}
+    after = {conn.topic: [conn.text(name) for name in fields] for conn in Bag(recorder.path).connections()}
+    assert before == after
+    assert [message.since for _, message, _ in Bag(recorder.path)] == [7, 7]
+
+
+def test_a_subscriber_of_a_type_that_has_changed_is_told(graph, changed):
+    graph.node("listener").subscriber("old", String)
+    play(graph, changed)
+    with pytest.raises(TypeMismatch, match=r"/play publishes /old as std_msgs/String[\s\S]*- int32 since"):
+        graph.run()
+
+
+def test_over_a_transport_of_bytes_and_threads(tmp_path):
+    with Graph(transport=ByteTransport, simulated=False) as graph:
+        recorder = record(graph, tmp_path / "x", "/chatter", "/map")
+        graph.node("server").publisher("map", String, latch=True).publish("world")
+        publisher = graph.node("talker").publisher("chatter", String, queue_size=None)
+        publisher.wait_for_subscribers()
+        for i in range(500):
+            publisher.publish(str(i))
+        graph.run(2.0, until=lambda: sum(recorder.counts.values()) == 501)
+        recorder.stop()
+    assert texts(recorder.path) == [str(i) for i in range(500)]
+    assert texts(recorder.path, "/map") == ["world"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends a signal as POSIX has it")
+def test_ctrl_c_ends_a_recording_in_good_order(tmp_path):
+    script = tmp_path / "talker.py"
+    script.write_text(
+        "import rospy\nfrom std_msgs.msg import String\nrospy.init_node('talker')\n"
+        "publisher = rospy.Publisher('chatter', String, queue_size=10)\nrate = rospy.Rate(200)\nnumber = 0\n"
+        "while not rospy.is_shutdown():\n    publisher.publish(str(number))\n    number += 1\n"
+        "    if number == 60:\n        print('go', flush=True)\n    rate.sleep()\n"
+    )
+    command = [
+        sys.executable,
+        "-m",
+        "rosmini",
+        "rosbag",
+        "record",
+        "-q",
+        "-O",
+        "x",
+        "/chatter",
+        "+",
+        "talker.py",
+    ]
+    with subprocess.Popen(
+        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert "go" in process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        _, problems = process.communicate(timeout=30)
+    assert "Traceback" not in problems
+    numbers = [int(text) for text in texts(tmp_path / "x.bag")]
+    assert len(numbers) >= 50
+    assert numbers == list(range(numbers[0], numbers[-1] + 1))
+    assert not (tmp_path / "x.bag.active").exists()
