@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rosmini.cli.bench import Figure, Measure, bags, graph, sim, table
+from rosmini.cli.bench import Figure, Measure, actions, bags, graph, sim, table
 from rosmini.cli.bench.peer import find_rospy
 from rosmini.cli.main import main
 from rosmini.errors import RosminiError
@@ -23,7 +23,12 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
     written = json.loads(file.read_text())
     shown = capsys.readouterr().out
     assert len(written["figures"]) == len(
-        [*graph.measures(None, 1), *bags.measures(tmp_path, None, 1), *sim.measures(None, 1)]
+        [
+            *graph.measures(None, 1),
+            *actions.measures(None, 1),
+            *bags.measures(tmp_path, None, 1),
+            *sim.measures(None, 1),
+        ]
     )
     for row in written["figures"]:
         assert row["ours"] > 0
@@ -38,11 +43,12 @@ def test_real_rospy_is_measured_beside_it() -> None:
         assert os.environ.get("ROSMINI_REQUIRE_ROS") != "1", "real ROS is required here"
         pytest.skip("real ROS is not installed")
     try:
-        figures = [measure.run(1) for measure in graph.measures(rospy, 0.001)]
+        measures = [*graph.measures(rospy, 0.001), *actions.measures(rospy, 0.05)]
+        figures = [measure.run(1) for measure in measures]
     finally:
         rospy.close()
     compared = [figure for figure in figures if figure.peer is not None]
-    assert len(compared) >= 5
+    assert len(compared) >= 6
     assert all(figure.peer and figure.peer > 0 for figure in compared)
 
 

@@ -160,6 +160,9 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         elif not args.no_peer:
             print("real ROS is not installed here: no peer")
         yield from graph.measures(rospy, args.scale)
+        from . import actions
+
+        yield from actions.measures(rospy, args.scale)
         from . import bags
 
         folder = bags.Folder()

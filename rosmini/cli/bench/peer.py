@@ -79,11 +79,11 @@ class Rospy:
             time.sleep(0.05)
         return False
 
-    def measure(self, function: str, *arguments: int) -> float:
-        """Run ``function`` of :mod:`rospy_node` in a listening and a talking process; return the listener's figure."""
+    def measure(self, function: str, *arguments: int, node: Path = NODE) -> float:
+        """Run ``function`` of the script ``node`` in a listening and a talking process; return the listener's figure."""
         words = [function, *(str(argument) for argument in arguments)]
-        listener = self._start("listener", words)
-        talker = self._start("talker", words)
+        listener = self._start(node, "listener", words)
+        talker = self._start(node, "talker", words)
         try:
             output, _ = listener.communicate(timeout=TIMEOUT_S)
             talker.communicate(timeout=TIMEOUT_S)
@@ -99,8 +99,8 @@ class Rospy:
             raise RosminiError(msg)
         return float(json.loads(output.splitlines()[-1]))
 
-    def _start(self, role: str, words: list[str]) -> subprocess.Popen[str]:
-        command = [self.python, str(NODE), role, *words]
+    def _start(self, node: Path, role: str, words: list[str]) -> subprocess.Popen[str]:
+        command = [self.python, str(node), role, *words]
         return subprocess.Popen(
             command, env=self._env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
         )
