@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .keys import Keys
 from .options import play_options, record_options
 from .player import Player
 from .recorder import Recorder
@@ -18,6 +19,10 @@ def record(node: Node, *args: str) -> Recorder:
 
 
 def play(node: Node, *args: str) -> Player:
-    """Play what the arguments say. Raises ``UsageError`` for arguments that make no sense, else as `Player`."""
-    bags, options = play_options(args)
-    return Player(node, bags, options)
+    """Play what the arguments say; with ``--keys`` the terminal pauses and steps. Raises ``UsageError`` for arguments that make no sense, else as `Player`."""
+    keys = "--keys" in args
+    bags, options = play_options([word for word in args if word != "--keys"])
+    player = Player(node, bags, options)
+    if keys and not options.quiet:
+        Keys(player)
+    return player

@@ -99,5 +99,6 @@ def _run(
         print(help_text(), end="")
         return 0
     check(Remappings.other_arguments(list(own)))
-    words = [f"rosbag/{verb}", *rest, "--"]
+    keys = ["--keys"] if verb == "play" and "+" not in rest and sys.stdin.isatty() else []
+    words = [f"rosbag/{verb}", *keys, *rest, "--"]
     return run.main(argparse.Namespace(words=words, sim_time=False, wall_time=True, duration=None))

@@ -1,0 +1,107 @@
+"""The keys of ``rosbag play`` in a terminal: space pauses and goes on, s publishes the next message; and its line that tells where it is."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import threading
+from typing import TYPE_CHECKING, TextIO
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .player import Player
+
+PERIOD_NS = 100_000_000
+"""So often the line is written."""
+
+
+class Keys:
+    """Reads keys for a player until its node ends. Does nothing where there is no terminal.
+
+    A thread waits for keys, since nothing else can without holding the graph up; what they do is done by the graph.
+    """
+
+    def __init__(self, player: Player, stdin: TextIO | None = None, stdout: TextIO | None = None) -> None:
+        self._player = player
+        self._stdout = stdout or sys.stdout
+        self._scheduler = player.node.scheduler
+        self._restore: Callable[[], object] = _nothing
+        stdin = stdin or sys.stdin
+        if not stdin.isatty():
+            return
+        try:
+            self._restore = _read_keys_at_once(stdin.fileno())
+        except (ImportError, OSError):
+            return  # no terminal of POSIX
+        self._stdout.write("\nHit space to toggle paused, or 's' to step.\n")
+        player.node.on_shutdown(self.close)
+        self._file = stdin.fileno()
+        threading.Thread(target=self._read, name="keys of rosbag play", daemon=True).start()
+        self._scheduler.on_hub(self._show)
+
+    def close(self) -> None:
+        """Give the terminal back as it was. Harmless when repeated."""
+        restore, self._restore = self._restore, _nothing
+        if restore is not _nothing:
+            restore()
+            self._stdout.write("\nDone.\n")
+            self._stdout.flush()
+
+    def _read(self) -> None:
+        while not self._player.done:
+            try:
+                key = os.read(self._file, 1)
+            except OSError:
+                return
+            if not key:
+                return
+            self._scheduler.call_soon_threadsafe(lambda key=key: self.press(key.decode("ascii", "ignore")))  # type: ignore[misc]
+
+    def press(self, key: str) -> None:
+        """Do what a key means."""
+        player = self._player
+        if player.done:
+            return
+        if key == " ":
+            (player.resume if player.paused else player.pause)()
+        elif key == "s" and player.paused:
+            player.step()
+        self._write()
+
+    def _show(self) -> None:
+        if not self._player.done:
+            self._write()
+            self._scheduler.call_at(self._scheduler.now_ns() + PERIOD_NS, self._show)
+
+    def _write(self) -> None:
+        self._stdout.write("\r" + status_line(self._player))
+        self._stdout.flush()
+
+
+def status_line(player: Player) -> str:
+    """Return where a player is, in the words of ROS's tool."""
+    now = player.position.to_nsec()
+    state = "PAUSED " if player.paused else "RUNNING"
+    passed, length = (now - player.start) / 1e9, (player.end - player.start) / 1e9
+    return f" [{state}]  Bag Time: {now / 1e9:13.6f}   Duration: {passed:.6f} / {length:.6f}               "
+
+
+def _read_keys_at_once(file: int) -> Callable[[], object]:
+    """Have a terminal give each key at once and not show it; return what undoes that. Ctrl-C stays Ctrl-C."""
+    import termios
+    import tty
+
+    before = termios.tcgetattr(file)
+    tty.setcbreak(file)
+
+    def restore() -> None:
+        with contextlib.suppress(termios.error, OSError):
+            termios.tcsetattr(file, termios.TCSADRAIN, before)
+
+    return restore
+
+
+def _nothing() -> None:
+    """Restore nothing."""
