@@ -119,10 +119,10 @@ class ParameterApi:
     def set_param(self, name: str, value: Any) -> None:
         """Set a parameter; a dictionary sets a whole tree. Raises ``ParameterError`` for what ROS cannot hold."""
         resolved = self.resolve_parameter(name)
-        self._parameter_told.clear()
         code, status, _ = self.graph.master.setParam(self.name, resolved, check_value(resolved, value))
         if code != 1:
             raise ParameterError(status)
+        self._note_parameters()
 
     def has_param(self, name: str) -> bool:
         """Tell whether a parameter, or a tree of them, is set."""
@@ -131,9 +131,9 @@ class ParameterApi:
     def delete_param(self, name: str) -> None:
         """Delete a parameter or a tree. Raises ``ParameterNotSet``."""
         resolved = self.resolve_parameter(name)
-        self._parameter_told.clear()
         if self.graph.master.deleteParam(self.name, resolved)[0] != 1:
             raise ParameterNotSet(self._not_set(name, resolved))
+        self._note_parameters()
 
     def search_param(self, name: str) -> str | None:
         """Return the full name of the nearest parameter upwards from the node's own namespace, or None."""
@@ -159,7 +159,7 @@ class ParameterApi:
             self._hooks.append(self._leave_parameters)
         key = canonicalize(resolved)
         self._parameter_callbacks.setdefault(key, []).append(callback)
-        self._parameter_told[key] = value
+        self._parameter_told.setdefault(key, value)
         return wire_copy(value)
 
     def off_param(self, name: str, callback: Callable[[Any], object] | None = None) -> None:
@@ -180,23 +180,26 @@ class ParameterApi:
         self._parameter_told.pop(resolved, None)
         self.graph.master.unsubscribeParam(self.name, self._uri(), resolved)
 
-    def parameter_changed(self, key: str, value: Any) -> None:
+    def parameter_changed(self, key: str, value: Any) -> None:  # noqa: ARG002 - what the Master says
         """Learn from the Master that a parameter has changed to which this node subscribes.
 
-        The Master calls once for each subscription, so that one change may be told several times.
+        The Master calls once for each subscription, so that one change may be told several times; and by now the value may be another.
         """
         changed = canonicalize(key)
         for name, callbacks in self._parameter_callbacks.items():
             if name != changed and not changed.startswith(name.rstrip("/") + "/"):
                 continue
-            now = value if name == changed else self.get_param(name, {})
-            if repr(self._parameter_told.get(name, _UNSET)) == repr(
-                now
-            ):  # 1, 1.0 and True are equal, but not the same
+            now = self.get_param(name, {})
+            if repr(self._parameter_told[name]) == repr(now):  # 1, 1.0 and True are equal, but not the same
                 continue
             self._parameter_told[name] = now
             for callback in callbacks:
                 self._tell(name, callback, wire_copy(now))
+
+    def _note_parameters(self) -> None:
+        """Take what this node has just set as told: the Master spares it an echo."""
+        for name in self._parameter_callbacks:
+            self._parameter_told[name] = self.get_param(name, {})
 
     def _tell(self, name: str, callback: Callable[[Any], object], value: Any) -> None:
         node = cast("Node", self)

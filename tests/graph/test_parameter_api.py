@@ -269,6 +269,24 @@ def test_a_node_does_not_hear_of_what_it_sets_itself(graph: Graph) -> None:
     assert [type(value) for value in heard] == [int, int, float]
 
 
+def test_what_is_out_of_date_is_not_told(simulated: Graph) -> None:
+    heard: list[Any] = []
+    node, other = simulated.node("node"), simulated.node("other")
+    node.on_param("rate", heard.append)
+    other.set_param("rate", 1)
+    node.set_param("rate", 2)
+    simulated.run(0.1)
+    assert heard == []
+    other.set_param("rate", 3)
+    other.set_param("rate", 4)
+    simulated.run(0.1)
+    assert heard == [4]
+    other.set_param("rate", 5)
+    node.delete_param("rate")
+    simulated.run(0.1)
+    assert heard == [4]
+
+
 def test_a_change_is_told_once_to_each_callback(graph: Graph) -> None:
     heard: list[Any] = []
     node, other = graph.node("node"), graph.node("other")
