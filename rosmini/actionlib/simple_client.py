@@ -59,6 +59,10 @@ class SimpleActionClient:
         ``active_cb()`` is called when the server has accepted it, ``feedback_cb(feedback)`` on feedback, and
         ``done_cb(state, result)`` once, at the end. Raises ``ActionException`` for a goal of another type.
         """
+        self.node.scheduler.on_hub(lambda: self._send(goal, done_cb, active_cb, feedback_cb))
+
+    def _send(self, goal: Any, done_cb: Any, active_cb: Any, feedback_cb: Any) -> None:
+        """Send a goal; as one step, so that its end cannot come before it is noted whose end that is."""
         self.stop_tracking_goal()
         self._done_cb, self._active_cb, self._feedback_cb = done_cb, active_cb, feedback_cb
         self.simple_state = SimpleGoalState.PENDING

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+
 import pytest
 
 from rosmini.actionlib import ActionException, SimpleActionClient, SimpleActionServer, SimpleGoalState, Status
@@ -402,6 +404,35 @@ def test_shutdown_ends_the_waiting(graph):
     served.node.shutdown()
     graph.run(1)
     assert not served.server.action_server._open
+
+
+def test_goals_from_a_real_thread():
+    """In wall time; each goal ends as fast as it can, so that its end comes while the thread is still sending."""
+    graph = Graph(simulated=False)
+    graph.notebook = False
+    served, diary = start(graph)
+    served.server.execute_callback = lambda goal: served.server.set_succeeded(FibonacciResult([goal.order]))
+    ended = []
+
+    def work():
+        for order in range(30):
+            diary.client.send_goal(FibonacciGoal(order))
+            ended.append(
+                (
+                    diary.client.wait_for_result(20),
+                    diary.client.get_state(),
+                    diary.client.get_result().sequence[0],
+                )
+            )
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    try:
+        until(graph, lambda: len(ended) == 30)
+    finally:
+        thread.join(5)
+        graph.shutdown()
+    assert ended == [(True, Status.SUCCEEDED, order) for order in range(30)]
 
 
 def play():
