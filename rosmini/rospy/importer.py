@@ -47,6 +47,7 @@ _HOMES = {
             "genpy",
             "genpy.message",
             "genpy.rostime",
+            "message_filters",
             "rosbag",
             "rosbag.bag",
             "rosgraph",

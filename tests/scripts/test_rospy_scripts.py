@@ -64,6 +64,13 @@ def test_spinning_until_something_came(start):
     assert ran.result.reason == "ended"
 
 
+def test_message_filters_bring_two_topics_together(start):
+    ran = start("fuse.py")
+    pairs = [f"together {number} {number} close" for number in (0, 2, 4)]
+    assert said_by(ran, "fuse") == [*pairs, "cached 3 4"]
+    assert ran.status == 0
+
+
 def test_add_two_ints(start):
     ran = start("add_two_ints_server.py", spec("add_two_ints_client.py", "40", "2"), duration=0.5)
     assert said_by(ran, "add_two_ints_server") == ["Returning [40 + 2 = 42]"]

@@ -1,0 +1,80 @@
+"""The last messages of a filter, to look things up by time."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+from rosmini.time import Time
+
+from .errors import MessageFilterError, check_size
+from .filters import SimpleFilter, StampingFilter
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+__all__ = ["Cache"]
+
+
+class Cache(StampingFilter):
+    """Keeps the last ``cache_size`` messages of the filter ``f``, in the order of their arrival, and passes each on.
+
+    With ``allow_headerless`` messages without a header count as stamped at their arrival, else they are dropped with a warning.
+    Raises ``MessageFilterError`` for a cache size below 1.
+    """
+
+    def __init__(
+        self,
+        f: SimpleFilter,
+        cache_size: int = 1,
+        allow_headerless: bool = False,
+        *,
+        node: Node | None = None,
+    ) -> None:
+        super().__init__([f], allow_headerless=allow_headerless, node=node)
+        self.cache_size = check_size("cache_size", cache_size)
+        self._kept: deque[tuple[Time, Any]] = deque(maxlen=cache_size)
+        self.connectInput(f)
+
+    def connectInput(self, f: SimpleFilter) -> None:
+        """Take messages from ``f``, too."""
+        self.incoming_connection = f.registerCallback(self.add)
+
+    def add(self, msg: Any) -> None:
+        """Take a message and pass it on."""
+        stamp = self._stamp(msg)
+        if stamp is not None:
+            self._kept.append((type(stamp)(stamp.secs, stamp.nsecs), msg))
+            self.signalMessage(msg)
+
+    def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:
+        """Return the messages between two times, and at them. Raises ``MessageFilterError`` if the first is the later one."""
+        if from_stamp > to_stamp:
+            raise MessageFilterError(
+                f"the interval begins at {from_stamp.to_sec()} s and ends before that, at {to_stamp.to_sec()} s: give the earlier time first"
+            )
+        return [message for stamp, message in self._kept if from_stamp <= stamp <= to_stamp]
+
+    def getElemAfterTime(self, stamp: Time) -> Any:
+        """Return the first message at or after this time, or None."""
+        return next((message for when, message in self._kept if when >= stamp), None)
+
+    def getElemBeforeTime(self, stamp: Time) -> Any:
+        """Return the last message at or before this time, or None."""
+        return next((message for when, message in reversed(self._kept) if when <= stamp), None)
+
+    def getLatestTime(self) -> Time | None:
+        """Return the stamp of the message that came last, or None."""
+        return self._kept[-1][0] if self._kept else None
+
+    def getLastestTime(self) -> Time | None:
+        """Return the same as :meth:`getLatestTime`: ROS's old name."""
+        return self.getLatestTime()
+
+    def getOldestTime(self) -> Time | None:
+        """Return the stamp of the message that came first of those that are kept, or None."""
+        return self._kept[0][0] if self._kept else None
+
+    def getLast(self) -> Any:
+        """Return the message that came last, or None."""
+        return self._kept[-1][1] if self._kept else None

@@ -1,0 +1,96 @@
+"""What all filters have in common, and the filter at the beginning of each chain: a subscriber."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .errors import MessageFilterError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from rosmini.graph import Node
+    from rosmini.time import Time
+
+__all__ = ["SimpleFilter", "StampingFilter", "Subscriber"]
+
+
+class SimpleFilter:
+    """Something that has output: whoever wants it registers a callback. Derive filters of your own from it, and call ``signalMessage``."""
+
+    node: Node | None = None
+    """Whose clock and log the filters further on use, unless they are given one."""
+
+    def __init__(self) -> None:
+        self.callbacks: dict[int, tuple[Callable[..., object], tuple[Any, ...]]] = {}
+
+    def registerCallback(self, cb: Callable[..., object], *args: Any) -> int:
+        """Call ``cb(*output, *args)`` for each output; return the number of this registration."""
+        number = len(self.callbacks)
+        self.callbacks[number] = (cb, args)
+        return number
+
+    def signalMessage(self, *msg: Any) -> None:
+        """Give out ``msg``: call all callbacks, in the order of their registration."""
+        for callback, arguments in list(self.callbacks.values()):
+            callback(*msg, *arguments)
+
+
+class Subscriber(SimpleFilter):
+    """The messages of a topic as they come; ``options`` are those of :meth:`Node.subscriber <rosmini.graph.Node.subscriber>`."""
+
+    def __init__(self, node: Node, topic: str, message_class: Any, **options: Any) -> None:
+        super().__init__()
+        self.node = node
+        self.topic = topic
+        self.sub = node.subscriber(topic, message_class, self.signalMessage, **options)
+
+    def getTopic(self) -> str:
+        """Return the name of the topic, as it was given."""
+        return self.topic
+
+    def unregister(self) -> None:
+        """Stop to receive. Harmless when repeated."""
+        self.sub.unregister()
+
+
+class StampingFilter(SimpleFilter):
+    """A filter that needs to know the time of its messages."""
+
+    def __init__(self, inputs: Iterable[SimpleFilter], *, allow_headerless: bool, node: Node | None) -> None:
+        super().__init__()
+        self.allow_headerless = allow_headerless
+        if node is None:
+            node = next((one.node for one in inputs if one.node is not None), None)
+        self.node = node
+        self._complained: set[type] = set()
+
+    def _stamp(self, message: Any) -> Time | None:
+        """Return the stamp of a message's header, or, if that is allowed, the time for one that has no header; else warn and return None."""
+        stamp: Time | None = getattr(getattr(message, "header", None), "stamp", None)
+        if stamp is not None:
+            return stamp
+        if self.allow_headerless:
+            return self._now()
+        if type(message) not in self._complained:
+            self._complained.add(type(message))
+            self._warn(
+                f"messages of the type {getattr(message, '_type', type(message).__name__)} have no header with a stamp, and "
+                f"{type(self).__name__} drops them. With allow_headerless=True it takes the time of their arrival."
+            )
+        return None
+
+    def _knows_time(self) -> bool:
+        return self.node is not None
+
+    def _now(self) -> Time:
+        if self.node is None:
+            raise MessageFilterError(
+                f"{type(self).__name__} has to know the time, and none of its inputs belongs to a node: give node="
+            )
+        return self.node.now()
+
+    def _warn(self, text: str) -> None:
+        if self.node is None:
+            raise MessageFilterError(text)
+        self.node.logwarn(text)

@@ -1,0 +1,132 @@
+"""Which messages of several inputs belong together, by their time stamps; apart from nodes and clocks.
+
+A policy takes one message after another, ``add(index, stamp, message, now)``, and returns the sets that are complete with it: tuples
+with one message of each input, in the order of the inputs. Times are whole nanoseconds. No message is given out twice.
+The rules are those of the Python client, http://wiki.ros.org/message_filters; the C++ client's approximate policy is another one.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from .errors import MessageFilterError, check_size
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["ApproximateTime", "ExactTime", "Policy"]
+
+Queue = dict[int, Any]
+"""Messages that wait for their partners, by stamp, in the order in which their stamps arrived."""
+
+
+class Policy(ABC):
+    """Keeps up to ``queue_size`` messages of each of ``count`` inputs, and drops those with the oldest stamps.
+
+    A message replaces one of the same input and stamp. With ``reset`` a clock that goes back empties the queues: that of each input when
+    its next message comes, and until all inputs whose messages were later have had one there is no output.
+    Raises ``MessageFilterError`` for no inputs and for a ``queue_size`` below 1.
+    """
+
+    _forgets_all: ClassVar = False
+    """Whether a clock that goes back empties all queues at once, also without ``reset``; with it, not even the message that just came is kept."""
+
+    def __init__(self, count: int, queue_size: int, *, reset: bool = False) -> None:
+        if count < 1:
+            raise MessageFilterError(
+                "there is nothing to synchronise: give a list of filters, one for each topic"
+            )
+        self.queue_size = check_size("queue_size", queue_size)
+        self.reset = reset
+        self.queues: list[Queue] = [{} for _ in range(count)]
+        self._heard = [0] * count
+        self._last = 0
+
+    def add(self, index: int, stamp: int, message: Any, now: int = 0) -> list[tuple[Any, ...]]:
+        """Take a message of input ``index`` that came at the time ``now``; return the sets that it completes, the oldest first."""
+        queue = self.queues[index]
+        if self.reset and now < self._heard[index]:
+            queue.clear()
+        self._heard[index] = now
+        queue[stamp] = message
+        if self._forgets_all and now < self._last:
+            for each in self.queues:
+                each.clear()
+        self._last = now
+        while len(queue) > self.queue_size:
+            del queue[min(queue)]
+        if self.reset and max(self._heard) != now:
+            return []
+        return [
+            tuple(waiting.pop(when) for waiting, when in zip(self.queues, stamps, strict=True))
+            for stamps in self._matches(index, stamp)
+        ]
+
+    @abstractmethod
+    def _matches(self, index: int, stamp: int) -> list[Sequence[int]]:
+        """Return the stamps of the sets that are complete, now that ``stamp`` has come from input ``index``."""
+
+
+class ExactTime(Policy):
+    """Messages with the same stamp belong together.
+
+    Where the stamps of each input increase, those of the sets do, too.
+    """
+
+    def _matches(self, index: int, stamp: int) -> list[Sequence[int]]:  # noqa: ARG002 - a reset may have put off sets of other stamps
+        common = set.intersection(*(set(queue) for queue in self.queues))
+        return [(when,) * len(self.queues) for when in sorted(common)]
+
+
+class ApproximateTime(Policy):
+    """Messages whose stamps are all less than ``slop`` nanoseconds apart belong together.
+
+    Each message that comes looks for partners among those that wait, the nearest to its own stamp first, and takes the first set that is
+    close enough: so a message is not kept for a better partner that may come later. A clock that goes back empties all queues;
+    the message that tells of it is lost with them.
+
+    Where the stamps of each input increase by more than ``slop`` from message to message, those of the sets increase in each input; with a
+    larger slop a late message may be paired with an old one that was passed over.
+    Raises ``MessageFilterError`` for a slop that is not positive, with which there would never be output.
+    """
+
+    _forgets_all = True
+
+    def __init__(self, count: int, queue_size: int, slop: int, *, reset: bool = False) -> None:
+        super().__init__(count, queue_size, reset=reset)
+        if not slop > 0:
+            raise MessageFilterError(
+                f"slop is {slop / 1e9} s; it has to be positive, and stamps less than that apart match. "
+                "Use TimeSynchronizer for stamps that are equal"
+            )
+        self.slop = slop
+
+    def _matches(self, index: int, stamp: int) -> list[Sequence[int]]:
+        if stamp not in self.queues[index]:  # older than all that fit into the queue
+            return []
+        choices = [
+            [stamp]
+            if number == index
+            else sorted(
+                (other for other in queue if abs(other - stamp) <= self.slop),
+                key=lambda other: abs(other - stamp),
+            )
+            for number, queue in enumerate(self.queues)
+        ]
+        found = self._first_close_set(choices, (), stamp, stamp)
+        return [] if found is None else [found]
+
+    def _first_close_set(
+        self, choices: list[list[int]], chosen: tuple[int, ...], low: int, high: int
+    ) -> tuple[int, ...] | None:
+        """Return the first of all combinations, in the order of `itertools.product`, that is within the slop; without trying the hopeless."""
+        if high - low >= self.slop:
+            return None
+        if len(chosen) == len(choices):
+            return chosen
+        for one in choices[len(chosen)]:
+            found = self._first_close_set(choices, (*chosen, one), min(low, one), max(high, one))
+            if found is not None:
+                return found
+        return None

@@ -1,0 +1,112 @@
+"""Synchronisers: filters with several inputs that give out what belongs together."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+from rosmini.time import Duration
+
+from .errors import MessageFilterError
+from .filters import SimpleFilter, StampingFilter
+from .policies import ApproximateTime, ExactTime, Policy
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from rosmini.graph import Node
+
+__all__ = ["ApproximateTimeSynchronizer", "TimeSynchronizer"]
+
+
+class TimeSynchronizer(StampingFilter):
+    """Calls its callbacks with one message of each of the filters ``fs`` that all have the same stamp.
+
+    ``queue_size`` messages of each filter wait for their partners. ``reset`` empties the queues when the clock goes back. The node, whose
+    clock that is, is that of the first input that has one, unless ``node`` is given.
+    Callbacks are called one after another, also when one of them blocks and messages go on to come.
+    Raises ``MessageFilterError`` for no filters and for a queue size below 1, and for messages without a header (while they arrive).
+    """
+
+    def __init__(
+        self, fs: Iterable[SimpleFilter], queue_size: int, reset: bool = False, *, node: Node | None = None
+    ) -> None:
+        filters = list(fs)
+        self._begin(filters, ExactTime(len(filters), queue_size, reset=reset), node=node)
+
+    def _begin(
+        self,
+        filters: list[SimpleFilter],
+        policy: Policy,
+        *,
+        allow_headerless: bool = False,
+        node: Node | None = None,
+    ) -> None:
+        StampingFilter.__init__(self, filters, allow_headerless=allow_headerless, node=node)
+        self.policy = policy
+        self.queue_size = policy.queue_size
+        self._ready: deque[tuple[Any, ...]] = deque()
+        self._giving = False
+        self.connectInput(filters)
+
+    def connectInput(self, fs: Iterable[SimpleFilter]) -> None:
+        """Take messages from these filters, as many as before. Raises ``MessageFilterError`` for another number of them."""
+        filters = list(fs)
+        if len(filters) != len(self.policy.queues):
+            raise MessageFilterError(
+                f"{type(self).__name__} was made for {len(self.policy.queues)} filters and cannot be connected to {len(filters)}"
+            )
+        self.input_connections = [one.registerCallback(self.add, index) for index, one in enumerate(filters)]
+
+    def add(self, msg: Any, my_queue_index: int) -> None:
+        """Take a message of the input with this index; give out what it completes."""
+        stamp = self._stamp(msg)
+        if stamp is None:
+            return
+        now = self._now().to_nsec() if self._knows_time() or self.policy.reset else 0
+        self._ready.extend(self.policy.add(my_queue_index, stamp.to_nsec(), msg, now))
+        self._give_out()
+
+    def _give_out(self) -> None:
+        """Call the callbacks, unless that is being done: a callback that blocks lets others come in here."""
+        if self._giving:
+            return
+        self._giving = True
+        try:
+            while self._ready:
+                self._signal(self._ready.popleft())
+        finally:
+            self._giving = False
+
+    def _signal(self, messages: tuple[Any, ...]) -> None:
+        """Call the callbacks; an error of one does not keep the sets back that wait behind it."""
+        try:
+            self.signalMessage(*messages)
+        except Exception:
+            self._giving = False
+            self._give_out()
+            raise
+
+
+class ApproximateTimeSynchronizer(TimeSynchronizer):
+    """Calls its callbacks with one message of each of the filters ``fs``, all less than ``slop`` seconds apart.
+
+    As `TimeSynchronizer`; which messages are chosen is said at `ApproximateTime`. With ``allow_headerless`` messages without a header are
+    taken as stamped at their arrival, else they are dropped with a warning.
+    Raises ``MessageFilterError`` also for a slop that is not positive.
+    """
+
+    def __init__(
+        self,
+        fs: Iterable[SimpleFilter],
+        queue_size: int,
+        slop: float,
+        allow_headerless: bool = False,
+        reset: bool = False,
+        *,
+        node: Node | None = None,
+    ) -> None:
+        filters = list(fs)
+        self.slop = Duration.from_sec(slop)
+        policy = ApproximateTime(len(filters), queue_size, self.slop.to_nsec(), reset=reset)
+        self._begin(filters, policy, allow_headerless=allow_headerless, node=node)

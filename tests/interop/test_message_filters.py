@@ -1,0 +1,38 @@
+"""One script, ``message_filters_peer.py``, run by the real message_filters and by ours: synchronisers, caches, clocks that go back.
+
+Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rosmini.graph.graph import Graph
+from rosmini.scripts import ScriptSpec
+
+from .test_rospy_api import SYSTEM_PYTHON, differences, master, run_ours, run_real  # noqa: F401 - master is a fixture
+
+PEER = Path(__file__).with_name("message_filters_peer.py")
+
+
+@pytest.fixture(scope="module")
+def real(master: dict[str, str]) -> dict[str, Any]:  # noqa: F811
+    probe = subprocess.run([SYSTEM_PYTHON, "-c", "import message_filters"], capture_output=True, check=False)
+    if probe.returncode and not os.environ.get("ROSMINI_REQUIRE_ROS"):
+        pytest.skip("the real message_filters is not installed (Debian: python3-message-filters)")
+    return dict(json.loads(run_real(master, [str(PEER)])[0].splitlines()[-1]))
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
+def test_ours_does_what_message_filters_does(real: dict[str, Any], simulated: bool) -> None:
+    assert min(real["sets"]) > 500
+    assert all(real["jumps"].values())
+    out, _ = run_ours(Graph(simulated=simulated, strict=False), ScriptSpec(str(PEER)))
+    assert differences(real, json.loads(out.splitlines()[-1])) == {}
