@@ -59,9 +59,17 @@ _HOMES = {
             "roslib.names",
             "roslib.packages",
             "rosparam",
+            "tf",
+            "tf.broadcaster",
+            "tf.listener",
+            "tf2_geometry_msgs",
+            "tf2_ros",
         )
     },
     "actionlib.msg": "rosmini.msgs.actionlib.msg",
+    "tf.msg": "rosmini.msgs.tf.msg",
+    "tf.srv": "rosmini.msgs.tf.srv",
+    "tf.transformations": "rosmini.tf.transformations",
 }
 """Where each module really is, by the name under which scripts import it."""
 

@@ -6,6 +6,8 @@ The tree of frames and its arithmetic are plain (`tree`, `history`, `rigid`, `tr
 
 from __future__ import annotations
 
+from .broadcaster import StaticTransformBroadcaster, TransformBroadcaster
+from .buffer import Buffer, BufferCore
 from .errors import (
     ConnectivityException,
     ExtrapolationException,
@@ -14,14 +16,20 @@ from .errors import (
     TimeoutException,
     TransformException,
 )
+from .listener import TransformListener
 from .tree import FrameTree
 
 __all__ = [
+    "Buffer",
+    "BufferCore",
     "ConnectivityException",
     "ExtrapolationException",
     "FrameTree",
     "InvalidArgumentException",
     "LookupException",
+    "StaticTransformBroadcaster",
     "TimeoutException",
+    "TransformBroadcaster",
     "TransformException",
+    "TransformListener",
 ]

@@ -114,9 +114,11 @@ class FrameTree:
             self._roots[parent] = None
 
     def clear(self) -> None:
-        """Forget everything, as tf does when time jumps back; the static frames too, until they are told again."""
-        self.edges.clear()
-        self._roots.clear()
+        """Forget what moves, as tf does when time jumps back; static frames stay."""
+        self.edges = {frame: edge for frame, edge in self.edges.items() if edge.static}
+        self._roots = dict.fromkeys(
+            edge.newest.parent for edge in self.edges.values() if edge.newest.parent not in self.edges
+        )
         self._paths.clear()
         self._wandering = False
 

@@ -13,7 +13,6 @@ import pytest
 
 from rosmini.tf import transformations
 
-
 PEER = Path(__file__).with_name("transformations_peer.py")
 answers = runpy.run_path(str(PEER))["answers"]
 SYSTEM_PYTHON = "/usr/bin/python3"
