@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from rosmini.viz.scan import scan_picture
     from rosmini.viz.simulation import simulation_picture
     from rosmini.viz.states import action_states
+    from rosmini.viz.track import track_picture
     from rosmini.viz.world import world_picture
 
 __all__ = [
@@ -37,6 +38,7 @@ __all__ = [
     "rqt_graph",
     "scan_picture",
     "simulation_picture",
+    "track_picture",
     "world_picture",
 ]
 
@@ -49,6 +51,7 @@ _LATER = {
     "rqt_bag": "rosmini.viz.rqt.bag",
     "scan_picture": "rosmini.viz.scan",
     "simulation_picture": "rosmini.viz.simulation",
+    "track_picture": "rosmini.viz.track",
     "world_picture": "rosmini.viz.world",
 }
 

@@ -18,7 +18,7 @@ def test_every_figure_is_numbered_in_order():
     code = [cell.source for cell in notebooks.read(CHAPTER).cells if cell.cell_type == "code"]
     numbers = [int(number) for source in code for number in re.findall(r"Figure 15\.(\d+): ", source)]
     assert numbers == list(range(1, len(numbers) + 1))
-    assert len(numbers) == 4
+    assert len(numbers) == 5
 
 
 def test_the_listed_script_runs(tmp_path, monkeypatch, capsys):

@@ -91,14 +91,22 @@ def test_topics_named_like_markup_are_text(tmp_path):
 
 @pytest.mark.skipif(not REAL.is_file(), reason="the recording of a real robot is not part of the project")
 def test_a_real_robots_bag():
-    """What a robot recorded in 2015: it is read, drawn, and its laser and odometry are there."""
+    """What a robot recorded in 2015: it is read, played, and its laser and odometry are drawn."""
+    from rosmini.bag import Player
+    from rosmini.graph import Graph
     from rosmini.viz import scan_picture
+    from rosmini.viz.track import track_picture
 
     text = rqt_bag(REAL).text
     assert text.startswith("rqt_bag: 2418 messages of 3 topics in 5.4 s")
     assert "/scan [sensor_msgs/LaserScan]: 136 messages, 25.0 Hz on average" in text
-    with Bag(REAL) as bag:
-        scans = [message for _, message, _ in bag.read_messages("/scan")]
+    scans = []
+    with Graph() as graph, Bag(REAL) as bag:
+        graph.node("listener").subscriber("scan", bag.message_class("/scan"), scans.append)
+        player = Player(graph.node("play"), bag, quiet=True)
+        graph.run()
+        assert player.played == 2418
         odom = bag.table("/odom")
-    assert "scan" in scan_picture(scans[0]).text
-    assert len(odom["pose.pose.position.x"]) == 1086
+    assert len(scans) == 136
+    assert "beams hit" in scan_picture(scans[0]).text
+    assert track_picture(odom).text.endswith("1086 positions")
