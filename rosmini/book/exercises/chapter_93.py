@@ -1,0 +1,370 @@
+"""What is right in the exercises of chapter 93, Publish/subscribe."""
+
+from __future__ import annotations
+
+from collections import deque
+from contextlib import redirect_stdout, suppress
+from io import StringIO
+from typing import TYPE_CHECKING, Any
+
+from rosmini.book.checks import exercise, expect
+from rosmini.graph import Graph
+from rosmini.msgs import message_class
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+
+# ---- 93.1: a better event service ----
+
+
+class _Service:
+    """The right one; the mistakes differ from it in one point each."""
+
+    def __init__(self) -> None:
+        self.callbacks: dict[str, list[Any]] = {}
+
+    def subscribe(self, topic: str, callback: Any) -> None:
+        self.callbacks.setdefault(topic, []).append(callback)
+
+    def unsubscribe(self, topic: str, callback: Any) -> None:
+        self.callbacks[topic].remove(callback)
+
+    def publish(self, topic: str, event: Any) -> None:
+        for callback in list(self.callbacks.get(topic, [])):
+            with suppress(Exception):
+                callback(event)
+
+
+class _Fails(_Service):
+    def publish(self, topic: str, event: Any) -> None:
+        for callback in list(self.callbacks.get(topic, [])):
+            callback(event)
+
+
+class _StopsAtTheFirst(_Service):
+    def publish(self, topic: str, event: Any) -> None:
+        with suppress(Exception):
+            for callback in list(self.callbacks.get(topic, [])):
+                callback(event)
+
+
+class _Skips(_Service):
+    def publish(self, topic: str, event: Any) -> None:
+        for callback in self.callbacks.get(topic, []):
+            with suppress(Exception):
+                callback(event)
+
+
+class _Backwards(_Service):
+    def subscribe(self, topic: str, callback: Any) -> None:
+        self.callbacks.setdefault(topic, []).insert(0, callback)
+
+
+class _OneTopic(_Service):
+    def subscribe(self, topic: str, callback: Any) -> None:  # noqa: ARG002 - the mistake
+        super().subscribe("", callback)
+
+    def publish(self, topic: str, event: Any) -> None:  # noqa: ARG002 - the mistake
+        super().publish("", event)
+
+
+class _Deaf(_Service):
+    def unsubscribe(self, topic: str, callback: Any) -> None:
+        self.callbacks[topic] = [*self.callbacks[topic], callback][:-1]
+
+
+class _UnknownTopic(_Service):
+    def publish(self, topic: str, event: Any) -> None:
+        for callback in list(self.callbacks[topic]):
+            with suppress(Exception):
+                callback(event)
+
+
+@exercise(
+    "93.1",
+    praise="A subscriber's fault stays with the subscriber.",
+    mistakes=[
+        lambda: _Fails,
+        lambda: _StopsAtTheFirst,
+        lambda: _Skips,
+        lambda: _Backwards,
+        lambda: _OneTopic,
+        lambda: _Deaf,
+        lambda: _UnknownTopic,
+    ],
+)
+def better_service(answer: Any) -> None:
+    """An event service that survives its subscribers."""
+    with redirect_stdout(StringIO()):  # what it prints about a failed callback is its own affair
+        _examine(answer())
+
+
+def _examine(service: Any) -> None:
+    got: list[tuple[str, Any]] = []
+
+    def first(event: Any) -> None:
+        got.append(("first", event))
+        service.unsubscribe("news", first)
+
+    def second(event: Any) -> None:
+        got.append(("second", event))
+        raise ValueError(event)
+
+    def third(event: Any) -> None:
+        got.append(("third", event))
+
+    try:
+        service.publish("empty", 0)
+    except Exception as error:
+        expect(False, f"publish on a topic without subscribers raised {type(error).__name__}.", "dict.get")
+    for callback in (first, second, third):
+        service.subscribe("news", callback)
+    service.subscribe("other", lambda event: got.append(("other", event)))
+    for event in (1, 2):
+        try:
+            service.publish("news", event)
+        except ValueError:
+            expect(
+                False,
+                "A callback failed, and the publisher was hit by its exception.",
+                "try and except in publish",
+            )
+        if event == 1:
+            called = [name for name, _ in got]
+            expect("other" not in called, "A subscriber of another topic was called.", "one list a topic")
+            expect(
+                "third" in called,
+                "A callback failed, and those after it were not called.",
+                "try inside the loop",
+            )
+            expect(
+                "second" in called,
+                "A callback unsubscribed itself, and its neighbour was skipped.",
+                "copy the list",
+            )
+            expect(
+                called == ["first", "second", "third"],
+                f"Called were {called}.",
+                "in the order of subscription",
+            )
+    expect(
+        got[3:] == [("second", 2), ("third", 2)],
+        f"After first had unsubscribed, the next event went to {[name for name, _ in got[3:]]}.",
+        "unsubscribe takes the callback out of its topic's list",
+    )
+
+
+# ---- 93.2: predict ----
+
+
+def _worked_on(queue: int, count: int, gap: float, work: float) -> list[int]:
+    """The numbers that a slow subscriber works on, found by running it."""
+    arrived: list[int] = []
+    number = message_class("std_msgs/Int32")
+    with Graph() as graph:
+        slow = graph.node("slow")
+
+        def look(message: Any) -> None:
+            arrived.append(message.data)
+            slow.sleep(work)
+
+        slow.subscriber("number", number, look, queue_size=queue)
+        numbers = graph.node("fast").publisher("number", number, queue_size=count)
+        numbers.wait_for_subscribers()
+        for value in range(1, count + 1):
+            numbers.publish(value)
+            graph.run(gap)
+        graph.run(count * work)
+    return arrived
+
+
+@exercise(
+    "93.2",
+    praise="The oldest make room, and the work goes on with the oldest that is left.",
+    mistakes=[
+        lambda: list(range(1, 11)),
+        lambda: [1, 2, 3, 4],
+        lambda: [1, 4, 7, 10],
+        lambda: [2, 5, 8, 9, 10],
+        lambda: [1, 2, 5, 8],
+        lambda: [1, 8, 9, 10],
+    ],
+)
+def arrived(answer: Any) -> None:
+    """Which messages come through a queue of three."""
+    expect(
+        isinstance(answer, (list, tuple)), f"arrived is a {type(answer).__name__}, not a list.", "[1, ...]"
+    )
+    right = _worked_on(3, 10, 1.0, 3.3)
+    for place, (found, expected) in enumerate(zip(answer, right, strict=False), start=1):
+        expect(
+            found == expected,
+            f"Up to the place {place} it is right; {found} is not worked on there.",
+            "write down what waits in the queue each time the work on a message is done",
+        )
+    expect(
+        len(answer) == len(right),
+        f"So far right, but {len(answer)} are too {'few' if len(answer) < len(right) else 'many'}.",
+        "what waits at the end is still worked on",
+    )
+
+
+# ---- 93.3: the last few ----
+
+
+def _history(*, limit: bool = True, to_all: bool = False, backwards: bool = False) -> Callable[[], Any]:
+    def start(graph: Graph, size: int) -> None:
+        node = graph.node("history")
+        text = message_class("std_msgs/String")
+        kept: deque[Any] = deque(maxlen=size if limit else None)
+
+        def newcomer(name: str) -> None:
+            for message in list(kept)[:: -1 if backwards else 1]:
+                if to_all:
+                    history.publish(message)
+                else:
+                    history.publish_to(name, message)
+
+        history = node.publisher("history", text, queue_size=None, on_connect=newcomer)
+        node.subscriber("news", text, kept.append)
+
+    return lambda: start
+
+
+def _latched(graph: Graph, _: int) -> None:
+    node = graph.node("history")
+    text = message_class("std_msgs/String")
+    history = node.publisher("history", text, latch=True)
+    node.subscriber("news", text, history.publish)
+
+
+@exercise(
+    "93.3",
+    praise="A latch keeps one message; yours keeps as many as you like.",
+    mistakes=[
+        _history(limit=False),
+        _history(to_all=True),
+        _history(backwards=True),
+        lambda: _latched,
+        lambda: lambda graph, _: graph.node("history"),
+    ],
+)
+def start_history(answer: Any) -> None:
+    """A node that gives the last messages to each newcomer."""
+    text = message_class("std_msgs/String")
+    heard: dict[str, list[str]] = {"early": [], "late": [], "later": []}
+
+    def listen(name: str) -> None:
+        graph.node(name).subscriber("history", text, lambda message: heard[name].append(message.data))
+        graph.run(0.1)
+
+    with Graph() as graph:
+        answer(graph, 3)
+        expect("/history" in graph.nodes, "There is no node /history.", 'graph.node("history")')
+        listen("early")
+        news = graph.node("reporter").publisher("news", text, queue_size=10)
+        graph.run(0.1)
+        expect(news.num_connections(), "Nobody subscribes to /news.", 'subscriber("news", String, ...)')
+        for word in ("one", "two"):
+            news.publish(word)
+        graph.run(0.1)
+        listen("late")
+        for word in ("three", "four", "five"):
+            news.publish(word)
+        graph.run(0.1)
+        graph.nodes["/reporter"].shutdown()
+        listen("later")
+    for name, right in (("late", ["one", "two"]), ("later", ["three", "four", "five"])):
+        when = "the second" if name == "late" else "the fifth"
+        expect(
+            heard[name] == right,
+            f"With a size of 3, a newcomer after {when} message heard {heard[name] or 'nothing'}, not {right}.",
+            "keep the last ones, oldest first, and send them to the newcomer only (publish_to)",
+        )
+    expect(
+        heard["early"] == [],
+        f"One who had been there before all messages heard {heard['early']} on /history.",
+        "a newcomer's messages go to the newcomer only: publish_to",
+    )
+
+
+# ---- 93.4: say it once ----
+
+
+def _alarm(passes: Callable[[float | None, float, float], bool], name: str = "alarm") -> Callable[[], Any]:
+    def start(graph: Graph, limit: float) -> None:
+        node = graph.node(name)
+        number = message_class("std_msgs/Float32")
+        alarm = node.publisher("alarm", number, queue_size=10)
+        before: list[float | None] = [None]
+
+        def judge(message: Any) -> None:
+            if passes(before[0], message.data, limit):
+                alarm.publish(message)
+            before[0] = message.data
+
+        node.subscriber("temperature", number, judge)
+
+    return lambda: start
+
+
+def _only_once(graph: Graph, limit: float) -> None:
+    said: list[bool] = []
+
+    def once(before: float | None, now: float, limit: float) -> bool:
+        new = now > limit and (before is None or before <= limit) and not said
+        if new:
+            said.append(True)
+        return new
+
+    _alarm(once)()(graph, limit)
+
+
+@exercise(
+    "93.4",
+    praise="It remembers one bit of the past, and that is enough.",
+    mistakes=[
+        _alarm(lambda _, now, limit: now > limit),
+        _alarm(lambda before, now, limit: before is not None and now > limit >= before),
+        _alarm(lambda before, now, limit: now >= limit and (before is None or before < limit)),
+        _alarm(lambda before, now, limit: now > limit and (before is None or before < limit)),
+        _alarm(lambda before, now, limit: now <= limit and before is not None and before > limit),
+        _alarm(lambda before, now, limit: now > limit and (before is None or before <= limit), name="filter"),
+        _alarm(lambda before, now, _: now > 30 and (before is None or before <= 30)),
+        lambda: _only_once,
+    ],
+)
+def start_alarm(answer: Any) -> None:
+    """A filter that passes a message on when the temperature has come over the limit."""
+    for limit, values, right in (
+        (30.0, (25.0, 30.0, 31.0, 32.0, 30.0, 33.0, 20.0), [31.0, 33.0]),
+        (10.0, (12.0, 11.0, 9.0, 10.5), [12.0, 10.5]),
+    ):
+        got = _alarms(answer, limit, values)
+        expect(
+            got == right,
+            f"With the limit {limit:g} and the temperatures {_listed(values)} it passed on {_listed(got) or 'nothing'}, "
+            f"not {_listed(right)}.",
+            "over the limit now, and not over it before; exactly the limit is not over it",
+        )
+
+
+def _alarms(answer: Any, limit: float, values: Sequence[float]) -> list[float]:
+    got: list[float] = []
+    number = message_class("std_msgs/Float32")
+    with Graph() as graph:
+        answer(graph, limit)
+        expect("/alarm" in graph.nodes, "There is no node /alarm.", 'graph.node("alarm")')
+        graph.node("siren").subscriber("alarm", number, lambda message: got.append(message.data))
+        temperature = graph.node("roof").publisher("temperature", number, queue_size=10)
+        graph.run(0.1)
+        expect(temperature.num_connections(), "Nobody subscribes to /temperature.", "with the type Float32")
+        for value in values:
+            temperature.publish(value)
+            graph.run(1.0)
+    return got
+
+
+def _listed(values: Sequence[float]) -> str:
+    return ", ".join(f"{value:g}" for value in values)
