@@ -11,7 +11,13 @@ import pytest
 import rosmini
 
 FINDER = doctest.DocTestFinder(exclude_empty=True)
-WITHOUT = ("rosmini.__main__", "rosmini._assets", "rosmini.cli.bench.rospy_node", "rosmini.book.sphinx_ext")
+WITHOUT = (
+    "rosmini.__main__",
+    "rosmini._assets",
+    "rosmini.cli.bench.rosbag_peer",
+    "rosmini.cli.bench.rospy_node",
+    "rosmini.book.sphinx_ext",
+)
 
 
 def examples() -> list[doctest.DocTest]:
