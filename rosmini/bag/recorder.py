@@ -187,7 +187,11 @@ class Recorder:
         if not options.regex:
             for topic in options.topics:
                 self._subscribe(self.node.resolve(topic))
-        self._open(now.to_nsec())
+        try:
+            self._open(now.to_nsec())
+        except OSError:
+            self._finish()
+            raise
         if options.publish:
             string = message_class("std_msgs/String")
             self.node.publisher("begin_write", string, latch=True).publish(str(self._files.path))

@@ -178,6 +178,12 @@ def test_what_makes_no_sense_is_refused(graph, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_file_that_cannot_be_opened_is_an_error_at_once(graph, tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"nowhere.*x\.bag"):
+        record(graph, tmp_path / "nowhere" / "x", "/chatter")
+    assert graph.nodes["/record"].subscriptions == {}
+
+
 FULL = """
 import resource, signal, sys
 from rosmini.bag import Bag, BagFull, Recorder
