@@ -1,0 +1,58 @@
+"""The script that chapter 14 lists: run from the page by the commands on the page, it prints what the page shows."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rosmini.book import notebooks
+from rosmini.rosparam import load_str
+
+CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "14_parameter_server.ipynb"
+
+
+@pytest.fixture(scope="module")
+def prose():
+    cells = notebooks.read(CHAPTER).cells
+    return "\n\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+
+
+def test_the_listed_script_prints_what_is_shown(prose, tmp_path):
+    scripts = dict(re.findall(r"^`(\w+\.py)`:\n\n```python\n(.*?)^```", prose, re.DOTALL | re.MULTILINE))
+    assert set(scripts) == {"beacon.py"}
+    (tmp_path / "beacon.py").write_text(scripts["beacon.py"], encoding="utf-8")
+    (shown,) = re.findall(r"^```console\n(\$ uv run rosmini run .*?)^```", prose, re.DOTALL | re.MULTILINE)
+    runs = re.findall(r"^\$ uv run rosmini (.*)\n((?:(?!\$ ).*\n)*)", shown, re.MULTILINE)
+    assert len(runs) == 2
+    for command, expected in runs:
+        done = subprocess.run(
+            [sys.executable, "-m", "rosmini", *shlex.split(command)],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=60,
+        )
+        assert (done.returncode, done.stdout, done.stderr) == (0, expected, "")
+
+
+def test_the_files_in_the_boxes_are_what_is_got(prose):
+    boxes = prose.replace("\n> ", "\n")
+    given = re.search(r"^\$ cat robot\.yaml\n(.*?)^\$", boxes, re.DOTALL | re.MULTILINE).group(1)
+    saved = re.search(r"^\$ cat saved\.yaml\n(.*?)^~~~", boxes, re.DOTALL | re.MULTILINE).group(1)
+    (before,), (after,) = load_str(given), load_str(saved)
+    before.values["wheel"]["radius"] = 0.035  # as `rosparam set` in the box
+    assert after.values == before.values
+
+
+def test_every_figure_is_numbered_in_order():
+    code = [cell.source for cell in notebooks.read(CHAPTER).cells if cell.cell_type == "code"]
+    numbers = [int(number) for source in code for number in re.findall(r"Figure 14\.(\d+): ", source)]
+    assert numbers == list(range(1, len(numbers) + 1))
+    pictures = sum(source.count("parameter_tree(") + source.count("console.show(") for source in code)
+    assert pictures == len(numbers) > 0
