@@ -1,5 +1,6 @@
 """A script for actionlib that tells what actionlib does, as JSON on its last line. Run by real actionlib and by ours."""
 
+import inspect
 import itertools
 import json
 
@@ -16,8 +17,52 @@ from actionlib.msg import (
 )
 from actionlib_msgs.msg import GoalID, GoalStatus, GoalStatusArray
 
+
+def signature(thing):
+    """Names of the parameters, with defaults that are plain values."""
+    return [
+        [name, one.default if isinstance(one.default, (int, float, str, type(None))) else None]
+        for name, one in inspect.signature(thing).parameters.items()
+    ]
+
+
+PUBLIC = {
+    actionlib.ActionClient: "__init__ stop send_goal cancel_all_goals cancel_goals_at_and_before_time "
+    "wait_for_action_server_to_start wait_for_server",
+    actionlib.ClientGoalHandle: "cancel get_comm_state get_goal_status get_goal_status_text get_result get_terminal_state",
+    actionlib.SimpleActionClient: "__init__ wait_for_server send_goal send_goal_and_wait wait_for_result get_result get_state "
+    "get_goal_status_text cancel_all_goals cancel_goals_at_and_before_time cancel_goal stop_tracking_goal",
+    actionlib.ActionServer: "__init__ register_goal_callback register_cancel_callback start stop",
+    actionlib.ServerGoalHandle: "get_default_result set_accepted set_canceled set_rejected set_aborted set_succeeded "
+    "publish_feedback get_goal get_goal_id get_goal_status set_cancel_requested",
+    actionlib.SimpleActionServer: "__init__ accept_new_goal is_new_goal_available is_preempt_requested is_active set_succeeded "
+    "set_aborted publish_feedback get_default_result set_preempted register_goal_callback register_preempt_callback start",
+}
+
 rospy.init_node("peer")
-facts = {}
+facts = {
+    "signatures": {
+        cls.__name__ + "." + name: signature(getattr(cls, name))
+        for cls, names in PUBLIC.items()
+        for name in names.split()
+    },
+    "numbers": {
+        cls.__name__: {name: int(getattr(cls, name)) for name in names.split()}
+        for cls, names in (
+            (
+                actionlib.CommState,
+                "WAITING_FOR_GOAL_ACK PENDING ACTIVE WAITING_FOR_RESULT RECALLING PREEMPTING DONE LOST",
+            ),
+            (actionlib.TerminalState, "RECALLED REJECTED PREEMPTED ABORTED SUCCEEDED LOST"),
+            (actionlib.SimpleGoalState, "PENDING ACTIVE DONE"),
+        )
+    },
+    "names": [
+        actionlib.CommState.to_string(4),
+        actionlib.TerminalState.to_string(9),
+        actionlib.SimpleGoalState.to_string(7),
+    ],
+}
 # GoalStatus.to_string(0) is "_has_header" in real actionlib: it looks through the class for a name of the number.
 STATUSES = [
     "PENDING",
