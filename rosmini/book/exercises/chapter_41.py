@@ -1,0 +1,313 @@
+"""What is right in the exercises of chapter 41, Teleoperation."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rosmini.book.checks import Wrong, exercise, expect
+from rosmini.geometry.poses import Pose, arc
+from rosmini.graph import Graph
+from rosmini.msgs import message_class
+from rosmini.widgets.teleop import KEYS, Limits, Teleop
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+Velocity = tuple[float, float]
+
+
+def _twist(v: float = 0.0, w: float = 0.0) -> Any:
+    twist = message_class("geometry_msgs/Twist")()
+    twist.linear.x, twist.angular.z = v, w
+    return twist
+
+
+def _said(velocities: list[Velocity]) -> str:
+    return ", ".join(f"{v:.2f} m/s and {w:.2f} rad/s" for v, w in velocities) or "nothing"
+
+
+def _same(got: list[Velocity], expected: list[Velocity]) -> bool:
+    return np.shape(got) == np.shape(expected) and bool(np.allclose(got, expected, rtol=0.0, atol=1e-6))
+
+
+# ---- 41.1: which keys ----
+
+
+def _keys(
+    ahead: Callable[[float], float], names: str = "wxad", *, swapped: bool = False
+) -> Callable[[], Any]:
+    def keys_for(v: float, w: float) -> str:
+        parts = []
+        for value, more, less in ((v / 0.01, names[0], names[1]), (w / 0.1, names[2], names[3])):
+            steps = int(ahead(value))
+            parts.append(more * steps if steps > 0 else less * -steps)
+        return "".join(parts[::-1] if swapped else parts)
+
+    return lambda: keys_for
+
+
+@exercise(
+    "41.1",
+    praise="A pad that takes these keys wants just that.",
+    mistakes=[
+        _keys(int),
+        _keys(math.floor),
+        _keys(abs),
+        _keys(round, "wxda"),
+        _keys(round, swapped=True),
+        lambda: lambda _v, _w: "wwd",
+        lambda: lambda v, _w: ["w"] * round(v / 0.01),
+        lambda: lambda v, w: "w" * round(v / 0.01) + "a" * round(w / 0.1),
+    ],
+)
+def keys_for(answer: Any) -> None:
+    """The keys that bring a pad at rest to a target."""
+    for v, w in ((0.02, -0.1), (0.07, 0.0), (0.14, 2.8), (-0.22, 0.3), (0.0, -2.3), (0.0, 0.0)):
+        found = answer(v, w)
+        asked = f"for {v:g} m/s and {w:g} rad/s"
+        if not isinstance(found, str):
+            raise Wrong(f"It returned a {type(found).__name__} {asked}, not a string.", 'such as "wwd"')
+        strange = sorted({key for key in found if key not in "wxad"})
+        expect(
+            not strange,
+            f"{asked[0].upper()}{asked[1:]} there is a key {strange[:1]} in it.",
+            "w, x, a and d do",
+        )
+        pad = Teleop(Limits(1.0, 10.0))
+        for key in found:
+            pad.press(key)
+        expect(
+            _same([pad.target], [(v, w)]),
+            f"Your keys {asked} are {found!r}; the pad then wants {_said([pad.target])}.",
+            "how many steps are that? round(...) them, and look at the sign",
+        )
+        expect(
+            all(KEYS[key][0] for key in found[: abs(round(v / 0.01))]),
+            f"Your keys {asked} are {found!r}: those for v do not come first.",
+            "first w or x, then a or d",
+        )
+        least = abs(round(v / 0.01)) + abs(round(w / 0.1))
+        expect(
+            len(found) == least, f"{len(found)} keys {asked}: {least} would do.", "no key twice for nothing"
+        )
+
+
+# ---- 41.2: a joystick ----
+
+
+def _joystick(rule: Callable[[Any], Velocity | None], name: str = "joystick") -> Callable[[], Any]:
+    def start(graph: Graph) -> None:
+        node = graph.node(name)
+        cmd_vel = node.publisher("cmd_vel", message_class("geometry_msgs/Twist"), queue_size=1)
+
+        def on_joy(joy: Any) -> None:
+            velocity = rule(joy)
+            if velocity is not None:
+                cmd_vel.publish(_twist(*velocity))
+
+        node.subscriber("joy", message_class("sensor_msgs/Joy"), on_joy)
+
+    return lambda: start
+
+
+def _stick(joy: Any) -> Velocity:
+    return (0.22 * float(joy.axes[1]), 2.84 * float(joy.axes[0]))
+
+
+@exercise(
+    "41.2",
+    praise="Let go of the button, and the robot stands.",
+    mistakes=[
+        _joystick(_stick),
+        _joystick(lambda joy: _stick(joy) if joy.buttons[4] else None),
+        _joystick(lambda joy: _stick(joy) if joy.buttons[0] else (0.0, 0.0)),
+        _joystick(lambda joy: _stick(joy) if not joy.buttons[4] else (0.0, 0.0)),
+        _joystick(lambda joy: (joy.axes[1], joy.axes[0]) if joy.buttons[4] else (0.0, 0.0)),
+        _joystick(lambda joy: (0.22 * joy.axes[0], 2.84 * joy.axes[1]) if joy.buttons[4] else (0.0, 0.0)),
+        _joystick(lambda joy: (abs(_stick(joy)[0]), _stick(joy)[1]) if joy.buttons[4] else (0.0, 0.0)),
+        _joystick(lambda joy: _stick(joy) if joy.buttons[4] else (0.0, 0.0), "gamepad"),
+        lambda: lambda graph: graph.node("joystick"),
+    ],
+)
+def joystick(answer: Any) -> None:
+    """A node that turns a gamepad's messages into commands, while a button is held."""
+    sent: list[Velocity] = []
+    with Graph() as graph:
+        answer(graph)
+        expect("/joystick" in graph.nodes, "There is no node /joystick.", 'graph.node("joystick")')
+        _listen(graph, sent)
+        joy = graph.node("gamepad_driver").publisher("joy", message_class("sensor_msgs/Joy"), queue_size=10)
+        graph.run(0.1)
+        expect(joy.num_connections(), "Nobody subscribes to /joy.", "subscriber(...) with the type Joy")
+        for axes, held in (((0.5, 1.0), 1), ((-1.0, -0.5), 1), ((0.5, 1.0), 0), ((0.0, 0.25), 1)):
+            message = message_class("sensor_msgs/Joy")()
+            message.axes, message.buttons = list(axes), [0, 0, 0, 0, held, 0]
+            expected = (0.22 * axes[1], 2.84 * axes[0]) if held else (0.0, 0.0)
+            got = _answers(graph, sent, joy, message)
+            where = f"axes {list(axes)} and the button {'held' if held else 'not held'}"
+            expect(
+                _same(got, [expected]),
+                f"For {where} it published {_said(got)}, not {_said([expected])}.",
+                "axes[1] times 0.22 is linear.x, axes[0] times 2.84 is angular.z; zero if buttons[4] is not 1",
+            )
+
+
+def _listen(graph: Graph, sent: list[Velocity]) -> None:
+    graph.node("wheels").subscriber(
+        "cmd_vel", message_class("geometry_msgs/Twist"), lambda m: sent.append((m.linear.x, m.angular.z))
+    )
+
+
+def _answers(graph: Graph, sent: list[Velocity], publisher: Any, message: Any) -> list[Velocity]:
+    """What is published on cmd_vel within a tenth of a second of this message."""
+    sent.clear()
+    publisher.publish(message)
+    graph.run(0.1)
+    return list(sent)
+
+
+# ---- 41.3: a lock ----
+
+
+def _lock(
+    *, zero: bool = True, holds: bool = True, opens: bool = True, resumes: bool = False
+) -> Callable[[], Any]:
+    def start(graph: Graph) -> None:
+        node = graph.node("lock")
+        cmd_vel = node.publisher("cmd_vel", message_class("geometry_msgs/Twist"), queue_size=1)
+        state: dict[str, Any] = {"locked": False, "last": _twist()}
+
+        def on_stop(message: Any) -> None:
+            state["locked"] = message.data or (state["locked"] and not opens)
+            if message.data and zero:
+                cmd_vel.publish(_twist())
+            if not message.data and resumes:
+                cmd_vel.publish(state["last"])
+
+        def on_pad(command: Any) -> None:
+            state["last"] = command
+            if not (state["locked"] and holds):
+                cmd_vel.publish(command)
+
+        node.subscriber("stop", message_class("std_msgs/Bool"), on_stop)
+        node.subscriber("pad_vel", message_class("geometry_msgs/Twist"), on_pad)
+
+    return lambda: start
+
+
+@exercise(
+    "41.3",
+    praise="Now the stop key stops the robot, whoever else is talking.",
+    mistakes=[
+        _lock(zero=False),
+        _lock(holds=False),
+        _lock(opens=False),
+        _lock(resumes=True),
+        lambda: lambda graph: graph.node("lock"),
+        lambda: lambda graph: graph.run(0.1),
+    ],
+)
+def lock(answer: Any) -> None:
+    """A node that passes commands on, until it is told to stop."""
+    sent: list[Velocity] = []
+    with Graph() as graph:
+        answer(graph)
+        expect("/lock" in graph.nodes, "There is no node /lock.", 'graph.node("lock")')
+        _listen(graph, sent)
+        hand = graph.node("hand")
+        pad = hand.publisher("pad_vel", message_class("geometry_msgs/Twist"), queue_size=10)
+        stop = hand.publisher("stop", message_class("std_msgs/Bool"), queue_size=10)
+        graph.run(0.1)
+        expect(pad.num_connections(), "Nobody subscribes to /pad_vel.", "subscriber(...) with the type Twist")
+        expect(stop.num_connections(), "Nobody subscribes to /stop.", "subscriber(...) with the type Bool")
+        for publisher, given, expected, what in (
+            (pad, (0.1, 0.5), [(0.1, 0.5)], "For a command before any stop"),
+            (stop, True, [(0.0, 0.0)], "When True came on /stop"),
+            (pad, (0.2, 0.0), [], "For a command after the stop"),
+            (pad, (-0.1, 0.2), [], "For a second command after the stop"),
+            (stop, False, [], "When False came on /stop"),
+            (pad, (0.05, 0.0), [(0.05, 0.0)], "For a command after it was unlocked"),
+        ):
+            message = _twist(*given) if isinstance(given, tuple) else given
+            got = _answers(graph, sent, publisher, message)
+            expect(
+                _same(got, expected),
+                f"{what} it published {_said(got)}, not {_said(expected)}.",
+                "remember the last word on /stop, and ask it for each command",
+            )
+
+
+# ---- 41.4: where is it now ----
+
+
+def _predicted(
+    step: Callable[[Pose, float, float, float], Pose], *, backwards: bool = False
+) -> Callable[[], Any]:
+    def where_now(seen: Pose, commands: list[tuple[float, float, float]]) -> Pose:
+        pose = seen
+        for v, w, seconds in commands[::-1] if backwards else commands:
+            pose = step(pose, v, w, seconds)
+        return pose
+
+    return lambda: where_now
+
+
+def _straight_then_turn(pose: Pose, v: float, w: float, t: float) -> Pose:
+    x, y, heading = pose
+    return (x + v * t * math.cos(heading), y + v * t * math.sin(heading), heading + w * t)
+
+
+def _arc_only(pose: Pose, v: float, w: float, t: float) -> Pose:
+    x, y, heading = pose
+    after = heading + w * t
+    r = v / w
+    return (
+        x + r * (math.sin(after) - math.sin(heading)),
+        y - r * (math.cos(after) - math.cos(heading)),
+        after,
+    )
+
+
+@exercise(
+    "41.4",
+    praise="Draw this pose into the old picture, and the driver sees the present.",
+    mistakes=[
+        _predicted(_straight_then_turn),
+        _predicted(_arc_only),
+        _predicted(arc, backwards=True),
+        lambda: lambda seen, _commands: seen,
+        lambda: lambda seen, commands: arc((0.0, 0.0, 0.0), *commands[0]) if commands else seen,
+        lambda: lambda _seen, _commands: "here",
+        lambda: lambda _seen, _commands: (math.nan, 0.0, 0.0),
+    ],
+)
+def where_now(answer: Any) -> None:
+    """A pose that was seen, and the commands since, make the pose of now."""
+    cases: list[tuple[Pose, list[tuple[float, float, float]], str]] = [
+        ((1.0, 2.0, 0.5), [], "no command"),
+        ((1.0, 2.0, 0.5), [(0.2, 0.0, 1.5)], "one straight drive"),
+        ((0.0, 0.0, 0.0), [(0.2, 0.5, 2.0)], "one arc"),
+        ((0.0, 0.0, 1.0), [(0.0, -1.0, 0.7)], "a turn on the spot"),
+        ((-1.0, 0.5, 2.0), [(0.2, 0.0, 0.5), (0.1, -0.8, 0.4), (-0.1, 0.3, 1.0)], "three commands"),
+    ]
+    for seen, commands, what in cases:
+        expected = seen
+        for v, w, seconds in commands:
+            expected = arc(expected, v, w, seconds)
+        found = answer(seen, list(commands))
+        try:
+            x, y, heading = (float(part) for part in found)
+        except (TypeError, ValueError):
+            raise Wrong(
+                f"For {what} it returned {found!r}, not a pose.", "three numbers: x, y, heading"
+            ) from None
+        off = math.hypot(x - expected[0], y - expected[1])
+        turned = abs(math.remainder(heading - expected[2], 2 * math.pi))
+        expect(
+            off < 1e-6 and turned < 1e-6,
+            f"For {what} the pose is ({x:.4f}, {y:.4f}, {heading:.4f}), not ({', '.join(f'{part:.4f}' for part in expected)}).",
+            "begin with the pose that was seen, take the oldest command first, and mind w = 0",
+        )

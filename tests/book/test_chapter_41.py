@@ -1,0 +1,91 @@
+"""Chapter 41: the script that it lists prints what the page shows; its figures are numbered; its words about the pad hold."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rosmini.book import notebooks
+
+CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "41_teleoperation.ipynb"
+
+FIGURES = ("rqt_graph(", ".pad(caption=", ".show(", ".plots(", ".replay(", "plot(\n")
+
+
+@pytest.fixture(scope="module")
+def chapter():
+    return notebooks.read(CHAPTER)
+
+
+@pytest.fixture(scope="module")
+def prose(chapter):
+    return "\n\n".join(cell.source for cell in chapter.cells if cell.cell_type == "markdown")
+
+
+def test_the_listed_script_answers_the_typed_keys_as_shown(prose, tmp_path):
+    scripts = dict(re.findall(r"^`(\w+\.py)`:\n\n```python\n(.*?)^```", prose, re.DOTALL | re.MULTILINE))
+    assert set(scripts) == {"keys.py"}
+    (tmp_path / "keys.py").write_text(scripts["keys.py"], encoding="utf-8")
+    command, shown = re.search(
+        r"^```console\n\$ uv run rosmini (run .*?)\n(.*?)^```", prose, re.DOTALL | re.MULTILINE
+    ).groups()
+    typed = re.findall(r"keys: ?(.*\n)", shown)
+    assert len(typed) == 3
+    done = subprocess.run(
+        [sys.executable, "-m", "rosmini", *shlex.split(command)],
+        cwd=tmp_path,
+        input="".join(typed),
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    # What is typed into a terminal stands there too; in a pipe it does not.
+    printed = re.sub(r"keys: ?.*\n", "keys: ", shown)
+    assert (done.returncode, done.stdout.strip(), done.stderr) == (0, printed.strip(), "")
+
+
+def test_every_figure_is_numbered_in_order(chapter):
+    code = [cell.source for cell in chapter.cells if cell.cell_type == "code"]
+    numbers = [int(number) for source in code for number in re.findall(r"Figure 41\.(\d+): ", source)]
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert sum(source.count(word) for source in code for word in FIGURES) == len(numbers) > 0
+
+
+def test_a_page_holds_few_moving_pictures(chapter):
+    code = "".join(cell.source for cell in chapter.cells if cell.cell_type == "code")
+    assert sum(code.count(word) for word in (".pad(caption=", ".replay(", ".show3d(", ".replay3d(")) == 2
+
+
+def test_the_table_of_keys_is_that_of_the_pad(prose):
+    from rosmini.widgets import teleop
+
+    assert f"| `w`, `x` | {teleop.LINEAR_STEP} m/s more ahead, or more back |" in prose
+    assert f"| `a`, `d` | {teleop.ANGULAR_STEP} rad/s more to the left, or to the right |" in prose
+    assert f"of {teleop.SLOPE * teleop.LINEAR_STEP} m/s at most" in prose
+    assert f"and every {teleop.PERIOD} s while no key comes" in prose
+    limits = teleop.Limits()
+    assert f"{limits.linear} m/s and {limits.angular} rad/s" in prose
+
+
+def test_the_dead_man_s_second_is_that_of_the_pad(prose):
+    from rosmini.widgets.live import DEAD_MAN_S
+
+    assert "If that stops for a second" in prose
+    assert DEAD_MAN_S == 1.0
+
+
+def test_the_reader_is_told_the_timeout_of_the_simulator(chapter, prose):
+    from rosmini.sim.simulator import COMMAND_TIMEOUT, SimulatorParameters
+
+    everything = "\n".join(cell.source for cell in chapter.cells)
+    named = set(re.findall(r"[\s`\"](_\w+):=", everything))
+    assert {"_world", "_noise", "_cmd_vel_timeout"} <= named
+    assert named <= {row[0].replace("~", "_") for row in SimulatorParameters.table()}
+    assert "a command holds for half a second" in prose
+    assert COMMAND_TIMEOUT == 0.5
