@@ -211,6 +211,8 @@ class FrameTree:
 
         Raises as `lookup` does.
         """
+        for frame, role in ((target, "target_frame"), (source, "source_frame"), (fixed, "fixed_frame")):
+            self._check(frame, role)
         seen = self.lookup(fixed, source, source_ns)
         then = self.lookup(target, fixed, target_ns)
         return Found(compose(then.transform, seen.transform), then.stamp_ns)
@@ -232,10 +234,7 @@ class FrameTree:
     def _path(self, target: str, source: str, stamp_ns: int) -> Path:
         """The edges between two frames at a time."""
         for frame, role in ((target, "target_frame"), (source, "source_frame")):
-            if not frame or frame.startswith("/"):
-                raise InvalidArgumentException(self._words.bad_name(frame, role))
-            if frame not in self:
-                raise LookupException(self._words.unknown(frame, role))
+            self._check(frame, role)
         up = self._ancestors(source, stamp_ns)
         place = {frame: number for number, frame in enumerate(up)}
         down: list[str] = []
@@ -254,6 +253,12 @@ class FrameTree:
                 self._paths.clear()
             self._paths[target, source] = path
         return path
+
+    def _check(self, frame: str, role: str) -> None:
+        if not frame or frame.startswith("/"):
+            raise InvalidArgumentException(self._words.bad_name(frame, role))
+        if frame not in self:
+            raise LookupException(self._words.unknown(frame, role))
 
     def _ancestors(self, frame: str, stamp_ns: int) -> list[str]:
         found = {frame: None}
