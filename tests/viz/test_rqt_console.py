@@ -84,6 +84,14 @@ def test_the_text_is_an_aligned_table() -> None:
     assert chosen.text.splitlines()[2] == "  Battery at 80 %  /rosout, /chatter"
 
 
+def test_outside_of_functions_a_location_is_a_line() -> None:
+    entry = message(2, "/talker", "text")
+    entry.file, entry.function = "C:\\ws\\talk.py", "<module>"
+    assert rqt_console([entry], columns=("location",)).text.splitlines()[1] == "  talk.py:7"
+    entry.file = ""
+    assert rqt_console([entry], columns=("location",)).text == "rqt_console: 1 message\n"
+
+
 def test_the_alt_text_counts_levels() -> None:
     assert rqt_console(LOG, level="WARN", limit=2).alt == (
         "Table of log messages, 2 of 5 messages (1 ERROR, 1 FATAL). "

@@ -54,7 +54,7 @@ def rqt_console(
         highlight: mark messages that contain this.
         regex: the three above are regular expressions; else upper and lower case are alike.
         topic: filter for the topics that the message's node publishes, in the form of `node`.
-        location: show only messages whose `file:line function` contains this.
+        location: show only messages whose `file:line function` contains this; outside of functions it is `file:line`.
         start: show nothing earlier, in seconds of the messages' time, or as a `rosmini.Time`.
         end: show nothing later.
         columns: which columns, in which order.
@@ -199,7 +199,7 @@ CSS = (
     )
     + _rules("th", background=variable("group-fill"), font_weight="600")
     + _rules("td", white_space="nowrap")
-    + _rules("td.message", white_space="pre-wrap", min_width="14em", max_width="44em")
+    + _rules("td.message", white_space="pre-wrap", min_width="11em", max_width="44em")
     + _rules("td.stamp", font_variant_numeric="tabular-nums")
     + _rules("td.location", color=variable("muted"))
     + _rules("tr.marked td", background=variable("topic-fill"))
@@ -237,7 +237,8 @@ def _location(message: Any) -> str:
     if not message.file:
         return ""
     name = message.file.replace("\\", "/").rpartition("/")[2]
-    return f"{name}:{message.line} {message.function}".rstrip()
+    function = "" if message.function == "<module>" else message.function
+    return f"{name}:{message.line} {function}".rstrip()
 
 
 # ---- what was asked for ----
