@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rosmini import rospy
+from rosmini.msgs.roscpp.srv import SetLoggerLevel
 from rosmini.msgs.rosgraph_msgs.msg import Log
 
 
@@ -116,3 +117,43 @@ def test_options(sim_programs, log):
     assert "in main" in written.err
     assert "named" in written.out
     assert "does not fit %d" in written.out
+
+
+def test_gates_in_both_clocks(programs, log):
+    def main():
+        rospy.init_node("main")
+        for count in range(4):
+            rospy.logwarn_once("once %d", count)
+            rospy.logwarn_throttle(1000, "rare %d", count)
+            rospy.logwarn_throttle(0.1, "each %d", count)
+            rospy.logwarn_throttle_identical(1000, f"new {count // 2}")
+            rospy.sleep(0.2)
+
+    programs(main)
+    texts = [line.partition("]: ")[2] for line in log.read().err.splitlines()]
+    assert [text for text in texts if text.startswith(("once", "rare"))] == ["once 0", "rare 0"]
+    assert [text for text in texts if text.startswith("each")] == [f"each {count}" for count in range(4)]
+    assert [text for text in texts if text.startswith("new")] == ["new 0", "new 1"]
+
+
+def test_levels_are_set_from_another_program(programs, log):
+    def camera():
+        rospy.init_node("camera")
+        rospy.sleep(1.0)
+        rospy.logdebug("seen")
+        rospy.logdebug("unseen", logger_name="driver")
+        rospy.logwarn("unseen", logger_name="driver")
+        rospy.sleep(1.0)
+
+    def reader():
+        rospy.init_node("reader")
+        rospy.wait_for_service("/camera/set_logger_level")
+        set_level = rospy.ServiceProxy("/camera/set_logger_level", SetLoggerLevel)
+        set_level("rosout", "DEBUG")
+        set_level("rosout.driver", "ERROR")
+        rospy.sleep(1.5)
+
+    programs(camera, reader)
+    written = log.read()
+    assert "seen" in written.out
+    assert "unseen" not in written.out + written.err
