@@ -229,13 +229,21 @@ for status, path in sorted(PATHS.items()):
 
 told = []
 plan = {}
+sent = set()
+fed = []
 
 
 def execute(goal):
-    rospy.sleep(0.03)  # real actionlib loses a result that arrives before send_goal() has returned
+    # Real actionlib loses a result that arrives before send_goal() has returned, and feedback that arrives after its result.
+    if goal.goal in (8, 9):
+        rospy.sleep(0.1)
+    else:
+        wait(lambda: goal.goal in sent, "send_goal() to return")
     told.append(["begin", goal.goal])
     for number in range(3):
         simple.publish_feedback(TestFeedback(10 * goal.goal + number))
+    if goal.goal < 6:
+        wait(lambda: 10 * goal.goal + 2 in fed, "the feedback")
     while plan.get(goal.goal) == "wait" and not simple.is_preempt_requested():
         rospy.sleep(0.01)
     if simple.is_preempt_requested():
@@ -257,7 +265,6 @@ facts["no server"] = one.wait_for_server(rospy.Duration(0.1))
 facts["no goal"] = [one.get_state(), one.get_result(), one.wait_for_result(), one.get_goal_status_text()[:5]]
 simple.start()
 facts["a server"] = [one.wait_for_server(), two.wait_for_server(rospy.Duration(20))]
-fed = []
 
 
 def run(client, number, what="", cancel=False):
@@ -270,6 +277,7 @@ def run(client, number, what="", cancel=False):
         lambda: said.append("active"),
         lambda feedback: fed.append(feedback.feedback),
     )
+    sent.add(number)
     if cancel:
         wait(lambda: "active" in said, "active")
         facts["too slow"] = [client.wait_for_result(rospy.Duration(0.05)), client.get_state()]
@@ -288,9 +296,11 @@ facts["simple"] = {
 plan[6], plan[7] = "wait", ""
 ended = []
 one.send_goal(TestGoal(6), lambda state, result: ended.append([6, state, result.result]))
+sent.add(6)
 wait(lambda: ["begin", 6] in told, "the first goal")
 rospy.sleep(0.01)
 two.send_goal(TestGoal(7), lambda state, result: ended.append([7, state, result.result]))
+sent.add(7)
 wait(lambda: len(ended) == 2, "both goals")
 facts["a new goal preempts"] = sorted(ended)
 plan[8] = "wait"
@@ -298,6 +308,7 @@ facts["send_goal_and_wait"] = [
     one.send_goal_and_wait(TestGoal(9)),
     one.send_goal_and_wait(TestGoal(8), rospy.Duration(0.1), rospy.Duration(5)),
 ]
+wait(lambda: ["end", 8] in told, "the end")
 rospy.sleep(0.1)
 facts["told"] = told
 facts["feedback"] = sorted(fed)
