@@ -20,7 +20,7 @@ _ = graph.node("listener").subscriber("cmd_vel", Twist, lambda t: heard.append((
 pad = sim.pad()
 pad
 """,
-    "print('live', graph.is_live, 'heard', heard[:3], 'moved', sim.truth()[0] > 0.01)",
+    "print('live', graph.is_live, 'heard', [x for x, _ in heard[:3]], 'moved', sim.truth()[0] > 0.01)",
     "print('rest', pad.teleop.at_rest, pad.twist.linear.x)",
     "end = time.monotonic() + 3\nwhile time.monotonic() < end: pass\nprint('busy over')",
     "pad.press('w'); graph.run(until=lambda: pad.teleop.at_rest); print('stopped while a cell drives')",
@@ -105,8 +105,8 @@ def test_keys_buttons_and_a_busy_kernel(open_lab, shared_tmp):
         print(f"{frames / 2:g} frames/s of the pad, {paints / 2:g} paints/s of the page")
         assert frames >= 40
         page.screenshot(path=shared_tmp / "pad_jupyterlab.png")
-        lab.run(1)
-        lab.says(1, "live True heard [(0.005, 0.0), (0.01, 0.0), (0.015, 0.0)] moved True")
+        lab.run(1)  # a message may have gone out between `a a` and `d d`, so only the linear part is known
+        lab.says(1, "live True heard [0.005, 0.01, 0.015] moved True")
 
         # A button stops it.
         page.locator(".rp-key-s").click()
