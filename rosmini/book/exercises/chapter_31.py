@@ -1,0 +1,129 @@
+"""What is right in the exercises of chapter 31, Frames."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from rosmini.book.checks import exercise, expect
+from rosmini.msgs import message_class
+from rosmini.tf import Buffer
+from rosmini.tf.messages import scan_points, to_stamped
+from rosmini.tf.rigid import Rigid, compose, from_yaw, inverse, matrix
+from rosmini.time import Time
+
+SECOND = 1_000_000_000
+
+
+def _buffer(*told: tuple[str, str, Rigid, int]) -> Buffer:
+    buffer = Buffer(None)
+    for parent, child, transform, stamp in told:
+        buffer.set_transform(to_stamped(parent, child, transform, stamp * SECOND))
+    return buffer
+
+
+def _scan() -> Any:
+    scan = message_class("sensor_msgs/LaserScan")(
+        angle_increment=math.pi / 2, range_min=0.1, range_max=5.0, ranges=[1.0, 0.9, 0.8, math.inf]
+    )
+    scan.header.frame_id = "front_laser"
+    scan.header.stamp = Time(5)
+    return scan
+
+
+@exercise(
+    "31.1",
+    praise="Nearest to the laser is not always nearest to the robot.",
+    mistakes=[
+        lambda: lambda _buffer, scan: min(scan.ranges),
+        lambda: (
+            lambda buffer, scan: min(
+                math.hypot(x, y)
+                for x, y, _ in buffer.transform_points(scan_points(scan), "front_laser", "base_link")
+            )
+        ),
+        lambda: lambda buffer, scan: buffer.transform_points(scan_points(scan), "base_link", "front_laser"),
+        lambda: (
+            lambda buffer, scan: min(
+                math.hypot(x, y, z)
+                for x, y, z in buffer.transform_points(scan_points(scan), "base_link", "front_laser")
+            )
+        ),
+    ],
+)
+def nearest_to_base(answer: Any) -> None:
+    """The distance on the ground, in the frame base_link."""
+    # The laser is 0.5 m ahead and looks to the left: what is 0.9 m to its left is 0.4 m behind the robot's middle.
+    mounted = from_yaw(0.5, 0.0, math.pi / 2, z=1.0)
+    found = answer(_buffer(("base_link", "front_laser", mounted, 5)), _scan())
+    expect(
+        isinstance(found, float),
+        f"A {type(found).__name__} came back, not a number.",
+        "take the smallest distance",
+    )
+    expect(
+        abs(found - 0.4) < 1e-6,
+        f"With a laser 0.5 m ahead that looks to the left, the nearest point is 0.40 m from base_link, not {found:.2f} m.",
+        "transform the points of the scan to base_link, then take the smallest hypot(x, y)",
+    )
+
+
+@exercise(
+    "31.2",
+    praise="This is all that amcl publishes on /tf.",
+    mistakes=[
+        lambda: lambda map_base, odom_base: compose(inverse(odom_base), map_base),
+        lambda: lambda map_base, odom_base: compose(odom_base, inverse(map_base)),
+        lambda: lambda map_base, _odom_base: map_base,
+        lambda: lambda map_base, odom_base: matrix(compose(map_base, inverse(odom_base))),
+    ],
+)
+def map_to_odom(answer: Any) -> None:
+    """The transform of odom in map."""
+    map_base, odom_base = from_yaw(2.0, 1.0, 0.7), from_yaw(1.5, -0.2, 0.4)
+    found = answer(map_base, odom_base)
+    expect(
+        isinstance(found, tuple) and len(found) == 7,
+        "A transform is a tuple of seven numbers.",
+        "compose and inverse give one",
+    )
+    through = compose(found, odom_base)
+    expect(
+        all(abs(a - b) < 1e-6 for a, b in zip(through, map_base, strict=True)),
+        "Composed with the odometry, your transform does not give where the robot is in map.",
+        "map -> base is map -> odom followed by odom -> base: solve that for map -> odom",
+    )
+
+
+@exercise(
+    "31.3",
+    praise="The buffer remembers, so nothing had to be stored along the way.",
+    mistakes=[
+        lambda: lambda buffer, _start, _end: buffer.lookup_transform("odom", "base").transform.translation.x,
+        lambda: (
+            lambda buffer, _start, end: buffer.lookup_transform("odom", "base", end).transform.translation.x
+        ),
+        lambda: (
+            lambda buffer, start, end: (
+                buffer.lookup_transform("odom", "base", end).transform.translation.x
+                - buffer.lookup_transform("odom", "base", start).transform.translation.x
+            )
+        ),
+    ],
+)
+def moved(answer: Any) -> None:
+    """How far base went in odom."""
+    buffer = _buffer(
+        ("odom", "base", from_yaw(0.0, 0.0, 0.0), 1),
+        ("odom", "base", from_yaw(3.0, 4.0, 1.0), 2),
+        ("odom", "base", from_yaw(3.0, 10.0, 2.0), 3),
+    )
+    found = answer(buffer, Time(1), Time(2))
+    expect(isinstance(found, float), f"A {type(found).__name__} came back, not a number.")
+    expect(
+        abs(found - 5) < 1e-6,
+        f"From (0, 0) to (3, 4) it is 5 m, not {found:.2f} m.",
+        "look the frame up at both times, and take the distance between the two places",
+    )
+    found = answer(buffer, Time(2), Time(3))
+    expect(abs(found - 6) < 1e-6, f"From (3, 4) to (3, 10) it is 6 m, not {found:.2f} m.", "use both times")
