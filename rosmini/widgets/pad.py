@@ -60,7 +60,7 @@ class TeleopPad(View):
         topic: where to publish, as the simulator's node calls it: in its namespace, remapped as it is there.
         name: the name of the node.
         limits: how fast at most; those of the simulator's robot by default, and of a Burger without one.
-        caption: words under the pad.
+        title: a caption under the pad, and the first line of its text form.
 
     Raises:
         TeleopError: `driven` is neither.
@@ -74,7 +74,7 @@ class TeleopPad(View):
         topic: str = "cmd_vel",
         name: str = "teleop_pad",
         limits: Limits | None = None,
-        caption: str | None = None,
+        title: str | None = None,
     ) -> None:
         self.sight: Sight | None = None
         namespace = "/"
@@ -91,7 +91,7 @@ class TeleopPad(View):
                 f"a pad drives the robot of a simulator, or what listens on a graph, not a {type(driven).__name__}. "
                 "Give it what rosrun('rosmini_sim', 'simulator') returned, or a Graph."
             )
-        self.caption = caption
+        self.title = title
         self.teleop = Teleop(limits)
         self.sent = 0
         """How many messages were published."""
@@ -204,6 +204,9 @@ class TeleopPad(View):
     @property
     def text(self) -> str:
         """What is wanted, what was sent, and how the robot is."""
+        return self._state() if self.title is None else f"{self.title}\n{self._state()}"
+
+    def _state(self) -> str:
         (v, w), (sent_v, sent_w) = self.teleop.target, self.teleop.command
         messages = "1 message" if self.sent == 1 else f"{self.sent} messages"
         lines = [
@@ -221,7 +224,7 @@ class TeleopPad(View):
     def alt(self) -> str:
         """The pad in a sentence or two."""
         drives = "" if self.sight is None else f" the {self.sight.simulator.model.name} in its world and"
-        return f"A pad with the keys w, a, s, d and x that shows{drives} the messages on {self.topic}. {self.text}"
+        return f"A pad with the keys w, a, s, d and x that shows{drives} the messages on {self.topic}. {self._state()}"
 
     def _images(self) -> dict[str, bytes]:
         return {}
@@ -231,7 +234,7 @@ class TeleopPad(View):
         """The pad as a page: it drives a robot of its own there, in the same world."""
         from .page import static_html
 
-        return static_html(self, caption=self.caption)
+        return static_html(self, caption=self.title)
 
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None

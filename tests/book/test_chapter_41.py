@@ -14,7 +14,7 @@ from rosmini.book import notebooks
 
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "41_teleoperation.ipynb"
 
-FIGURES = ("rqt_graph(", ".pad(caption=", ".show(", ".plots(", ".replay(", "plot(\n")
+FIGURES = ("rqt_graph(", ".pad(title=", ".show(", ".plots(", ".replay(", "plot(\n")
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +59,7 @@ def test_every_figure_is_numbered_in_order(chapter):
 
 def test_a_page_holds_few_moving_pictures(chapter):
     code = "".join(cell.source for cell in chapter.cells if cell.cell_type == "code")
-    assert sum(code.count(word) for word in (".pad(caption=", ".replay(", ".show3d(", ".replay3d(")) == 2
+    assert sum(code.count(word) for word in (".pad(title=", ".replay(", ".show3d(", ".replay3d(")) == 2
 
 
 def test_the_table_of_keys_is_that_of_the_pad(prose):
