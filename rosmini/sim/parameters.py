@@ -27,12 +27,15 @@ def parameter(
     unit: str = "",
     minimum: float | None = None,
     maximum: float | None = None,
+    level: int = 0,
+    group: str = "",
 ) -> Any:
-    """One parameter of a class derived from `Parameters`; its name and its type are those of the field."""
-    return field(
-        default=default,
-        metadata={"meaning": meaning, "unit": unit, "minimum": minimum, "maximum": maximum},
-    )
+    """One parameter of a class derived from `Parameters`; its name and its type are those of the field.
+
+    `level` and `group` are for those that are changed while the node runs: see `rosmini.dynamic_reconfigure`.
+    """
+    about = {"meaning": meaning, "unit": unit, "minimum": minimum, "maximum": maximum}
+    return field(default=default, metadata={**about, "level": level, "group": group})
 
 
 @dataclass(frozen=True)

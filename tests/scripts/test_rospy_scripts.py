@@ -71,6 +71,13 @@ def test_message_filters_bring_two_topics_together(start):
     assert ran.status == 0
 
 
+def test_a_node_is_reconfigured_while_it_runs(start):
+    ran = start(spec("tuned.py", "_speed:=0.5"), "tune.py", duration=3)
+    assert said_by(ran, "tuned") == ["level -1 speed 0.5 True", "level 1 speed 2.0 True"]
+    assert said_by(ran, "tune") == ["was 0.5", "is 2.0"]
+    assert ran.status == 0
+
+
 def test_add_two_ints(start):
     ran = start("add_two_ints_server.py", spec("add_two_ints_client.py", "40", "2"), duration=0.5)
     assert said_by(ran, "add_two_ints_server") == ["Returning [40 + 2 = 42]"]

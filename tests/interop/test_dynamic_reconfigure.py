@@ -1,0 +1,37 @@
+"""One script, ``dynamic_reconfigure_peer.py``, run by the real dynamic_reconfigure and by ours, with a module that a .cfg file became.
+
+Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rosmini.graph.graph import Graph
+from rosmini.scripts import ScriptSpec
+
+from .test_rospy_api import differences, master, run_ours, run_real  # noqa: F401 - master is a fixture
+
+PEER = Path(__file__).with_name("dynamic_reconfigure_peer.py")
+GENERATED = Path("/usr/lib/python3/dist-packages/dynamic_reconfigure/cfg/TestConfig.py")
+
+
+@pytest.fixture(scope="module")
+def real(master: dict[str, str]) -> dict[str, Any]:  # noqa: F811
+    if not GENERATED.is_file() and not os.environ.get("ROSMINI_REQUIRE_ROS"):
+        pytest.skip("the real dynamic_reconfigure is not installed (Debian: python3-dynamic-reconfigure)")
+    return dict(json.loads(run_real(master, [str(PEER), str(GENERATED)])[0].splitlines()[-1]))
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
+def test_ours_does_what_dynamic_reconfigure_does(real: dict[str, Any], simulated: bool) -> None:
+    assert len(real["changes"]) == 10
+    script = ScriptSpec(str(PEER), (str(GENERATED),))
+    out, _ = run_ours(Graph(simulated=simulated, strict=False), script)
+    assert differences(real, json.loads(out.splitlines()[-1])) == {}
