@@ -10,6 +10,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -54,7 +55,8 @@ def real(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str, s
         stderr=subprocess.DEVNULL,
     )
     try:
-        done = subprocess.run(  # rospy waits for its Master by itself
+        wait_for(port)  # rospy waits for its Master by itself, but says so
+        done = subprocess.run(
             [SYSTEM_PYTHON, str(PEER)], env=found, capture_output=True, text=True, check=False, timeout=60
         )
     finally:
@@ -62,6 +64,17 @@ def real(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str, s
         process.wait(10)
     assert done.returncode == 0, done.stderr
     return done.stdout, done.stderr, (home / "logs" / "peer.log").read_text(encoding="utf-8")
+
+
+def wait_for(port: int) -> None:
+    """Block until somebody answers at a port."""
+    deadline = time.monotonic() + 60
+    while True:
+        with socket.socket() as probe:
+            if probe.connect_ex(("127.0.0.1", port)) == 0:
+                return
+        assert time.monotonic() < deadline, "rosmaster does not answer"
+        time.sleep(0.05)
 
 
 def users_lines(text: str) -> list[str]:
