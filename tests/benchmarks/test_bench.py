@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rosmini.cli.bench import Figure, Measure, actions, bags, graph, sim, table
+from rosmini.cli.bench import Figure, Measure, actions, bags, graph, sim, table, transforms
 from rosmini.cli.bench.peer import find_rospy
 from rosmini.cli.main import main
 from rosmini.errors import RosminiError
@@ -26,6 +26,7 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
         [
             *graph.measures(None, 1),
             *actions.measures(None, 1),
+            *transforms.measures(None, 1),
             *bags.measures(tmp_path, None, 1),
             *sim.measures(None, 1),
         ]
@@ -43,7 +44,11 @@ def test_real_rospy_is_measured_beside_it() -> None:
         assert os.environ.get("ROSMINI_REQUIRE_ROS") != "1", "real ROS is required here"
         pytest.skip("real ROS is not installed")
     try:
-        measures = [*graph.measures(rospy, 0.001), *actions.measures(rospy, 0.05)]
+        measures = [
+            *graph.measures(rospy, 0.001),
+            *actions.measures(rospy, 0.05),
+            *transforms.measures(rospy, 0.01),
+        ]
         figures = [measure.run(1) for measure in measures]
     finally:
         rospy.close()

@@ -163,6 +163,9 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         from . import actions
 
         yield from actions.measures(rospy, args.scale)
+        from . import transforms
+
+        yield from transforms.measures(rospy, args.scale)
         from . import bags
 
         folder = bags.Folder()

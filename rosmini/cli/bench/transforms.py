@@ -1,0 +1,93 @@
+"""What is measured of transforms: lookups in a tree of 1,000 frames, each of 10 s at 100 Hz, beside the real tf2."""
+
+from __future__ import annotations
+
+import subprocess
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rosmini.errors import RosminiError
+from rosmini.tf import FrameTree
+from rosmini.tf.rigid import from_rpy
+
+from . import Measure
+from .tf_node import FRAMES, SAMPLES, START_NS, STEP_NS, parent, questions
+
+if TYPE_CHECKING:
+    from .peer import Rospy
+
+NODE = Path(__file__).with_name("tf_node.py")
+
+
+class Full:
+    """A full tree, which is made when it is first asked."""
+
+    def __init__(self) -> None:
+        self._tree: FrameTree | None = None
+
+    def tree(self) -> FrameTree:
+        """Return it: each frame stands 1 m ahead of its parent, at all times."""
+        if self._tree is None:
+            tree = self._tree = FrameTree()
+            step = from_rpy((1.0, 0.0, 0.0), 0.0, 0.0, 0.0)
+            names = [f"f{number}" for number in range(FRAMES)]
+            for sample in range(SAMPLES):
+                for number in range(1, FRAMES):
+                    tree.set(names[parent(number)], names[number], step, START_NS + sample * STEP_NS, "bench")
+        return self._tree
+
+    def lookup_us(self, count: int) -> float:
+        """Return the microseconds that a lookup takes, at times between two samples."""
+        tree, asked = self.tree(), questions(count)
+        begin = time.perf_counter()
+        total = sum(tree.lookup(*one).transform[0] for one in asked)
+        seconds = time.perf_counter() - begin
+        check(total, count)
+        return seconds / count * 1e6
+
+
+def check(total: float, count: int) -> None:
+    """Raise `RosminiError` if what was found is not what it has to be: depths differ by so many metres."""
+    expected = sum(depth(source) - depth(target) for target, source, _ in questions(count))
+    if abs(total - expected) > 1e-6 * max(1.0, abs(expected)):
+        msg = f"the lookups add up to {total} m, not {expected} m: they were wrong, so there is no figure"
+        raise RosminiError(msg)
+
+
+def depth(frame: str) -> int:
+    """Return how far below the root a frame is."""
+    number, found = int(frame[1:]), 0
+    while number:
+        number, found = parent(number), found + 1
+    return found
+
+
+def real_lookup_us(python: str, count: int) -> float:
+    """Return the microseconds that a lookup of the real tf2 takes, called from Python."""
+    done = subprocess.run([python, str(NODE), str(count)], capture_output=True, check=True, text=True)
+    microseconds, total = map(float, done.stdout.split())
+    check(total, count)
+    return microseconds
+
+
+def has_tf2(rospy: Rospy) -> bool:
+    """Tell whether the real tf2 is installed beside the real rospy."""
+    return (
+        subprocess.run([rospy.python, "-c", "import tf2_py"], capture_output=True, check=False).returncode
+        == 0
+    )
+
+
+def measures(rospy: Rospy | None, scale: float) -> Iterator[Measure]:
+    """Yield everything that is measured."""
+    count, full = max(int(50_000 * scale), 100), Full()
+    python = rospy.python if rospy is not None and has_tf2(rospy) else None
+    yield Measure(
+        "tf lookup at a time, 1,000 frames of 10 s at 100 Hz",
+        "us",
+        lambda: full.lookup_us(count),
+        None if python is None else lambda: real_lookup_us(python, count),
+        more_is_better=False,
+    )
