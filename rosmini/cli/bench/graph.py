@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
 from rosmini.graph import Graph, Node, Publisher
-from rosmini.msgs import message_class
+from rosmini.msgs import message_class, service_class
 
 from . import Measure
 
@@ -107,6 +107,30 @@ def image_throughput(count: int, *, numpy: bool) -> float:
     return count / seconds
 
 
+def service_calls(count: int) -> float:
+    """Return calls a second of one persistent client, each answered before the next; every answer is looked at."""
+    graph = Graph(simulated=False)
+    service, logger = service_class("roscpp/GetLoggers"), message_class("roscpp/Logger")
+    calls = 0
+
+    def handle(_: Any) -> Any:
+        nonlocal calls
+        calls += 1
+        return {"loggers": [logger("bench", str(calls))]}
+
+    graph.node("server").service("bench", service, handle)
+    client = graph.node("client").service_client("bench", service, persistent=True)
+    client.wait_for_service()
+    right = 0
+    begin = time.perf_counter()
+    for number in range(1, count + 1):
+        right += client().loggers[0].level == str(number)
+    seconds = time.perf_counter() - begin
+    graph.shutdown()
+    _check(right, count)
+    return count / seconds
+
+
 def import_seconds(python: str, module: str) -> float:
     """Return the seconds that a fresh interpreter takes to start and import ``module``, less those of starting."""
 
@@ -165,6 +189,12 @@ def measures(rospy: Rospy | None, scale: float) -> Iterator[Measure]:
         "MB/s",
         lambda: image_throughput(few, numpy=True),
         peer("image_throughput", few),
+    )
+    yield Measure(
+        "service calls of a persistent client, one after the other",
+        "calls/s",
+        lambda: service_calls(times(20_000)),
+        peer("service_calls", times(4_000)),
     )
     yield Measure(
         "import rosmini; import rospy",

@@ -9,10 +9,13 @@ from __future__ import annotations
 import json
 import statistics
 import sys
+import threading
 import time
 from typing import Any
 
 import rospy  # type: ignore[import-not-found]  # the system Python has it
+from roscpp.msg import Logger  # type: ignore[import-not-found]
+from roscpp.srv import GetLoggers, GetLoggersResponse  # type: ignore[import-not-found]
 from sensor_msgs.msg import Image  # type: ignore[import-not-found]
 from std_msgs.msg import String  # type: ignore[import-not-found]
 
@@ -53,6 +56,34 @@ def talk(function: str, count: int) -> None:
         for _ in range(count):
             publisher.publish(message)
     time.sleep(0.5)
+
+
+def serve(count: int) -> None:
+    """Answer so many calls."""
+    calls = 0
+    enough = threading.Event()
+
+    def handle(_: Any) -> Any:
+        nonlocal calls
+        calls += 1
+        if calls == count:
+            enough.set()
+        return GetLoggersResponse([Logger("bench", str(calls))])
+
+    rospy.Service("bench", GetLoggers, handle)
+    enough.wait()
+    time.sleep(0.5)
+
+
+def call(count: int) -> float:
+    """Make so many calls, each after the answer to the one before; return how many a second."""
+    rospy.wait_for_service("bench")
+    client = rospy.ServiceProxy("bench", GetLoggers, persistent=True)
+    begin = time.time()
+    for number in range(1, count + 1):
+        if client().loggers[0].level != str(number):
+            sys.exit("an answer was wrong")
+    return count / (time.time() - begin)
 
 
 class Listener:
@@ -106,6 +137,12 @@ def main() -> None:
     """Play the role given on the command line."""
     role, function, count = sys.argv[1], sys.argv[2], int(sys.argv[3])
     rospy.init_node("bench_" + role, anonymous=True, disable_signals=True)
+    if function == "service_calls":
+        if role == "talker":
+            serve(count)
+        else:
+            print(json.dumps(call(count)))
+        return
     if role == "talker":
         talk(function, count)
         return
