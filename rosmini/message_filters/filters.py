@@ -76,7 +76,8 @@ class StampingFilter(SimpleFilter):
             self._complained.add(type(message))
             self._warn(
                 f"messages of the type {getattr(message, '_type', type(message).__name__)} have no header with a stamp, and "
-                f"{type(self).__name__} drops them. With allow_headerless=True it takes the time of their arrival."
+                f"{type(self).__name__} drops them. ApproximateTimeSynchronizer and Cache take the time of their arrival "
+                "if they are made with allow_headerless=True."
             )
         return None
 

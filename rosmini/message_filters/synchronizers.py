@@ -25,7 +25,7 @@ class TimeSynchronizer(StampingFilter):
     ``queue_size`` messages of each filter wait for their partners. ``reset`` empties the queues when the clock goes back. The node, whose
     clock that is, is that of the first input that has one, unless ``node`` is given.
     Callbacks are called one after another, also when one of them blocks and messages go on to come.
-    Raises ``MessageFilterError`` for no filters and for a queue size below 1, and for messages without a header (while they arrive).
+    Messages without a header are dropped with a warning. Raises ``MessageFilterError`` for no filters and for a queue size below 1.
     """
 
     def __init__(
