@@ -41,7 +41,9 @@ COMMANDS: dict[str, Entry] = {
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
     "book": Entry("rosmini.cli.book", "build the book from the stored outputs and open it"),
     "lab": Entry("rosmini.cli.lab", "open the notebooks in JupyterLab"),
-    "bench": Entry("rosmini.cli.bench", "measure rosmini, beside real ROS and ir-sim where they are installed"),
+    "bench": Entry(
+        "rosmini.cli.bench", "measure rosmini, beside real ROS and ir-sim where they are installed"
+    ),
 }
 
 
