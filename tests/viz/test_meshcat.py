@@ -21,6 +21,7 @@ pytest.importorskip("meshcat")
 import umsgpack
 
 from rosmini import Graph
+from rosmini.geometry.raycast import raycast
 from rosmini.sim.models import BURGER
 from rosmini.sim.recording import Recording
 from rosmini.sim.simulator import Simulator
@@ -33,6 +34,7 @@ from rosmini.viz.meshcat.order import painting_order
 from rosmini.viz.meshcat.recorder import meshcat
 from rosmini.viz.meshcat.scene import keyframes, planar, ribbon
 from rosmini.viz.meshcat.solids import Ball, Prism, Rod, triangulate
+from rosmini.viz.meshcat.view import camera_for
 
 ROOT = Path(__file__).parents[2]
 POSE = (0.5, -0.25, math.pi / 2)
@@ -449,3 +451,15 @@ def test_keyframes_tell_all_samples(values, tolerance):
 def test_the_script_knows_the_dark_pages_of_the_house_style():
     script = (ROOT / "rosmini/viz/static/rosmini-meshcat.js").read_text(encoding="utf-8")
     assert json.dumps(", ".join(style.DARK_PAGES))[1:-1].replace('\\"', '"') in script
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.8, 1.6, 2.4, 3.1, -0.7, -1.5, -2.3])
+@pytest.mark.parametrize("place", [(-0.5, 0.0), (1.2, -0.42), (3.1, 1.2), (0.05, 1.25)])
+def test_no_wall_stands_between_the_camera_and_the_robot(place, heading):
+    room = world("room")
+    camera = camera_for(room, (*place, heading), focus="robot", distance=None, azimuth=None, elevation=None)
+    x, y, z = camera.position
+    way = math.hypot(x - place[0], y - place[1])
+    angle = math.atan2(y - place[1], x - place[0])
+    clear = math.inf == raycast(room.segments, room.discs, *place, angle, 1.0, 1, way)[0]
+    assert clear or z > room.wall_height

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.raycast import raycast
 from rosmini.sim.models import RobotModel
 from rosmini.sim.recording import Recording
 from rosmini.sim.world import Pose, World
@@ -30,6 +31,12 @@ Focus = Literal["robot", "world"]
 
 HEIGHT = 420
 """Of the viewer [CSS px]."""
+
+ELEVATION = 25.0
+"""How high the camera looks down on a robot [deg]."""
+
+NEAR = 0.1
+"""So far [m] the camera stays away from what is behind it."""
 
 
 class MeshcatView(View):
@@ -113,7 +120,8 @@ def camera_for(
         raise ViewError(f"the distance of the camera is a number of metres above 0, not {distance!r}")
     x0, y0, x1, y1 = world.bounds
     if focus == "robot" and pose is not None:
-        middle, usual = (pose[0], pose[1], 0.09), (0.65, float(snap(np.rad2deg(pose[2]), 1.0)) - 38.0, 25.0)
+        middle = (pose[0], pose[1], 0.09)
+        usual = (0.65, *_free_sight(world, pose, 0.65 if distance is None else distance))
     else:
         size = math.hypot(x1 - x0, y1 - y0)
         middle, usual = ((x0 + x1) / 2, (y0 + y1) / 2, 0.0), (1.2 * size + 0.3, -68.0, 42.0)
@@ -124,6 +132,19 @@ def camera_for(
         usual[1] if azimuth is None else azimuth,
         usual[2] if elevation is None else elevation,
     )
+
+
+def _free_sight(world: World, pose: Pose, distance: float) -> tuple[float, float]:
+    """From which azimuth and elevation [deg] a robot is seen: from ahead at an angle, or from where nothing stands between."""
+    x, y, heading = (float(part) for part in snap(np.array(pose)))
+    ahead = float(snap(math.degrees(heading), 1.0))
+    for aside in (-38.0, 38.0, -142.0, 142.0):
+        angle = math.radians(ahead + aside)
+        reach = distance * math.cos(math.radians(ELEVATION)) + NEAR
+        free = raycast(world.segments, world.discs, x, y, angle, 1.0, 1, reach, backend="numpy")
+        if not np.isfinite(free[0]):
+            return (ahead + aside, ELEVATION)
+    return (ahead - 38.0, 60.0)
 
 
 def world_3d(
