@@ -11,12 +11,14 @@ import rosmini.rospy
 from rosmini.book import notebooks
 from rosmini.msgs import message_class
 
+from .conftest import figure_numbers, prose_of
+
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "12_topics_and_messages.ipynb"
 
 
 @pytest.fixture(scope="module")
 def prose():
-    return "\n\n".join(cell.source for cell in notebooks.read(CHAPTER).cells if cell.cell_type == "markdown")
+    return prose_of(CHAPTER.stem)
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +34,7 @@ def tree(cls, indent=""):
 
 
 def test_every_figure_is_numbered_in_order(code):
-    numbers = [int(number) for source in code for number in re.findall(r"Figure 12\.(\d+): ", source)]
+    numbers = figure_numbers(CHAPTER.stem)
     assert numbers == list(range(1, len(numbers) + 1))
     assert (
         sum(bool(re.search(r"^(rqt_graph|plot)\(", source, re.MULTILINE)) for source in code)

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import re
-import shlex
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -13,13 +10,14 @@ import pytest
 from rosmini.book import notebooks
 from rosmini.rosparam import load_str
 
+from .conftest import figure_numbers, prose_of, run_rosmini
+
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "14_parameter_server.ipynb"
 
 
 @pytest.fixture(scope="module")
 def prose():
-    cells = notebooks.read(CHAPTER).cells
-    return "\n\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+    return prose_of(CHAPTER.stem)
 
 
 def test_the_listed_script_prints_what_is_shown(prose, tmp_path):
@@ -30,15 +28,7 @@ def test_the_listed_script_prints_what_is_shown(prose, tmp_path):
     runs = re.findall(r"^\$ uv run rosmini (.*)\n((?:(?!\$ ).*\n)*)", shown, re.MULTILINE)
     assert len(runs) == 2
     for command, expected in runs:
-        done = subprocess.run(
-            [sys.executable, "-m", "rosmini", *shlex.split(command)],
-            cwd=tmp_path,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=60,
-        )
-        assert (done.returncode, done.stdout, done.stderr) == (0, expected, "")
+        assert run_rosmini(command, tmp_path) == (0, expected, "")
 
 
 def test_the_files_in_the_boxes_are_what_is_got(prose):
@@ -52,7 +42,7 @@ def test_the_files_in_the_boxes_are_what_is_got(prose):
 
 def test_every_figure_is_numbered_in_order():
     code = [cell.source for cell in notebooks.read(CHAPTER).cells if cell.cell_type == "code"]
-    numbers = [int(number) for source in code for number in re.findall(r"Figure 14\.(\d+): ", source)]
+    numbers = figure_numbers(CHAPTER.stem)
     assert numbers == list(range(1, len(numbers) + 1))
     pictures = sum(source.count("parameter_tree(") + source.count("console.show(") for source in code)
     assert pictures == len(numbers) > 0

@@ -11,12 +11,13 @@ from rosmini.msgs import message_class
 from rosmini.scripts import ScriptSpec, run_scripts
 from rosmini.time import Time
 
+from .conftest import figure_numbers
+
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "15_bags.ipynb"
 
 
 def test_every_figure_is_numbered_in_order():
-    code = [cell.source for cell in notebooks.read(CHAPTER).cells if cell.cell_type == "code"]
-    numbers = [int(number) for source in code for number in re.findall(r"Figure 15\.(\d+): ", source)]
+    numbers = figure_numbers(CHAPTER.stem)
     assert numbers == list(range(1, len(numbers) + 1))
     assert len(numbers) == 5
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-import shlex
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from rosmini.book import notebooks
+
+from .conftest import figure_numbers, run_rosmini
 
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "17_names.ipynb"
 
@@ -32,15 +31,7 @@ def test_the_talker_starts_from_a_terminal_as_shown(cells, talker, tmp_path):
     command, shown = re.search(
         r"^> \$ uv run rosmini (run .*?)\n> (.*?)\n> ~~~", prose, re.MULTILINE
     ).groups()
-    done = subprocess.run(
-        [sys.executable, "-m", "rosmini", *shlex.split(command)],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
-    assert (done.returncode, done.stdout, done.stderr) == (0, shown + "\n", "")
+    assert run_rosmini(command, tmp_path) == (0, shown + "\n", "")
 
 
 def test_the_exercise_starts_the_same_talker(talker):
@@ -53,6 +44,6 @@ def test_the_exercise_starts_the_same_talker(talker):
 
 def test_every_figure_is_numbered_in_order(cells):
     code = [cell.source for cell in cells if cell.cell_type == "code"]
-    numbers = [int(number) for source in code for number in re.findall(r"Figure 17\.(\d+): ", source)]
+    numbers = figure_numbers(CHAPTER.stem)
     assert numbers == list(range(1, len(numbers) + 1))
     assert sum(source.count("rqt_graph(") for source in code) == len(numbers) > 0

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-import shlex
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from rosmini.book import notebooks
+
+from .conftest import assert_scripts_print_what_is_shown, figure_numbers
 
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "40_turtlebot3.ipynb"
 
@@ -28,26 +27,12 @@ def prose(chapter):
 
 
 def test_the_listed_script_prints_what_is_shown(prose, tmp_path):
-    scripts = dict(re.findall(r"^`(\w+\.py)`:\n\n```python\n(.*?)^```", prose, re.DOTALL | re.MULTILINE))
-    assert set(scripts) == {"square.py"}
-    (tmp_path / "square.py").write_text(scripts["square.py"], encoding="utf-8")
-    command, shown = re.search(
-        r"^```console\n\$ uv run rosmini (run .*?)\n(.*?)^```", prose, re.DOTALL | re.MULTILINE
-    ).groups()
-    done = subprocess.run(
-        [sys.executable, "-m", "rosmini", *shlex.split(command)],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
-    assert (done.returncode, done.stdout, done.stderr) == (0, shown, "")
+    assert_scripts_print_what_is_shown(prose, tmp_path, {"square.py"})
 
 
 def test_every_figure_is_numbered_in_order(chapter):
     code = [cell.source for cell in chapter.cells if cell.cell_type == "code"]
-    numbers = [int(number) for source in code for number in re.findall(r"Figure 40\.(\d+): ", source)]
+    numbers = figure_numbers(CHAPTER.stem)
     assert numbers == list(range(1, len(numbers) + 1))
     assert sum(source.count(word) for source in code for word in FIGURES) == len(numbers) > 0
 

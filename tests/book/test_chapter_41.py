@@ -12,6 +12,8 @@ import pytest
 
 from rosmini.book import notebooks
 
+from .conftest import figure_numbers
+
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "41_teleoperation.ipynb"
 
 FIGURES = ("rqt_graph(", ".pad(title=", ".show(", ".plots(", ".replay(", "plot(\n")
@@ -52,7 +54,7 @@ def test_the_listed_script_answers_the_typed_keys_as_shown(prose, tmp_path):
 
 def test_every_figure_is_numbered_in_order(chapter):
     code = [cell.source for cell in chapter.cells if cell.cell_type == "code"]
-    numbers = [int(number) for source in code for number in re.findall(r"Figure 41\.(\d+): ", source)]
+    numbers = figure_numbers(CHAPTER.stem)
     assert numbers == list(range(1, len(numbers) + 1))
     assert sum(source.count(word) for source in code for word in FIGURES) == len(numbers) > 0
 

@@ -9,6 +9,8 @@ import pytest
 
 from rosmini.book import notebooks
 
+from .conftest import figure_numbers
+
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "93_publish_subscribe.ipynb"
 
 
@@ -25,7 +27,7 @@ def printed(cells, word):
 
 def test_every_figure_is_numbered_in_order(cells):
     code = [cell.source for cell in cells if cell.cell_type == "code"]
-    numbers = [int(number) for source in code for number in re.findall(r"Figure 93\.(\d+): ", source)]
+    numbers = figure_numbers(CHAPTER.stem)
     assert numbers == list(range(1, len(numbers) + 1))
     assert sum(len(re.findall(r"\b(?:rqt_graph|plot)\(", source)) for source in code) == len(numbers) > 0
 

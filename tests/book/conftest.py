@@ -1,0 +1,56 @@
+"""Chapters as the tests read them."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+from rosmini.book import notebooks
+
+NOTEBOOKS = Path(__file__).resolve().parents[2] / "notebooks"
+
+
+def prose_of(chapter: str) -> str:
+    """The text cells of a chapter."""
+    cells = notebooks.read(NOTEBOOKS / f"{chapter}.ipynb").cells
+    return "\n\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+
+
+def figure_numbers(chapter: str) -> list[int]:
+    """The numbers of a chapter's figures, in the order of its cells."""
+    cells = notebooks.read(NOTEBOOKS / f"{chapter}.ipynb").cells
+    code = [cell.source for cell in cells if cell.cell_type == "code"]
+    title = re.compile(rf"Figure {chapter[:2]}\.(\d+): ")
+    return [int(number) for source in code for number in title.findall(source)]
+
+
+def write_scripts(prose: str, folder: Path) -> set[str]:
+    """Write the scripts that a page lists to a folder; their names."""
+    scripts = dict(re.findall(r"^`(\w+\.py)`:\n\n```python\n(.*?)^```", prose, re.DOTALL | re.MULTILINE))
+    for name, text in scripts.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return set(scripts)
+
+
+def run_rosmini(command: str, folder: Path) -> tuple[int, str, str]:
+    """Run `rosmini` with these words; its exit status and what it printed."""
+    done = subprocess.run(
+        [sys.executable, "-m", "rosmini", *shlex.split(command)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+def assert_scripts_print_what_is_shown(prose: str, folder: Path, names: set[str]) -> None:
+    """Run the scripts that a page lists by the command that it shows; they print what stands below it."""
+    assert write_scripts(prose, folder) == names
+    shown = re.search(r"^```console\n\$ uv run rosmini (run .*?)\n(.*?)^```", prose, re.DOTALL | re.MULTILINE)
+    assert shown is not None
+    assert run_rosmini(shown[1], folder) == (0, shown[2], "")
