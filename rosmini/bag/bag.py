@@ -25,7 +25,7 @@ from rosmini.graph.show import show
 from rosmini.names import canonicalize
 from rosmini.time import Time
 
-from .errors import ROSBagException, ROSBagUnindexedException
+from .errors import ROSBagEncryptNotSupportedException, ROSBagException, ROSBagUnindexedException
 from .index import Connection, Index, connection
 from .reader import RawMessage, Reader, index_position, read_index
 from .records import Compression, check_compression
@@ -158,7 +158,7 @@ class Bag(Summaries):
         copy = BytesIO()
         file.seek(0)
         copy.write(file.read(found.end))
-        self._finish(copy, found)
+        self._resume(copy, found).close()
         if self._filename is not None:
             file.close()
         self._file = self._input = copy
@@ -192,9 +192,6 @@ class Bag(Summaries):
         for known_connection, time, data in found.tail:
             writer.write(known_connection.id, time, data)
         return writer
-
-    def _finish(self, copy: BytesIO, found: Scan) -> None:
-        self._resume(copy, found).close()
 
     def reindex(self) -> Iterator[int]:
         """Make a new index, for a bag opened with mode "a" and ``allow_unindexed``; yield positions in the file.
@@ -482,8 +479,6 @@ class Bag(Summaries):
     def set_encryptor(self, encryptor: str | None = None, param: str | None = None) -> None:  # noqa: ARG002
         """Accept that there is no encryption. Raises ``ROSBagEncryptNotSupportedException`` for any other."""
         if encryptor:
-            from .errors import ROSBagEncryptNotSupportedException
-
             raise ROSBagEncryptNotSupportedException(
                 f"bags are not encrypted here ({encryptor}): use real ROS's `rosbag encrypt`"
             )
