@@ -20,7 +20,8 @@ from rosmini.geometry.poses import Pose
 
 from .imu import GRAVITY
 from .models import RobotModel
-from .world import Cylinder, Obstacle, World
+from .shapes import ROUND, Simple, simple_parts
+from .world import Obstacle, World
 
 VIEW = 0.5
 """So far [m] a robot looks around itself; what is farther away does not matter yet."""
@@ -326,10 +327,16 @@ def _moved(obstacle: Obstacle, body: pymunk.Body) -> Obstacle:
 
 def _shapes(obstacle: Obstacle, body: pymunk.Body, pose: Pose) -> list[pymunk.Shape]:
     """The convex parts of an obstacle that stands at `pose` of the body's frame."""
+    return [
+        piece for shape, place in simple_parts(obstacle.shape, pose) for piece in _pieces(shape, body, place)
+    ]
+
+
+def _pieces(shape: Simple, body: pymunk.Body, pose: Pose) -> list[pymunk.Shape]:
     x, y, theta = pose
-    if isinstance(obstacle.shape, Cylinder):
-        return [pymunk.Circle(body, obstacle.shape.radius, (x, y))]
-    outline: NDArray[np.float64] = obstacle.shape.outline
+    if isinstance(shape, ROUND):
+        return [pymunk.Circle(body, shape.radius, (x, y))]
+    outline: NDArray[np.float64] = shape.outline
     placed = pymunk.Transform(
         a=math.cos(theta), b=math.sin(theta), c=-math.sin(theta), d=math.cos(theta), tx=x, ty=y
     )

@@ -10,114 +10,143 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
-from typing import Any, Literal, get_args
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError, nearest
 from rosmini.geometry import polygons
-from rosmini.geometry.poses import transform_points
+from rosmini.geometry.poses import Pose, transform_points
 from rosmini.graph.show import show
 
-Pose = tuple[float, float, float]
-"""x [m], y [m] and heading [rad]."""
+from .motion import Door, Motion, Walk
+from .shapes import (
+    COLOURS,
+    ROUND,
+    Box,
+    Colour,
+    Compound,
+    Cylinder,
+    Polygon,
+    Shape,
+    Simple,
+    Sphere,
+    WorldError,
+    colour_problem,
+    is_finite,
+    outline_at,
+    pose_problem,
+    positive_problem,
+    shape_problem,
+    simple_parts,
+)
 
-Colour = Literal["wall", "grey", "blue", "orange", "green", "vermilion", "purple", "sky"]
-
-
-class WorldError(RosminiError, ValueError):
-    """A world, or a place in it, is not possible; the message names the obstacle, wall or field at fault."""
-
-
-@dataclass(frozen=True)
-class Box:
-    """A rectangle around its pose, `length` along its x and `width` along its y [m]."""
-
-    length: float
-    width: float
-
-    @property
-    def outline(self) -> NDArray[np.float64]:
-        """The corners (4, 2), counter-clockwise, in the shape's own frame."""
-        x, y = self.length / 2, self.width / 2
-        return np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
-
-
-@dataclass(frozen=True)
-class Cylinder:
-    """A disc around its pose [m]."""
-
-    radius: float
-
-
-@dataclass(frozen=True)
-class Polygon:
-    """A simple polygon, its corners counter-clockwise in the shape's own frame [m]."""
-
-    corners: tuple[tuple[float, float], ...]
-
-    def __post_init__(self) -> None:
-        try:
-            object.__setattr__(self, "corners", tuple(tuple(corner) for corner in self.corners))
-        except TypeError as error:
-            raise WorldError(
-                f"the corners of a polygon are pairs of x and y, not {self.corners!r}"
-            ) from error
-
-    @property
-    def outline(self) -> NDArray[np.float64]:
-        """The corners (n, 2), counter-clockwise, in the shape's own frame."""
-        return np.array(self.corners, dtype=float)
-
-
-Shape = Box | Cylinder | Polygon
+__all__ = [
+    "COLOURS",
+    "Box",
+    "Colour",
+    "Compound",
+    "Cylinder",
+    "Door",
+    "Footprint",
+    "Motion",
+    "Obstacle",
+    "Polygon",
+    "Pose",
+    "Shape",
+    "Sphere",
+    "Walk",
+    "World",
+    "WorldError",
+    "edges",
+]
 
 
 @dataclass(frozen=True)
 class Obstacle:
-    """A thing in a world: it stands where it is, or a robot can push it if it has a mass.
+    """A thing in a world: it stands where it is, or a robot can push it if it has a mass, or it moves by itself if it has a motion.
 
     Raises `WorldError`, which names the obstacle and the field, for a number that is not finite, a size or a mass that is not positive, a colour
-    that is none, and a polygon that crosses itself or whose corners go clockwise.
+    that is none, a top that is not above the bottom, and a polygon that crosses itself or whose corners go clockwise.
     """
 
     name: str
     shape: Shape
     pose: Pose = (0.0, 0.0, 0.0)
     height: float = 0.5
-    """How high it reaches from the ground [m]; a laser above it does not see it."""
+    """How high above the ground its top is [m]; a laser above it does not see it. That of a sphere is where its radius takes it."""
     colour: Colour = "grey"
     mass: float | None = None
-    """[kg]; None: fixed to the ground."""
+    """[kg]; None: nobody can push it."""
+    bottom: float = 0.0
+    """How high above the ground it begins [m]: what is lower, a robot or a laser, passes under it."""
+    motion: Motion | None = None
+    """How it moves by itself; None: it does not."""
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not self.name.strip():
             raise WorldError(f"an obstacle has the name {self.name!r}; each needs one, to be spoken of")
         problem = (
-            _shape_problem(self.shape)
-            or _pose_problem("pose", self.pose)
-            or _positive("height", self.height)
-            or (_positive("mass", self.mass) if self.mass is not None else "")
-            or _colour_problem(self.colour)
+            shape_problem(self.shape)
+            or pose_problem("pose", self.pose)
+            or (
+                f"bottom is {self.bottom!r}; it has to be a finite number"
+                if not is_finite(self.bottom)
+                else ""
+            )
+        )
+        if not problem and isinstance(self.shape, Sphere):
+            object.__setattr__(self, "height", self.bottom + 2 * self.shape.radius)
+        problem = (
+            problem
+            or positive_problem("height", self.height)
+            or (
+                f"its bottom is at {self.bottom!r} and its height is {self.height!r}; the top has to be above the bottom"
+                if self.height <= self.bottom
+                else ""
+            )
+            or (positive_problem("mass", self.mass) if self.mass is not None else "")
+            or colour_problem(self.colour)
+            or self._motion_problem()
         )
         if problem:
             raise WorldError(f"the obstacle {self.name!r} is not possible: {problem}")
+
+    def _motion_problem(self) -> str:
+        if self.motion is None:
+            return ""
+        if not isinstance(self.motion, Motion):
+            return f"motion is {self.motion!r}; it has to be a Walk or a Door"
+        return (
+            "it has a mass, so robots push it, and a motion of its own; it can have one of them"
+            if self.mass
+            else ""
+        )
 
     @property
     def movable(self) -> bool:
         """Tell whether a robot can push it."""
         return self.mass is not None
 
+    @property
+    def fixed(self) -> bool:
+        """Tell whether it always stays where it is."""
+        return self.mass is None and self.motion is None
+
+    def at(self, t: float) -> Pose:
+        """Where it is at the time t [s] of its own motion, or its pose if it has none."""
+        return self.pose if self.motion is None else self.motion.pose_at(t, self.pose)
+
+    def parts(self) -> list[tuple[Simple, Pose]]:
+        """The shapes without parts that it is made of, each with its pose in the world."""
+        return list(simple_parts(self.shape, self.pose))
+
     def outline(self) -> NDArray[np.float64]:
-        """The corners (n, 2) in the world; a cylinder has none."""
-        if isinstance(self.shape, Cylinder):
-            return np.empty((0, 2))
-        x, y, theta = self.pose
-        c, s = math.cos(theta), math.sin(theta)
-        turned: NDArray[np.float64] = self.shape.outline @ np.array([[c, s], [-s, c]]) + (x, y)
-        return turned
+        """The corners (n, 2) in the world; what is round or has several parts has none."""
+        return (
+            outline_at(self.shape, self.pose) if isinstance(self.shape, (Box, Polygon)) else np.empty((0, 2))
+        )
 
 
 Footprint = Sequence[tuple[float, float]] | NDArray[np.float64] | float
@@ -149,10 +178,10 @@ class World:
         problem = (
             ("it needs a name" if not isinstance(self.name, str) or not self.name.strip() else "")
             or self._obstacles_problem()
-            or _positive("wall_height", self.wall_height)
+            or positive_problem("wall_height", self.wall_height)
             or self._walls_problem()
             or ("starts: it needs one at least" if not self.starts else "")
-            or "".join(_pose_problem(f"starts[{i}]", pose) for i, pose in enumerate(self.starts))
+            or "".join(pose_problem(f"starts[{i}]", pose) for i, pose in enumerate(self.starts))
         )
         if problem:
             raise WorldError(f"the world {self.name!r} is not possible: {problem}")
@@ -194,17 +223,23 @@ class World:
     def segments(self) -> NDArray[np.float64]:
         """All fixed straight sides (n, 4): walls, and the sides of fixed boxes and polygons."""
         sides = [
-            edges(o.outline()) for o in self.obstacles if not o.movable and not isinstance(o.shape, Cylinder)
+            edges(outline_at(shape, pose))
+            for o in self.obstacles
+            if o.fixed
+            for shape, pose in o.parts()
+            if isinstance(shape, (Box, Polygon))
         ]
         return np.vstack([self.walls.reshape(-1, 4), *sides])
 
     @cached_property
     def discs(self) -> NDArray[np.float64]:
-        """All fixed cylinders (n, 3), each as x, y, radius [m]."""
+        """All fixed cylinders and spheres (n, 3), each as x, y, radius [m]."""
         found = [
-            (*o.pose[:2], o.shape.radius)
+            (*pose[:2], shape.radius)
             for o in self.obstacles
-            if isinstance(o.shape, Cylinder) and not o.movable
+            if o.fixed
+            for shape, pose in o.parts()
+            if isinstance(shape, ROUND)
         ]
         return np.array(found, dtype=float).reshape(-1, 3)
 
@@ -216,39 +251,43 @@ class World:
         """
         points = [self.walls.reshape(-1, 2)]
         for o in self.obstacles:
-            if isinstance(o.shape, Cylinder):
-                r = o.shape.radius
-                points.append(np.array([(o.pose[0] - r, o.pose[1] - r), (o.pose[0] + r, o.pose[1] + r)]))
-            else:
-                points.append(o.outline())
+            if isinstance(o.motion, Walk):
+                points.append(np.array(o.motion.waypoints))
+            for shape, pose in o.parts():
+                if isinstance(shape, ROUND):
+                    r = shape.radius
+                    points.append(np.array([(pose[0] - r, pose[1] - r), (pose[0] + r, pose[1] + r)]))
+                else:
+                    points.append(outline_at(shape, pose))
         every = np.vstack(points)
         if not len(every):
             return (-5.0, -5.0, 5.0, 5.0)
         low, high = every.min(axis=0), every.max(axis=0)
         return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 
-    def blocked(self, pose: Pose, footprint: Footprint) -> str | None:
+    def blocked(self, pose: Pose, footprint: Footprint, height: float = 0.0) -> str | None:
         """What of the fixed things a footprint at `pose` overlaps with, in words that fit into a sentence; None if it is free.
 
-        The footprint is corners (n, 2), counter-clockwise, seen from the pose, or the radius of a disc around it [m]. What only touches is free, and
-        so is what is movable. Raises `WorldError` for a pose that is not finite.
+        The footprint is corners (n, 2), counter-clockwise, seen from the pose, or the radius of a disc around it [m]; `height` is how high it reaches
+        [m], which matters for what it may pass under. What only touches is free, and so is what is movable or moves. Raises `WorldError` for a
+        pose that is not finite.
         """
-        problem = _pose_problem("pose", pose)
+        problem = pose_problem("pose", pose)
         if problem:
             raise WorldError(f"nothing can be placed there: {problem}")
         place = _Place(pose, footprint)
         for obstacle in self.obstacles:
-            if not obstacle.movable and place.overlaps(obstacle):
+            if obstacle.fixed and obstacle.bottom <= height and place.overlaps(obstacle):
                 return f"the obstacle {obstacle.name!r}"
         return place.wall(self.walls, solid=self.solid)
 
-    def free_place(self, pose: Pose, footprint: Footprint) -> Pose | None:
+    def free_place(self, pose: Pose, footprint: Footprint, height: float = 0.0) -> Pose | None:
         """The nearest place to `pose` that is free for a footprint, with the same heading; None if there seems to be none.
 
         It is looked for within a metre, in steps of 5 cm, inside the bounds of the world; after that among the world's starts. Raises
         `WorldError` for a pose that is not finite.
         """
-        if self.blocked(pose, footprint) is None:
+        if self.blocked(pose, footprint, height) is None:
             return pose
         x0, y0, x1, y1 = self.bounds
         steps = np.arange(-20, 21) * 0.05
@@ -257,9 +296,13 @@ class World:
         x, y, theta = pose
         for i in np.argsort(away, kind="stable")[: np.count_nonzero(away <= 1.0)]:
             place = (x + float(across[i]), y + float(up[i]), theta)
-            if x0 <= place[0] <= x1 and y0 <= place[1] <= y1 and self.blocked(place, footprint) is None:
+            if (
+                x0 <= place[0] <= x1
+                and y0 <= place[1] <= y1
+                and self.blocked(place, footprint, height) is None
+            ):
                 return place
-        free = [start for start in self.starts if self.blocked(start, footprint) is None]
+        free = [start for start in self.starts if self.blocked(start, footprint, height) is None]
         return min(free, key=lambda start: math.dist(start[:2], (x, y)), default=None)
 
     def with_obstacles(self, obstacles: Iterable[Obstacle]) -> World:
@@ -288,15 +331,19 @@ class _Place:
             self.outline = transform_points(pose, np.asarray(footprint, dtype=np.float64))
 
     def overlaps(self, obstacle: Obstacle) -> bool:
-        x, y = obstacle.pose[:2]
-        if isinstance(obstacle.shape, Cylinder):
+        return any(self._overlaps(shape, pose) for shape, pose in obstacle.parts())
+
+    def _overlaps(self, shape: Simple, pose: Pose) -> bool:
+        x, y = pose[:2]
+        if isinstance(shape, ROUND):
             if self.outline is not None:
-                return polygons.overlaps_disc(self.outline, x, y, obstacle.shape.radius)
-            gap = math.dist(self.centre[0], (x, y)) - self.radius - obstacle.shape.radius
+                return polygons.overlaps_disc(self.outline, x, y, shape.radius)
+            gap = math.dist(self.centre[0], (x, y)) - self.radius - shape.radius
             return gap < -polygons.TOUCH
+        outline = outline_at(shape, pose)
         if self.outline is not None:
-            return polygons.overlap(self.outline, obstacle.outline())
-        return polygons.overlaps_disc(obstacle.outline(), self.centre[0, 0], self.centre[0, 1], self.radius)
+            return polygons.overlap(self.outline, outline)
+        return polygons.overlaps_disc(outline, self.centre[0, 0], self.centre[0, 1], self.radius)
 
     def wall(self, walls: NDArray[np.float64], *, solid: bool) -> str | None:
         """Which of the walls it overlaps with."""
@@ -327,54 +374,3 @@ class _Place:
 
 def _count(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
-
-
-def _is_finite(value: object) -> bool:
-    return isinstance(value, (int, float, np.number)) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def _positive(field_name: str, value: object) -> str:
-    if not _is_finite(value):
-        return f"{field_name} is {value!r}; it has to be a finite number"
-    return "" if float(value) > 0 else f"{field_name} is {value!r}; it has to be more than 0"  # type: ignore[arg-type]
-
-
-def _pose_problem(field_name: str, pose: object) -> str:
-    if isinstance(pose, (tuple, list, np.ndarray)) and len(pose) == 3 and all(map(_is_finite, pose)):
-        return ""
-    return f"{field_name} is {pose!r}; it has to be finite x, y and heading"
-
-
-def _colour_problem(colour: object) -> str:
-    if colour in get_args(Colour):
-        return ""
-    hint = nearest(str(colour), get_args(Colour))
-    return f"colour is {colour!r}; it has to be one of {', '.join(get_args(Colour))}{'; ' + hint if hint else ''}"
-
-
-def _shape_problem(shape: object) -> str:
-    if not isinstance(shape, Shape):
-        return f"shape is {shape!r}; it has to be a Box, a Cylinder or a Polygon"
-    try:
-        return _size_problem(shape)
-    except TypeError:  # what has no hash is no number
-        return f"shape is {shape!r}; its sizes have to be finite numbers"
-
-
-@lru_cache(maxsize=256)
-def _size_problem(shape: Shape) -> str:
-    if isinstance(shape, Box):
-        return _positive("shape.length", shape.length) or _positive("shape.width", shape.width)
-    if isinstance(shape, Cylinder):
-        return _positive("shape.radius", shape.radius)
-    for i, corner in enumerate(shape.corners):
-        if len(corner) != 2 or not all(map(_is_finite, corner)):
-            return f"shape.corners[{i}] is {corner!r}; it has to be finite x and y"
-    if len(shape.corners) < 3:
-        return f"shape.corners are {len(shape.corners)}; a polygon has 3 or more"
-    crossing = polygons.crossing_sides(shape.outline)
-    if crossing is not None:
-        return f"shape.corners cross themselves: the sides from corner {crossing[0]} and from corner {crossing[1]} meet"
-    if polygons.area(shape.outline) < 0:
-        return "shape.corners go clockwise; turn their order round"
-    return ""

@@ -1,0 +1,211 @@
+"""How things of a world move by themselves: walkers on a path, and doors. Pure: where it would be at a time, as a function of that time.
+
+The engine lets such a thing go its way by a clock of its own. Whatever stands in its way (a robot, something that was pushed there) stops that
+clock: the thing waits and never pushes through, and afterwards goes on where it was. So two that stand in each other's way wait for good.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+from rosmini.geometry.angles import shortest_angular_distance
+from rosmini.geometry.poses import Pose, compose
+
+from .shapes import WorldError, is_finite
+
+Leg = tuple[float, Pose, Pose]
+"""How long it lasts [s], and the poses at its begin and its end, between which it goes evenly."""
+
+
+@dataclass(frozen=True)
+class Walk:
+    """Along straight lines from one waypoint to the next, at an even speed; at each waypoint it waits, turns, and goes on.
+
+    The waypoints are places (x, y) [m] in the frame map; the pose of the thing says nothing. It looks to where it goes.
+    """
+
+    waypoints: tuple[tuple[float, float], ...]
+    speed: float = 0.5
+    """[m/s]"""
+    wait: float = 0.0
+    """How long it stands at each waypoint [s], before it turns to the next."""
+    loop: bool = True
+    """From the last waypoint it goes back to the first, and on; else it stays at the last."""
+    keep: float = 0.1
+    """So far before what is in its way it stops [m]."""
+    turning: float = math.pi
+    """How fast it turns at a waypoint [rad/s]."""
+
+    def __post_init__(self) -> None:
+        try:
+            points = tuple((float(x), float(y)) for x, y in self.waypoints)
+        except (TypeError, ValueError) as error:
+            raise WorldError(
+                f"the waypoints of a walk are pairs of x and y, not {self.waypoints!r}"
+            ) from error
+        object.__setattr__(self, "waypoints", points)
+        if len(points) < 2 or not all(map(is_finite, sum(points, ()))):
+            raise WorldError(f"a walk has two finite waypoints or more, not {points!r}")
+        if len(set(points)) < 2:
+            raise WorldError(f"the waypoints of a walk are all the same: {points[0]!r}")
+        _check_numbers("walk", positive={"speed": self.speed, "turning": self.turning})
+        _check_numbers("walk", least={"wait": self.wait, "keep": self.keep})
+
+    @property
+    def max_speed(self) -> float:
+        """Of its origin [m/s]."""
+        return self.speed
+
+    @property
+    def max_turn(self) -> float:
+        """Of its heading [rad/s]."""
+        return self.turning
+
+    @property
+    def period(self) -> float:
+        """How long one round takes, or the way to the last waypoint [s]."""
+        return self._ends[-1]
+
+    def pose_at(self, t: float, start: Pose | None = None) -> Pose:  # noqa: ARG002 - as of a door
+        """Where it is at its time t [s], if it had never to wait for anybody; `start` says nothing.
+
+        >>> Walk(((0, 0), (2, 0)), speed=0.5).pose_at(1.0)
+        (0.5, 0.0, 0.0)
+        """
+        t = max(0.0, t)
+        t = math.fmod(t, self.period) if self.loop else min(t, self.period)
+        index = min(bisect_right(self._ends, t), len(self._ends) - 1)
+        length, (x1, y1, a), (x2, y2, b) = self._legs[index]
+        part = min(1.0, 1.0 - (self._ends[index] - t) / length)
+        return (x1 + part * (x2 - x1), y1 + part * (y2 - y1), a + part * (b - a))
+
+    @cached_property
+    def _legs(self) -> tuple[Leg, ...]:
+        points = [
+            p for i, p in enumerate(self.waypoints) if not i or p != self.waypoints[i - 1]
+        ]  # without those that come twice
+        if self.loop and points[0] != points[-1]:
+            points.append(points[0])
+        headings = [math.atan2(q[1] - p[1], q[0] - p[0]) for p, q in pairwise(points)]
+        legs: list[Leg] = []
+        for i, heading in enumerate(headings):
+            begin, end = points[i], points[i + 1]
+            legs.append((math.dist(begin, end) / self.speed, (*begin, heading), (*end, heading)))
+            last = i + 1 == len(headings)
+            if self.wait:
+                legs.append((self.wait, (*end, heading), (*end, heading)))
+            if last and not self.loop:
+                break
+            turn = float(shortest_angular_distance(heading, headings[(i + 1) % len(headings)]))
+            if turn:
+                legs.append((abs(turn) / self.turning, (*end, heading), (*end, heading + turn)))
+        return tuple(legs)
+
+    @cached_property
+    def _ends(self) -> tuple[float, ...]:
+        ends, t = [], 0.0
+        for length, _, _ in self._legs:
+            t += length
+            ends.append(t)
+        return tuple(ends)
+
+
+@dataclass(frozen=True)
+class Door:
+    """Open for a while, closed for a while: a leaf that turns about a hinge, or one that slides.
+
+    The pose of the thing is that of the closed door. A door moves as half a wave of cosine, gently at either end.
+    """
+
+    opening: float = math.pi / 2
+    """How far it opens: by this angle [rad, counter-clockwise], or, if it slides, by this way [m]."""
+    hinge: tuple[float, float] = (0.0, 0.0)
+    """About which place of the thing's own frame it turns [m]."""
+    slide: float | None = None
+    """None: it turns. Else it slides, to this direction in the thing's own frame [rad]."""
+    moving: float = 2.0
+    """How long it takes to open, and to close [s]."""
+    open: float = 5.0
+    """How long it stands open [s]."""
+    closed: float = 5.0
+    """How long it is closed [s]."""
+    phase: float = 0.0
+    """At which time of its period it begins [s]; 0: it has just closed."""
+    keep: float = 0.0
+    """So far before what is in its way it stops [m]."""
+
+    def __post_init__(self) -> None:
+        _check_numbers("door", positive={"moving": self.moving})
+        _check_numbers("door", least={"open": self.open, "closed": self.closed, "keep": self.keep})
+        try:
+            x, y = self.hinge
+        except (TypeError, ValueError) as error:
+            raise WorldError(f"the hinge of a door is a pair of x and y, not {self.hinge!r}") from error
+        for what, value in (
+            ("opening", self.opening),
+            ("hinge", x),
+            ("hinge", y),
+            ("slide", self.slide or 0.0),
+            ("phase", self.phase),
+        ):
+            if not is_finite(value):
+                raise WorldError(f"the {what} of a door is {value!r}; it has to be a finite number")
+
+    @property
+    def period(self) -> float:
+        """From one closing to the next [s]."""
+        return self.closed + self.open + 2 * self.moving
+
+    @property
+    def max_speed(self) -> float:
+        """Of its origin [m/s]."""
+        rate = abs(self.opening) * math.pi / 2 / self.moving
+        return rate * math.hypot(*self.hinge) if self.slide is None else rate
+
+    @property
+    def max_turn(self) -> float:
+        """Of its heading [rad/s]."""
+        return abs(self.opening) * math.pi / 2 / self.moving if self.slide is None else 0.0
+
+    def openness(self, t: float) -> float:
+        """How far it is open at its time t [s]: from 0, closed, to 1."""
+        t = math.fmod(max(0.0, t) + self.phase, self.period) - self.closed
+        if t <= 0:
+            return 0.0
+        if t < self.moving:
+            return (1 - math.cos(math.pi * t / self.moving)) / 2
+        t -= self.moving + self.open
+        return 1.0 if t <= 0 else (1 + math.cos(math.pi * t / self.moving)) / 2
+
+    def pose_at(self, t: float, start: Pose = (0.0, 0.0, 0.0)) -> Pose:
+        """Where it is at its time t [s], if it had never to wait for anybody; closed it is at `start`.
+
+        >>> Door(opening=0.9, slide=0.0, closed=1.0, moving=2.0).pose_at(2.0)
+        (0.45, 0.0, 0.0)
+        """
+        part = self.openness(t)
+        if self.slide is not None:
+            way = part * self.opening
+            return compose(start, (way * math.cos(self.slide), way * math.sin(self.slide), 0.0))
+        turn = part * self.opening
+        x, y = self.hinge
+        c, s = math.cos(turn), math.sin(turn)
+        return compose(start, (x - c * x + s * y, y - s * x - c * y, turn))
+
+
+Motion = Walk | Door
+
+
+def _check_numbers(
+    what: str, *, positive: dict[str, float] | None = None, least: dict[str, float] | None = None
+) -> None:
+    for field, value in (positive or {}).items():
+        if not is_finite(value) or value <= 0:
+            raise WorldError(f"the {field} of a {what} is {value!r}; it has to be a finite number above 0")
+    for field, value in (least or {}).items():
+        if not is_finite(value) or value < 0:
+            raise WorldError(f"the {field} of a {what} is {value!r}; it has to be a finite number, 0 or more")

@@ -1,0 +1,203 @@
+"""Shapes of things, seen from above: boxes, cylinders, spheres, polygons, and compounds of them. Lengths in metres, angles in radians."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.errors import RosminiError, nearest
+from rosmini.geometry import polygons
+from rosmini.geometry.poses import Pose, compose
+
+Colour = str
+"""One of `COLOURS`, or any "#rrggbb"."""
+
+COLOURS = ("wall", "grey", "blue", "orange", "green", "vermilion", "purple", "sky")
+"""The colours by name: those of the house style, which have a light and a dark form."""
+
+
+class WorldError(RosminiError, ValueError):
+    """A world, or a place in it, is not possible; the message names the obstacle, wall or field at fault."""
+
+
+@dataclass(frozen=True)
+class Box:
+    """A rectangle around its pose, `length` along its x and `width` along its y [m]."""
+
+    length: float
+    width: float
+
+    @property
+    def outline(self) -> NDArray[np.float64]:
+        """The corners (4, 2), counter-clockwise, in the shape's own frame."""
+        x, y = self.length / 2, self.width / 2
+        return np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """A disc around its pose [m]."""
+
+    radius: float
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """A ball that rests on the `bottom` of what has this shape, and is twice its radius [m] high: a laser sees the circle at its own height."""
+
+    radius: float
+
+    def cut(self, height: float) -> float:
+        """The radius of the circle at so much [m] above its lowest point; 0 above and below the ball."""
+        up = height - self.radius
+        return math.sqrt(max(0.0, self.radius * self.radius - up * up))
+
+
+@dataclass(frozen=True)
+class Polygon:
+    """A simple polygon, its corners counter-clockwise in the shape's own frame [m]."""
+
+    corners: tuple[tuple[float, float], ...]
+
+    def __post_init__(self) -> None:
+        try:
+            object.__setattr__(self, "corners", tuple(tuple(corner) for corner in self.corners))
+        except TypeError as error:
+            raise WorldError(
+                f"the corners of a polygon are pairs of x and y, not {self.corners!r}"
+            ) from error
+
+    @property
+    def outline(self) -> NDArray[np.float64]:
+        """The corners (n, 2), counter-clockwise, in the shape's own frame."""
+        return np.array(self.corners, dtype=float)
+
+
+@dataclass(frozen=True)
+class Compound:
+    """Several shapes, each at a pose in the frame of the whole, that are one thing; they may overlap."""
+
+    parts: tuple[tuple[Box | Cylinder | Sphere | Polygon | Compound, Pose], ...]
+
+    def __post_init__(self) -> None:
+        try:
+            parts = tuple((shape, (x, y, theta)) for shape, (x, y, theta) in self.parts)
+        except (TypeError, ValueError) as error:
+            raise WorldError(
+                f"the parts of a compound are pairs of a shape and its pose x, y, heading, not {self.parts!r}"
+            ) from error
+        object.__setattr__(self, "parts", parts)
+
+
+Simple = Box | Cylinder | Sphere | Polygon
+"""The shapes that have no parts."""
+
+Shape = Simple | Compound
+
+ROUND = (Cylinder, Sphere)
+"""The shapes that are a disc, seen from above."""
+
+
+def simple_parts(shape: Shape, pose: Pose = (0.0, 0.0, 0.0)) -> Iterator[tuple[Simple, Pose]]:
+    """What a shape at `pose` is made of: shapes without parts, each with its pose in the frame that `pose` is given in."""
+    if isinstance(shape, Compound):
+        for part, place in shape.parts:
+            yield from simple_parts(part, compose(pose, place))
+    else:
+        yield shape, pose
+
+
+def outline_at(shape: Box | Polygon, pose: Pose) -> NDArray[np.float64]:
+    """The corners (n, 2), counter-clockwise, of a box or a polygon at `pose`."""
+    x, y, theta = pose
+    c, s = math.cos(theta), math.sin(theta)
+    turned: NDArray[np.float64] = shape.outline @ np.array([[c, s], [-s, c]]) + (x, y)
+    return turned
+
+
+def reach_of(shape: Shape) -> float:
+    """How far [m] the farthest point of a shape is from its origin."""
+    reach = 0.0
+    for part, pose in simple_parts(shape):
+        if isinstance(part, ROUND):
+            reach = max(reach, math.hypot(pose[0], pose[1]) + part.radius)
+        else:
+            reach = max(reach, float(np.hypot(*outline_at(part, pose).T).max()))
+    return reach
+
+
+# ---- what is possible: each returns what is wrong, in words, or "" ----
+
+
+def is_finite(value: object) -> bool:
+    """Tell whether it is a number, and finite."""
+    return isinstance(value, (int, float, np.number)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def positive_problem(field_name: str, value: object) -> str:
+    """Say why a value is no finite number above 0."""
+    if not is_finite(value):
+        return f"{field_name} is {value!r}; it has to be a finite number"
+    return "" if float(value) > 0 else f"{field_name} is {value!r}; it has to be more than 0"  # type: ignore[arg-type]
+
+
+def pose_problem(field_name: str, pose: object) -> str:
+    """Say why a value is no pose."""
+    if isinstance(pose, (tuple, list, np.ndarray)) and len(pose) == 3 and all(map(is_finite, pose)):
+        return ""
+    return f"{field_name} is {pose!r}; it has to be finite x, y and heading"
+
+
+def colour_problem(colour: object) -> str:
+    """Say why a value is no colour."""
+    if colour in COLOURS:
+        return ""
+    text = str(colour)
+    if text.startswith("#"):
+        if len(text) == 7 and all(digit in "0123456789abcdefABCDEF" for digit in text[1:]):
+            return ""
+        return f"colour is {colour!r}; a colour by its parts is # and six digits from 0 to f, as '#c05020'"
+    hint = nearest(text, COLOURS)
+    return f"colour is {colour!r}; it has to be one of {', '.join(COLOURS)}, or '#rrggbb'{'; ' + hint if hint else ''}"
+
+
+def shape_problem(shape: object) -> str:
+    """Say why a value is no shape that there can be."""
+    if not isinstance(shape, Shape):
+        return f"shape is {shape!r}; it has to be a Box, a Cylinder, a Sphere, a Polygon or a Compound"
+    try:
+        return _size_problem(shape)
+    except TypeError:  # what has no hash is no number
+        return f"shape is {shape!r}; its sizes have to be finite numbers"
+
+
+@lru_cache(maxsize=256)
+def _size_problem(shape: Shape) -> str:
+    if isinstance(shape, Box):
+        return positive_problem("shape.length", shape.length) or positive_problem("shape.width", shape.width)
+    if isinstance(shape, ROUND):
+        return positive_problem("shape.radius", shape.radius)
+    if isinstance(shape, Compound):
+        if not shape.parts:
+            return "shape.parts is empty; a compound has one part at least"
+        for i, (part, pose) in enumerate(shape.parts):
+            problem = shape_problem(part) or pose_problem("pose", pose)
+            if problem:
+                return f"shape.parts[{i}]: {problem}"
+        return ""
+    for i, corner in enumerate(shape.corners):
+        if len(corner) != 2 or not all(map(is_finite, corner)):
+            return f"shape.corners[{i}] is {corner!r}; it has to be finite x and y"
+    if len(shape.corners) < 3:
+        return f"shape.corners are {len(shape.corners)}; a polygon has 3 or more"
+    crossing = polygons.crossing_sides(shape.outline)
+    if crossing is not None:
+        return f"shape.corners cross themselves: the sides from corner {crossing[0]} and from corner {crossing[1]} meet"
+    if polygons.area(shape.outline) < 0:
+        return "shape.corners go clockwise; turn their order round"
+    return ""
