@@ -1,0 +1,1 @@
+"""`joint_state_publisher`: positions of joints for a robot that has none to tell (http://wiki.ros.org/joint_state_publisher)."""

@@ -1,0 +1,44 @@
+"""URDF: robots by their description (http://wiki.ros.org/urdf)."""
+
+from __future__ import annotations
+
+from .errors import UnknownJoint, UrdfError
+from .model import (
+    Box,
+    Collision,
+    Cylinder,
+    Dynamics,
+    Extension,
+    Inertial,
+    Joint,
+    Limit,
+    Link,
+    Material,
+    Mesh,
+    Mimic,
+    Origin,
+    Robot,
+    Sphere,
+    Visual,
+)
+
+__all__ = [
+    "Box",
+    "Collision",
+    "Cylinder",
+    "Dynamics",
+    "Extension",
+    "Inertial",
+    "Joint",
+    "Limit",
+    "Link",
+    "Material",
+    "Mesh",
+    "Mimic",
+    "Origin",
+    "Robot",
+    "Sphere",
+    "UnknownJoint",
+    "UrdfError",
+    "Visual",
+]

@@ -1,0 +1,79 @@
+"""Forward kinematics: where frames are by what joints say. Plain numbers and arrays in, arrays out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from .model import Joint
+
+Floats = NDArray[np.float64]
+
+
+def rotation(rpy: Sequence[float]) -> Floats:
+    """The rotation (3, 3) of roll, pitch and yaw [rad] about the fixed axes x, y and z, in this order (REP 103)."""
+    (cr, cp, cy), (sr, sp, sy) = ([f(angle) for angle in rpy] for f in (math.cos, math.sin))
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def turn(axis: Sequence[float], angle: float) -> Floats:
+    """The rotation (3, 3) by `angle` [rad] about an axis of length 1 (Rodrigues' formula)."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    result: Floats = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * (cross @ cross)
+    return result
+
+
+def origin(xyz: Sequence[float], rpy: Sequence[float]) -> Floats:
+    """The transform (4, 4) that URDF's ``<origin xyz= rpy=>`` means."""
+    result = np.eye(4)
+    result[:3, :3] = rotation(rpy)
+    result[:3, 3] = xyz
+    return result
+
+
+def motion(axis: Sequence[float], position: float, *, slides: bool) -> Floats:
+    """What a joint adds to its origin (4, 4): a turn by `position` [rad] about its axis, or a slide along it [m]."""
+    result = np.eye(4)
+    if slides:
+        result[:3, 3] = np.asarray(axis) * position
+    else:
+        result[:3, :3] = turn(axis, position)
+    return result
+
+
+def positions(joints: Mapping[str, Joint], given: Mapping[str, float]) -> dict[str, float]:
+    """Where every joint that moves is; one that mimics another follows it, whatever is given for itself.
+
+    A chain of mimics is followed to its end; that it has one was made sure when the robot was read.
+    """
+    found: dict[str, float] = {}
+
+    def position(joint: Joint) -> float:
+        if joint.name not in found:
+            if joint.mimic is not None:
+                followed = position(joints[joint.mimic.joint])
+                found[joint.name] = joint.mimic.multiplier * followed + joint.mimic.offset
+            else:
+                found[joint.name] = float(given.get(joint.name, rest(joint)))
+        return found[joint.name]
+
+    return {joint.name: position(joint) for joint in joints.values() if joint.moves}
+
+
+def rest(joint: Joint) -> float:
+    """Where a joint is that nobody speaks of: 0, or the middle of its limits if 0 is beyond them (as joint_state_publisher has it)."""
+    if joint.type == "continuous" or joint.limit is None or joint.limit.lower <= 0 <= joint.limit.upper:
+        return 0.0
+    return (joint.limit.lower + joint.limit.upper) / 2
