@@ -1,0 +1,9 @@
+"""What can be wrong with an SDF file."""
+
+from __future__ import annotations
+
+from rosmini.markup import MarkupError
+
+
+class SdfError(MarkupError):
+    """An SDF file cannot be read, or says what makes no world, at ``file``, line ``line``."""

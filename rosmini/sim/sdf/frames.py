@@ -1,0 +1,95 @@
+"""Which frame a pose is given in (http://sdformat.org/tutorials?tut=pose_frame_semantics), found out once, when a file is read."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rosmini.errors import nearest
+from rosmini.markup import Element
+
+from .document import ORIGIN, Pose6
+from .poses import compose, from_quaternion, inverse
+
+
+@dataclass
+class Given:
+    """A pose as it stands in a file."""
+
+    pose: Pose6 = ORIGIN
+    frame: str = ""
+    """The frame it is seen from; empty: the default of its place."""
+    element: Element | None = None
+
+
+def given(parent: Element) -> Given:
+    """The pose of an element: its `<pose>`, or the origin. Raises `SdfError`."""
+    found = parent.find("pose")
+    if found is None:
+        return Given(element=parent)
+    return Given(_pose(found), found.get("relative_to").strip(), found)
+
+
+def _pose(element: Element) -> Pose6:
+    if element.get("rotation_format") == "quat_xyzw":
+        x, y, z, *quaternion = element.floats(element.text or "0 0 0 0 0 0 1", 7, "<pose> of a quaternion")
+        if not any(quaternion):
+            raise element.error("a quaternion of four zeros is no rotation; none at all is 0 0 0 1")
+        return (x, y, z, *from_quaternion(*quaternion))
+    x, y, z, roll, pitch, yaw = element.floats(element.text or "0 0 0 0 0 0", 6)
+    if element.get("degrees", "false").strip().lower() in ("true", "1"):
+        roll, pitch, yaw = (math.radians(angle) for angle in (roll, pitch, yaw))
+    return (x, y, z, roll, pitch, yaw)
+
+
+class Scope:
+    """The frames of a model or of a world, by name."""
+
+    def __init__(self, root: str, *, what: str) -> None:
+        self.root = root
+        self.what = what
+        self._given: dict[str, Given] = {root: Given()}
+        self._known: dict[str, Pose6] = {root: ORIGIN}
+        self._open: list[str] = []
+
+    def add(self, name: str, pose: Given) -> None:
+        """A frame that has a pose. The first of a name counts."""
+        self._given.setdefault(name, pose)
+
+    def put(self, name: str, pose: Pose6) -> None:
+        """A frame of which the place is known."""
+        self._given.setdefault(name, Given(pose))
+        self._known.setdefault(name, pose)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._given
+
+    def place(self, name: str, asked: Element | None = None) -> Pose6:
+        """Where a frame is, seen from the root. Raises `SdfError` if there is no such frame, or if frames hang on one another in a circle."""
+        if name in self._known:
+            return self._known[name]
+        pose = self._given.get(name)
+        if pose is None:
+            assert asked is not None  # noqa: S101 (only files name frames that are not there)
+            hint = nearest(name, self._given) or f"it has {', '.join(sorted(self._given))}"
+            raise asked.error(f"there is no frame {name!r} in {self.what}; {hint}")
+        if name in self._open:
+            circle = " -> ".join([*self._open[self._open.index(name) :], name])
+            raise (asked or pose.element or Element("pose")).error(
+                f"poses hang on one another in a circle: {circle}"
+            )
+        self._open.append(name)
+        try:
+            self._known[name] = self.seen(pose)
+        finally:
+            self._open.pop()
+        return self._known[name]
+
+    def seen(self, pose: Given, default: str = "") -> Pose6:
+        """A given pose, seen from the root; `default` is the frame it is in if it names none. Raises as `place` does."""
+        frame = pose.frame or default or self.root
+        return pose.pose if frame == self.root else compose(self.place(frame, pose.element), pose.pose)
+
+    def seen_from(self, here: Pose6, pose: Given) -> Pose6:
+        """A given pose, seen from `here`; it is in that frame if it names none."""
+        return compose(inverse(here), self.seen(pose)) if pose.frame else pose.pose

@@ -1,0 +1,268 @@
+"""Reads what a model is made of: links, shapes, joints, sensors, plugins."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import get_args
+
+from rosmini.errors import nearest
+from rosmini.markup import Element
+
+from .colours import colour_of
+from .document import (
+    GeometryKind,
+    Note,
+    Pose6,
+    SdfCollision,
+    SdfGeometry,
+    SdfInertial,
+    SdfJoint,
+    SdfLink,
+    SdfPlugin,
+    SdfSensor,
+    SdfVisual,
+)
+from .frames import Scope, given
+from .resources import Resources
+
+
+@dataclass
+class Reading:
+    """What goes along while a document is read."""
+
+    resources: Resources
+    notes: list[Note] = field(default_factory=list)
+
+    def note(self, element: Element, text: str) -> None:
+        """Say what was left out; the same thing of the same line once."""
+        note = Note(element.path, element.line, text)
+        if note not in self.notes[-50:]:
+            self.notes.append(note)
+
+    def unknown(self, element: Element, known: tuple[str, ...]) -> None:
+        """A note about each child that SDF does not have there. Those with a prefix (`other:tag`) are somebody's own."""
+        for child in element:
+            if child.tag not in known and ":" not in child.tag:
+                hint = nearest(child.tag, known)
+                self.note(
+                    child,
+                    f"<{child.tag}> is nothing that <{element.tag}> has{'; ' + hint if hint else ''}: left out",
+                )
+
+
+def name_of(element: Element) -> str:
+    """The name that an element must have. Raises `SdfError`."""
+    return element.attribute("name")
+
+
+def flag(element: Element, way: str, *, default: bool) -> bool:
+    """A child that says true or false. Raises `SdfError`."""
+    found = element.find(way)
+    return default if found is None or not found.text else found.flag(found.text)
+
+
+def number(element: Element, way: str, default: float) -> float:
+    """A child that is a number. Raises `SdfError`."""
+    found = element.find(way)
+    return default if found is None or not found.text else found.floats(found.text, 1)[0]
+
+
+def unique(elements: list[Element], what: str) -> list[Element]:
+    """The same elements. Raises `SdfError` if two have one name."""
+    seen: dict[str, Element] = {}
+    for each in elements:
+        name = name_of(each)
+        if name in seen:
+            raise each.error(
+                f"there is another {what} {name!r} in line {seen[name].line}; give each its own name"
+            )
+        seen[name] = each
+    return elements
+
+
+def plugins(element: Element) -> tuple[SdfPlugin, ...]:
+    """The plugins of an element, in order. Raises `SdfError` if one has no filename."""
+    return tuple(SdfPlugin(tag.get("name"), tag.attribute("filename"), tag) for tag in element.all("plugin"))
+
+
+LINK_TAGS = (
+    "pose", "inertial", "collision", "visual", "sensor", "gravity", "self_collide", "kinematic", "enable_wind", "must_be_base_link",
+    "velocity_decay", "projector", "audio_source", "audio_sink", "battery", "light", "particle_emitter", "frame", "material",
+)  # fmt: skip
+
+
+def link(element: Element, scope: Scope, reading: Reading) -> SdfLink:
+    """A link. Raises `SdfError`."""
+    here = scope.place(name_of(element), element)
+    reading.unknown(element, LINK_TAGS)
+    for light in element.all("light"):
+        reading.note(light, "a light: left out, all is lit alike")
+    return SdfLink(
+        name_of(element),
+        here,
+        _inertial(element.find("inertial"), scope, here),
+        tuple(
+            _collision(each, scope, here, reading) for each in unique(element.all("collision"), "collision")
+        ),
+        tuple(_visual(each, scope, here, reading) for each in unique(element.all("visual"), "visual")),
+        tuple(_sensor(each, scope, here) for each in unique(element.all("sensor"), "sensor")),
+        element.line,
+    )
+
+
+def joint(element: Element, scope: Scope) -> SdfJoint:
+    """A joint. Raises `SdfError` for one between links that are not there."""
+    parent, child = _end(element.need("parent")), _end(element.need("child"))
+    for tag, name in (("parent", parent), ("child", child)):
+        if name not in scope and name != "world":
+            element.need(tag)  # the error is said where the name stands
+            scope.place(name, element.need(tag))
+    axis = element.find("axis/xyz")
+    xyz = axis.floats(axis.text, 3) if axis is not None else (0.0, 0.0, 1.0)
+    at = given(element)
+    pose = scope.seen_from(scope.place(child), at) if child in scope else at.pose
+    kind = element.attribute("type")
+    return SdfJoint(
+        name_of(element), kind, parent, child, pose, (xyz[0], xyz[1], xyz[2]), element, element.line
+    )
+
+
+def _end(element: Element) -> str:
+    return element.text or element.word("link") or element.attribute("link")
+
+
+def _inertial(element: Element | None, scope: Scope, here: Pose6) -> SdfInertial:
+    if element is None:
+        return SdfInertial()
+    mass = number(element, "mass", 1.0)
+    if mass <= 0:
+        raise element.need("mass").error(f"a mass is more than 0 kg, not {mass:g}")
+    names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+    defaults = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
+    ixx, iyy, izz, ixy, ixz, iyz = (
+        number(element, f"inertia/{name}", default) for name, default in zip(names, defaults, strict=True)
+    )
+    for name, value in (("ixx", ixx), ("iyy", iyy), ("izz", izz)):
+        if value <= 0:
+            raise element.need("inertia").need(name).error(f"{name} is more than 0 kg m2, not {value:g}")
+    return SdfInertial(mass, scope.seen_from(here, given(element)), (ixx, iyy, izz, ixy, ixz, iyz))
+
+
+def _collision(element: Element, scope: Scope, here: Pose6, reading: Reading) -> SdfCollision:
+    friction = element.find("surface/friction/ode/mu")
+    return SdfCollision(
+        name_of(element),
+        scope.seen_from(here, given(element)),
+        geometry(element.need("geometry"), reading),
+        friction.floats(friction.text, 1)[0] if friction is not None and friction.text else None,
+        element.line,
+    )
+
+
+def _visual(element: Element, scope: Scope, here: Pose6, reading: Reading) -> SdfVisual:
+    return SdfVisual(
+        name_of(element),
+        scope.seen_from(here, given(element)),
+        geometry(element.need("geometry"), reading),
+        colour_of(element.find("material")),
+        element.line,
+    )
+
+
+def _sensor(element: Element, scope: Scope, here: Pose6) -> SdfSensor:
+    rate = number(element, "update_rate", 0.0)
+    if rate < 0:
+        raise element.need("update_rate").error(f"a rate is 0 (always) or more, not {rate:g}")
+    pose = scope.seen_from(here, given(element))
+    return SdfSensor(name_of(element), element.attribute("type"), pose, rate, element, plugins(element))
+
+
+# ---- shapes ----
+
+KINDS = tuple(kind for kind in get_args(GeometryKind) if kind != "other")
+OTHER = ("heightmap", "image", "capsule", "ellipsoid")
+
+
+def geometry(element: Element, reading: Reading) -> SdfGeometry:
+    """A shape. Raises `SdfError` for one that cannot be; one that rosmini does not know is noted."""
+    shapes = [child for child in element if child.tag in KINDS]
+    if not shapes:
+        others = [child for child in element if ":" not in child.tag]
+        for other in others:
+            if other.tag not in OTHER:
+                hint = nearest(other.tag, KINDS) or f"shapes are {', '.join(KINDS)}"
+                raise other.error(f"there is no shape <{other.tag}>; {hint}")
+            reading.note(other, f"the shape <{other.tag}> is left out; rosmini has {', '.join(KINDS)}")
+        return SdfGeometry("other" if others else "empty", line=element.line)
+    shape = shapes[0]
+    if shape.tag == "polyline":
+        drawn = [_polyline(each) for each in element.all("polyline")]
+        return SdfGeometry(
+            "polyline", length=drawn[0][1], outlines=tuple(each[0] for each in drawn), line=shape.line
+        )
+    return _READERS[shape.tag](shape, reading)
+
+
+def _size(element: Element, tag: str) -> float:
+    value = element.need(tag).floats(element.word(tag), 1)[0]
+    if value <= 0:
+        raise element.need(tag).error(f"the {tag} of a {element.tag} is more than 0 m, not {value:g}")
+    return value
+
+
+def _box(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
+    size = element.need("size")
+    numbers = size.floats(size.text, 3)
+    if min(numbers) <= 0:
+        raise size.error(f"the sides of a box are more than 0 m, not {size.text}")
+    return SdfGeometry("box", size=numbers, line=element.line)
+
+
+def _cylinder(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
+    radius, length = _size(element, "radius"), _size(element, "length")
+    return SdfGeometry("cylinder", radius=radius, length=length, line=element.line)
+
+
+def _sphere(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
+    return SdfGeometry("sphere", radius=_size(element, "radius"), line=element.line)
+
+
+def _plane(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
+    normal, size = element.find("normal"), element.find("size")
+    x, y, z = normal.floats(normal.text, 3) if normal is not None else (0.0, 0.0, 1.0)
+    if normal is not None and not (x or y or z):
+        raise normal.error("the normal of a plane points somewhere; 0 0 0 does not")
+    sides = size.floats(size.text, 2) if size is not None else (1.0, 1.0)
+    return SdfGeometry("plane", size=sides, normal=(x, y, z), line=element.line)
+
+
+def _polyline(element: Element) -> tuple[tuple[tuple[float, float], ...], float]:
+    points = []
+    for point in element.all("point"):
+        x, y = point.floats(point.text, 2)
+        points.append((x, y))
+    if len(points) > 1 and points[0] == points[-1]:
+        points.pop()
+    if len(points) < 3:
+        raise element.error(f"a polyline has 3 points or more, not {len(points)}")
+    height = _size(element, "height") if element.find("height") is not None else 1.0
+    return tuple(points), height
+
+
+def _mesh(element: Element, reading: Reading) -> SdfGeometry:
+    uri, scale = element.need("uri"), element.find("scale")
+    x, y, z = scale.floats(scale.text, 3) if scale is not None else (1.0, 1.0, 1.0)
+    if scale is not None and not (x and y and z):
+        raise scale.error("a mesh is scaled by numbers other than 0")
+    path = reading.resources.find(uri.text, uri)
+    part = element.word("submesh/name")
+    return SdfGeometry("mesh", mesh=path, scale=(x, y, z), submesh=part, line=element.line)
+
+
+def _empty(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
+    return SdfGeometry("empty", line=element.line)
+
+
+_READERS = {
+    "box": _box, "cylinder": _cylinder, "sphere": _sphere, "plane": _plane, "mesh": _mesh, "empty": _empty,
+}  # fmt: skip

@@ -1,0 +1,148 @@
+"""Where models and meshes are: `model://`, `file://` and `package://` addresses, and paths.
+
+Models are looked for as Gazebo does (http://classic.gazebosim.org/tutorials?tut=components): in the folders of GAZEBO_MODEL_PATH, in
+`~/.gazebo/models`, and in the folders that ROS packages export as `gazebo_model_path`; and in the models that rosmini brings. Nothing is fetched.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from pathlib import Path
+
+from rosmini.errors import RosminiError, nearest
+from rosmini.markup import Element, parse_file
+from rosmini.packages import PackageIndex, assets_dir
+
+from .errors import SdfError
+
+MODEL_PATH = "GAZEBO_MODEL_PATH"
+RESOURCE_PATH = "GAZEBO_RESOURCE_PATH"
+
+
+class Resources:
+    """Finds what addresses in SDF files mean; `folders` are looked through first."""
+
+    def __init__(self, folders: Iterable[str | os.PathLike[str]] = ()) -> None:
+        self.folders = [Path(folder) for folder in folders]
+        self._packages = PackageIndex()
+        self._parsed: dict[Path, Element] = {}
+
+    @cached_property
+    def model_folders(self) -> list[Path]:
+        """Where models are looked for, in this order; what packages export comes last."""
+        return [
+            *self.folders,
+            *_listed(MODEL_PATH),
+            Path.home() / ".gazebo" / "models",
+            assets_dir() / "ros" / "turtlebot3_gazebo" / "models",
+        ]
+
+    def model_file(self, uri: str, asked: Element) -> Path:
+        """The SDF file of the model at an address. Raises `SdfError` at `asked`, with what was searched."""
+        place = self.find(uri, asked)
+        return place if place.is_file() else _described(place, asked)
+
+    def parsed(self, path: Path) -> Element:
+        """The root of an SDF file, which is read once. Raises `SdfError`."""
+        if path not in self._parsed:
+            self._parsed[path] = parse_file(path, SdfError)
+        return self._parsed[path]
+
+    def find(self, uri: str, asked: Element) -> Path:
+        """The file or folder at an address. Raises `SdfError` at `asked`."""
+        if not uri.strip():
+            raise asked.error(
+                f"<{asked.tag}> is empty; an address is model://NAME, package://PACKAGE/PATH, file://PATH or a path"
+            )
+        scheme, mark, rest = uri.strip().partition("://")
+        if not mark:
+            return _there(_beside(asked) / uri.strip(), uri, asked)
+        if scheme == "model":
+            return self._model(rest.strip("/"), uri, asked)
+        if scheme == "package":
+            try:
+                return self._packages.resolve(uri.strip())
+            except RosminiError as error:
+                raise asked.error(str(error)) from error
+        if scheme == "file":
+            for folder in [] if Path(rest).is_absolute() else [_beside(asked), *_listed(RESOURCE_PATH)]:
+                if (folder / rest).exists():
+                    return folder / rest
+            return _there(Path(rest), uri, asked)
+        kinds = "model://NAME, package://PACKAGE/PATH, file://PATH or a path"
+        what = "rosmini fetches nothing; write" if scheme in ("http", "https") else "an address is"
+        raise asked.error(f"{uri!r} cannot be read: {what} {kinds}")
+
+    def _model(self, rest: str, uri: str, asked: Element) -> Path:
+        name = rest.partition("/")[0]
+        if not name or ".." in Path(rest).parts:
+            raise asked.error(f"{uri!r} names no model; write model://NAME")
+        for folder in self._all_folders():
+            if (folder / name).exists():
+                return _there(folder / rest, uri, asked)
+        names = {each.name for folder in self._all_folders() if folder.is_dir() for each in folder.iterdir()}
+        searched = ", ".join(str(folder) for folder in self._all_folders() if folder.is_dir())
+        hint = nearest(name, names)
+        raise asked.error(
+            f"there is no model {name!r}{'; ' + hint if hint else ''}; searched: {searched}; put its folder on {MODEL_PATH}"
+        )
+
+    def _all_folders(self) -> Iterator[Path]:
+        yield from self.model_folders
+        yield from self._exported
+
+    @cached_property
+    def _exported(self) -> list[Path]:
+        """What packages export for Gazebo (`<export><gazebo_ros gazebo_model_path="${prefix}/models"/></export>`)."""
+        found = []
+        for package in self._packages.names():
+            folder = self._packages.path(package)
+            try:
+                if "gazebo_model_path" not in (folder / "package.xml").read_text(
+                    encoding="utf-8", errors="replace"
+                ):
+                    continue
+                manifest = parse_file(folder / "package.xml", SdfError)
+            except (OSError, SdfError):  # what is wrong with a package is no business of a world
+                continue
+            for tag in manifest.walk():
+                paths = tag.get("gazebo_model_path").replace("${prefix}", str(folder)).split(os.pathsep)
+                found += [Path(path) for path in paths if path]
+        return found
+
+
+def _beside(asked: Element) -> Path:
+    return Path(asked.path).parent
+
+
+def _listed(variable: str) -> list[Path]:
+    return [Path(part) for part in os.environ.get(variable, "").split(os.pathsep) if part]
+
+
+def _there(path: Path, uri: str, asked: Element) -> Path:
+    if path.exists():
+        return path
+    folder = path.parent
+    hint = nearest(path.name, [each.name for each in folder.iterdir()]) if folder.is_dir() else ""
+    raise asked.error(f"{uri!r} is not there: no file or folder {path}{'; ' + hint if hint else ''}")
+
+
+def _described(folder: Path, asked: Element) -> Path:
+    """The SDF file that the `model.config` of a model's folder names: the one of the newest version."""
+    config = folder / "model.config"
+    if not config.is_file():
+        if (folder / "model.sdf").is_file():
+            return folder / "model.sdf"
+        raise asked.error(f"{folder} is no model: it has no model.config")
+    named = [(_version(tag), tag) for tag in parse_file(config, SdfError).all("sdf") if tag.text]
+    if not named:
+        raise SdfError("no <sdf> says which file describes the model", str(config), 1)
+    tag = max(named, key=lambda pair: pair[0])[1]
+    return _there(folder / tag.text, tag.text, tag)
+
+
+def _version(tag: Element) -> tuple[int, ...]:
+    parts = tag.get("version", "0").split(".")
+    return tuple(int(part) if part.isdigit() else 0 for part in parts)
