@@ -297,7 +297,7 @@ class Engine:
     def scenery(self, name: str) -> tuple[Floats, Floats]:
         """What the laser of this robot can see: segments (n, 4) and discs (m, 3), other robots among them, in the frame map."""
         robot = self.robot(name)
-        height = robot.model.lidar.mount[2]
+        height = robot.model.laser.mount[2]
         segments, discs = self._solid(height)
         movable = [o for o in self.contacts.obstacles() if o.height >= height]
         if movable:
@@ -311,7 +311,7 @@ class Engine:
     def scan(self, name: str, noise: Floats | None = None) -> Floats:
         """The ranges (beams,) [m] that a robot's laser measures now; see `rosmini.sim.lidar.scan`."""
         robot = self.robot(name)
-        return lidar.scan(robot.model.lidar, robot.pose, *self.scenery(name), noise)
+        return lidar.scan(robot.model.laser, robot.pose, *self.scenery(name), noise)
 
     def obstacles(self) -> tuple[Obstacle, ...]:
         """The movable obstacles where they are now."""
@@ -333,7 +333,7 @@ class Engine:
 
 def _as_disc(robot: Robot) -> tuple[float, float, float]:
     x, y, theta = robot.pose
-    ahead = robot.model.lidar.mount[0]
+    ahead = robot.model.laser.mount[0]
     return (x + ahead * math.cos(theta), y + ahead * math.sin(theta), robot.model.body_radius)
 
 

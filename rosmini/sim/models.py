@@ -4,7 +4,7 @@ The numbers of a robot are the published ones, and each says where it was publis
 
 - *e-manual*: https://emanual.robotis.com/docs/en/platform/turtlebot3/features/ (the table of hardware specifications);
 - *description*: the package `turtlebot3_description` of https://github.com/ROBOTIS-GIT/turtlebot3, its URDF;
-- *gazebo*: the same package's `turtlebot3_burger.gazebo.xacro`, which is what Gazebo simulates;
+- *gazebo*: the same package's files `turtlebot3_*.gazebo.xacro`, which is what Gazebo simulates;
 - *firmware*: `turtlebot3_core` of https://github.com/ROBOTIS-GIT/OpenCR, what the robot's own controller runs;
 - *navigation*: the package `turtlebot3_navigation`, the costmaps' parameters;
 - *LDS-01*: https://emanual.robotis.com/docs/en/platform/turtlebot3/appendix_lds_01/.
@@ -14,10 +14,31 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Literal, get_args
 
 from rosmini.errors import RosminiError, nearest
+
+from .shapes import Box, Cylinder, Part, is_finite
+
+__all__ = [
+    "BURGER",
+    "MODELS",
+    "WAFFLE",
+    "WAFFLE_PI",
+    "CameraModel",
+    "Drive",
+    "ImuModel",
+    "LidarModel",
+    "ModelError",
+    "Part",
+    "RobotModel",
+    "UnknownModel",
+    "WheelErrors",
+    "model",
+]
 
 Point = tuple[float, float, float]
 
@@ -29,9 +50,17 @@ class UnknownModel(RosminiError, ValueError):
     """There is no robot model of this name."""
 
 
+class ModelError(RosminiError, ValueError):
+    """A robot cannot be as its model says; the message names the model and the number at fault."""
+
+
+Drive = Literal["differential", "holonomic"]
+"""Two driven wheels; or wheels that take it anywhere, as Gazebo's planar move and Stage's "omni" do."""
+
+
 @dataclass(frozen=True)
 class LidarModel:
-    """A spinning laser: one revolution is one scan."""
+    """A laser: a spinning one, for which one revolution is one scan, or one that looks over a part of the circle."""
 
     name: str
     mount: Point
@@ -44,6 +73,83 @@ class LidarModel:
     noise: float
     """Standard deviation of a range [m]."""
     frame: str = "base_scan"
+    angle_min: float = 0.0
+    """Of the first beam, counter-clockwise from where the laser looks [rad]."""
+    angle_max: float | None = None
+    """Of the last beam [rad]; None: the beams go once round, and the last is one beam before the first."""
+    yaw: float = 0.0
+    """Where the laser looks, seen from base_footprint [rad]."""
+
+    def __post_init__(self) -> None:
+        numbers = (*self.mount, self.angle_min, self.yaw, 0.0 if self.angle_max is None else self.angle_max)
+        if self.beams < 1 or not all(map(is_finite, numbers)) or not 0 <= self.range_min <= self.range_max:
+            msg = (
+                f"the laser {self.name!r} is not possible: it needs a beam, finite angles and a mount, and range_min and range_max "
+                f"with 0 <= range_min <= range_max, not beams={self.beams}, mount={self.mount}, angle_min={self.angle_min}, "
+                f"angle_max={self.angle_max}, yaw={self.yaw}, range_min={self.range_min}, range_max={self.range_max}"
+            )
+            raise ModelError(msg)
+
+    @property
+    def increment(self) -> float:
+        """The angle from one beam to the next [rad]."""
+        if self.angle_max is None:
+            return 2 * math.pi / self.beams
+        return (self.angle_max - self.angle_min) / (self.beams - 1) if self.beams > 1 else 0.0
+
+    @property
+    def last_angle(self) -> float:
+        """Of the last beam [rad]."""
+        return (
+            self.angle_min + (self.beams - 1) * self.increment if self.angle_max is None else self.angle_max
+        )
+
+
+@dataclass(frozen=True)
+class CameraModel:
+    """A camera without distortion: an image, and, if `depth`, how far what each pixel shows is."""
+
+    name: str
+    mount: Point
+    """Where it sits, seen from base_footprint."""
+    width: int
+    """Of the image [pixels]."""
+    height: int
+    horizontal_fov: float
+    """The angle from the left to the right border of the image [rad]."""
+    near: float = 0.03
+    """What is nearer to the plane of the camera [m] is not seen."""
+    far: float = 100.0
+    rate: float = 30.0
+    """Images a second."""
+    frame: str = "camera_rgb_optical_frame"
+    noise: float = 0.0
+    """Standard deviation of a pixel's brightness, of 1 from black to white, as Gazebo has it."""
+    depth: bool = False
+    pitch: float = 0.0
+    """How far it looks down [rad]."""
+    yaw: float = 0.0
+    """Where it looks, seen from base_footprint [rad]."""
+    depth_far: float | None = None
+    """The farthest it measures depth [m]; None: `far`."""
+
+    def __post_init__(self) -> None:
+        if (
+            self.width < 1
+            or self.height < 1
+            or not 0 < self.horizontal_fov < math.pi
+            or not 0 < self.near < self.far
+        ):
+            msg = (
+                f"the camera {self.name!r} is not possible: it needs pixels, 0 < near < far and an angle between 0 and pi, not {self.width} x "
+                f"{self.height} pixels, near={self.near}, far={self.far}, horizontal_fov={self.horizontal_fov}"
+            )
+            raise ModelError(msg)
+
+    @property
+    def focal_length(self) -> float:
+        """In pixels: what stands in a `sensor_msgs/CameraInfo` as fx and fy."""
+        return self.width / (2 * math.tan(self.horizontal_fov / 2))
 
 
 @dataclass(frozen=True)
@@ -75,41 +181,142 @@ class WheelErrors:
     """Of how far a wheel rolls in one turn, from second to second: the ground is not even."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class RobotModel:
-    """A robot with two driven wheels."""
+    """A robot, by its drive; or, without a drive, a thing that robots push, and on which sensors may sit.
+
+    Raises `ModelError`, which names the number at fault.
+    """
 
     name: str
     mass: float
+    """[kg]; of a thing that nobody can push math.inf."""
     inertia: float
     """About the vertical axis through base_footprint [kg m2]."""
-    wheel_radius: float
-    wheel_separation: float
-    max_linear: float
-    """[m/s]"""
-    max_angular: float
-    """[rad/s]"""
-    wheel_acceleration: float
-    """How fast a wheel's rim changes its speed [m/s2]."""
-    ticks_per_turn: int
-    """What an encoder counts in one turn of the wheel."""
     footprint: tuple[tuple[float, float], ...]
     """Corners of what touches walls, counter-clockwise, seen from base_footprint; a convex polygon."""
     height: float
-    lidar: LidarModel
-    imu: ImuModel
+    drive: Drive | None = "differential"
+    wheel_radius: float = 0.033
+    wheel_separation: float = 0.16
+    max_linear: float = math.inf
+    """[m/s]"""
+    max_angular: float = math.inf
+    """[rad/s]"""
+    max_lateral: float | None = None
+    """How fast a holonomic robot goes to the left or right [m/s]; None: `max_linear`."""
+    wheel_acceleration: float = math.inf
+    """How fast a wheel's rim changes its speed [m/s2]."""
+    linear_acceleration: float = math.inf
+    """How fast the speed ahead changes at most [m/s2], and that to the left of a holonomic robot."""
+    angular_acceleration: float = math.inf
+    """How fast the turn changes at most [rad/s2]."""
+    ticks_per_turn: int = 4096
+    """What an encoder counts in one turn of the wheel."""
+    lidar: LidarModel | None = None
+    imu: ImuModel | None = None
+    cameras: tuple[CameraModel, ...] = ()
     rate: float = 30.0
     """Messages a second on odom, tf and joint_states."""
     errors: WheelErrors = WheelErrors()
     body_radius: float = 0.105
-    """Of the disc, around the laser's axis, as which other robots' lasers see it."""
+    """Without `parts`: of the disc, around the laser's axis, as which other robots' lasers see it."""
+    parts: tuple[Part, ...] = ()
+    """What other robots' lasers and cameras see, each at its pose seen from base_footprint."""
     title: str = ""
+
+    def __post_init__(self) -> None:
+        problem = self._problem()
+        if problem:
+            raise ModelError(f"the robot model {self.name!r} is not possible: {problem}")
+
+    def _problem(self) -> str:
+        if self.drive is not None and self.drive not in get_args(Drive):
+            hint = nearest(str(self.drive), get_args(Drive))
+            return f"drive is {self.drive!r}; it has to be 'differential', 'holonomic' or None{'; ' + hint if hint else ''}"
+        for field in ("mass", "inertia", "height", "wheel_radius", "wheel_separation", "body_radius", "rate"):
+            value = getattr(self, field)
+            if not value > 0 or (math.isinf(value) and (self.drive or field not in ("mass", "inertia"))):
+                return f"{field} is {value!r}; it has to be a finite number above 0"
+        for field in ("wheel_acceleration", "linear_acceleration", "angular_acceleration"):
+            if not getattr(self, field) > 0:
+                return f"{field} is {getattr(self, field)!r}; it has to be above 0; math.inf is no limit"
+        for field in ("max_linear", "max_angular", "max_lateral"):
+            value = getattr(self, field)
+            if value is not None and not value >= 0:
+                return f"{field} is {value!r}; it has to be 0 or more"
+        corners = self.footprint
+        if len(corners) < 3 or not all(is_finite(part) for corner in corners for part in corner):
+            return f"footprint is {corners!r}; it has to be 3 or more corners of finite x and y"
+        turns = [
+            (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
+            for (ax, ay), (bx, by), (cx, cy) in zip(
+                corners, corners[1:] + corners[:1], corners[2:] + corners[:2], strict=True
+            )
+        ]
+        if min(turns) < -1e-12 or max(turns) <= 0:
+            return (
+                f"footprint is {corners!r}; it has to be convex, its corners counter-clockwise (see `hull`)"
+            )
+        return ""
 
     @cached_property
     def reach(self) -> float:
         """The distance from base_footprint to the farthest corner of the footprint."""
         return max(math.hypot(x, y) for x, y in self.footprint)
 
+    @property
+    def laser(self) -> LidarModel:
+        """The lidar of a robot that has one. Raises `ModelError`."""
+        if self.lidar is None:
+            raise ModelError(
+                f"the robot model {self.name!r} has no lidar; give it a LidarModel, or ask for no scan"
+            )
+        return self.lidar
+
+    @property
+    def unit(self) -> ImuModel:
+        """The inertial measurement unit of a robot that has one. Raises `ModelError`."""
+        if self.imu is None:
+            raise ModelError(
+                f"the robot model {self.name!r} has no imu; give it an ImuModel, or ask for none of its readings"
+            )
+        return self.imu
+
+    @cached_property
+    def solid(self) -> tuple[Part, ...]:
+        """What others see of it: its `parts`, or else a disc as high as it is."""
+        if self.parts:
+            return self.parts
+        x, y = self.lidar.mount[:2] if self.lidar is not None else (0.0, 0.0)
+        return (Part(Cylinder(self.body_radius), (x, y, 0.0), 0.0, math.inf, "grey"),)
+
+
+def hull(points: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+    """The corners of the smallest convex polygon around points, counter-clockwise: what a footprint has to be.
+
+    Andrew's monotone chain (Information Processing Letters 9, 1979).
+
+    >>> hull([(0, 0), (2, 0), (1, 0.5), (1, 2)])
+    ((0, 0), (2, 0), (1, 2))
+    """
+    ordered = sorted(set(points))
+    half: list[list[tuple[float, float]]] = []
+    for row in (ordered, ordered[::-1]):
+        chain: list[tuple[float, float]] = []
+        for x, y in row:
+            while len(chain) > 1:
+                (ax, ay), (bx, by) = chain[-2:]
+                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0:
+                    break
+                chain.pop()
+            chain.append((x, y))
+        half.append(chain)
+    return (*half[0][:-1], *half[1][:-1])
+
+
+BODY, TYRE, CASE = "#4b4f58", "#2b2d33", "#8a9099"
+"""Colours of ours for TurtleBot3's parts: its plates, its tyres and laser, its camera."""
 
 BURGER = RobotModel(
     name="burger",
@@ -144,11 +351,75 @@ BURGER = RobotModel(
     ),
     rate=30.0,  # firmware, gazebo
     body_radius=0.105,  # firmware
+    parts=(  # description: the collision shapes
+        Part(Box(0.140, 0.140), (-0.032, 0.0, 0.0), 0.0085, 0.1515, BODY),
+        Part(Box(0.066, 0.018), (0.0, 0.080, 0.0), 0.0, 0.066, TYRE),
+        Part(Box(0.066, 0.018), (0.0, -0.080, 0.0), 0.0, 0.066, TYRE),
+        Part(Cylinder(0.055), (-0.017, 0.0, 0.0), 0.1515, 0.19125, TYRE),  # the laser, and its foot of 8 mm
+    ),
 )
 
-MODELS = {BURGER.name: BURGER}
+_WAFFLES_BODY = (  # description: the collision shapes
+    Part(Box(0.266, 0.266), (-0.064, 0.0, 0.0), 0.010, 0.104, BODY),
+    Part(Box(0.066, 0.018), (0.0, 0.144, 0.0), 0.0, 0.066, TYRE),
+    Part(Box(0.066, 0.018), (0.0, -0.144, 0.0), 0.0, 0.066, TYRE),
+    Part(Cylinder(0.055), (-0.049, 0.0, 0.0), 0.104, 0.14125, TYRE),  # the laser, and its foot of 6 mm
+)
 
-LATER = ("waffle", "waffle_pi")
+WAFFLE = RobotModel(
+    name="waffle",
+    title="TurtleBot3 Waffle",
+    mass=1.8,  # e-manual
+    # description: the base (0.0146), two wheels of 28.5 g 14.4 cm aside (0.0006 each), the laser of 114 g 6.4 cm behind (0.0005)
+    inertia=0.0163,
+    wheel_radius=0.033,  # description, firmware
+    wheel_separation=0.287,  # firmware, gazebo; the description's wheels are 0.288 apart
+    max_linear=0.26,  # e-manual, firmware: 77 turns of a wheel a minute
+    max_angular=1.82,  # e-manual, firmware
+    wheel_acceleration=1.0,  # gazebo
+    ticks_per_turn=4096,  # firmware: the 12-bit encoder of the XM430
+    footprint=((-0.205, -0.155), (0.077, -0.155), (0.077, 0.155), (-0.205, 0.155)),  # navigation
+    height=0.141,  # e-manual: 0.281 x 0.306 x 0.141 m
+    lidar=replace(BURGER.laser, mount=(-0.064, 0.0, 0.132)),  # description; the same LDS-01
+    imu=replace(BURGER.unit, mount=(0.0, 0.0, 0.078)),  # description; the same unit
+    cameras=(
+        CameraModel(  # gazebo: the Intel RealSense R200
+            name="camera",
+            mount=(0.069, -0.047, 0.117),  # description: camera_rgb_frame
+            width=1920,
+            height=1080,
+            horizontal_fov=1.3439,
+            near=0.03,
+            far=100.0,
+            rate=30.0,
+            depth=True,
+        ),
+    ),
+    rate=30.0,  # firmware, gazebo
+    body_radius=0.220,  # firmware
+    parts=(*_WAFFLES_BODY, Part(Box(0.012, 0.132), (0.067, 0.0, 0.0), 0.101, 0.121, CASE)),
+)
+
+WAFFLE_PI = replace(
+    WAFFLE,
+    name="waffle_pi",
+    title="TurtleBot3 Waffle Pi",
+    cameras=(
+        CameraModel(  # gazebo: the Raspberry Pi camera, version 2
+            name="camera",
+            mount=(0.076, 0.0, 0.103),  # description: camera_rgb_frame
+            width=640,
+            height=480,
+            horizontal_fov=1.085595,
+            near=0.03,
+            far=100.0,
+            rate=30.0,
+        ),
+    ),
+    parts=(*_WAFFLES_BODY, Part(Box(0.015, 0.030), (0.078, 0.0, 0.0), 0.0935, 0.1205, CASE)),
+)
+
+MODELS = {each.name: each for each in (BURGER, WAFFLE, WAFFLE_PI)}
 
 
 def model(name: str | None = None) -> RobotModel:
@@ -160,9 +431,5 @@ def model(name: str | None = None) -> RobotModel:
     if wanted in MODELS:
         return MODELS[wanted]
     where = "" if name else f" (from the environment variable {VARIABLE})"
-    if wanted in LATER:
-        raise UnknownModel(
-            f"the TurtleBot3 model {wanted!r}{where} is not in this version of rosmini, which has the Burger alone; take 'burger'"
-        )
     hint = nearest(wanted, MODELS) or f"the models are: {', '.join(MODELS)}"
     raise UnknownModel(f"there is no robot model {wanted!r}{where}; {hint}")

@@ -117,7 +117,7 @@ class Recorder:
         scan_times = seconds(scans.stamps, begin)
         kept = scan_times >= 0
         turned = [
-            aligned(scan, self.model.lidar) for scan, keep in zip(scans.rows, kept, strict=True) if keep
+            aligned(scan, self.model.laser) for scan, keep in zip(scans.rows, kept, strict=True) if keep
         ]
         return Recording(
             self.world,
@@ -127,7 +127,7 @@ class Recorder:
             odom=odom.at(times, begin),
             commands=since(given, 0.0),
             scan_times=scan_times[kept],
-            scans=np.array(turned, dtype=float).reshape(len(turned), self.model.lidar.beams),
+            scans=np.array(turned, dtype=float).reshape(len(turned), self.model.laser.beams),
         )
 
     def _nothing(self) -> str:

@@ -59,7 +59,7 @@ class Recording:
     """(k, beams): ranges [m], inf where nothing was hit; beam i looks at 2 pi i / beams from ahead, counter-clockwise."""
 
     def __post_init__(self) -> None:
-        n, k, beams = len(self.times), len(self.scan_times), self.model.lidar.beams
+        n, k, beams = len(self.times), len(self.scan_times), self.model.laser.beams
         if not n:
             raise RecordingError("a recording needs at least one sample: truth and odom at one time")
         wanted = {"times": (n,), "truth": (n, 3), "odom": (n, 3), "scan_times": (k,), "scans": (k, beams)}

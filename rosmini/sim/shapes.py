@@ -94,6 +94,32 @@ class Compound:
         object.__setattr__(self, "parts", parts)
 
 
+@dataclass(frozen=True)
+class Part:
+    """A solid part of something: a shape that stands upright from `bottom` to `top`.
+
+    Raises `WorldError`, which names the number at fault.
+    """
+
+    shape: Shape
+    pose: Pose
+    """In the frame of the whole, or in the world."""
+    bottom: float
+    """How high above the ground it begins [m]."""
+    top: float
+    """How high above the ground it ends [m]."""
+    colour: Colour = "grey"
+    name: str = ""
+    """Whose part it is: a robot's or an obstacle's name."""
+
+    def __post_init__(self) -> None:
+        problem = shape_problem(self.shape) or pose_problem("pose", self.pose) or colour_problem(self.colour)
+        if not problem and not self.bottom < self.top:
+            problem = f"its bottom is at {self.bottom!r} and its top at {self.top!r}; the top has to be above the bottom"
+        if problem:
+            raise WorldError(f"a part of {self.name or 'a model'} is not possible: {problem}")
+
+
 Simple = Box | Cylinder | Sphere | Polygon
 """The shapes that have no parts."""
 

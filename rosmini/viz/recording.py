@@ -43,7 +43,7 @@ class RunScene(Scene):
         if scan:
             if not len(recording.scans):
                 raise ViewError("no scan was recorded: leave scan=True out, or let the simulation run longer")
-            self.beams = beams_of(recording.scans[-1], self.model.lidar)
+            self.beams = beams_of(recording.scans[-1], self.model.laser)
             self.laser = laser_pose(recording.pose_at(float(recording.scan_times[-1])), self.model)
 
     def text(self, title: str | None) -> str:

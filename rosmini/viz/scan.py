@@ -73,7 +73,7 @@ def _around(figure: Figure, beams: Beams, model: RobotModel) -> None:
     scale = SIDE / (2 * radius)
     up = (0.0, 0.0, math.pi / 2)
     draw_scan(axes, replace(beams, range_max=radius), up, scale)
-    mount = model.lidar.mount
+    mount = model.laser.mount
     draw_robot(axes, model, compose(up, (-mount[0], -mount[1], 0.0)), scale)
     _mark_nearest(axes, beams)
     gap = 6.0 / scale

@@ -94,7 +94,7 @@ def world_picture(
         seen_from = scene.robot if scan_from is None else pose_of(scan_from, "the pose of a scan")
         if seen_from is None:
             raise ViewError("a scan is drawn from where it was taken: give robot=(x, y, heading) with it")
-        scene.beams = beams_of(scan, scene.model.lidar)
+        scene.beams = beams_of(scan, scene.model.laser)
         scene.laser = laser_pose(seen_from, scene.model)
     scene.trail = None if trail is None else _line(trail, "trail")
     scene.odom = None if odom is None else _line(odom, "odom")
@@ -222,7 +222,7 @@ class Scene:
 
 def laser_pose(robot: Pose, model: RobotModel) -> Pose:
     """Where the laser of a robot at the pose `robot` is."""
-    x, y, _ = model.lidar.mount
+    x, y, _ = model.laser.mount
     return compose(robot, (x, y, 0.0))
 
 

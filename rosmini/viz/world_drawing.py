@@ -138,7 +138,7 @@ def draw_robot(axes: Axes, model: RobotModel, pose: Pose, scale: float, *, ghost
     r, side, half = model.wheel_radius, model.wheel_separation / 2, WHEEL_WIDTH * model.wheel_radius / 2
     wheels = [put([(-r, y - half), (r, y - half), (r, y + half), (-r, y + half)]) for y in (-side, side)]
     _patch(axes, _path(wheels, closed=True), fill="ink", opacity=1.0, z=7.1)
-    centre = put([model.lidar.mount[:2]])[0]
+    centre = put([model.laser.mount[:2]])[0]
     _patch(axes, _circle(centre, 0.26 * length * grown), fill="page", opacity=1.0, z=7.2)
     _patch(axes, _circle(centre, 0.11 * length * grown), fill="vermilion", opacity=1.0, z=7.3)
 

@@ -35,7 +35,7 @@ class Sight:
     @property
     def rate(self) -> float:
         """Scans a second."""
-        return self.simulator.model.lidar.rate
+        return self.simulator.model.laser.rate
 
     @property
     def scan_topic(self) -> str:
@@ -45,7 +45,7 @@ class Sight:
     def scene(self) -> dict[str, Any]:
         """The world as it is now, with the robot, for the scripts in a page: what can be pushed comes last among the shapes."""
         simulator = self.simulator
-        world, height = simulator.world, simulator.model.lidar.mount[2]
+        world, height = simulator.world, simulator.model.laser.mount[2]
         fixed = [obstacle for obstacle in world.obstacles if not obstacle.movable]
         obstacles = (*fixed, *simulator.engine.obstacles())
         scene = scene_data(replace(world, obstacles=obstacles), simulator.model)

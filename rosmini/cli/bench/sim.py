@@ -104,7 +104,7 @@ def scans(cast: Cast, count: int) -> float:
 
 def rosmini_scan(backend: str) -> Cast:
     """Rays of `rosmini.geometry.raycast`."""
-    lidar = BURGER.lidar
+    lidar = BURGER.laser
 
     def cast(world: World, x: float, y: float) -> NDArray[np.float64]:
         step = 2 * math.pi / lidar.beams
@@ -119,7 +119,7 @@ def pymunk_scan() -> Cast:
     """Rays of pymunk, which has no laser but can tell the first thing on a line."""
     import pymunk
 
-    lidar = BURGER.lidar
+    lidar = BURGER.laser
     world = sim_room.crowded_room()
     space = pymunk.Space()
     walls = [
@@ -144,7 +144,7 @@ def pymunk_scan() -> Cast:
 
 def _check_scan(found: NDArray[np.float64], world: World, x: float, y: float) -> None:
     """Raise unless the ranges are those of a loop over all pairs, but for rays that just pass a corner."""
-    lidar = BURGER.lidar
+    lidar = BURGER.laser
     exact = np.array([_first_hit(world, x, y, 2 * math.pi * i / lidar.beams) for i in range(lidar.beams)])
     exact[exact > lidar.range_max] = np.inf
     wrong = ~np.isclose(found, exact, rtol=0, atol=1e-9)

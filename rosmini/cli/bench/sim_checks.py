@@ -81,7 +81,7 @@ READERS: Mapping[str, tuple[str, Callable[[Any], Row]]] = MappingProxyType(
 
 def check_run(heard: Heard, world: World, model: RobotModel, seconds: float, way: float) -> None:
     """Raise `RosminiError` unless the messages are those of a robot that was told to go `way` metres in `seconds`."""
-    rates = {"scan": model.lidar.rate, "imu": model.imu.rate}
+    rates = {"scan": model.laser.rate, "imu": model.unit.rate}
     for topic in READERS:
         check_rate(topic, heard[topic], rates.get(topic, model.rate), seconds)
     check_frames(heard, model)
@@ -113,8 +113,8 @@ def check_rate(topic: str, rows: list[Row], rate: float, seconds: float) -> None
 def check_frames(heard: Heard, model: RobotModel) -> None:
     """Everything says in which frame it is (REP 105), and of what it speaks."""
     frames = {
-        "scan": model.lidar.frame,
-        "imu": model.imu.frame,
+        "scan": model.laser.frame,
+        "imu": model.unit.frame,
         "odom": "odom",
         "tf": "odom",
         "base_pose_ground_truth": "map",
@@ -152,7 +152,7 @@ def check_odometry(heard: Heard, truth: Floats, model: RobotModel) -> None:
 
 def check_scans(heard: Heard, truth: Floats, world: World, model: RobotModel) -> None:
     """Each range is the exact one plus noise, and the noise is as large as it says."""
-    lidar = model.lidar
+    lidar = model.laser
     stamps = [row[0] for row in heard["base_pose_ground_truth"]]
     residuals = []
     for when, _, start, step, ranges in heard["scan"]:
@@ -191,7 +191,7 @@ def check_imu(heard: Heard, truth: Floats, model: RobotModel) -> None:
         f"the gyroscope says {measured:.4f} rad, and the robot turned by {really:.4f}",
     )
     felt = float(gravity.mean())
-    expect(abs(felt - 9.80665) < SIGMAS * model.imu.accel_bias, f"the imu feels {felt:.2f} m/s2 upwards")
+    expect(abs(felt - 9.80665) < SIGMAS * model.unit.accel_bias, f"the imu feels {felt:.2f} m/s2 upwards")
 
 
 def poses(rows: list[Row]) -> Floats:

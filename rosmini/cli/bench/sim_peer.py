@@ -63,7 +63,7 @@ def check(found: dict[str, Any]) -> None:
     if math.dist((x, y), sim_room.START[:2]) > 1.5 or not 0.9 < found["length"] / found["expected"] < 1.1:
         msg = f"ir-sim's robot went {found['length']:.2f} m, not {found['expected']:.2f} m, and to ({x:.2f}, {y:.2f})"
         raise RosminiError(msg)
-    lidar, world, ranges = BURGER.lidar, sim_room.room(), np.array(found["ranges"])
+    lidar, world, ranges = BURGER.laser, sim_room.room(), np.array(found["ranges"])
     start, step = theta + found["angle_min"], found["angle_increment"]
     exact = raycast(world.segments, world.discs, x, y, start, step, len(ranges), lidar.range_max)
     clear = exact < lidar.range_max - 0.1
@@ -75,7 +75,7 @@ def check(found: dict[str, Any]) -> None:
 
 def world_file() -> dict[str, Any]:
     """The room and the robot as ir-sim describes them."""
-    corner, lidar = sim_room.SIZE / 2, BURGER.lidar
+    corner, lidar = sim_room.SIZE / 2, BURGER.laser
     outer = [[-corner, -corner], [corner, -corner], [corner, corner], [-corner, corner], [-corner, -corner]]
     wall = {"name": "rectangle", "length": sim_room.PARTITION.length, "width": sim_room.PARTITION.width}
     pillar = {"name": "circle", "radius": sim_room.PILLAR.radius}

@@ -27,10 +27,10 @@ TYRE = 0.018
 
 def body(model: RobotModel, node: str) -> list[Part]:
     """The parts of everything but the wheels, in the frame base_footprint."""
-    x = model.lidar.mount[0]
+    x = model.laser.mount[0]
     length, width = 0.138, model.wheel_separation - TYRE - 0.006
     # Four floors between the axles and the foot of the laser.
-    laser_foot = model.lidar.mount[2] - 0.030
+    laser_foot = model.laser.mount[2] - 0.030
     low = model.wheel_radius - 0.017
     floors = [low + i * (laser_foot - THICKNESS - low) / 3 for i in range(4)]
     outline = plate(x, 0.0, length, width, 0.022)
@@ -140,7 +140,7 @@ def _inside(node: str, x: float, floors: list[float]) -> list[Part]:
 
 def _laser(node: str, model: RobotModel, foot: float) -> list[Part]:
     """LDS-01: a flat base, and the turning head with its window in the plane of the scan."""
-    x, y, scan = model.lidar.mount
+    x, y, scan = model.laser.mount
     top = model.height
     low, high = scan - 0.0045, scan + 0.0045
     head = tuple(Rod((x, y, (a + b) / 2), 0.0345, b - a) for a, b in ((foot + 0.014, low), (high, top)))

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.sim.models import RobotModel
-from rosmini.sim.world import Cylinder, Obstacle, Pose, World
+from rosmini.sim.shapes import ROUND, outline_at, simple_parts
+from rosmini.sim.world import Obstacle, Pose, World
 from rosmini.viz import style
 from rosmini.viz.rounding import snap
 
@@ -199,16 +200,18 @@ class Scene3D:
 
     def add_obstacle(self, obstacle: Obstacle) -> None:
         """Add an obstacle where it is."""
-        shape, node = obstacle.shape, "obstacles/" + obstacle.name.replace("/", " ")
+        node = "obstacles/" + obstacle.name.replace("/", " ")
         while node in self.nodes:  # names may be used twice
             node += "'"
         self.place(node, planar(obstacle.pose))
-        solid: Prism | Rod = (
-            Rod((0.0, 0.0, obstacle.height / 2), shape.radius, obstacle.height)
-            if isinstance(shape, Cylinder)
-            else Prism(shape.outline, 0.0, obstacle.height)
+        bottom, top = obstacle.bottom, obstacle.height
+        solids = tuple(
+            Rod((x, y, (bottom + top) / 2), shape.radius, top - bottom)
+            if isinstance(shape, ROUND)
+            else Prism(outline_at(shape, (x, y, theta)), bottom, top)
+            for shape, (x, y, theta) in simple_parts(obstacle.shape)
         )
-        self.add(Part(node, "solid", colour_of(obstacle.colour), (solid,), shine=0.1))
+        self.add(Part(node, "solid", colour_of(obstacle.colour), solids, shine=0.1))
 
     def add_robot(self, model: RobotModel, pose: Pose, name: str = ROBOT) -> None:
         """Add a robot with its frame base_footprint at `pose`; its wheels are nodes below it."""
@@ -232,7 +235,7 @@ class Scene3D:
         """
         points = scan_points(ranges)
         mount = np.eye(4)
-        mount[:3, 3] = model.lidar.mount
+        mount[:3, 3] = model.laser.mount
         if pose is not None:
             mount = np.linalg.inv(self.nodes[name]) @ planar(pose) @ mount
         self.place(f"{name}/scan", mount)

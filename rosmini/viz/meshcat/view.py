@@ -243,8 +243,8 @@ def robot_3d(
     scene.add_robot(model, pose)
     hits = ""
     if ranges is not None:
-        if ranges.shape != (model.lidar.beams,):
-            raise ViewError(f"a scan of {model.name} has {model.lidar.beams} ranges, not {ranges.shape}")
+        if ranges.shape != (model.laser.beams,):
+            raise ViewError(f"a scan of {model.name} has {model.laser.beams} ranges, not {ranges.shape}")
         scene.add_scan(model, ranges, scan_from)
         hits = f"; {int(np.isfinite(ranges).sum())} of {len(ranges)} beams hit"
     name = model.title or model.name

@@ -46,7 +46,7 @@ def robot_data(model: RobotModel) -> dict[str, Any]:
 
     """
     what = f"the robot {model.name!r}"
-    lidar = model.lidar
+    lidar = model.laser
     return {
         "name": model.name,
         "footprint": _metres(_counter_clockwise(model.footprint), what),
