@@ -21,6 +21,7 @@ from .model import (
     Sphere,
     Visual,
 )
+from .reader import load
 
 __all__ = [
     "Box",
@@ -41,4 +42,5 @@ __all__ = [
     "UnknownJoint",
     "UrdfError",
     "Visual",
+    "load",
 ]

@@ -1,0 +1,103 @@
+"""What links and joints must be to be a robot: one tree, mimics that end, inertias of bodies that can exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from rosmini.errors import nearest
+from rosmini.markup import Element
+
+from .model import Inertial, Joint, Link
+
+SLACK = 1e-6
+"""By how much, relative to the largest, moments of inertia may break the laws: files round."""
+
+
+def check_tree(
+    robot: Element, links: Mapping[str, Link], joints: Mapping[str, Joint], elements: Mapping[str, Element]
+) -> str:
+    """The root of the tree that joints make of links. `elements` are where the joints were written.
+
+    Raises `UrdfError`: a joint names a link or joint that is not there, a link hangs on two joints, joints go round in
+    a circle, or there are several trees.
+    """
+    above: dict[str, Joint] = {}
+    for joint in joints.values():
+        here = elements[joint.name]
+        for role, name in (("parent", joint.parent), ("child", joint.child)):
+            if name not in links:
+                hint = nearest(name, links) or f"the links are: {', '.join(links)}"
+                raise here.error(f"the {role} of the joint {joint.name!r} is no link: {name!r}; {hint}")
+        if joint.parent == joint.child:
+            raise here.error(f"the joint {joint.name!r} hangs the link {joint.child!r} on itself")
+        if joint.child in above:
+            other = above[joint.child]
+            raise here.error(
+                f"the link {joint.child!r} hangs on two joints: on {joint.name!r} and, in line {other.line}, on "
+                f"{other.name!r}; in a tree every link has one parent"
+            )
+        above[joint.child] = joint
+        _check_mimic(joint, joints, here)
+    roots = [name for name in links if name not in above]
+    if len(roots) > 1:
+        listed = ", ".join(f"{name!r} (line {links[name].line})" for name in roots)
+        raise robot.error(
+            f"the robot has {len(roots)} roots, links that are no joint's child: {listed}; a tree has one. "
+            "Join the others to it"
+        )
+    _check_circles(robot, links, above)
+    return roots[0]
+
+
+def _check_circles(robot: Element, links: Mapping[str, Link], above: Mapping[str, Joint]) -> None:
+    """Every link must lead to the root."""
+    good: set[str] = set()
+    for name in links:
+        way: list[str] = []
+        at = name
+        while at in above and at not in good:
+            if at in way:
+                circle = way[way.index(at) :]
+                joints = ", ".join(f"{above[link].name!r} (line {above[link].line})" for link in circle)
+                raise robot.error(f"joints go round in a circle: {joints}; a tree has a root")
+            way.append(at)
+            at = above[at].parent
+        good.update(way)
+
+
+def _check_mimic(joint: Joint, joints: Mapping[str, Joint], here: Element) -> None:
+    way = [joint.name]
+    at = joint
+    while at.mimic is not None:
+        followed = at.mimic.joint
+        if followed not in joints:
+            hint = nearest(followed, joints)
+            raise here.error(
+                f"the joint {at.name!r} mimics {followed!r}, which is no joint{f'; {hint}' if hint else ''}"
+            )
+        if followed in way:
+            raise here.error(f"joints mimic one another in a circle: {' -> '.join([*way, followed])}")
+        at = joints[followed]
+        if not at.moves:
+            raise here.error(
+                f"the joint {joint.name!r} mimics {followed!r}, which is {at.type} and does not move"
+            )
+        way.append(followed)
+
+
+def inertia_notes(inertial: Inertial) -> Iterator[str]:
+    """Why no body has this inertia: principal moments are not negative, and none is larger than the sum of the others.
+
+    (Each is an integral of two squared distances over the mass; see Featherstone, Rigid Body Dynamics Algorithms, 2008, 2.)
+    """
+    moments = np.linalg.eigvalsh(inertial.matrix)
+    text = ", ".join(f"{moment:.4g}" for moment in moments)
+    largest = float(np.abs(moments).max())
+    if moments[0] < -SLACK * largest:
+        yield f"the principal moments {text} kg m2 are not all above 0"
+    elif moments[2] > (moments[0] + moments[1]) + SLACK * largest:
+        yield f"of the principal moments {text} kg m2 the largest is more than the other two together"
+    if inertial.mass == 0 and largest > 0:
+        yield "the mass is 0, the inertia is not"

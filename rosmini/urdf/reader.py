@@ -1,0 +1,350 @@
+"""Read URDF (http://wiki.ros.org/urdf/XML): from text or a file to a `Robot`, with errors that name file, line and element."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TypeVar, get_args
+
+from rosmini.errors import RosminiError, nearest
+from rosmini.markup import NO_PATH, Element, parse, parse_file
+from rosmini.packages import SCHEME, PackageIndex
+
+from .checks import check_tree, inertia_notes
+from .errors import UrdfError
+from .model import (
+    Box,
+    Collision,
+    Cylinder,
+    Dynamics,
+    Extension,
+    Geometry,
+    Inertial,
+    Joint,
+    JointType,
+    Limit,
+    Link,
+    Material,
+    Mesh,
+    Mimic,
+    Origin,
+    Robot,
+    Sphere,
+    Vector,
+    Visual,
+)
+
+T = TypeVar("T")
+
+KNOWN = frozenset({"link", "joint", "material", "gazebo", "transmission", "sensor", "model_state", "contact"})
+"""What may stand in a robot; other tags get a note, for extensions of others are free to add some."""
+
+NEEDS_LIMIT = ("revolute", "prismatic")
+
+
+def load(
+    source: str | bytes | PathLike[str],
+    *,
+    packages: PackageIndex | None = None,
+    mappings: Mapping[str, str] | None = None,
+    meshes: bool = True,
+    path: str | PathLike[str] | None = None,
+) -> Robot:
+    """The robot of a URDF text (what begins with ``<``), of a ``.urdf`` file, or of a ``.xacro`` file.
+
+    Args:
+        source: the text, or the path of the file; ``package://`` paths too.
+        packages: where packages of ``package://`` addresses and of ``$(find ...)`` are; by default `PackageIndex()`.
+        mappings: arguments for a ``.xacro`` file.
+        meshes: whether the files of meshes are looked for. Without, `Mesh.path` is None.
+        path: what errors about a text call its file.
+
+    Raises:
+        UrdfError: the file cannot be read, is not XML, is no tree of links, names what is not there or has numbers that are none.
+
+    """
+    index = packages if packages is not None else PackageIndex()
+    if isinstance(source, bytes) or (isinstance(source, str) and source.lstrip().startswith("<")):
+        root = parse(source, path or NO_PATH, UrdfError)
+    else:
+        file = _file(fspath(source), index)
+        if file.suffix == ".xacro":
+            from .xacro import expand
+
+            root = parse(expand(file, mappings, packages=index), f"{file} (expanded)", UrdfError)
+        else:
+            root = parse_file(file, UrdfError)
+    return _Reader(root, index if meshes else None).robot()
+
+
+def _file(name: str, index: PackageIndex) -> Path:
+    if not name.startswith(SCHEME):
+        return Path(name)
+    try:
+        return index.resolve(name)
+    except RosminiError as error:
+        raise UrdfError(str(error)) from error
+
+
+class _Reader:
+    """One file on its way to a robot."""
+
+    def __init__(self, root: Element, index: PackageIndex | None) -> None:
+        self.root, self.index = root, index
+        self.notes: list[str] = []
+        self.materials: dict[str, Material] = {}
+
+    def robot(self) -> Robot:
+        root = self.root
+        if root.tag != "robot":
+            raise root.error(f"a URDF file begins with <robot>, this one with <{root.tag}>")
+        name = root.attribute("name")
+        for child in root:
+            if child.tag.startswith("xacro:"):
+                raise child.error(
+                    f"<{child.tag}> is a macro of xacro: expand the file first (rosrun xacro xacro FILE), "
+                    "or let its name end in .xacro"
+                )
+            if child.tag not in KNOWN:
+                hint = nearest(child.tag, KNOWN)
+                self.note(child, f"<{child.tag}> means nothing in a robot{f'; {hint}' if hint else ''}")
+        for each in root.all("material"):
+            self.define(each)
+        links = self.named("link", self.link)
+        if not links:
+            raise root.error(f"the robot {name!r} has no <link>: it needs one at least")
+        joints = self.named("joint", self.joint)
+        elements = {each.get("name"): each for each in root.all("joint")}
+        top = check_tree(root, links, joints, elements)
+        extensions = tuple(self.extension(each, links, joints) for each in root.all("gazebo"))
+        if links[top].inertial is not None:
+            self.note(
+                root,
+                f"the root link {top!r} has an inertia, which KDL (robot_state_publisher) does not take: "
+                "add a link without one above it, as base_footprint",
+            )
+        return Robot(name, links, joints, top, self.materials, extensions, tuple(self.notes), path=root.path)
+
+    def note(self, element: Element, what: str) -> None:
+        self.notes.append(str(element.error(what)))
+
+    def named(self, tag: str, make: Callable[[Element], T]) -> dict[str, T]:
+        """All elements of a kind by their names, of which no two may be alike."""
+        found: dict[str, T] = {}
+        lines: dict[str, int] = {}
+        for each in self.root.all(tag):
+            name = each.attribute("name")
+            if name in found:
+                raise each.error(f"there are two {tag}s {name!r}: the other one is in line {lines[name]}")
+            found[name] = make(each)
+            lines[name] = each.line
+        return found
+
+    # ---- links ----
+
+    def link(self, element: Element) -> Link:
+        inertials = element.all("inertial")
+        if len(inertials) > 1:
+            raise inertials[1].error(f"the link {element.get('name')!r} has more than one <inertial>")
+        return Link(
+            element.attribute("name"),
+            self.inertial(inertials[0], element.get("name")) if inertials else None,
+            tuple(self.visual(each) for each in element.all("visual")),
+            tuple(
+                Collision(self.geometry(each), self.origin(each), each.get("name"))
+                for each in element.all("collision")
+            ),
+            element.line,
+        )
+
+    def inertial(self, element: Element, link: str) -> Inertial:
+        mass = element.need("mass")
+        value = mass.number("value")
+        if value < 0:
+            raise mass.error(f"the mass of the link {link!r} is negative: {value:g} kg")
+        tensor = element.need("inertia")
+        ixx, ixy, ixz, iyy, iyz, izz = (
+            tensor.number(name) for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+        )
+        found = Inertial(value, ixx, ixy, ixz, iyy, iyz, izz, self.origin(element))
+        for problem in inertia_notes(found):
+            self.note(tensor, f"the inertia of the link {link!r} is none of a body: {problem}")
+        return found
+
+    def visual(self, element: Element) -> Visual:
+        material = element.find("material")
+        return Visual(
+            self.geometry(element),
+            self.origin(element),
+            None if material is None else self.material(material),
+            element.get("name"),
+        )
+
+    def geometry(self, element: Element) -> Geometry:
+        holder = element.need("geometry")
+        if len(holder.children) != 1:
+            raise holder.error(
+                f"<geometry> holds one shape: box, cylinder, sphere or mesh, not {len(holder.children)}"
+            )
+        shape = holder.children[0]
+        if shape.tag == "box":
+            return Box(self.vector(shape, "size", positive=True))
+        if shape.tag == "cylinder":
+            return Cylinder(self.positive(shape, "radius"), self.positive(shape, "length"))
+        if shape.tag == "sphere":
+            return Sphere(self.positive(shape, "radius"))
+        if shape.tag == "mesh":
+            return self.mesh(shape)
+        hint = nearest(shape.tag, ("box", "cylinder", "sphere", "mesh"))
+        raise shape.error(
+            f"<{shape.tag}> is no shape: there are box, cylinder, sphere and mesh{f'; {hint}' if hint else ''}"
+        )
+
+    def mesh(self, element: Element) -> Mesh:
+        filename = element.attribute("filename")
+        words = element.get("scale", "1 1 1")
+        scale = element.floats(words, None, "scale")
+        if len(scale) == 1:
+            scale *= 3
+        if len(scale) != 3 or 0 in scale:
+            raise element.error(f"scale takes 3 numbers other than 0, not {words!r}")
+        path = None if self.index is None else self.mesh_file(element, filename, self.index)
+        return Mesh(filename, (scale[0], scale[1], scale[2]), path)
+
+    def mesh_file(self, element: Element, filename: str, index: PackageIndex) -> Path:
+        """The file of a mesh. A plain path is looked for beside the URDF."""
+        if filename.startswith(SCHEME):
+            try:
+                return index.resolve(filename)
+            except RosminiError as error:
+                raise element.error(f"the mesh is missing: {error}") from error
+        if "://" in filename and not filename.startswith("file://"):
+            raise element.error(f"the mesh {filename!r} is neither in a package (package://) nor a file")
+        path = Path(self.root.path).parent / filename.removeprefix("file://")
+        if not path.is_file():
+            raise element.error(f"the mesh is missing: there is no file {path}")
+        return path
+
+    # ---- materials ----
+
+    def define(self, element: Element) -> None:
+        """A material that stands beside the links, for them to name."""
+        name = element.attribute("name")
+        if name in self.materials:
+            raise element.error(f"there are two materials {name!r}")
+        self.materials[name] = self.material(element)
+
+    def material(self, element: Element) -> Material:
+        name = element.get("name")
+        colour, texture = element.find("color"), element.find("texture")
+        if colour is None and texture is None:
+            if name in self.materials:
+                return self.materials[name]
+            hint = nearest(name, self.materials)
+            raise element.error(
+                f"the material {name!r} has neither <color> nor <texture>, and none of this name stands in the robot"
+                f"{f'; {hint}' if hint else ''}"
+            )
+        rgba = None
+        if colour is not None:
+            r, g, b, a = colour.numbers("rgba", 4)
+            if not all(0 <= part <= 1 for part in (r, g, b, a)):
+                raise colour.error(f"the parts of a colour are from 0 to 1, not {colour.get('rgba')!r}")
+            rgba = (r, g, b, a)
+        made = Material(name, rgba, "" if texture is None else texture.attribute("filename"))
+        if name:  # one that is defined inside a visual can be named by later ones
+            self.materials.setdefault(name, made)
+        return made
+
+    # ---- joints ----
+
+    def joint(self, element: Element) -> Joint:
+        name, kind = element.attribute("name"), self.kind(element)
+        ends = [element.need(tag).attribute("link") for tag in ("parent", "child")]
+        axis = self.axis(element) if kind != "fixed" else (1.0, 0.0, 0.0)
+        made = Joint(name, kind, ends[0], ends[1], self.origin(element), axis, line=element.line)
+        limit, mimic, dynamics = (element.find(tag) for tag in ("limit", "mimic", "dynamics"))
+        if limit is not None and kind in {*NEEDS_LIMIT, "continuous"}:
+            made = replace(made, limit=self.limit(limit, name))
+        elif kind in NEEDS_LIMIT:
+            raise element.error(
+                f'the {kind} joint {name!r} needs <limit lower="" upper="" effort="" velocity=""/>; '
+                "a joint that turns without end is continuous"
+            )
+        if mimic is not None:
+            numbers = (mimic.number("multiplier", 1.0), mimic.number("offset", 0.0))
+            made = replace(made, mimic=Mimic(mimic.attribute("joint"), *numbers))
+        if dynamics is not None:
+            both = Dynamics(dynamics.number("damping", 0.0), dynamics.number("friction", 0.0))
+            made = replace(made, dynamics=both)
+        return made
+
+    def kind(self, element: Element) -> JointType:
+        word = element.attribute("type")
+        for kind in get_args(JointType):
+            if kind == word:
+                return kind  # type: ignore[no-any-return]  # a JointType, as get_args says
+        hint = nearest(word, get_args(JointType)) or f"there are {', '.join(get_args(JointType))}"
+        raise element.error(f"the joint {element.get('name')!r} has an unknown type {word!r}; {hint}")
+
+    def axis(self, element: Element) -> Vector:
+        found = element.find("axis")
+        if found is None:
+            return (1.0, 0.0, 0.0)
+        x, y, z = found.numbers("xyz", 3, (1.0, 0.0, 0.0))
+        length = math.sqrt(x * x + y * y + z * z)
+        if not 1e-9 < length < math.inf:
+            raise found.error(
+                f"the axis of the joint {element.get('name')!r} has no direction: {found.get('xyz')!r}"
+            )
+        return (x / length, y / length, z / length)
+
+    def limit(self, element: Element, name: str) -> Limit:
+        made = Limit(
+            element.number("lower", 0.0),
+            element.number("upper", 0.0),
+            element.number("effort"),
+            element.number("velocity"),
+        )
+        if made.lower > made.upper:
+            raise element.error(
+                f"the lower limit of the joint {name!r} is above the upper one: {made.lower:g} > {made.upper:g}"
+            )
+        return made
+
+    def extension(self, element: Element, links: dict[str, Link], joints: dict[str, Joint]) -> Extension:
+        reference = element.get("reference")
+        if reference and reference not in links and reference not in joints:
+            hint = nearest(reference, {*links, *joints})
+            self.note(
+                element,
+                f"<gazebo reference={reference!r}> is about nothing: there is no such link or joint"
+                f"{f'; {hint}' if hint else ''}",
+            )
+        return Extension(reference, element)
+
+    # ---- numbers ----
+
+    def origin(self, element: Element) -> Origin:
+        found = element.find("origin")
+        if found is None:
+            return Origin()
+        nothing = (0.0, 0.0, 0.0)
+        x, y, z = found.numbers("xyz", 3, nothing)
+        roll, pitch, yaw = found.numbers("rpy", 3, nothing)
+        return Origin((x, y, z), (roll, pitch, yaw))
+
+    def vector(self, element: Element, name: str, *, positive: bool = False) -> Vector:
+        x, y, z = element.numbers(name, 3)
+        if positive and min(x, y, z) <= 0:
+            raise element.error(f"{name} of <{element.tag}> takes numbers above 0, not {element.get(name)!r}")
+        return (x, y, z)
+
+    def positive(self, element: Element, name: str) -> float:
+        value = element.number(name)
+        if value <= 0:
+            raise element.error(f"{name} of <{element.tag}> is above 0, not {element.get(name)!r}")
+        return value

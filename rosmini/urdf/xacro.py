@@ -1,0 +1,206 @@
+"""xacro: macros of robot descriptions (http://wiki.ros.org/xacro), by ROS's own program of that name from PyPI.
+
+That package finds packages as ROS 2 does; here ``$(find ...)`` asks our `PackageIndex`. Each file is first read by
+`rosmini.markup`, so that what is not XML is told with its line and what is hostile is refused.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+import threading
+import xml.dom.minidom
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+from rosmini.errors import RosminiError, nearest
+from rosmini.markup import parse, parse_file
+from rosmini.packages import SCHEME, PackageIndex
+
+from .errors import UrdfError
+
+USAGE = "usage: xacro [-o FILE] INPUT [name:=value ...]"
+
+_one_at_a_time = threading.Lock()
+"""xacro keeps what it works on in its module."""
+
+
+def expand(
+    path: str | PathLike[str],
+    mappings: Mapping[str, Any] | None = None,
+    *,
+    packages: PackageIndex | None = None,
+) -> str:
+    """The URDF that a xacro file means.
+
+    Args:
+        path: the file; also ``package://...``.
+        mappings: arguments by name, as ``name:=value`` on the command line.
+        packages: where packages of ``$(find ...)`` are; by default `PackageIndex()`.
+
+    Raises:
+        UrdfError: a file cannot be read or is not XML, a macro, property, argument or package is unknown, an expression fails.
+
+    """
+    index = packages if packages is not None else PackageIndex()
+    try:
+        file = index.resolve(fspath(path)) if fspath(path).startswith(SCHEME) else Path(path)
+    except RosminiError as error:
+        raise UrdfError(str(error)) from error
+    given = {name: _written(value) for name, value in (mappings or {}).items()}
+    with _one_at_a_time:
+        document = _process(file, given, index)
+    root = document.documentElement
+    assert root is not None  # noqa: S101 (a document has one)
+    return f'<?xml version="1.0" ?>\n{root.toprettyxml(indent="  ")}'
+
+
+def _written(value: Any) -> str:
+    """An argument as launch files write it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _process(file: Path, mappings: dict[str, str], index: PackageIndex) -> xml.dom.minidom.Document:
+    """What xacro makes of a file, with our eyes for packages and for XML."""
+    import xacro
+    from xacro import substitution_args
+
+    known: list[str] = []
+    with _lent(xacro, substitution_args, index, known):
+        try:
+            document: xml.dom.minidom.Document = xacro.process_file(str(file), mappings=dict(mappings))
+        except RosminiError:
+            raise
+        # Expressions are Python: whatever they raise, the description is broken.
+        except Exception as error:
+            cause = _cause(error)
+            if isinstance(cause, UrdfError):
+                raise cause from error
+            stack = [name for name in xacro.filestack or [] if name]
+            where = stack[-1] if stack else str(file)
+            message = _message(error, mappings, known)
+            line = _line(error, [where, *reversed(stack), *known])
+            macros = [each.body.getAttribute("name") for each in reversed(xacro.macrostack or [])]
+            inside = f" (in the macro {', called by '.join(macros)})" if macros else ""
+            raise UrdfError(message + inside, *(line or (where, None))) from error
+    return document
+
+
+@contextmanager
+def _lent(xacro: Any, substitution: Any, index: PackageIndex, known: list[str]) -> Iterator[None]:
+    """While it lasts, xacro finds packages by our index, and reads files as we do; what it keeps in its modules is put back."""
+
+    def find(name: str) -> str:
+        return str(index.path(name))
+
+    def read(text: Any, filename: str | None = None) -> xml.dom.minidom.Document:
+        if text is not None or filename is None:
+            source = text if isinstance(text, str | bytes) else text.read()
+            parse(source, "<text>", UrdfError)
+            return xml.dom.minidom.parseString(source)  # noqa: S318 (found harmless in the line above)
+        known.append(filename)
+        parse_file(filename, UrdfError)
+        return xml.dom.minidom.parse(filename)  # noqa: S318 (found harmless in the line above)
+
+    with (
+        mock.patch.object(substitution, "_eval_find", find),
+        mock.patch.dict(substitution._eval_dict, find=find),  # noqa: SLF001 (there is no other way in)
+        mock.patch.dict(xacro.substitution_args_context, clear=True),
+        mock.patch.object(xacro, "parse", read),
+        mock.patch.object(xacro, "filestack", None),
+        mock.patch.object(xacro, "macrostack", None),
+    ):
+        yield
+
+
+def _cause(error: BaseException) -> BaseException:
+    """What xacro wrapped."""
+    while getattr(error, "exc", None) is not None:
+        error = error.exc  # type: ignore[attr-defined]  # as was just asked
+    return error
+
+
+def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]) -> str:
+    """What xacro says, with what helps."""
+    said = " ".join(str(error).split()) or repr(error)
+    unknown = re.search(r"unknown macro name: xacro:(\S+)", said)
+    if unknown:
+        there = re.findall(r"<xacro:macro[^>]*\bname=[\"']([^\"']+)", _text(files))
+        hint = nearest(unknown[1], there)
+        return f"there is no macro xacro:{unknown[1]}{f'; {hint}' if hint else ''}"
+    argument = re.search(r"Undefined substitution argument (\S+)", said)
+    if argument:
+        hint = nearest(argument[1], mappings)
+        return (
+            f"$(arg {argument[1]}) was not given and has no default: say {argument[1]}:=VALUE, or add "
+            f'<xacro:arg name="{argument[1]}" default="..."/>{f"; {hint}" if hint else ""}'
+        )
+    cause = _cause(error)
+    if isinstance(cause, RosminiError):
+        return str(cause)
+    if isinstance(cause, RecursionError):
+        return "macros call or include one another without end"
+    return said
+
+
+def _text(files: Sequence[str]) -> str:
+    return "\n".join(Path(name).read_text(encoding="utf-8", errors="replace") for name in files)
+
+
+def _line(error: Exception, files: Sequence[str]) -> tuple[str, int] | None:
+    """File and line of what xacro complains about: it does not say, but what it quotes is found in one of the files."""
+    said = str(error)
+    patterns = (
+        (r"when evaluating expression '(.+)'", "{}"),
+        (r"unknown macro name: (\S+)", "<{}"),
+        (r"Undefined substitution argument (\S+)", "$(arg {})"),
+        (r"there is no package '(\S+)'", "$(find {})"),
+        (r'Undefined block "(\S+)"', "{}"),
+        (r"No such file or directory: (\S+)", "{}"),
+    )
+    for pattern, wanted in patterns:
+        found = re.search(pattern, said)
+        if found:
+            text = wanted.format(found[1])
+            for name in files:
+                for number, line in enumerate(_text([name]).splitlines(), start=1):
+                    if text in line:
+                        return name, number
+    return None
+
+
+def main(arguments: Sequence[str]) -> int:
+    """`rosrun xacro xacro FILE name:=value ...`: print the URDF, or write it to the file after `-o`; return the exit status.
+
+    Options of old that mean nothing any more (`--inorder`, `-i`) are let pass, as there.
+    """
+    mappings: dict[str, str] = {}
+    files: list[str] = []
+    output = None
+    rest = list(arguments)
+    while rest:
+        word = rest.pop(0)
+        if word == "-o" and rest:
+            output = Path(rest.pop(0))
+        elif ":=" in word:
+            name, _, value = word.partition(":=")
+            mappings[name] = value
+        elif word not in {"--inorder", "-i", "--xacro-ns"}:
+            files.append(word)
+    if len(files) != 1 or files[0].startswith("-"):
+        print(f"xacro takes one file, not {' '.join(files) or 'none'}\n{USAGE}", file=sys.stderr)
+        return 2
+    try:
+        text = expand(files[0], mappings)
+        if output is not None:
+            output.write_text(text, encoding="utf-8")
+    except (RosminiError, OSError) as error:
+        print(f"xacro: {error}", file=sys.stderr)
+        return 2
+    if output is None:
+        print(text.rstrip("\n"))
+    return 0

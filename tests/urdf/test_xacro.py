@@ -1,0 +1,124 @@
+import subprocess
+import sys
+
+import pytest
+
+from rosmini.packages import PackageIndex, assets_dir
+from rosmini.urdf import UrdfError, load
+from rosmini.urdf.xacro import expand, main
+
+HEAD = '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">'
+
+
+@pytest.fixture
+def index(tmp_path):
+    package = tmp_path / "my_robot"
+    (package / "urdf").mkdir(parents=True)
+    (package / "package.xml").write_text("<package format='2'><name>my_robot</name></package>")
+    (package / "urdf" / "wheel.xacro").write_text(
+        HEAD
+        + """
+  <xacro:macro name="wheel" params="name radius">
+    <link name="${name}_link">
+      <visual><geometry><cylinder radius="${radius}" length="${radius / 2}"/></geometry></visual>
+    </link>
+  </xacro:macro>
+</robot>"""
+    )
+    return PackageIndex([tmp_path])
+
+
+def write(index, text, name="r.urdf.xacro"):
+    path = index.path("my_robot") / "urdf" / name
+    path.write_text(text if text.startswith("<?") else f"{HEAD}\n{text}\n</robot>")
+    return path
+
+
+def test_macros_properties_arguments_and_packages(index):
+    path = write(
+        index,
+        """<xacro:include filename="$(find my_robot)/urdf/wheel.xacro"/>
+<xacro:arg name="radius" default="0.5"/><xacro:arg name="fast" default="false"/>
+<xacro:property name="side" value="left"/>
+<xacro:wheel name="${side}" radius="$(arg radius)"/>
+<xacro:if value="$(arg fast)"><material name="red"><color rgba="1 0 0 1"/></material></xacro:if>""",
+    )
+    one = load(path, packages=index)
+    assert one.link("left_link").visuals[0].geometry.radius == 0.5
+    assert one.materials == {}
+    other = load("package://my_robot/urdf/r.urdf.xacro", packages=index, mappings={"radius": 2, "fast": True})
+    assert other.link("left_link").visuals[0].geometry.length == 1.0
+    assert list(other.materials) == ["red"]
+    text = expand(path, packages=index)
+    assert text.startswith('<?xml version="1.0" ?>\n<robot name="r"')
+    assert str(path) not in text
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("\n<link name='${wdith}'/>", "r.urdf.xacro:3: name 'wdith' is not defined"),
+        ("<xacro:macro name='wheel'><link name='a'/></xacro:macro>\n<xacro:weel/>", "r.urdf.xacro:3: there is no macro xacro:weel; did you mean wheel?"),
+        ("<link name='$(arg side)'/>", "r.urdf.xacro:2: $(arg side) was not given and has no default: say side:=VALUE"),
+        ("\n\n<xacro:include filename='$(find no_robot)/a.xacro'/>", "r.urdf.xacro:4: there is no package 'no_robot'; did you mean my_robot?"),
+        ("<xacro:include filename='none.xacro'/>", "none.xacro: cannot be read: No such file or directory"),
+        ("<xacro:include filename='r.urdf.xacro'/>", "macros call or include one another without end"),
+        ("<xacro:macro name='m' params='x'><link name='a'/></xacro:macro>\n<xacro:m/>", "Undefined parameters [x]"),
+        ("<xacro:macro name='m'><link name='${y}'/></xacro:macro>\n<xacro:m/>", "r.urdf.xacro:2: name 'y' is not defined when evaluating expression 'y' (in the macro m)"),
+        ("<link name='a'>", "r.urdf.xacro:3: this closes another element than <link>, which was opened in line 2"),
+        ("<xacro:if value='${1/0}'/>", "r.urdf.xacro:2: division by zero"),
+        ("<link name='${__import__(1)}'/>", "Use of invalid name(s):  __import__"),
+        ("<?xml version='1.0'?><!DOCTYPE a [<!ENTITY x 'y'>]><robot name='&x;'/>", "r.urdf.xacro:1: an XML file from outside may not"),
+    ],
+)  # fmt: skip
+def test_errors_name_file_and_line_where_that_can_be_told(index, text, message):
+    path = write(index, text)
+    with pytest.raises(UrdfError) as caught:
+        expand(path, packages=index)
+    said = " ".join(str(caught.value).split())
+    assert " ".join(message.split()) in said
+    assert "/my_robot/urdf/" in said
+
+
+def test_an_error_in_an_included_file_names_that_file(index):
+    path = write(index, "<xacro:include filename='wheel.xacro'/>\n<xacro:wheel name='a' radius='x'/>")
+    with pytest.raises(UrdfError, match=r"wheel.xacro:4: .*radius / 2.*in the macro wheel"):
+        expand(path, packages=index)
+
+
+def test_what_is_wrong_after_expansion_is_told_of_the_expanded_text(index):
+    path = write(index, "<link name='a'/>\n<link name='a'/>")
+    with pytest.raises(UrdfError, match=r"r.urdf.xacro \(expanded\):\d+: there are two links 'a'"):
+        load(path, packages=index)
+
+
+def test_one_file_after_another_knows_nothing_of_the_first(index):
+    path = write(index, "<xacro:arg name='a' default='1'/><link name='l$(arg a)'/>")
+    assert 'name="l7"' in expand(path, {"a": 7}, packages=index)
+    assert 'name="l1"' in expand(path, packages=index)
+    with pytest.raises(UrdfError):
+        expand(write(index, "<xacro:wrong/>", "w.xacro"), packages=index)
+    assert 'name="l1"' in expand(path, packages=index)
+
+
+def test_the_command_prints_or_writes(index, capsys, tmp_path):
+    path = write(index, "<xacro:arg name='a' default='1'/><link name='l$(arg a)'/>")
+    assert main([str(path), "a:=2", "--inorder"]) == 0
+    assert '<link name="l2"/>' in capsys.readouterr().out
+    assert main([str(path), "-o", str(tmp_path / "out.urdf")]) == 0
+    assert load(tmp_path / "out.urdf").root == "l1"
+    assert main([]) == 2
+    assert "xacro takes one file" in capsys.readouterr().err
+    assert main([str(tmp_path / "none.xacro")]) == 2
+    assert "cannot be read" in capsys.readouterr().err
+
+
+def test_rosrun_xacro_xacro(index):
+    path = write(index, "<xacro:arg name='a' default='1'/><link name='l$(arg a)'/>")
+    found = PackageIndex().find_executable("xacro", "xacro")
+    assert found.path == assets_dir() / "ros" / "xacro" / "scripts" / "xacro"
+    done = subprocess.run(
+        [sys.executable, "-m", "rosmini", "run", "xacro/xacro", str(path), "a:=1.5"],
+        capture_output=True, text=True, check=False, timeout=60,
+    )  # fmt: skip
+    assert '<link name="l1.5"/>' in done.stdout, done.stderr
