@@ -59,7 +59,7 @@ class Device:
         """Tell whether anybody wants to know; only asked of what is not `always`."""
         return True
 
-    def due(self, stamp: Stamp, number: int) -> None:
+    def due(self, stamp: Stamp, number: int, /) -> None:
         """Do what is to be done at this instant, the `number`th of this device from 1 on. What was not wanted is counted too."""
 
     def reset(self) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from rosmini.geometry.poses import Pose
 from rosmini.msgs import message_class
 
 from .imu import Imu
-from .models import RobotModel
+from .models import LidarModel
 from .odometry import Odometry
 from .robot import Robot
 
@@ -31,7 +32,7 @@ ORIENTATION_COVARIANCE, GYRO_COVARIANCE, ACCEL_COVARIANCE = 0.0025, 0.02, 0.04
 """As TurtleBot3's firmware states them."""
 
 
-def diagonal(values: tuple[float, ...]) -> Floats:
+def diagonal(values: Sequence[float]) -> Floats:
     """A matrix with these values on its diagonal, row by row, as messages hold covariances.
 
     The array lies over bytes, so that nobody can write to it, and publishing need not copy it.
@@ -62,48 +63,47 @@ class Headed:
 class OdometryMessage(Headed):
     """`nav_msgs/Odometry`: a pose, and the speeds in the robot's own frame."""
 
-    def __init__(self, frame: str, child: str) -> None:
+    def __init__(self, frame: str, child: str, covariance: Sequence[float] = POSE_COVARIANCE) -> None:
         super().__init__("nav_msgs/Odometry", frame)
         self.message.child_frame_id = child
-        self.message.pose.covariance = diagonal(POSE_COVARIANCE)
-        self.message.twist.covariance = diagonal(POSE_COVARIANCE)
+        self.message.pose.covariance = diagonal(covariance)
+        self.message.twist.covariance = diagonal(covariance)
         pose, twist = self.message.pose.pose, self.message.twist.twist
         self._position, self._orientation = quick(pose.position), quick(pose.orientation)
         self._linear, self._angular = quick(twist.linear), quick(twist.angular)
 
-    def fill(self, pose: Pose, v: float, w: float) -> Any:
-        """Say where it is and how fast it goes."""
+    def fill(self, pose: Pose, v: float, vy: float, w: float) -> Any:
+        """Say where it is, and how fast it goes ahead and to its left side [m/s] and turns to the left [rad/s]."""
         self._position.x, self._position.y = pose[0], pose[1]
         half = pose[2] / 2
         self._orientation.z, self._orientation.w = math.sin(half), math.cos(half)
-        self._linear.x, self._angular.z = v, w
+        self._linear.x, self._linear.y, self._angular.z = v, vy, w
         return self.message
 
 
 class TransformMessage(Headed):
-    """`tf2_msgs/TFMessage` with one transform, from `odom` to `base_footprint`."""
+    """`geometry_msgs/TransformStamped`, one of those that a `tf2_msgs/TFMessage` lists."""
 
     def __init__(self, frame: str, child: str) -> None:
         super().__init__("geometry_msgs/TransformStamped", frame)
         self.message.child_frame_id = child
         self._translation = quick(self.message.transform.translation)
         self._rotation = quick(self.message.transform.rotation)
-        self._list = message_class("tf2_msgs/TFMessage")(transforms=[self.message])
 
     def fill(self, pose: Pose) -> Any:
         """Say where it is."""
         self._translation.x, self._translation.y = pose[0], pose[1]
         half = pose[2] / 2
         self._rotation.z, self._rotation.w = math.sin(half), math.cos(half)
-        return self._list
+        return self.message
 
 
 class JointStates(Headed):
-    """`sensor_msgs/JointState`: how far the wheels have turned, and how fast they do."""
+    """`sensor_msgs/JointState`: how far two wheels have turned, and how fast they do."""
 
-    def __init__(self) -> None:
-        super().__init__("sensor_msgs/JointState", BASE_LINK)
-        self.message.name = WHEELS
+    def __init__(self, joints: Sequence[str] = WHEELS, frame: str = BASE_LINK) -> None:
+        super().__init__("sensor_msgs/JointState", frame)
+        self.message.name = list(joints)
 
     def fill(self, odometry: Odometry) -> Any:
         """Say what the encoders showed."""
@@ -124,14 +124,14 @@ class ImuMessage(Headed):
         self._orientation = quick(message.orientation)
         self._gyro, self._accel = quick(message.angular_velocity), quick(message.linear_acceleration)
 
-    def fill(self, imu: Imu, number: int, robot: Robot) -> Any:
-        """Say what sample `number` shows."""
+    def fill(self, imu: Imu, number: int, robot: Robot, heading: float) -> Any:
+        """Say what sample `number` shows, if the robot had this heading [rad] when the unit was switched on."""
         motion = robot.motion()
         gyro, accel = self._gyro, self._accel
         gyro.x, gyro.y, gyro.z, accel.x, accel.y, accel.z = imu.read(
             number, motion.v, motion.w, motion.dv, motion.dw
         )
-        half = (robot.pose[2] - robot.start[2] + imu.heading_error(number)) / 2
+        half = (robot.pose[2] - heading + imu.heading_error(number)) / 2
         self._orientation.z, self._orientation.w = math.sin(half), math.cos(half)
         return self.message
 
@@ -139,13 +139,12 @@ class ImuMessage(Headed):
 class ScanMessage(Headed):
     """`sensor_msgs/LaserScan`."""
 
-    def __init__(self, model: RobotModel) -> None:
-        lidar = model.lidar
-        super().__init__("sensor_msgs/LaserScan", lidar.frame)
+    def __init__(self, lidar: LidarModel, frame: str, rate: float) -> None:
+        super().__init__("sensor_msgs/LaserScan", frame)
         message = self.message
-        message.angle_increment = 2 * math.pi / lidar.beams
-        message.angle_max = message.angle_increment * (lidar.beams - 1)
-        message.scan_time = 1 / lidar.rate
+        message.angle_min, message.angle_max = lidar.angle_min, lidar.last_angle
+        message.angle_increment = lidar.increment
+        message.scan_time = 1 / rate
         message.range_min, message.range_max = lidar.range_min, lidar.range_max
 
     def fill(self, ranges: Floats) -> Any:

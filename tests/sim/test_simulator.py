@@ -333,7 +333,6 @@ def test_by_default_it_is_a_burger_in_the_room(graph, monkeypatch):
     [
         ({"world": "roon"}, WorldError, "did you mean room"),
         ({"model": "burgr"}, UnknownModel, "did you mean burger"),
-        ({"model": "waffle"}, UnknownModel, "not in this version"),
         ({"wrold": "room"}, ParameterError, r"did you mean ~world\?"),
         ({"noise": -1.0}, ParameterError, "at least 0"),
         ({"world": "arena", "x": 1.99}, WorldError, "the obstacle 'east wall' is in its way"),

@@ -1,0 +1,46 @@
+"""In which sequence devices are served, and how names are put together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rosmini.errors import RosminiError, nearest
+
+SEQUENCE = (
+    "clock",
+    "drive",
+    "transforms",
+    "joints",
+    "truth",
+    "laser",
+    "imu",
+    "battery",
+    "bumper",
+    "sensor_state",
+    "camera",
+)
+
+
+def order(what: str) -> int:
+    """The place of a kind of devices in the sequence in which those are served that are due at the same instant; others come last, at 100."""
+    return SEQUENCE.index(what)
+
+
+def prefixed(prefix: str, name: str) -> str:
+    """A topic in a namespace, or a frame with a tf_prefix: tb3_0/odom. What begins with a slash stays as it is, without the slash if it is a frame.
+
+    >>> prefixed("tb3_0", "odom"), prefixed("", "odom"), prefixed("/tb3_0/", "odom"), prefixed("tb3_0", "/tf")
+    ('tb3_0/odom', 'odom', 'tb3_0/odom', '/tf')
+    """
+    prefix = prefix.strip("/")
+    return f"{prefix}/{name}" if prefix and not name.startswith("/") else name
+
+
+def one_of(what: str, value: str, values: Iterable[str]) -> str:
+    """Return `value`. Raises `RosminiError`, with the nearest, if it is none of `values`."""
+    known = tuple(values)
+    if value not in known:
+        hint = nearest(value, known) or f"it is one of {', '.join(known)}"
+        msg = f"there is no {what} {value!r}; {hint}"
+        raise RosminiError(msg)
+    return value

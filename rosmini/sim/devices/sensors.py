@@ -1,0 +1,181 @@
+"""What a robot measures: the laser and the inertial measurement unit."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.poses import Pose
+from rosmini.sim.host import Device, Host, Stamp
+from rosmini.sim.imu import Imu
+from rosmini.sim.lidar import unmeasured
+from rosmini.sim.messages import ImuMessage, ScanMessage
+from rosmini.sim.models import ImuModel, LidarModel
+
+from .names import order
+
+Floats = NDArray[np.float64]
+
+
+class Laser(Device):
+    """`sensor_msgs/LaserScan` of a laser on a robot.
+
+    Args:
+        host: where it happens.
+        robot: the engine's name of the robot.
+        lidar: which laser, and where it sits; without it the one of the robot's model.
+        topic: where it is published.
+        frame: what the header says; without it what the laser's model says.
+        rate: how often; without it as often as the laser's model says [Hz].
+        noise: scales the noise of the laser's model; 0: none.
+        rep_117: tell inf of what is too far and -inf of what is too near; else 0.0, as a real LDS-01 does.
+        always: measure even if nobody listens, so that `last` is there.
+        name: the device's; without it robot/lidar.
+
+    """
+
+    order = order("laser")
+
+    def __init__(
+        self,
+        host: Host,
+        robot: str,
+        lidar: LidarModel | None = None,
+        *,
+        topic: str = "scan",
+        frame: str | None = None,
+        rate: float | None = None,
+        noise: float = 1.0,
+        rep_117: bool = True,
+        always: bool = False,
+        name: str | None = None,
+    ) -> None:
+        self.robot = host.engine.robot(robot)
+        self.lidar = self.robot.model.laser if lidar is None else lidar
+        super().__init__(host, name or f"{robot}/lidar", rate or self.lidar.rate)
+        self.measures = always
+        self.pose: Pose = self.robot.pose
+        """Where the robot was when it measured last."""
+        self.ranges: Floats | None = None
+        """What it measured last, as it was published; None before the first time."""
+        self._deviation = self.lidar.noise * noise
+        self._rep_117 = rep_117
+        self._rng = host.rng(self.name)
+        self._told = ScanMessage(self.lidar, frame or self.lidar.frame, self.rate)
+        self._publisher = host.node.publisher(topic, type(self._told.message), queue_size=5)
+
+    def due(self, stamp: Stamp, _: int, /) -> None:
+        """Measure. Noise is drawn even if nobody listens, so that it does not depend on who does."""
+        noise = None
+        if self._deviation:
+            noise = self._rng.standard_normal(self.lidar.beams) * self._deviation
+        heard = self._publisher.num_connections()
+        if not heard and not self.measures:
+            return
+        own = self.lidar is self.robot.model.lidar
+        engine = self.host.engine
+        ranges = (
+            engine.scan(self.robot.name, noise) if own else engine.scan(self.robot.name, noise, lidar=self.lidar)
+        )
+        self.pose = self.robot.pose
+        self.ranges = ranges if self._rep_117 else unmeasured(ranges)
+        message = self._told.fill(self.ranges)
+        self._told.stamp(*stamp)
+        if heard:
+            self._publisher.publish(message)
+
+    @property
+    def message(self) -> Any:
+        """A copy of the last message, whether anybody heard it or not; None before the first."""
+        if self.ranges is None:
+            return None
+        cls = type(self._told.message)
+        return cls._thaw_numpy(cls._freeze(self._told.message))
+
+    def state(self) -> Any:
+        """The noise that is still to come, and what was measured last."""
+        return copy.deepcopy(self._rng), self.pose, self.ranges
+
+    def restore(self, state: Any) -> None:
+        """Draw the noise that was drawn after that."""
+        rng, self.pose, self.ranges = state
+        self._rng = copy.deepcopy(rng)
+        if self.ranges is not None:
+            self._told.fill(self.ranges)
+
+    def close(self) -> None:
+        """End the topic."""
+        self._publisher.unregister()
+
+
+class ImuDevice(Device):
+    """`sensor_msgs/Imu` of a unit on a robot: its heading counts from where the robot started.
+
+    Args:
+        host: where it happens.
+        robot: the engine's name of the robot.
+        model: which unit, and where it sits; without it the one of the robot's model.
+        topic: where it is published.
+        frame: what the header says; without it what the unit's model says.
+        rate: how often; without it as often as the unit's model says [Hz].
+        noise: scales the noise and the biases of the unit's model; 0: none.
+        name: the device's; without it robot/imu.
+
+    """
+
+    order = order("imu")
+    always = False
+
+    def __init__(
+        self,
+        host: Host,
+        robot: str,
+        model: ImuModel | None = None,
+        *,
+        topic: str = "imu",
+        frame: str | None = None,
+        rate: float | None = None,
+        noise: float = 1.0,
+        name: str | None = None,
+    ) -> None:
+        self.robot = host.engine.robot(robot)
+        self.model = self.robot.model.unit if model is None else model
+        super().__init__(host, name or f"{robot}/imu", rate or self.model.rate)
+        self._imu = Imu(self.model, host.rng(self.name), noise)
+        self._heading = self.robot.start[2]
+        self._told = ImuMessage(frame or self.model.frame)
+        self._publisher = host.node.publisher(topic, type(self._told.message), queue_size=50)
+
+    def wanted(self) -> bool:
+        """Tell whether anybody listens."""
+        return self._publisher.num_connections() > 0
+
+    def due(self, stamp: Stamp, number: int, /) -> None:
+        """Tell what the sample of this number shows."""
+        told = self._told
+        told.stamp(*stamp)
+        self._publisher.publish(told.fill(self._imu, number, self.robot, self._heading))
+
+    def reset_heading(self) -> None:
+        """Let the heading be zero here and now: TurtleBot3's topic `reset`."""
+        self._heading = self.robot.pose[2]
+
+    def reset(self) -> None:
+        """Count the heading from where the robot is put back to."""
+        self._heading = self.robot.start[2]
+
+    def state(self) -> Any:
+        """The biases, and the noise that is still to come."""
+        return copy.deepcopy(self._imu), self._heading
+
+    def restore(self, state: Any) -> None:
+        """Measure what was measured after that."""
+        imu, self._heading = state
+        self._imu = copy.deepcopy(imu)
+
+    def close(self) -> None:
+        """End the topic."""
+        self._publisher.unregister()

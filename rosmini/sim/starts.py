@@ -1,0 +1,139 @@
+"""With which robots a simulator begins, and where: what its parameters say."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import ParameterError, RosminiError, nearest
+from rosmini.geometry.poses import Pose
+
+from .models import RobotModel
+from .models import model as model_called
+from .world import World, WorldError
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+    from .engine import Engine
+    from .robot import Robot
+
+KEYS = ("name", "model", "x", "y", "yaw", "namespace", "tf_prefix")
+"""What an entry of the parameter `~robots` may say."""
+
+SPACING, RINGS = 0.5, 60
+"""A robot without a place looks for one on squares around the first start, so far apart [m] and so many."""
+
+
+@dataclass(frozen=True)
+class Start:
+    """One robot that is to come."""
+
+    name: str
+    model: RobotModel
+    pose: Pose | None = None
+    """Without one it comes to the world's first start that is free, or near by."""
+    namespace: str = ""
+    tf_prefix: str = ""
+
+
+def read_starts(
+    node: Node, model: RobotModel, world: World, pose: Pose | None, tf_prefix: str
+) -> list[Start]:
+    """The robots that `~robots` asks for, or the one of the other parameters.
+
+    `~robots` is a number n, for robots tb3_0 ... tb3_(n-1); or a list, of names or of mappings with the keys `KEYS`. Each has its topics in a namespace,
+    and its frames with a prefix, both of which are its name if nothing else is said. Raises `ParameterError`.
+    """
+    given = node.get_param("~robots", None)
+    if given is None:
+        return [Start(model.name, model, pose, "", tf_prefix)]
+    where = node.resolve_parameter("~robots")
+    if isinstance(given, int) and not isinstance(given, bool) and given > 0:
+        given = [f"tb3_{i}" for i in range(given)]
+    if not isinstance(given, list) or not given:
+        msg = f"parameter {where} is {given!r}; it has to be a number of robots, or a list of their names or of what is to be known of each"
+        raise ParameterError(msg)
+    starts = [_read(f"{where}[{i}]", entry, model, world) for i, entry in enumerate(given)]
+    names = [start.name for start in starts]
+    for name in names:
+        if names.count(name) > 1:
+            raise ParameterError(
+                f"parameter {where}: two robots are called {name!r}; give each a name of its own"
+            )
+    return starts
+
+
+def _read(where: str, entry: Any, model: RobotModel, world: World) -> Start:
+    if isinstance(entry, str):
+        entry = {"name": entry}
+    if not isinstance(entry, dict) or not isinstance(entry.get("name"), str) or not entry["name"]:
+        msg = f"parameter {where} is {entry!r}; it has to be the name of a robot, or a mapping with a 'name' and any of {', '.join(KEYS[1:])}"
+        raise ParameterError(msg)
+    for key, value in entry.items():
+        if key not in KEYS:
+            hint = nearest(key, KEYS) or f"the keys are {', '.join(KEYS)}"
+            raise ParameterError(f"parameter {where}: a robot has no {key!r}; {hint}")
+        number = key in ("x", "y", "yaw")
+        if not isinstance(value, (int, float) if number else str) or isinstance(value, bool):
+            kind = "a number" if number else "a string"
+            raise ParameterError(f"parameter {where}/{key} is {value!r}; it has to be {kind}")
+    name = entry["name"]
+    space = str(entry.get("namespace", name))
+    return Start(
+        name,
+        model_called(entry["model"]) if "model" in entry else model,
+        start_pose(world, entry.get("x"), entry.get("y"), entry.get("yaw")),
+        space,
+        str(entry.get("tf_prefix", space.strip("/"))),
+    )
+
+
+def start_pose(world: World, x: float | None, y: float | None, yaw: float | None) -> Pose | None:
+    """A pose; what is missing is taken from the world's first start. None if all is."""
+    given = (x, y, yaw)
+    if given == (None, None, None):
+        return None
+    px, py, theta = (
+        own if part is None else float(part) for part, own in zip(given, world.starts[0], strict=True)
+    )
+    return (px, py, theta)
+
+
+def add(engine: Engine, start: Start) -> Robot:
+    """Put a robot into the engine. One without a pose comes to a free start of the world, or else to a free place near the first one.
+
+    Raises `WorldError`, with the nearest free place, and `RosminiError` for a name that is used.
+    """
+    _check(start.name)
+    try:
+        return engine.add(start.name, start.model, start.pose)
+    except WorldError:
+        if start.pose is not None:
+            raise
+        for pose in islice(_around(engine.world), 1, None):
+            try:
+                return engine.add(start.name, start.model, pose)
+            except WorldError:
+                continue
+        raise
+
+
+def _check(name: str) -> None:
+    if not name or name.strip("/") != name or any(part.isspace() for part in name):
+        msg = f"a robot cannot be called {name!r}: a name has letters, digits and underscores, as tb3_0"
+        raise RosminiError(msg)
+
+
+def _around(world: World) -> Iterator[Pose]:
+    """Places around the first start, nearer ones first, that are within the bounds of the world."""
+    x, y, theta = world.starts[0]
+    x0, y0, x1, y1 = world.bounds
+    cells = [(i, j) for i in range(-RINGS, RINGS + 1) for j in range(-RINGS, RINGS + 1)]
+    for i, j in sorted(cells, key=lambda cell: math.hypot(*cell)):
+        px, py = x + i * SPACING, y + j * SPACING
+        if (x0 <= px <= x1 and y0 <= py <= y1) or x0 == x1:
+            yield (px, py, theta)

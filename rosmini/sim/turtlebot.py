@@ -1,0 +1,122 @@
+"""One TurtleBot3 of a simulator: which devices it has, on which topics and in which frames."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeVar
+
+from rosmini.geometry.poses import Pose
+
+from .devices import DifferentialDrive, GroundTruth, ImuDevice, Laser, WheelStates, prefixed
+from .host import Device, Host
+from .messages import BASE, BASE_LINK, MAP, ODOM
+from .models import RobotModel
+
+if TYPE_CHECKING:
+    from .robot import Robot
+
+D = TypeVar("D", bound=Device)
+
+COMMAND_TIMEOUT = 0.5
+"""How long a command holds [s]: CONTROL_MOTOR_TIMEOUT of TurtleBot3's firmware."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How the robots of one simulator are set up."""
+
+    noise: float = 1.0
+    cmd_vel_timeout: float = COMMAND_TIMEOUT
+    tf: bool = True
+    use_rep_117: bool = True
+    board: bool = False
+
+
+class TurtleBot:
+    """A robot that is in the engine already, and its devices, which it adds to the host.
+
+    Args:
+        host: where it lives.
+        robot: the engine's robot.
+        namespace: what its topics begin with, seen from the node's own namespace.
+        tf_prefix: what its frames begin with.
+        options: how it is set up.
+
+    """
+
+    def __init__(
+        self, host: Host, robot: Robot, *, namespace: str = "", tf_prefix: str = "", options: Options
+    ) -> None:
+        self.host = host
+        self.robot = robot
+        self.name = robot.name
+        self.model: RobotModel = robot.model
+        self.namespace, self.tf_prefix, self.options = namespace, tf_prefix, options
+        self.devices: list[Device] = []
+        name = robot.name
+        self.laser: Laser | None = None
+        if self.model.lidar is not None:
+            self.laser = self._add(
+                Laser(
+                    host,
+                    name,
+                    topic=self.topic("scan"),
+                    frame=self.frame(self.model.lidar.frame),
+                    noise=options.noise,
+                    rep_117=options.use_rep_117,
+                    always=True,
+                )
+            )
+        self.imu: ImuDevice | None = None
+        if self.model.imu is not None:
+            frame = self.frame(self.model.imu.frame)
+            self.imu = self._add(
+                ImuDevice(host, name, topic=self.topic("imu"), frame=frame, noise=options.noise)
+            )
+        self.drive = self._add(
+            DifferentialDrive(
+                host,
+                name,
+                cmd_vel=self.topic("cmd_vel"),
+                odom=self.topic("odom"),
+                odom_frame=self.frame(ODOM),
+                base_frame=self.frame(BASE),
+                timeout=options.cmd_vel_timeout,
+            )
+        )
+        self.truth = self._add(
+            GroundTruth(
+                host, name, topic=self.topic("base_pose_ground_truth"), frame=MAP, child=self.frame(BASE)
+            )
+        )
+        if options.tf:
+            self.drive.publish_transform("/tf")
+        self.joints = self._add(
+            WheelStates(host, self.drive, topic=self.topic("joint_states"), frame=self.frame(BASE_LINK))
+        )
+
+    def __repr__(self) -> str:
+        x, y, _ = self.robot.pose
+        return f"<{self.model.title or self.model.name} {self.name} at ({x:.2f}, {y:.2f})>"
+
+    def _add(self, device: D) -> D:
+        self.devices.append(self.host.add(device))
+        return device
+
+    def topic(self, name: str) -> str:
+        """The name of one of its topics."""
+        return prefixed(self.namespace, name)
+
+    def frame(self, name: str) -> str:
+        """The name of one of its frames."""
+        return prefixed(self.tf_prefix, name)
+
+    @property
+    def odometry(self) -> Pose:
+        """Where the robot believes to be: x [m], y [m], heading [rad, not wrapped], in its frame odom."""
+        return self.drive.reckoned.pose
+
+    def close(self) -> None:
+        """End its topics."""
+        for device in self.devices:
+            self.host.remove(device)
