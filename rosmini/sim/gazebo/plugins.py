@@ -1,0 +1,137 @@
+"""Plugins: code that a world, a model or a sensor brings along, found by the file name in its `<plugin>` tag.
+
+In Gazebo a plugin is a shared library that the server loads; here it is a class that says which library it stands for. To write one, derive from
+`WorldPlugin`, `ModelPlugin` or `SensorPlugin` and override `load`; once the class exists, a file that names it finds it:
+
+>>> class Shout(ModelPlugin, filename="libshout.so"):
+...     def load(self, model, sdf):
+...         print(f"I am {model.name} and I say {sdf.word('words')}")
+>>> plugin_class("libshout.so") is Shout
+True
+
+http://classic.gazebosim.org/tutorials?cat=write_plugin tells how it is done there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from rosmini.errors import nearest
+from rosmini.markup import Element
+
+from ..host import Device, Host, Stamp
+from .errors import UnknownPlugin
+
+if TYPE_CHECKING:
+    from .body import Body
+    from .model import Model, Sensor
+    from .world import GazeboWorld
+
+_CLASSES: dict[str, type[Plugin]] = {}
+
+
+class Plugin:
+    """What all plugins have. Derive from one of the three kinds, not from this."""
+
+    kind: ClassVar[str] = ""
+    filenames: ClassVar[tuple[str, ...]] = ()
+    """The libraries that the class stands for."""
+
+    def __init_subclass__(cls, *, filename: str | Sequence[str] = (), **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls.filenames = (filename,) if isinstance(filename, str) else tuple(filename)
+        for name in cls.filenames:
+            _CLASSES[_base(name)] = cls
+
+    def __init__(self, world: GazeboWorld, name: str) -> None:
+        self.world = world
+        """The running world."""
+        self.name = name
+        """What the tag calls it, under the name of what it belongs to."""
+        self._updates: list[Update] = []
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name}>"
+
+    def every(self, rate: float, callback: Callable[[float], object]) -> None:
+        """Call `callback(now)` so many times a second of the world's time [s], until the plugin is closed."""
+        name = f"{self.name}/update{len(self._updates) or ''}"
+        self._updates.append(self.world.host.add(Update(self.world.host, name, rate, callback)))
+
+    def reset(self) -> None:
+        """Go back to how it was in the beginning, because the world does."""
+
+    def close(self) -> None:
+        """End: what it belongs to leaves the world. Who overrides this calls it too."""
+        for update in self._updates:
+            self.world.host.remove(update)
+        self._updates.clear()
+
+
+class WorldPlugin(Plugin):
+    """A plugin of the whole world: a `<plugin>` in a `<world>`."""
+
+    kind = "world"
+
+    def load(self, world: GazeboWorld, sdf: Element) -> None:
+        """Begin; `sdf` is the plugin's tag."""
+
+
+class ModelPlugin(Plugin):
+    """A plugin of a model: a `<plugin>` in a `<model>`, or in a `<gazebo>` of a URDF."""
+
+    kind = "model"
+
+    @classmethod
+    def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
+        """Say, before the model comes into the world, how it is driven. Only drives need this."""
+
+    def load(self, model: Model, sdf: Element) -> None:
+        """Begin; `sdf` is the plugin's tag."""
+
+
+class SensorPlugin(Plugin):
+    """A plugin of a sensor: a `<plugin>` in a `<sensor>`."""
+
+    kind = "sensor"
+
+    def load(self, sensor: Sensor, sdf: Element) -> None:
+        """Begin; `sdf` is the plugin's tag."""
+
+
+class Update(Device):
+    """What `Plugin.every` adds to the host."""
+
+    def __init__(self, host: Host, name: str, rate: float, callback: Callable[[float], object]) -> None:
+        super().__init__(host, name, rate)
+        self._callback = callback
+
+    def due(self, stamp: Stamp, number: int) -> None:
+        """Call the plugin; what it raises is told, and the simulation goes on."""
+        self.host.node.guarded(self._callback, stamp[0] + stamp[1] * 1e-9, what=self.name)
+
+
+def _base(filename: str) -> str:
+    """A library's name without its folder; Gazebo takes it with and without `lib` and `.so`."""
+    name = filename.strip().rsplit("/", 1)[-1]
+    return name.removeprefix("lib").removesuffix(".so").removesuffix(".dylib")
+
+
+def plugin_class(filename: str) -> type[Plugin]:
+    """The class that stands for a library. Raises `UnknownPlugin`, with the nearest name."""
+    from . import ros_plugins  # noqa: F401  (its classes are known from then on)
+
+    found = _CLASSES.get(_base(filename))
+    if found is None:
+        known = plugin_filenames()
+        hint = nearest(filename, known) or f"there are: {', '.join(known)}"
+        raise UnknownPlugin(f"there is no plugin {filename!r}; {hint}")
+    return found
+
+
+def plugin_filenames() -> tuple[str, ...]:
+    """The libraries that there are plugins for, sorted."""
+    from . import ros_plugins  # noqa: F401
+
+    return tuple(sorted({name for cls in _CLASSES.values() for name in cls.filenames}))
