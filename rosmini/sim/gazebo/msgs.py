@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass, field, fields, is_dataclass
 from typing import Any, ClassVar
 
-from ..sdf import Pose6
+from rosmini.sim.sdf import Pose6
 
 
 @dataclass(frozen=True)

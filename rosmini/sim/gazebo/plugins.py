@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.errors import nearest
 from rosmini.markup import Element
+from rosmini.sim.host import Device, Host, Stamp
 
-from ..host import Device, Host, Stamp
 from .errors import UnknownPlugin
 
 if TYPE_CHECKING:
