@@ -1,0 +1,24 @@
+"""Stage: its world files, and the node `stage_ros/stageros` on rosmini's engine.
+
+>>> from rosmini.sim.stage import load
+>>> stage = load("package://stage_ros/world/willow-erratic.world")
+>>> [robot.drive for robot in stage.robots]
+['diff']
+
+Stage is the simulator of the Player project, by Richard Vaughan (https://github.com/rtv/Stage): many robots, plain models, a flat world.
+"""
+
+from .errors import Place, StageError
+from .file import StageWindow, StageWorld, load
+from .robots import StageCamera, StageLaser, StageRobot
+
+__all__ = [
+    "Place",
+    "StageCamera",
+    "StageError",
+    "StageLaser",
+    "StageRobot",
+    "StageWindow",
+    "StageWorld",
+    "load",
+]

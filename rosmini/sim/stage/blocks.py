@@ -1,0 +1,127 @@
+"""Bodies of Stage's models: blocks, which are polygons with a bottom and a top, or what is dark in an image.
+
+Whatever a body is made of is stretched to the model's `size`: the smallest box around all of it becomes that size, its middle the model's origin. So a
+floor plan's image needs black up to its edges (or a `boundary`) to keep its scale: white margins are not counted, which surprises those who come from
+map_server. A pixel is dark if its first channel is not over 127 (facts: libstage's blockgroup.cc, block.cc and stage.cc).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.contours import outlines
+from rosmini.geometry.polygons import area, crossing_sides
+
+from .errors import Place, StageError
+
+Floats = NDArray[np.float64]
+Size = tuple[float, float, float]
+
+THRESHOLD = 127
+EDGE = 0.01
+"""How thick a boundary is [m]."""
+
+LARGEST = 100_000_000
+"""Pixels of an image."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """A closed outline (n, 2), counter-clockwise, clockwise for a hole in another one, from one height to another."""
+
+    outline: Floats
+    bottom: float = 0.0
+    top: float = 1.0
+
+
+@dataclass(frozen=True)
+class Body:
+    """What a model is made of, in its own frame [m]."""
+
+    blocks: tuple[Block, ...]
+    traced: bool = False
+    """From an image: the outlines are apart from one another, but may be holes in others."""
+    boundary: tuple[Block, ...] = ()
+    """A frame around it all."""
+
+
+def square() -> Block:
+    """What a model is of which nothing else is said."""
+    return Block(np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]))
+
+
+def block(points: Floats, bottom: float, top: float, place: Place) -> Block:
+    """A block of these corners (n, 2), in either sense. Raises `StageError` if they make no polygon."""
+    if len(points) < 3:
+        raise StageError(place, f"a block needs 3 points or more, not {len(points)}")
+    if top <= bottom:
+        raise StageError(
+            place, f"the z of a block goes from {bottom:g} up to {top:g}; the second has to be more"
+        )
+    size = area(points)
+    if size == 0:
+        raise StageError(place, "the points of a block enclose nothing")
+    crossing = crossing_sides(points)
+    if crossing is not None:
+        first, second = crossing
+        raise StageError(place, f"the sides of a block meet that begin at point[{first}] and point[{second}]")
+    return Block(points if size > 0 else points[::-1], bottom, top)
+
+
+def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, float, float, float], str]:
+    """The outlines of what is dark, in pixels, y up; the smallest box around it (x0, y0, x1, y1); and what is odd about it, or nothing."""
+    from PIL import Image
+
+    try:
+        with Image.open(path) as opened:
+            if opened.width * opened.height > LARGEST:
+                raise StageError(
+                    place, f"the bitmap {path} has {opened.width} x {opened.height} pixels, too many"
+                )
+            first = np.asarray(opened.convert("RGB"))[:, :, 0]
+    except (OSError, SyntaxError, ValueError) as error:  # PIL raises all of these for a broken file
+        raise StageError(place, f"the bitmap {path} cannot be read: {error}") from error
+    dark = first[::-1] <= THRESHOLD
+    if not dark.any():
+        raise StageError(place, f"nothing in the bitmap {path} is dark (first channel up to {THRESHOLD})")
+    columns, rows = np.flatnonzero(dark.any(axis=0)), np.flatnonzero(dark.any(axis=1))
+    box = (float(columns[0]), float(rows[0]), float(columns[-1] + 1), float(rows[-1] + 1))
+    height, width = dark.shape
+    odd = ""
+    if (box[2] - box[0], box[3] - box[1]) != (width, height):
+        odd = (
+            f"of the bitmap's {width} x {height} pixels the {box[2] - box[0]:.0f} x {box[3] - box[1]:.0f} that are not white margin are "
+            "stretched to the model's size"
+        )
+    return tuple(Block(loop) for loop in outlines(dark)), box, odd
+
+
+def stretched(
+    blocks: tuple[Block, ...], size: Size, box: tuple[float, float, float, float] | None = None
+) -> tuple[Block, ...]:
+    """Blocks so that the smallest box around them, or `box` (x0, y0, x1, y1), has the size [m] and its middle in the origin.
+
+    Heights begin where they begin: only their extent is made that of the size.
+    """
+    if box is None:
+        points = np.vstack([each.outline for each in blocks])
+        box = (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
+    x0, y0, x1, y1 = box
+    low, high = min(each.bottom for each in blocks), max(each.top for each in blocks)
+    middle = np.array([(x0 + x1) / 2, (y0 + y1) / 2])
+    scale = np.array([size[0] / (x1 - x0), size[1] / (y1 - y0)])
+    up = size[2] / (high - low)
+    return tuple(Block((each.outline - middle) * scale, each.bottom * up, each.top * up) for each in blocks)
+
+
+def frame(size: Size) -> tuple[Block, ...]:
+    """The boundary of a body of this size: four thin walls within it."""
+    x, y, z = size[0] / 2, size[1] / 2, size[2]
+    sides = ((-x, -y, x, -y + EDGE), (-x, y - EDGE, x, y), (-x, -y, -x + EDGE, y), (x - EDGE, -y, x, y))
+    return tuple(
+        Block(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]), 0.0, z) for x0, y0, x1, y1 in sides
+    )

@@ -1,0 +1,321 @@
+"""A Stage world file as a world with robots: `load`.
+
+What is read: include, define, units, `resolution`, `interval_sim`, `speedup`, `paused`, `quit_time`, `window`, and the models `model`, `position`, `ranger`,
+`laser` (of Stage 3) and `camera` with blocks, bitmaps and boundaries. Models with `gripper_return 1` can be pushed. What is left out is told in
+`StageWorld.notes`, with file and line; what is wrong is a `StageError`, which names them too.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.polygons import area, inside, sides_of
+from rosmini.geometry.poses import compose, inverse, transform_points
+from rosmini.packages import PackageIndex
+from rosmini.sim.shapes import Box, Compound, Polygon, Shape, Simple
+from rosmini.sim.world import Obstacle, Pose, World, WorldError
+
+from .blocks import Block
+from .errors import Place, StageError
+from .parse import Entity, Parsed, parse_file
+from .robots import BASE, StageRobot, robot
+from .things import UNUSED, Maker, Thing
+from .values import Reader, Units, units_of
+
+SCHEME = "package://"
+DEFAULT_RESOLUTION = 0.02
+DEFAULT_INTERVAL = 0.1
+"""How long a step of the simulation is [s]."""
+
+WORLD = ("name", "resolution", "interval_sim", "speedup", "paused", "quit_time", "unit_length", "unit_angle")
+IGNORED = (
+    "interval_real",
+    "show_clock",
+    "show_clock_interval",
+    "threads",
+    "gui_disable",
+    "gui_interval",
+    "test",
+)
+KNOWN = {
+    "model": (),
+    "position": (*BASE, "drive", "localization", "localization_origin", "odom_error", "velocity_bounds"),
+    "ranger": ("samples", "fov", "range"),
+    "laser": ("range_min", "range_max", "samples", "fov"),
+    "camera": ("resolution", "range", "fov", "pantilt"),
+}
+
+
+@dataclass(frozen=True)
+class StageWindow:
+    """How Stage's window is to look at the world."""
+
+    size: tuple[float, float] = (400.0, 300.0)
+    """[px]"""
+    center: tuple[float, float] = (0.0, 0.0)
+    """What is in its middle [m]."""
+    scale: float = 1.0
+    """Pixels of a metre."""
+
+
+@dataclass(frozen=True)
+class StageWorld:
+    """A world file: the world without its robots, the robots, and how time goes on."""
+
+    name: str
+    path: Path
+    world: World
+    robots: tuple[StageRobot, ...]
+    interval: float
+    """How long a step is [s]; all topics are published once a step."""
+    speedup: float
+    """Seconds of the world in one second."""
+    paused: bool
+    quit_time: float
+    """When it all ends [s]; 0: never."""
+    resolution: float
+    """Of Stage's raytracing [m]. Here rays are exact."""
+    window: StageWindow
+    notes: tuple[str, ...]
+    """What is left out, or not as one would think, each with file and line."""
+
+
+def load(path: str | os.PathLike[str]) -> StageWorld:
+    """Read a Stage world file, by its path or its `package://` address. Raises `StageError`, which names file and line."""
+    text = os.fspath(path)
+    file = Path(PackageIndex().resolve(text)) if text.startswith(SCHEME) else Path(text).expanduser()
+    if not file.is_file():
+        raise StageError(Place(file, 1), "there is no such file" if not file.exists() else "this is no file")
+    return _World(parse_file(file)).make()
+
+
+class _World:
+    """Puts a world together."""
+
+    def __init__(self, parsed: Parsed) -> None:
+        self.parsed = parsed
+        self.units = units_of(parsed.root)
+        self.units.notes += parsed.notes
+        self.names: Counter[str] = Counter()
+        self.walls: list[tuple[Thing, NDArray[np.float64]]] = []
+        self.obstacles: list[Obstacle] = []
+        self.robots: list[StageRobot] = []
+
+    def make(self) -> StageWorld:
+        parsed, units = self.parsed, self.units
+        reader = Reader(parsed.root, units)
+        name = reader.text("name", parsed.path.stem)
+        interval = reader.number("interval_sim", DEFAULT_INTERVAL * 1e3, above=0.0) / 1e3
+        speedup = reader.number("speedup", 1.0)
+        things = Maker(parsed, units).things()
+        for thing in things:
+            self._take(thing)
+        for thing in things:
+            for each in thing.family():
+                each.reader.done((*UNUSED, *KNOWN[each.kind]))
+        resolution = reader.length("resolution", DEFAULT_RESOLUTION)
+        if resolution <= 0:
+            raise StageError(
+                reader.place("resolution"), f"resolution is {resolution:g}; it has to be more than 0"
+            )
+        made = StageWorld(
+            name=name,
+            path=parsed.path,
+            world=self._world(name),
+            robots=tuple(self.robots),
+            interval=interval,
+            speedup=speedup if speedup > 0 else 1.0,
+            paused=reader.flag("paused", default=False),
+            quit_time=reader.number("quit_time", 0.0, minimum=0.0),
+            resolution=resolution,
+            window=_window(parsed.root, units),
+            notes=(),
+        )
+        if speedup <= 0:
+            units.note(
+                reader.place("speedup"), "a speedup of 0 or less is as fast as can be in Stage; here it is 1"
+            )
+        reader.done((*WORLD, *IGNORED))
+        object.__setattr__(made, "notes", tuple(units.notes))
+        return made
+
+    def _take(self, thing: Thing) -> None:
+        """Take a model of the top into the world."""
+        if thing.kind == "position":
+            self.robots.append(robot(thing, len(self.robots), self.units))
+            return
+        for each in thing.family():
+            if each.kind == "position":
+                what = f"the position {each.name} is on the model {thing.name}, which does not move; give it a place of its own"
+                raise StageError(each.place, what)
+            if each.kind in ("ranger", "laser", "camera"):
+                self.units.note(each.place, f"{each.name} is on no position: stageros does not find it")
+        bodies = [each for each in thing.family() if each.body is not None]
+        if thing.pushable:
+            self._push(thing, bodies)
+            return
+        for each in bodies:
+            self._stand(each)
+
+    def _stand(self, thing: Thing) -> None:
+        """A fixed thing."""
+        body = thing.body
+        if body is None or not self._there(thing):
+            return
+        blocks = body.blocks
+        if body.traced and _bottom(thing, blocks[0]) <= 0 and not self.walls:
+            corners = [_placed(thing, each) for each in blocks]
+            self.walls.append((thing, np.vstack([sides_of(loop) for loop in corners])))
+            blocks = ()
+        elif body.traced:
+            blocks = self._filled(thing, blocks)
+        for each in (*blocks, *body.boundary):
+            self._obstacle(thing, (each,))
+
+    def _push(self, thing: Thing, bodies: list[Thing]) -> None:
+        """A thing that can be pushed, with all that is on it."""
+        blocks: list[tuple[Thing, Block]] = []
+        for each in bodies:
+            if each.body is not None and self._there(each):
+                own = self._filled(each, each.body.blocks) if each.body.traced else each.body.blocks
+                blocks += [(each, one) for one in (*own, *each.body.boundary)]
+        if not blocks:
+            return
+        mass = thing.mass
+        if mass <= 0:
+            raise StageError(
+                thing.reader.place("mass"),
+                f"{thing.name} can be pushed, so its mass has to be more than 0 kg",
+            )
+        parts = [_seen_from(thing, *_shape(owner, each)) for owner, each in blocks]
+        low = min(_bottom(owner, each) for owner, each in blocks)
+        high = max(_top(owner, each) for owner, each in blocks)
+        if high <= 0:
+            self.units.note(thing.place, f"{thing.name} is below the ground and is left out")
+        elif len(blocks) == 1:
+            self._add(thing, *_shape(*blocks[0]), low, high, mass=mass)
+        else:
+            x, y, _, a = thing.at
+            self._add(thing, Compound(tuple(parts)), (x, y, a), low, high, mass=mass)
+
+    def _there(self, thing: Thing) -> bool:
+        """Tell whether anything notices the thing, and note what is not as the file says."""
+        if thing.solid and thing.seen >= 0:
+            return True
+        if not thing.solid and thing.seen < 0:
+            self.units.note(
+                thing.place, f"nothing bumps into {thing.name} and nothing sees it: it is left out"
+            )
+            return False
+        name = "obstacle_return" if not thing.solid else "ranger_return"
+        what = "solid" if not thing.solid else "seen by lasers"
+        self.units.note(thing.reader.place(name), f"{name} changes nothing here: {thing.name} is {what}")
+        return True
+
+    def _filled(self, thing: Thing, blocks: tuple[Block, ...]) -> tuple[Block, ...]:
+        """The outer outlines of what was traced; what is hollow is noted."""
+        outer = tuple(each for each in blocks if area(each.outline) > 0)
+        holes = len(blocks) - len(outer)
+        if holes:
+            what = f"of the bitmaps of a world one may have rooms in it; {holes} hollow parts of {thing.name} are filled"
+            self.units.note(thing.reader.place("bitmap"), what)
+        return tuple(
+            each
+            for each in outer
+            if not any(
+                other is not each and inside(each.outline[:1], sides_of(other.outline))[0] for other in outer
+            )
+        )
+
+    def _obstacle(self, thing: Thing, blocks: tuple[Block, ...]) -> None:
+        for each in blocks:
+            bottom, top = _bottom(thing, each), _top(thing, each)
+            if top <= 0:
+                self.units.note(thing.place, f"{thing.name} is below the ground and is left out")
+                return
+            shape, pose = _shape(thing, each)
+            self._add(thing, shape, pose, bottom, top)
+
+    def _add(
+        self, thing: Thing, shape: Shape, pose: Pose, bottom: float, top: float, mass: float | None = None
+    ) -> None:
+        count = self.names[thing.name]
+        self.names[thing.name] += 1
+        name = thing.name if not count else f"{thing.name} ({count + 1})"
+        try:
+            found = Obstacle(name, shape, pose, height=top, bottom=bottom, colour=thing.colour, mass=mass)
+        except WorldError as error:
+            raise StageError(thing.place, str(error)) from error
+        self.obstacles.append(found)
+
+    def _world(self, name: str) -> World:
+        starts = tuple(each.pose for each in self.robots) or ((0.0, 0.0, 0.0),)
+        title = f"The Stage world {name}"
+        if not self.walls:
+            return World(name, tuple(self.obstacles), starts=starts, title=title)
+        thing, walls = self.walls[0]
+        top = thing.at[2] + thing.size[2]
+        return World(
+            name, tuple(self.obstacles), walls=walls, wall_height=top, starts=starts, title=title, solid=True
+        )
+
+
+def _placed(thing: Thing, block: Block) -> NDArray[np.float64]:
+    """The outline of a block (n, 2) in the world's frame."""
+    x, y, _, a = thing.at
+    ox, oy, _, oa = thing.origin
+    corners = transform_points((ox, oy, oa), block.outline)
+    return np.asarray(transform_points((x, y, a), corners))
+
+
+def _seen_from(thing: Thing, shape: Simple, pose: Pose) -> tuple[Simple, Pose]:
+    """A shape of the world, in a thing's frame."""
+    return shape, compose(inverse((thing.at[0], thing.at[1], thing.at[3])), pose)
+
+
+def _bottom(thing: Thing, block: Block) -> float:
+    return thing.at[2] + thing.origin[2] + block.bottom
+
+
+def _top(thing: Thing, block: Block) -> float:
+    return thing.at[2] + thing.origin[2] + block.top
+
+
+def _shape(thing: Thing, block: Block) -> tuple[Simple, Pose]:
+    """A block as a shape at its pose in the world; what is a plain box is one."""
+    x, y, _, a = thing.at
+    ox, oy, _, oa = thing.origin
+    corners = block.outline
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    half = np.abs(corners - middle)
+    if len(corners) == 4 and np.allclose(half, half[0], rtol=0, atol=1e-9) and half[0].all():
+        length, width = (2 * half[0]).tolist()
+        own = compose((ox, oy, oa), (float(middle[0]), float(middle[1]), 0.0))
+        px, py, heading = compose((x, y, a), own)
+        return Box(_rounded(length), _rounded(width)), (_rounded(px), _rounded(py), heading)
+    placed = np.asarray(transform_points((ox, oy, oa), corners))
+    return Polygon(tuple((_rounded(px), _rounded(py)) for px, py in placed.tolist())), (x, y, a)
+
+
+def _rounded(value: float) -> float:
+    """A length without the last digits, which are those of stretching [m]."""
+    return round(value, 9) + 0.0
+
+
+def _window(root: Entity, units: Units) -> StageWindow:
+    windows = [child for child in root.children if child.kind == "window"]
+    if not windows:
+        return StageWindow()
+    if len(windows) > 1:
+        units.note(windows[1].place, "a world has one window; the others are left out")
+    reader = Reader(windows[0], units)
+    size = reader.several("size", "ff", StageWindow.size)
+    center = reader.several("center", "ll", StageWindow.center)
+    scale = reader.number("scale", StageWindow.scale, above=0.0)
+    return StageWindow((size[0], size[1]), (center[0], center[1]), scale)

@@ -1,0 +1,220 @@
+"""The grammar of a Stage world file: properties and entities, and what `define` makes of them.
+
+    resolution 0.02                      # a property of the world
+    define erratic position              # from here on an erratic is a position
+    (
+      size [0.35 0.35 0.25]              # with this property
+      ranger( pose [0.05 0 0 0] )        # and this child
+    )
+    erratic( pose [1 2 0 90] name "era" )
+
+A defined entity begins with all of its base, in its order; then come the properties and children of where it is used. What is said last holds.
+(Stage's manual: https://player-stage-manual.readthedocs.io, "Worldfiles"; facts of the grammar from libstage's worldfile.cc.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from rosmini.errors import nearest
+
+from .errors import Place, StageError
+from .tokens import Token, read
+
+Value = float | str
+
+DEEPEST = 100
+"""So deep may entities be nested; a file that goes deeper is broken, or wants to break something."""
+
+MOST = 100_000
+"""So many entities may a world have."""
+
+
+@dataclass(frozen=True)
+class Property:
+    """A name with one value, or with several in brackets."""
+
+    name: str
+    values: tuple[Value, ...]
+    place: Place
+    bracketed: bool = False
+
+
+@dataclass
+class Entity:
+    """A thing with properties and children; the world itself is one without a kind."""
+
+    kind: str
+    place: Place
+    title: str = ""
+    """What it was called where it is used: the name of a macro, or the kind itself."""
+    properties: dict[str, Property] = field(default_factory=dict)
+    children: list[Entity] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class _Macro:
+    name: str
+    base: str
+    body: tuple[Token, ...]
+    """What stands between its parentheses."""
+    place: Place
+
+
+@dataclass
+class Parsed:
+    """A world file as it was written, and what is odd about it."""
+
+    root: Entity
+    path: Path
+    notes: list[str] = field(default_factory=list)
+    macros: dict[str, Place] = field(default_factory=dict)
+
+
+def parse_file(path: Path) -> Parsed:
+    """The entities of a world file and all that it includes. Raises `StageError`."""
+    return parse(read(path), path)
+
+
+def parse(words: Iterable[Token], path: Path) -> Parsed:
+    """The entities that these words make. Raises `StageError`."""
+    return _Parser(tuple(words), path).world()
+
+
+class _Words:
+    """Words to be taken one by one."""
+
+    def __init__(self, words: tuple[Token, ...], end: Place) -> None:
+        self.words = words
+        self.at = 0
+        self.end = words[-1].place if words else end
+
+    def next(self) -> Token | None:
+        if self.at == len(self.words):
+            return None
+        self.at += 1
+        return self.words[self.at - 1]
+
+    def peek(self) -> Token | None:
+        return self.words[self.at] if self.at < len(self.words) else None
+
+
+class _Parser:
+    def __init__(self, words: tuple[Token, ...], path: Path) -> None:
+        self._words = _Words(words, Place(path, 1))
+        self._macros: dict[str, _Macro] = {}
+        self._parsed = Parsed(Entity("", Place(path, 1)), path)
+        self._count = 0
+
+    def world(self) -> Parsed:
+        """Read all."""
+        self._fill(self._parsed.root, self._words, ())
+        self._parsed.macros = {name: macro.place for name, macro in self._macros.items()}
+        return self._parsed
+
+    def _fill(self, entity: Entity, words: _Words, using: tuple[str, ...]) -> None:
+        """Give an entity the properties and children that these words say."""
+        while (word := words.next()) is not None:
+            if word.kind != "word":
+                raise StageError(word.place, f"a name is missing before {_shown(word)}")
+            following = words.peek()
+            if word.text == "define":
+                self._define(word, words)
+            elif following is None:
+                raise StageError(
+                    word.place, f"after {word.text} a value is missing, or what is in parentheses"
+                )
+            elif following.kind == "(":
+                body = _between(words, word)
+                entity.children.append(self._make(word.text, word.place, body, using))
+            else:
+                found = _property(word, words)
+                entity.properties[found.name] = found
+
+    def _define(self, define: Token, words: _Words) -> None:
+        name, base = words.next(), words.next()
+        for word in (name, base):
+            if word is None or word.kind != "word":
+                found = "the end" if word is None else _shown(word)
+                msg = f"after define come a name and what it is based on, as in define erratic position (...), not {found}"
+                raise StageError(define.place, msg)
+        assert name is not None and base is not None  # noqa: S101, PT018  # for mypy; the loop has told the user
+        following = words.peek()
+        if following is None or following.kind != "(":
+            raise StageError(define.place, f"after define {name.text} {base.text} a ( is missing")
+        macro = _Macro(name.text, base.text, _between(words, name), define.place)
+        if macro.name in self._macros:
+            first = self._macros[macro.name].place
+            self._parsed.notes.append(
+                f"{define.place}: {macro.name} is defined already, in {first}, and stays what it is"
+            )
+            return
+        self._macros[macro.name] = macro
+
+    def _make(self, name: str, place: Place, body: tuple[Token, ...], using: tuple[str, ...]) -> Entity:
+        """The entity that is called `name`."""
+        if len(using) > DEEPEST:
+            raise StageError(place, f"entities are nested more than {DEEPEST} deep")
+        macro = self._macros.get(name)
+        if macro is None:
+            entity = Entity(name, place, name)
+        else:
+            if name in using:
+                msg = f"{name} is defined by itself: {' is a '.join((*using[using.index(name) :], name))}"
+                raise StageError(macro.place, msg)
+            entity = self._make(macro.base, place, macro.body, (*using, name))
+            entity.title = name
+        self._count += 1
+        if self._count > MOST:
+            raise StageError(place, f"the definitions make more than {MOST} entities of this file")
+        self._fill(entity, _Words(body, place), (*using, ""))
+        return entity
+
+
+def _between(words: _Words, owner: Token) -> tuple[Token, ...]:
+    """The words between the parenthesis that comes now and its partner."""
+    words.next()
+    begin, depth = words.at, 1
+    while depth:
+        word = words.next()
+        if word is None:
+            raise StageError(owner.place, f"the ( after {owner.text} has no )")
+        depth += (word.kind == "(") - (word.kind == ")")
+    return words.words[begin : words.at - 1]
+
+
+def _property(name: Token, words: _Words) -> Property:
+    first = words.next()
+    if first is None or first.kind not in ("number", "string", "["):
+        found = "nothing" if first is None else _shown(first)
+        hint = ": a string has to be in double quotes" if first is not None and first.kind == "word" else ""
+        raise StageError(name.place, f"{name.text} needs a value, and there is {found}{hint}")
+    if first.kind != "[":
+        return Property(name.text, (_value(first),), name.place)
+    values: list[Value] = []
+    while True:
+        word = words.next()
+        if word is None:
+            raise StageError(name.place, f"the [ after {name.text} has no ]")
+        if word.kind == "]":
+            return Property(name.text, tuple(values), name.place, bracketed=True)
+        if word.kind not in ("number", "string"):
+            raise StageError(word.place, f"{name.text} [...] holds numbers and strings, not {_shown(word)}")
+        values.append(_value(word))
+
+
+def _value(word: Token) -> Value:
+    return float(word.text) if word.kind == "number" else word.text
+
+
+def _shown(word: Token) -> str:
+    return f'"{word.text}"' if word.kind == "string" else word.text
+
+
+def unknown_kind(entity: Entity, known: Iterable[str], macros: Iterable[str]) -> StageError:
+    """The error of an entity of which nothing is known."""
+    hint = nearest(entity.kind, [*known, *macros])
+    what = f"there is no model {entity.kind!r} in Stage, and none is defined before it is used"
+    return StageError(entity.place, f"{what}{'; ' + hint if hint else ''}")

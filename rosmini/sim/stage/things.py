@@ -1,0 +1,243 @@
+"""What every model of a Stage file has: a name, a pose in its parent's frame, a body, and what sensors and wheels make of it.
+
+Defaults are those of Stage 4.3 (libstage's model.cc; https://player-stage-manual.readthedocs.io, "model").
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .blocks import Block, Body, block, frame, image, square, stretched
+from .colours import colour, rgb, suggestion
+from .errors import Place, StageError
+from .parse import Entity, Parsed, unknown_kind
+from .tokens import find_file, searched
+from .values import Reader, Units
+
+Pose4 = tuple[float, float, float, float]
+"""x, y, z [m] and heading [rad]."""
+
+ORIGIN: Pose4 = (0.0, 0.0, 0.0, 0.0)
+
+SIZES = {"ranger": (0.15, 0.15, 0.2), "laser": (0.15, 0.15, 0.2), "camera": (0.1, 0.07, 0.05), "fiducial": (0.1, 0.1, 0.1)}  # fmt: skip
+SIZE = (0.4, 0.4, 1.0)
+"""Of a model of another kind [m]."""
+
+COLOURS = {"ranger": "#000080", "laser": "#000080", "camera": "black"}
+COLOUR = "red"
+
+BODILESS = ("ranger", "laser", "fiducial")
+"""Kinds that nothing bumps into or sees, unless they are given blocks."""
+
+SIMULATED = ("model", "position", "ranger", "laser", "camera")
+LEFT_OUT = ("actuator", "blinkenlight", "blobfinder", "bumper", "fiducial", "gripper", "lightindicator", "loadcell", "puck", "speech", "wifi")  # fmt: skip
+"""Kinds of Stage that do nothing here."""
+
+MASS = 10.0
+"""Of a model of which nothing is said [kg]: the manual's number."""
+
+UNUSED = (
+    "alwayson", "blob_return", "ctrl", "debug", "event_queue", "fiducial_key", "fiducial_return", "friction", "give_watts",
+    "gui_grid", "gui_move", "gui_nose", "gui_outline", "gravity_return", "joules", "joules_capacity", "kjoules", "kjoules_capacity", "map_resolution",
+    "noblocks", "say", "take_watts", "trail_interval", "trail_length", "update_interval", "watts",
+)  # fmt: skip
+"""Properties that Stage knows, and that change nothing here."""
+
+
+@dataclass
+class Thing:
+    """A model of the file."""
+
+    entity: Entity
+    kind: str
+    name: str
+    named: bool
+    """Whether the file gives it its name."""
+    pose: Pose4
+    """In the frame of what it is on."""
+    at: Pose4
+    """In the world's frame."""
+    size: tuple[float, float, float]
+    origin: Pose4
+    """Where the middle of its body is, seen from its pose."""
+    body: Body | None
+    colour: str
+    solid: bool
+    """Whether things bump into it."""
+    seen: float
+    """How well rangers see it: its reflectance; below 0 they see through it."""
+    pushable: bool
+    mass: float
+    reader: Reader
+    children: list[Thing] = field(default_factory=list)
+
+    @property
+    def place(self) -> Place:
+        """Where the file speaks of it."""
+        return self.entity.place
+
+    def family(self) -> Iterator[Thing]:
+        """It, and all that is on it."""
+        yield self
+        for child in self.children:
+            yield from child.family()
+
+
+def moved(frame_pose: Pose4, pose: Pose4) -> Pose4:
+    """The pose in the world's frame of what has `pose` in a frame that has `frame_pose` there."""
+    x, y, z, a = frame_pose
+    c, s = math.cos(a), math.sin(a)
+    return (x + c * pose[0] - s * pose[1], y + s * pose[0] + c * pose[1], z + pose[2], a + pose[3])
+
+
+class Maker:
+    """Makes the things of one file."""
+
+    def __init__(self, parsed: Parsed, units: Units) -> None:
+        self.parsed = parsed
+        self.units = units
+        self._counts: Counter[str] = Counter()
+        self._images: dict[
+            tuple[str, Place], tuple[tuple[Block, ...], tuple[float, float, float, float], str]
+        ] = {}
+
+    def things(self) -> list[Thing]:
+        """The models of the world, with their children. Raises `StageError`."""
+        made = (self.thing(each, None) for each in self.parsed.root.children if each.kind != "window")
+        return [thing for thing in made if thing is not None]
+
+    def thing(self, entity: Entity, parent: Thing | None) -> Thing | None:
+        """One model; None if nothing of it is simulated."""
+        if entity.kind in LEFT_OUT:
+            self.units.note(entity.place, f"a {entity.kind} is not simulated and is left out")
+            return None
+        if entity.kind not in SIMULATED:
+            raise unknown_kind(entity, (*SIMULATED, *LEFT_OUT, "window"), self.parsed.macros)
+        thing = self._plain(entity, parent)
+        for child in entity.children:
+            if child.kind not in ("block", "sensor") and (made := self.thing(child, thing)) is not None:
+                thing.children.append(made)
+        return thing
+
+    def _plain(self, entity: Entity, parent: Thing | None) -> Thing:
+        reader = Reader(entity, self.units)
+        kind = entity.kind
+        pose = _pose(reader, "pose")
+        at = pose
+        if parent is not None:
+            at = moved(parent.at, pose)
+            if parent.reader.flag("stack_children", default=True):
+                at = (at[0], at[1], at[2] + parent.size[2], at[3])
+        reader.flag("stack_children", default=True)
+        origin = _pose(reader, "origin")
+        size = self._size(reader, SIZES.get(kind, SIZE))
+        return Thing(
+            entity=entity,
+            kind=kind,
+            name=reader.text("name", self._name(entity, parent)),
+            named="name" in entity.properties,
+            pose=pose,
+            at=at,
+            size=size,
+            origin=origin,
+            body=self._body(reader, kind, size),
+            colour=self._colour(reader, COLOURS.get(kind, COLOUR)),
+            solid=reader.flag("obstacle_return", default=True),
+            seen=self._seen(reader),
+            pushable=reader.flag("gripper_return", default=False),
+            mass=reader.number("mass", MASS, minimum=0.0),
+            reader=reader,
+        )
+
+    def _name(self, entity: Entity, parent: Thing | None) -> str:
+        """The name that Stage makes up: that of the parent, the kind, and how many of this kind there were before."""
+        prefix = f"{parent.name}." if parent else ""
+        number = self._counts[f"{prefix}{entity.kind}"]
+        self._counts[f"{prefix}{entity.kind}"] += 1
+        return f"{prefix}{entity.kind}:{number}"
+
+    def _size(self, reader: Reader, default: tuple[float, float, float]) -> tuple[float, float, float]:
+        x, y, z = reader.several("size", "lll", default)
+        for axis, part in zip("xyz", (x, y, z), strict=True):
+            if part <= 0:
+                raise StageError(
+                    reader.place("size"), f"the {axis} of size is {part:g}; it has to be more than 0"
+                )
+        return (x, y, z)
+
+    def _seen(self, reader: Reader) -> float:
+        if reader.find("laser_return") is not None:
+            what = "Stage 4 knows no laser_return, and nor does this: whether rangers see a thing says ranger_return, negative if they do not"
+            if reader.number("laser_return", 1.0) <= 0:
+                self.units.note(reader.place("laser_return"), what)
+        return reader.number("ranger_return", 1.0)
+
+    def _colour(self, reader: Reader, default: str) -> str:
+        name = reader.text("color", default)
+        if reader.find("color_rgba") is not None:
+            red, green, blue, _ = reader.several("color_rgba", "ffff", (1.0, 0.0, 0.0, 1.0))
+            return rgb(red, green, blue)
+        if name == "random":
+            self.units.note(reader.place("color"), "a random colour is grey here, the same on each run")
+            return "grey"
+        found = name if name.startswith("#") else colour(name)
+        if found is None:
+            hint = suggestion(name)
+            what = f'there is no colour "{name}" among those of X11{"; " + hint if hint else ""}'
+            raise StageError(reader.place("color"), what)
+        return found
+
+    # -- bodies --------------------------------------------------------------------------------------------------
+
+    def _body(self, reader: Reader, kind: str, size: tuple[float, float, float]) -> Body | None:
+        entity = reader.entity
+        own = [self._block(child) for child in entity.children if child.kind == "block"]
+        bitmap = reader.text("bitmap", "")
+        boundary = frame(size) if reader.flag("boundary", default=False) else ()
+        if bitmap:
+            traced, box, odd = self._image(bitmap, reader.place("bitmap"))
+            if odd and not boundary:
+                self.units.note(reader.place("bitmap"), odd)
+            if own:
+                raise StageError(
+                    entity.place, f"{entity.title} has a bitmap and blocks; rosmini reads one of them"
+                )
+            return Body(stretched(traced, size, box), traced=True, boundary=boundary)
+        if own:
+            return Body(stretched(tuple(own), size), boundary=boundary)
+        if kind in BODILESS or reader.flag("noblocks", default=False):
+            return Body(boundary) if boundary else None
+        return Body(stretched((square(),), size), boundary=boundary)
+
+    def _block(self, entity: Entity) -> Block:
+        reader = Reader(entity, self.units)
+        count = reader.whole("points", 0, minimum=0)
+        points = []
+        for i in range(count):
+            if reader.find(f"point[{i}]") is None:
+                raise StageError(reader.place("points"), f"a block of {count} points has no point[{i}]")
+            points.append(reader.several(f"point[{i}]", "ll", (0.0, 0.0)))
+        bottom, top = reader.several("z", "ll", (0.0, 1.0))
+        reader.done(("color", "color_rgba"))
+        return block(np.array(points, dtype=float).reshape(-1, 2), bottom, top, entity.place)
+
+    def _image(
+        self, name: str, place: Place
+    ) -> tuple[tuple[Block, ...], tuple[float, float, float, float], str]:
+        if (name, place) not in self._images:
+            path = find_file(name, self.parsed.path, place.path)
+            if path is None:
+                where = searched(self.parsed.path, place.path)
+                raise StageError(place, f'there is no bitmap "{name}" {where}')
+            self._images[name, place] = image(path, place)
+        return self._images[name, place]
+
+
+def _pose(reader: Reader, name: str) -> Pose4:
+    x, y, z, a = reader.several(name, "llla", ORIGIN)
+    return (x, y, z, a)

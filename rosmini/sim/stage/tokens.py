@@ -1,0 +1,115 @@
+"""The words of a Stage world file: names, numbers, strings, brackets and parentheses, each with its file and line.
+
+Stage's rules: `#` begins a comment, names begin with a letter (and may end with an index, `point[0]`), numbers have a sign and a decimal point but no
+exponent, strings are in double quotes on one line, `include "file"` puts the words of another file in its place. An included file is sought beside
+the world file (as Stage does), beside the file that includes it, and in the folders of the environment variable STAGEPATH.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Literal, NamedTuple
+
+from .errors import Place, StageError
+
+Kind = Literal["word", "number", "string", "(", ")", "[", "]"]
+
+VARIABLE = "STAGEPATH"
+"""The environment variable with folders of files to include, as `PATH` has them."""
+
+_TOKEN = re.compile(
+    r"""(?P<space>[ \t\r\f\v]+|\#[^\n]*)
+      | (?P<line>\n)
+      | (?P<word>[A-Za-z][\w.\-]*(\[\d+\])?)
+      | (?P<number>[-+]?(\d+\.?\d*|\.\d+)(?![\w.+\-]))
+      | (?P<string>"[^"\n]*")
+      | (?P<mark>[()\[\]])""",
+    re.VERBOSE,
+)
+_WRONG = re.compile(r'"[^\n]*|[^\s()\[\]"#]+|.')
+
+
+class Token(NamedTuple):
+    """One word, of this kind, as it stands there; a string without its quotes."""
+
+    kind: Kind
+    text: str
+    place: Place
+
+
+def tokens(text: str, path: Path) -> Iterator[Token]:
+    """The words of one text, which stands in the file `path`; includes are left as they are. Raises `StageError`."""
+    at, line = 0, 1
+    while at < len(text):
+        found = _TOKEN.match(text, at)
+        if found is None:
+            raise StageError(Place(path, line), _complaint(text, at))
+        at = found.end()
+        match found.lastgroup:
+            case "line":
+                line += 1
+            case "word" | "number" as kind:
+                yield Token(kind, found.group(), Place(path, line))
+            case "string":
+                yield Token("string", found.group()[1:-1], Place(path, line))
+            case "mark":
+                yield Token(found.group(), found.group(), Place(path, line))  # type: ignore[arg-type]
+
+
+def _complaint(text: str, at: int) -> str:
+    found = _WRONG.match(text, at)
+    piece = found.group() if found else text[at]
+    if piece.startswith('"'):
+        return f"the string {piece} has no end on its line"
+    if re.fullmatch(r"[-+]?[\d.]+[eE][-+]?\d+", piece):
+        return f"{piece} is no number for Stage, which knows no exponents: write it out with its zeros"
+    if re.match(r"[-+.\d]", piece):
+        return f"{piece} is no number"
+    return f"nothing in a world file begins with {piece}; a string has to be in double quotes"
+
+
+def read(path: Path) -> Iterator[Token]:
+    """The words of a world file and of all that it includes. Raises `StageError`."""
+    return _included(path, path, ())
+
+
+def _included(path: Path, root: Path, above: tuple[Path, ...]) -> Iterator[Token]:
+    try:
+        text = path.read_bytes().decode("utf-8", errors="replace").replace("\r\n", "\n").replace("\r", "\n")
+    except OSError as error:
+        where = Place(path, 1)
+        raise StageError(where, f"the file cannot be read: {error.strerror or error}") from error
+    words = tokens(text, path)
+    for word in words:
+        if word.kind != "word" or word.text != "include":
+            yield word
+            continue
+        name = next(words, None)
+        if name is None or name.kind != "string":
+            raise StageError(word.place, 'after include comes a file in double quotes: include "robot.inc"')
+        target = find_file(name.text, root, path)
+        if target is None:
+            raise StageError(name.place, f'there is no file "{name.text}" to include {searched(root, path)}')
+        if target.resolve() in {each.resolve() for each in (*above, path)}:
+            raise StageError(name.place, f'"{name.text}" includes itself')
+        yield from _included(target, root, (*above, path))
+
+
+def find_file(name: str, root: Path, mentioned_in: Path) -> Path | None:
+    """The file that a world file means by `name`; None if there is none."""
+    expanded = Path(name).expanduser()
+    folders = [root.parent, mentioned_in.parent]
+    found = [folder / expanded for folder in folders]  # an absolute path stays what it is
+    found += [
+        Path(folder) / expanded.name for folder in os.environ.get(VARIABLE, "").split(os.pathsep) if folder
+    ]
+    return next((each for each in found if each.is_file()), None)
+
+
+def searched(root: Path, mentioned_in: Path) -> str:
+    """Where `find_file` looks, in words."""
+    folders = dict.fromkeys([str(root.parent), str(mentioned_in.parent)])
+    return f"in {' or '.join(folders)}, nor in what {VARIABLE} names"

@@ -1,0 +1,484 @@
+"""Stage's world files: what they may say, what it means, and what is told of those that are broken."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from PIL import Image
+
+from rosmini.errors import RosminiError
+from rosmini.geometry.polygons import inside
+from rosmini.packages import PackageIndex
+from rosmini.sim.shapes import Box, Compound, Polygon
+from rosmini.sim.stage import StageError, load
+from rosmini.sim.stage.colours import colour
+from rosmini.sim.stage.parse import parse
+from rosmini.sim.stage.tokens import tokens
+
+PATH = Path("a.world")
+WORLDS = sorted((PackageIndex().path("stage_ros") / "world").glob("*.world"))
+
+
+def parsed(text: str):
+    return parse(tokens(text, PATH), PATH)
+
+
+@pytest.fixture
+def world(tmp_path: Path):
+    def make(text: str, name: str = "a.world"):
+        path = tmp_path / name
+        path.parent.mkdir(exist_ok=True, parents=True)
+        path.write_text(text, encoding="utf-8")
+        return load(path)
+
+    return make
+
+
+def robot(text: str) -> str:
+    return f"position( ranger( sensor( {text} ) ) )"
+
+
+# ---- the grammar ----
+
+
+def test_words_have_their_lines():
+    found = [
+        (word.kind, word.text, word.place.line) for word in tokens('a 1 # ( "\n\nb[3] "x y"\r\n( -.5 ]', PATH)
+    ]
+    assert found == [("word", "a", 1), ("number", "1", 1), ("word", "b[3]", 3), ("string", "x y", 3), ("(", "(", 4), ("number", "-.5", 4), ("]", "]", 4)]  # fmt: skip
+
+
+NAMES = st.text("abcdef_-.", min_size=1, max_size=6).map(lambda rest: "n" + rest)
+NUMBERS = st.floats(-1e6, 1e6).map(lambda number: float(f"{number:.6f}"))
+STRINGS = st.text(st.characters(exclude_characters='"\n\r', exclude_categories=["Cs", "Cc"]), max_size=8)
+VALUES = st.one_of(NUMBERS, STRINGS, st.lists(st.one_of(NUMBERS, STRINGS), max_size=4))
+ENTITIES = st.recursive(
+    st.fixed_dictionaries({"kind": NAMES, "properties": st.dictionaries(NAMES, VALUES, max_size=3), "children": st.just([])}),
+    lambda inner: st.fixed_dictionaries({"kind": NAMES, "properties": st.dictionaries(NAMES, VALUES, max_size=3), "children": st.lists(inner, max_size=3)}),
+    max_leaves=8,
+)  # fmt: skip
+GAPS = st.sampled_from([" ", "\n", ' # a remark ( [ "\n', "\t\r\n  "])
+
+
+def written(value, gap: str) -> str:
+    if isinstance(value, list):
+        return "[" + gap + gap.join(written(each, gap) for each in value) + gap + "]"
+    return f'"{value}"' if isinstance(value, str) else f"{value:.6f}"
+
+
+def as_text(entity, gap: str) -> str:
+    inner = [f"{name} {written(value, gap)}" for name, value in entity["properties"].items()]
+    inner += [as_text(child, gap) for child in entity["children"]]
+    return f"{entity['kind']}{gap}({gap}{gap.join(inner)}{gap})"
+
+
+def as_data(entity):
+    properties = {
+        name: list(p.values) if p.bracketed else p.values[0] for name, p in entity.properties.items()
+    }
+    return {"kind": entity.kind, "properties": properties, "children": [as_data(child) for child in entity.children]}  # fmt: skip
+
+
+@given(ENTITIES, GAPS)
+@settings(max_examples=60, deadline=None)
+def test_what_is_written_is_read(entity, gap: str):
+    assert [as_data(each) for each in parsed(as_text(entity, gap)).root.children] == [entity]
+
+
+@given(st.text('ab1.-"#[]() \n', max_size=40))
+@settings(max_examples=200, deadline=None)
+def test_whatever_is_written_is_read_or_refused_with_its_line(text: str):
+    with contextlib.suppress(StageError):
+        parsed(text)
+        return
+    with pytest.raises(StageError, match=r"^a\.world:\d+: ") as caught:
+        parsed(text)
+    assert 1 <= caught.value.place.line <= text.count("\n") + 1
+
+
+def test_a_definition_is_a_base_with_more():
+    root = parsed(
+        """define wheel model ( size [1 1 1] color "red" )
+        define spare wheel ( color "black" block( points 3 ) )
+        spare( color "blue" wheel( ) )"""
+    ).root
+    (spare,) = root.children
+    assert (spare.kind, spare.title) == ("model", "spare")
+    assert {name: p.values for name, p in spare.properties.items()} == {"size": (1, 1, 1), "color": ("blue",)}
+    assert [child.kind for child in spare.children] == ["block", "model"]
+
+
+def test_a_definition_may_be_used_before_its_base_is_defined_and_the_first_one_stays():
+    found = parsed("define a b ( ) define b model ( size [1 1 1] ) define b position ( ) a( ) b( )")
+    assert [child.kind for child in found.root.children] == ["model", "model"]
+    assert "b is defined already" in found.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("a (\n b 1", 1, "( after a has no )"),
+        ("a 1 )", 1, "a name is missing before )"),
+        ("\na", 2, "after a a value is missing"),
+        ("a b", 1, "in double quotes"),
+        ("a [1 2\n b", 2, "holds numbers and strings, not b"),
+        ("a [1 2", 1, "the [ after a has no ]"),
+        ('\n\nname "abc', 3, "has no end on its line"),
+        ("size 1e-3", 1, "no exponents"),
+        ("size 1.2.3", 1, "1.2.3 is no number"),
+        ("size {1}", 1, "nothing in a world file begins with {1}"),
+        ("define a", 1, "after define come a name and what it is based on"),
+        ("define a b size", 1, "a ( is missing"),
+        ("define a b ( ) define b a ( )\na( )", 1, "a is defined by itself: a is a b is a a"),
+        ("define a model ( a( ) )\na( )", 1, "a is defined by itself"),
+    ],
+)  # fmt: skip
+def test_broken_files_name_their_line(text: str, line: int, words: str):
+    with pytest.raises(StageError) as caught:
+        parsed(text)
+    assert str(caught.value).startswith(f"a.world:{line}: ")
+    assert words in str(caught.value)
+
+
+def test_definitions_that_explode_are_refused():
+    levels = [f"define m{i} model ( {f'm{i - 1}( ) ' * 10} )" for i in range(1, 12)]
+    with pytest.raises(StageError, match="more than 100000 entities"):
+        parsed("define m0 model ( )\n" + "\n".join(levels) + "\nm11( )")
+
+
+def test_files_that_nest_too_deep_are_refused():
+    with pytest.raises(StageError, match="nested more than 100 deep"):
+        parsed("model( " * 5000 + ")" * 5000)
+
+
+# ---- including ----
+
+
+def test_included_files_are_sought_beside_the_world_and_beside_the_file(tmp_path: Path, world, monkeypatch):
+    (tmp_path / "inc").mkdir()
+    (tmp_path / "inc" / "a.inc").write_text('include "b.inc"\n')
+    (tmp_path / "inc" / "b.inc").write_text("\ndefine thing model ( size [1 2 3] colour 3 )\n")
+    stage = world('include "inc/a.inc"\nthing( name "t" )\n')
+    assert stage.world.obstacles[0].shape == Box(1.0, 2.0)
+    assert stage.notes[0].startswith(f"{tmp_path / 'inc' / 'b.inc'}:2: colour is no property of thing")
+    assert "did you mean color" in stage.notes[0]
+    (tmp_path / "far").mkdir()
+    (tmp_path / "inc" / "a.inc").rename(tmp_path / "far" / "a.inc")
+    (tmp_path / "inc" / "b.inc").rename(tmp_path / "far" / "b.inc")
+    with pytest.raises(StageError, match=r'there is no file "inc/a.inc" to include'):
+        world('include "inc/a.inc"\nthing( )\n')
+    monkeypatch.setenv("STAGEPATH", str(tmp_path / "far"))
+    assert len(world('include "inc/a.inc"\nthing( )\n').world.obstacles) == 1
+
+
+def test_what_includes_itself_is_refused(tmp_path: Path, world):
+    (tmp_path / "a.inc").write_text('\ninclude "b.inc"')
+    (tmp_path / "b.inc").write_text('include "a.inc"')
+    with pytest.raises(StageError, match=r'b.inc:1: "a.inc" includes itself'):
+        world('include "a.inc"')
+
+
+def test_a_file_that_is_not_there():
+    with pytest.raises(StageError, match=r"nowhere\.world:1: there is no such file"):
+        load("/nowhere.world")
+    with pytest.raises(RosminiError, match="stage_rose"):
+        load("package://stage_rose/world/willow-erratic.world")
+
+
+# ---- models ----
+
+
+def test_the_defaults_are_those_of_stage(world):
+    stage = world("position( ) model( )")
+    base = stage.robots[0]
+    assert (base.drive, base.localization, base.localization_origin) == ("diff", "gps", (0, 0, 0))
+    assert base.velocity_bounds == ((-1, 1), (-1, 1), (-math.pi / 2, math.pi / 2))
+    assert base.odom_error == (0.03, 0.03, 0.05)
+    assert base.name == "position:0"
+    assert (stage.interval, stage.speedup, stage.paused, stage.quit_time) == (0.1, 1.0, False, 0.0)
+    (thing,) = stage.world.obstacles
+    assert (thing.name, thing.shape, thing.height, thing.bottom, thing.mass) == ("model:0", Box(0.4, 0.4), 1.0, 0.0, None)  # fmt: skip
+    assert thing.colour == "#ff0000"
+
+
+def test_units(world):
+    stage = world('unit_length "cm" unit_angle "radians" model( size [100 50 20] pose [200 0 0 1.5] )')
+    (thing,) = stage.world.obstacles
+    assert (thing.shape, thing.pose, thing.height) == (Box(1.0, 0.5), (2.0, 0.0, 1.5), 0.2)
+
+
+@given(
+    st.floats(-5, 5),
+    st.floats(-5, 5),
+    st.floats(-180, 180),
+    st.floats(-1, 1),
+    st.floats(-1, 1),
+    st.floats(-180, 180),
+)
+@settings(max_examples=30, deadline=None)
+def test_a_body_is_about_its_origin_seen_from_its_pose(tmp_path_factory, x, y, a, ox, oy, oa):
+    path = tmp_path_factory.mktemp("stage") / "a.world"
+    path.write_text(
+        f"model( pose [{x:.6f} {y:.6f} 0 {a:.6f}] origin [{ox:.6f} {oy:.6f} 0 {oa:.6f}] size [2 1 1] )"
+    )
+    (thing,) = load(path).world.obstacles
+    heading = math.radians(a)
+    expected = complex(x, y) + complex(ox, oy) * complex(math.cos(heading), math.sin(heading))
+    assert thing.pose[0] == pytest.approx(expected.real, abs=2e-6)
+    assert thing.pose[1] == pytest.approx(expected.imag, abs=2e-6)
+    assert thing.pose[2] == pytest.approx(math.radians(a + oa), abs=1e-6)
+
+
+def test_children_stand_on_their_parents(world):
+    stage = world(
+        """model( name "table" size [1 1 0.7] pose [1 0 0 90] model( name "vase" size [0.1 0.1 0.2] pose [0.3 0 0 0] ) )
+        model( stack_children 0 size [1 1 0.7] pose [5 0 0 0] model( name "drawer" size [0.1 0.1 0.2] ) )"""
+    )
+    by_name = {each.name: each for each in stage.world.obstacles}
+    vase = by_name["vase"]
+    assert (vase.bottom, vase.height) == pytest.approx((0.7, 0.9))
+    assert vase.pose == pytest.approx((1.0, 0.3, math.pi / 2))
+    assert by_name["drawer"].bottom == 0.0
+
+
+def test_blocks_are_stretched_to_the_size_whatever_they_are_in(world):
+    corner = "points 6 point[0] [10 10] point[1] [30 10] point[2] [30 20] point[3] [20 20] point[4] [20 30] point[5] [10 30]"
+    (thing,) = world(f"model( size [2 4 1] block( {corner} z [0 3] ) )").world.obstacles
+    assert isinstance(thing.shape, Polygon)
+    assert thing.shape.corners == ((-1, -2), (1, -2), (1, 0), (0, 0), (0, 2), (-1, 2))
+    assert (thing.bottom, thing.height) == (0, 1)
+    # the other way round, and the same
+    back = "points 4 point[0] [0 0] point[1] [0 1] point[2] [1 1] point[3] [1 0] z [0 1]"
+    assert world(f"model( size [2 4 1] block( {back} ) )").world.obstacles[0].shape == Box(2.0, 4.0)
+
+
+def test_what_can_be_pushed(world):
+    two = "block( points 4 point[0] [0 0] point[1] [1 0] point[2] [1 1] point[3] [0 1] z [0 1] ) block( points 3 point[0] [1 0] point[1] [2 0] point[2] [1 1] z [0 2] )"
+    stage = world(
+        f"""define crate model ( gripper_return 1 mass 3 pose [1 2 0 90] size [0.2 0.1 0.4] )
+        crate( name "plain" ) crate( name "two" {two} ) crate( name "heap" model( size [0.1 0.1 0.1] ) )"""
+    )
+    plain, two_blocks, heap = stage.world.obstacles
+    assert (plain.mass, plain.shape, plain.pose) == (3, Box(0.2, 0.1), (1, 2, math.pi / 2))
+    assert isinstance(two_blocks.shape, Compound)
+    assert len(two_blocks.shape.parts) == 2
+    assert isinstance(heap.shape, Compound)
+    assert heap.height == pytest.approx(0.5)
+
+
+def test_what_nothing_notices_is_left_out_and_told(world):
+    stage = world('model( name "ghost" obstacle_return 0 ranger_return -1 )\nmodel( name "glass" ranger_return -1 )\nfiducial( )' )  # fmt: skip
+    assert [each.name for each in stage.world.obstacles] == ["glass"]
+    assert [note.split(":", 1)[1] for note in stage.notes] == [
+        "3: a fiducial is not simulated and is left out",
+        "1: nothing bumps into ghost and nothing sees it: it is left out",
+        "2: ranger_return changes nothing here: glass is seen by lasers",
+    ]
+
+
+# ---- bitmaps ----
+
+
+def floorplan(tmp_path: Path, dark: np.ndarray, **options) -> None:
+    pixels = np.where(dark, options.get("black", 0), options.get("white", 255)).astype(np.uint8)
+    Image.fromarray(pixels).save(tmp_path / options.get("name", "plan.png"))
+
+
+def test_a_floor_plan_becomes_walls(tmp_path: Path, world):
+    dark = np.zeros((40, 60), dtype=bool)
+    dark[[0, -1], :] = dark[:, [0, -1]] = True  # a room
+    dark[10:20, 30] = True  # with a wall in it, in the upper half of the picture
+    floorplan(tmp_path, dark, black=127, white=128)
+    stage = world('model( name "plan" bitmap "plan.png" size [6 4 0.8] pose [1 0 0 90] )')
+    assert stage.world.obstacles == ()
+    assert stage.world.bounds == pytest.approx((-1, -3, 3, 3))
+    assert stage.world.wall_height == pytest.approx(0.8)
+    # pixel (30, 10..20) is x from 0 to 0.1 and y from 0 to 1 in the plan's frame: turned by 90 degrees about (1, 0)
+    walls = stage.world.walls
+    assert inside(np.array([(0.5, 0.05), (0.5, 0.5), (1.5, 0.05)]), walls).tolist() == [True, False, False]
+    assert stage.world.blocked((0.5, 0.05, 0.0), 0.1) is not None
+    assert stage.notes == ()
+
+
+def test_white_margins_are_not_counted(tmp_path: Path, world):
+    dark = np.zeros((40, 60), dtype=bool)
+    dark[10:30, 20:50] = True
+    floorplan(tmp_path, dark)
+    stage = world('model( bitmap "plan.png" size [6 4 0.8] )')
+    assert stage.world.bounds == pytest.approx((-3, -2, 3, 2))
+    assert "of the bitmap's 60 x 40 pixels the 30 x 20" in stage.notes[0]
+
+
+def test_a_boundary_is_a_frame(tmp_path: Path, world):
+    dark = np.zeros((40, 60), dtype=bool)
+    dark[[0, 39], [0, 59]] = True
+    floorplan(tmp_path, dark)
+    stage = world('model( name "plan" bitmap "plan.png" size [6 4 0.8] boundary 1 )')
+    assert [each.name for each in stage.world.obstacles] == ["plan", "plan (2)", "plan (3)", "plan (4)"]
+    assert stage.world.bounds == pytest.approx((-3, -2, 3, 2))
+    assert stage.world.blocked((2.99, 0.0, 0.0), 0.05) is not None
+
+
+def test_a_second_bitmap_is_filled(tmp_path: Path, world):
+    ring = np.ones((20, 20), dtype=bool)
+    ring[5:15, 5:15] = False
+    floorplan(tmp_path, ring)
+    stage = world(
+        'model( bitmap "plan.png" )\nmodel( name "ring" bitmap "plan.png" size [1 1 1] pose [5 0 0 0] )'
+    )
+    (thing,) = stage.world.obstacles
+    assert (thing.name, thing.shape, thing.pose[:2]) == ("ring", Box(1.0, 1.0), (5, 0))
+    assert "1 hollow parts of ring are filled" in stage.notes[0]
+
+
+# ---- robots and what they carry ----
+
+
+def test_a_laser_looks_out_above_the_robot(world):
+    stage = world(
+        """define laser ranger ( sensor( range [0.1 30] fov 270 samples 1081 noise [0.01 0.02 0] ) )
+        position( size [0.5 0.4 0.25] pose [1 2 0 90]
+          laser( pose [0.05 0 0 0] ) laser( pose [-0.1 0.2 -0.1 180] ) )"""
+    )
+    (base,) = stage.robots
+    assert base.pose == pytest.approx((1, 2, math.pi / 2))
+    front, back = base.lasers
+    assert front.pose == pytest.approx((0.05, 0, 0.25, 0))
+    assert front.height == pytest.approx(0.26)  # over robots like itself
+    assert (front.range_min, front.range_max, front.samples, front.noise) == (0.1, 30, 1081, (0.01, 0.02))
+    assert front.fov == pytest.approx(math.radians(270))
+    assert back.pose == pytest.approx((-0.1, 0.2, 0.15, math.pi))
+    assert back.height == pytest.approx(0.16)
+
+
+def test_stage_3_lasers_and_rings_of_sonars(world):
+    stage = world(
+        "position( laser( range_max 5 fov 180 samples 181 ) )\nposition( ranger( sensor( )\nsensor( ) ) )"
+    )
+    assert stage.robots[0].lasers[0].range_max == 5
+    assert stage.robots[0].lasers[0].fov == pytest.approx(math.pi)
+    sonar = stage.robots[1].lasers[0]
+    assert (sonar.samples, sonar.fov, sonar.range_max) == (1, 0.1, 5)
+    assert [note.split(":")[1] for note in stage.notes] == ["1", "3"]
+
+
+def test_cameras(world):
+    stage = world(
+        "position( size [1 1 0.5] camera( range [0.3 9] resolution [64 48] fov [60 40] pantilt [30 -10] pose [0.1 0 0 90] ) )"
+    )
+    (camera,) = stage.robots[0].cameras
+    assert (camera.width, camera.height, camera.near, camera.far) == (64, 48, 0.3, 9)
+    assert camera.fov == pytest.approx((math.radians(60), math.radians(40)))
+    assert (camera.pan, camera.tilt) == pytest.approx((math.radians(30), math.radians(-10)))
+    assert camera.pose == pytest.approx((0.1, 0, 0.5, math.pi / 2))
+
+
+def test_bounds_and_odometry(world):
+    text = 'drive "car" wheelbase 0.6 localization "odom" localization_origin [1 1 0 90] odom_error [0.1 0.2 0 0.3] velocity_bounds [-0.5 2 0 0 0 0 -45 45]'
+    (base,) = world(f"position( {text} )").robots
+    assert (base.drive, base.wheelbase, base.localization) == ("car", 0.6, "odom")
+    assert base.localization_origin == pytest.approx((1, 1, math.pi / 2))
+    assert base.odom_error == (0.1, 0.2, 0.3)
+    assert base.velocity_bounds[0] == (-0.5, 2)
+    assert base.velocity_bounds[2] == pytest.approx((-math.pi / 4, math.pi / 4))
+
+
+# ---- what is wrong ----
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("modle( )", "there is no model 'modle' in Stage, and none is defined before it is used; did you mean model?"),
+        ("position( position( ) )", "a position on another one is not simulated"),
+        ("model( position( ) )", "is on the model model:0, which does not move"),
+        ('position( drive "differential" )', 'drive is "differential"; it has to be "diff" or "omni" or "car"'),
+        ("position( drive 3 )", "drive needs a string in double quotes, not 3"),
+        ('position( localization "amcl" )', 'it has to be "gps" or "odom"'),
+        ("position( velocity_bounds [1 -1] )", "the speed ahead is from 1 to -1"),
+        ("position( wheelbase 0 )", "wheelbase is 0 m; it has to be more than 0"),
+        ("position( ranger( ) )", "the ranger position:0.ranger:0 has no sensor( ... )"),
+        (robot("range [5 1]"), "a ranger measures from 5 m to 1 m"),
+        (robot("fov 400"), "fov is 400 degrees; it has to be from 0 to 360"),
+        (robot("samples 0"), "samples is 0; it has to be at least 1"),
+        (robot("samples 2.5"), "samples is 2.5; it has to be a whole number"),
+        (robot("noise [-1]"), "noise cannot be negative"),
+        ("position( camera( resolution [10.5 3] ) )", "a picture has whole numbers of pixels"),
+        ("position( camera( fov [200 3] ) )", "a camera sees more than 0 and less than 180"),
+        ("position( camera( range [0 3] ) )", "range is [0 3]"),
+        ("model( size [1 0 1] )", "the y of size is 0; it has to be more than 0"),
+        ("model( pose [1 2 3 4 5] )", "pose has 5 values in its brackets; it needs 4"),
+        ("model( pose 3 )", "pose needs 4 numbers in brackets, not 3"),
+        ('model( pose ["a"] )', 'pose holds numbers, not "a"'),
+        ('model( color "bleu" )', 'there is no colour "bleu" among those of X11; did you mean'),
+        ("model( block( points 2 point[0] [0 0] point[1] [1 0] ) )", "a block needs 3 points or more, not 2"),
+        ("model( block( points 3 point[0] [0 0] point[1] [1 0] ) )", "a block of 3 points has no point[2]"),
+        ("model( block( points 3 point[0] [0 0] point[1] [1 0] point[2] [2 0] ) )", "enclose nothing"),
+        ("model( block( points 4 point[0] [0 0] point[1] [3 1] point[2] [2 0] point[3] [0 1] ) )", "the sides of a block meet"),
+        ("model( gripper_return 1 mass 0 )", "its mass has to be more than 0 kg"),
+        ('model( bitmap "nothing.png" )', 'there is no bitmap "nothing.png" in'),
+        ('model( bitmap "text.png" )', "cannot be read: cannot identify image file"),
+        ('model( bitmap "white.png" )', "nothing in the bitmap"),
+        ("interval_sim 0", "interval_sim is 0; it has to be more than 0"),
+        ('unit_length "inch"', 'unit_length is "inch"; it has to be "m" or "cm" or "mm"'),
+    ],
+)  # fmt: skip
+def test_what_is_not_possible_names_file_and_line(tmp_path: Path, world, text: str, words: str):
+    (tmp_path / "text.png").write_text("no picture")
+    Image.new("L", (3, 3), 255).save(tmp_path / "white.png")
+    with pytest.raises(StageError) as caught:
+        world("\n\n" + text)
+    assert str(caught.value).startswith(f"{tmp_path / 'a.world'}:3: ")
+    assert words in str(caught.value)
+
+
+# ---- colours, and our own worlds ----
+
+
+def test_colours_are_those_of_x11():
+    table = Path("/etc/X11/rgb.txt")
+    names = [
+        "red",
+        "gray30",
+        "grey100",
+        "dark blue",
+        "DarkSlateGray",
+        "green",
+        "purple",
+        "gray",
+        "maroon",
+        "red3",
+        "blue4",
+        "light goldenrod",
+    ]
+    assert [colour(name) for name in names] == [
+        "#ff0000", "#4c4c4c", "#ffffff", "#00008b", "#2f4f4f", "#00ff00", "#a020f0", "#bebebe", "#b03060", "#cd0000", "#00008b", "#eedd82",
+    ]  # fmt: skip
+    assert colour("no colour") is colour("gray101") is None
+    if table.exists():
+        wrong = []
+        for line in table.read_text().splitlines():
+            if line.startswith("!"):
+                continue
+            r, g, b, name = line.split(None, 3)
+            ours = colour(name)
+            if ours is not None:
+                theirs = [int(r), int(g), int(b)]
+                off = max(abs(int(ours[1 + 2 * i : 3 + 2 * i], 16) - theirs[i]) for i in range(3))
+                wrong += [name] if off > 1 and not name[-1].isdigit() else []
+        assert wrong == []
+
+
+@pytest.mark.parametrize("path", WORLDS, ids=lambda path: path.stem)
+def test_our_own_worlds_say_nothing_odd(path: Path):
+    stage = load(path)
+    assert stage.notes == ()
+    assert stage.robots
+    for each in stage.robots:
+        assert stage.world.blocked(each.pose, 0.25) is None, each.name
