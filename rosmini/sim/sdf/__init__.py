@@ -1,5 +1,6 @@
 """SDF, the format of Gazebo's worlds and models (http://sdformat.org): read to plain data, and made into a flat world."""
 
+from .convert import converted, to_obstacles, to_walker, to_world
 from .document import (
     ORIGIN,
     Note,
@@ -39,5 +40,9 @@ __all__ = [
     "SdfSensor",
     "SdfVisual",
     "SdfWorld",
+    "converted",
     "load",
+    "to_obstacles",
+    "to_walker",
+    "to_world",
 ]

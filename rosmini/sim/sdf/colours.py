@@ -25,6 +25,14 @@ GAZEBO: Mapping[str, str] = MappingProxyType(
 )  # fmt: skip
 """Materials of `gazebo.material` by name, without `Gazebo/` in front."""
 
+HOUSE: Mapping[str, str] = MappingProxyType(
+    {
+        "#1b2733": "wall", "#9aa5af": "grey", "#0072b2": "blue", "#d97f00": "orange",
+        "#00865f": "green", "#d55e00": "vermilion", "#b85c93": "purple", "#3a9bd9": "sky",
+    }
+)  # fmt: skip
+"""The colours of the house style: who writes one of them into a file means the colour of that name, which pictures for dark pages change."""
+
 
 def colour_of(material: Element | None) -> str | None:
     """The colour of a `<material>` as #rrggbb: its diffuse one, or that of the script it names; None if neither is known.

@@ -208,8 +208,8 @@ class SdfWorld:
     gravity: tuple[float, float, float] = (0.0, 0.0, -9.8)
     """[m/s2]"""
     plugins: tuple[SdfPlugin, ...] = ()
-    elements: tuple[Element, ...] = ()
-    """Elements that are nobody's but whose prefix says (`prefix:tag`), raw; rosmini's are in `rosmini.sim.sdf.world`."""
+    frames: tuple[tuple[str, Pose6], ...] = ()
+    """Named places, in the order of the file; robots start at those whose names begin with `start`."""
     path: str = ""
     line: int = 0
 

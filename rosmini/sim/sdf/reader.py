@@ -98,7 +98,10 @@ def _world(element: Element, reading: Reading) -> SdfWorld:
         _physics(element),
         _gravity(element),
         plugins(element),
-        elements=tuple(child for child in element if ":" in child.tag),
+        tuple(
+            (name_of(each), scope.place(name_of(each), each))
+            for each in unique(element.all("frame"), "frame")
+        ),
         path=element.path,
         line=element.line,
     )

@@ -1,0 +1,167 @@
+"""Solids seen from above: hulls of points, cuts through meshes, and plane regions taken apart into simple polygons."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import polygons
+
+Floats = NDArray[np.float64]
+
+
+def convex_hull(points: Floats) -> Floats:
+    """The corners (k, 2), counter-clockwise, of the smallest convex polygon around points (n, 2); none lies on a line between others.
+
+    Andrew's monotone chain (Information Processing Letters 9, 1979). Points on one line give its two ends.
+    """
+    ordered = np.unique(np.asarray(points, dtype=np.float64), axis=0)
+    if len(ordered) < 3:
+        return ordered
+    scale = float(np.abs(ordered).max()) or 1.0
+    rows = ordered.tolist()
+
+    def chain(rows: list[list[float]]) -> list[list[float]]:
+        found: list[list[float]] = []
+        for x, y in rows:
+            while len(found) > 1:
+                (x1, y1), (x2, y2) = found[-2:]
+                if (x2 - x1) * (y - y1) - (y2 - y1) * (x - x1) > 1e-12 * scale * scale:
+                    break
+                found.pop()
+            found.append([x, y])
+        return found
+
+    return np.array(chain(rows)[:-1] + chain(rows[::-1])[:-1])
+
+
+def cut(triangles: Floats, height: float) -> Floats:
+    """Where triangles (n, 3, 3) meet a level plane: segments (m, 4), each x1, y1, x2, y2. Corners in the plane count as above it."""
+    above = triangles[..., 2] >= height
+    sides = above.sum(axis=1)
+    crossing = (sides > 0) & (sides < 3)
+    hit, up = triangles[crossing], above[crossing]
+    # The corner that is alone on its side comes first; the two sides from it cross the plane.
+    alone = np.where(up.sum(axis=1) == 1, up.argmax(axis=1), (~up).argmax(axis=1))
+    order = (alone[:, None] + np.arange(3)) % 3
+    tip, *others = (hit[np.arange(len(hit)), order[:, i]] for i in range(3))
+    ends = []
+    for other in others:
+        low = np.where(
+            (tip[:, 2] < other[:, 2])[:, None], tip, other
+        )  # both triangles of a side compute the same point
+        high = np.where((tip[:, 2] < other[:, 2])[:, None], other, tip)
+        part = (height - low[:, 2]) / (high[:, 2] - low[:, 2])
+        ends.append(low[:, :2] + part[:, None] * (high[:, :2] - low[:, :2]))
+    segments: Floats = np.hstack(ends) if len(hit) else np.empty((0, 4))
+    return segments[(np.abs(segments[:, :2] - segments[:, 2:]) > 1e-9).any(axis=1)]
+
+
+def loops(segments: Floats, grain: float = 1e-6) -> list[Floats] | None:
+    """Closed outlines, each its corners (k, 2), that segments (n, 4) make up; None if some end where no other begins.
+
+    Ends nearer than about `grain` [m] are one. Each outline goes counter-clockwise; corners in the middle of a straight line are left out.
+    """
+    keys = np.round(segments.reshape(-1, 2) / grain).astype(np.int64)
+    _, first, names = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    places = segments.reshape(-1, 2)[first]
+    pairs = {tuple(sorted(pair)) for pair in names.reshape(-1, 2).tolist() if pair[0] != pair[1]}
+    beside: dict[int, list[int]] = {}
+    for a, b in sorted(pairs):
+        beside.setdefault(a, []).append(b)
+        beside.setdefault(b, []).append(a)
+    if any(len(each) % 2 for each in beside.values()):
+        return None
+    found = []
+    for start in sorted(beside):
+        while beside[start]:
+            way = [start]
+            while True:
+                after = beside[way[-1]].pop(0)
+                beside[after].remove(way[-1])
+                if after == start:
+                    break
+                way.append(after)
+            outline = _plain(places[way])
+            if len(outline) >= 3:
+                found.append(outline if polygons.area(outline) > 0 else outline[::-1])
+    return found
+
+
+def _plain(outline: Floats) -> Floats:
+    """An outline without the corners at which it goes straight on."""
+    before, after = outline - np.roll(outline, 1, axis=0), np.roll(outline, -1, axis=0) - outline
+    bend = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    lengths = np.hypot(*before.T) * np.hypot(*after.T)
+    kept: Floats = outline[np.abs(bend) > 1e-6 * np.maximum(lengths, 1e-12)]
+    return kept
+
+
+def thinned(outline: Floats, tolerance: float) -> Floats:
+    """An outline (k, 2) with fewer corners: those kept of which the others' lines stay within `tolerance` [m] (Douglas and Peucker, 1973)."""
+    if len(outline) <= 4:
+        return outline
+    far = int(np.hypot(*(outline - outline[0]).T).argmax())
+    closed = np.vstack([outline, outline[:1]])
+    keep = np.zeros(len(closed), dtype=bool)
+    keep[[0, far, -1]] = True
+    todo = [(0, far), (far, len(closed) - 1)]
+    while todo:
+        first, last = todo.pop()
+        between = closed[first + 1 : last]
+        if not len(between):
+            continue
+        gaps = polygons.distances(between, np.concatenate([closed[first], closed[last]])[None])
+        worst = int(gaps.argmax())
+        if gaps[worst] > tolerance:
+            middle = first + 1 + worst
+            keep[middle] = True
+            todo += [(first, middle), (middle, last)]
+    return closed[:-1][keep[:-1]]
+
+
+def pieces(outlines: list[Floats]) -> list[Floats]:
+    """Simple polygons, corners counter-clockwise, that together cover what outlines go around by the even-odd rule.
+
+    Outlines that neither cross themselves nor lie in or across others stay whole; the others become trapezoids between the heights of
+    their corners. They cover the same points to the last bit of the arithmetic, and only touch one another.
+    """
+    crossed = any(polygons.crossing_sides(outline) for outline in outlines)
+    if not crossed and not any(polygons.overlap(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
+        return [outline if polygons.area(outline) > 0 else outline[::-1] for outline in outlines]
+    sides = np.vstack([polygons.sides_of(outline) for outline in outlines])
+    heights = np.unique(np.concatenate([sides[:, 1], _crossing_heights(sides)]))
+    found = []
+    for low, high in pairwise(heights):
+        if high - low < 1e-9:
+            continue
+        x1, y1, x2, y2 = sides[
+            (np.minimum(sides[:, 1], sides[:, 3]) <= low) & (np.maximum(sides[:, 1], sides[:, 3]) >= high)
+        ].T
+        slope = (x2 - x1) / (y2 - y1)
+        below, above = x1 + (low - y1) * slope, x1 + (high - y1) * slope
+        order = np.argsort(below + above, kind="stable")
+        for left, right in zip(order[::2], order[1::2], strict=False):
+            corners = np.array(
+                [(below[left], low), (below[right], low), (above[right], high), (above[left], high)]
+            )
+            corners = corners[(np.abs(corners - np.roll(corners, 1, axis=0)) > 1e-9).any(axis=1)]
+            if len(corners) >= 3 and polygons.area(corners) > 1e-12:
+                found.append(corners)
+    return found
+
+
+def _crossing_heights(sides: Floats) -> Floats:
+    """The heights at which sides cross one another."""
+    begin, way = sides[:, :2], sides[:, 2:] - sides[:, :2]
+    slope = way[:, None, 0] * way[None, :, 1] - way[:, None, 1] * way[None, :, 0]
+    gap = begin[None, :] - begin[:, None]
+    meets = np.abs(slope) > 1e-15
+    divisor = np.where(meets, slope, 1.0)
+    along = (gap[..., 0] * way[None, :, 1] - gap[..., 1] * way[None, :, 0]) / divisor
+    other = (gap[..., 0] * way[:, None, 1] - gap[..., 1] * way[:, None, 0]) / divisor
+    hit = meets & (along > 0) & (along < 1) & (other > 0) & (other < 1)
+    heights: Floats = (begin[:, None, 1] + along * way[:, None, 1])[hit]
+    return heights

@@ -1,0 +1,239 @@
+"""Makes flat worlds of SDF: what is static stands, what is not can be pushed, actors walk, and doors open.
+
+Collisions count, for bodies run against them and Gazebo's ray sensors see them; visuals give the colours. A static model becomes as many obstacles as
+it has solid parts: `MODEL` if there is one, else `MODEL::COLLISION` (with more links than one: `MODEL::LINK::COLLISION`). A model that is not static
+becomes one obstacle `MODEL` with the mass of its links; its joints are held. So all that is of a model is called `MODEL`, or begins with `MODEL::`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from rosmini.geometry.poses import Pose
+from rosmini.sim.motion import Motion, Walk
+from rosmini.sim.shapes import Compound, Cylinder, Shape, Sphere
+from rosmini.sim.world import Obstacle, World, WorldError
+
+from .colours import HOUSE
+from .document import Note, Pose6, SdfActor, SdfCollision, SdfJoint, SdfLink, SdfModel, SdfWorld
+from .doors import door_of
+from .errors import SdfError
+from .meshes import MeshError
+from .poses import compose
+from .solids import FLAT, Solid, solids
+
+WALKER = Cylinder(0.2)
+"""What an actor is on the ground [m]: Gazebo gives it no body at all."""
+WALKER_HEIGHT = 1.75
+WALKER_COLOUR = "purple"
+
+START = "start"
+"""Robots start at the frames of a world whose names begin with this."""
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A solid of a collision."""
+
+    name: str
+    """LINK::COLLISION, with the names of models between."""
+    solid: Solid
+    colour: str
+
+
+def to_world(world: SdfWorld, *, title: str = "") -> World:
+    """The flat world of an SDF world; see `converted` for what was left out. Raises `SdfError`."""
+    return converted(world, title=title)[0]
+
+
+def converted(world: SdfWorld, *, title: str = "") -> tuple[World, tuple[Note, ...]]:
+    """The flat world of an SDF world, and notes about what was left out or taken for something simpler. Raises `SdfError`."""
+    notes: list[Note] = []
+    obstacles = [each for model in world.models for each in _obstacles(model, model.pose, notes)]
+    obstacles += [to_walker(actor) for actor in world.actors]
+    starts = tuple(
+        (pose[0], pose[1], pose[5]) for name, pose in world.frames if name.lower().startswith(START)
+    )
+    try:
+        made = World(
+            world.name,
+            tuple(obstacles),
+            starts=starts or ((0.0, 0.0, 0.0),),
+            title=title or f"The world {world.name}",
+        )
+    except WorldError as error:
+        raise SdfError(str(error), world.path, world.line) from error
+    return made, tuple(notes)
+
+
+def to_obstacles(model: SdfModel, pose: Pose | Pose6 | None = None) -> tuple[Obstacle, ...]:
+    """What a model is in a flat world, at `pose` (x, y, heading, or all six numbers), or where the file puts it. Raises `SdfError`."""
+    if pose is None:
+        place = model.pose
+    elif len(pose) == 3:
+        place = (pose[0], pose[1], model.pose[2], *model.pose[3:5], pose[2])
+    else:
+        place = pose
+    return tuple(_obstacles(model, place, []))
+
+
+def to_walker(actor: SdfActor) -> Obstacle:
+    """The person that an actor is: it walks its waypoints at an even speed, and waits where the file says the same place twice.
+
+    Raises `SdfError`.
+    """
+    points: list[tuple[float, float]] = []
+    waits: list[float] = []
+    walked = 0.0
+    for (begin, a), (end, b) in pairwise(actor.waypoints):
+        if math.dist(a[:2], b[:2]) < 1e-6:
+            waits.append(end - begin)
+        else:
+            walked += end - begin
+    for _, place in actor.waypoints:
+        if not points or math.dist(points[-1], place[:2]) >= 1e-6:
+            points.append((place[0], place[1]))
+    x, y, _, _, _, yaw = actor.waypoints[0][1]
+    motion = None
+    try:
+        if len(points) > 1:
+            length = sum(math.dist(a, b) for a, b in pairwise(points))
+            wait = sum(waits) / len(points) if waits else 0.0
+            motion = Walk(
+                tuple(points), length / walked if walked > 0 else Walk.speed, round(wait, 6), actor.loop
+            )
+        return Obstacle(actor.name, WALKER, (x, y, yaw), WALKER_HEIGHT, WALKER_COLOUR, motion=motion)
+    except WorldError as error:
+        raise SdfError(f"the actor {actor.name!r}: {error}", actor.path, actor.line) from error
+
+
+def _obstacles(model: SdfModel, pose: Pose6, notes: list[Note]) -> list[Obstacle]:
+    motion = door_of(model)
+    fixed = model.static and motion is None
+    try:
+        if fixed:
+            return _fixed(model, list(_pieces(model, pose, notes, sliced=True)))
+        lifted: Pose6 = (0.0, 0.0, *pose[2:5], 0.0)
+        found = list(_pieces(model, lifted, notes, sliced=False))
+        if not found:
+            notes.append(
+                Note(model.path, model.line, f"the model {model.name!r} has nothing solid: left out")
+            )
+            return []
+        if motion is None and any(joint.type != "fixed" for joint in _joints(model)):
+            notes.append(
+                Note(
+                    model.path,
+                    model.line,
+                    f"the joints of the model {model.name!r} are held: it moves as one",
+                )
+            )
+        return [_one(model, (pose[0], pose[1], pose[5]), motion, found)]
+    except WorldError as error:
+        raise SdfError(f"the model {model.name!r}: {error}", model.path, model.line) from error
+
+
+def _fixed(model: SdfModel, found: list[_Piece]) -> list[Obstacle]:
+    """An obstacle for each of the pieces."""
+    short = len({each.name.rpartition("::")[0] for each in found}) == 1
+    names = [each.name.rpartition("::")[2] if short else each.name for each in found]
+    counts, seen = Counter(names), Counter[str]()
+    obstacles = []
+    for name, each in zip(names, found, strict=True):
+        seen[name] += 1
+        called = f"{name} {seen[name]}" if counts[name] > 1 else name
+        whole = model.name if len(found) == 1 else f"{model.name}::{called}"
+        solid = each.solid
+        obstacles.append(
+            Obstacle(whole, solid.shape, solid.pose, solid.top, each.colour, bottom=solid.bottom)
+        )
+    return obstacles
+
+
+def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]) -> Obstacle:
+    """One obstacle of all the pieces, which are seen from the model."""
+    solid = [each.solid for each in found]
+    shape: Shape = solid[0].shape
+    if len(solid) > 1 or solid[0].pose != (0.0, 0.0, 0.0):
+        shape = Compound(
+            tuple(
+                (Cylinder(each.shape.radius) if isinstance(each.shape, Sphere) else each.shape, each.pose)
+                for each in solid
+            )
+        )
+    return Obstacle(
+        model.name,
+        shape,
+        pose,
+        max(each.top for each in solid),
+        found[0].colour,
+        None if motion else sum(link.inertial.mass for _, link in _links(model)),
+        min(each.bottom for each in solid),
+        motion,
+    )
+
+
+# ---- the solid parts of a model ----
+
+
+def _pieces(model: SdfModel, pose: Pose6, notes: list[Note], *, sliced: bool) -> Iterator[_Piece]:
+    """What is solid of a model and the models within it, above the ground, at a pose."""
+    for name, link, place in _placed(model, pose):
+        for collision in link.collisions:
+            try:
+                found, remark = solids(collision.geometry, compose(place, collision.pose), sliced=sliced)
+            except MeshError as error:
+                raise SdfError(str(error), model.path, collision.line) from error
+            if remark:
+                notes.append(
+                    Note(
+                        model.path, collision.line, f"{collision.name!r} of the model {model.name!r} {remark}"
+                    )
+                )
+            colour = _colour(collision, link)
+            for each in found:
+                if each.top > FLAT:
+                    bottom = each.bottom if isinstance(each.shape, Sphere) else max(0.0, each.bottom)
+                    yield _Piece(f"{name}::{collision.name}", replace(each, bottom=bottom), colour)
+                elif each.top > 0:
+                    flat = f"{collision.name!r} of the model {model.name!r} is {each.top * 1000:.0f} mm high: wheels roll over it, left out"
+                    notes.append(Note(model.path, collision.line, flat))
+
+
+def _placed(model: SdfModel, pose: Pose6, inside: str = "") -> Iterator[tuple[str, SdfLink, Pose6]]:
+    """The links of a model and of the models within it, with their names and where they are, if the model is at `pose`."""
+    for link in model.links:
+        yield inside + link.name, link, compose(pose, link.pose)
+    for each in model.models:
+        yield from _placed(each, compose(pose, each.pose), f"{inside}{each.name}::")
+
+
+def _links(model: SdfModel) -> list[tuple[str, SdfLink]]:
+    return [(name, link) for name, link, _ in _placed(model, model.pose)]
+
+
+def _joints(model: SdfModel) -> Iterator[SdfJoint]:
+    yield from model.joints
+    for each in model.models:
+        yield from _joints(each)
+
+
+def _colour(collision: SdfCollision, link: SdfLink) -> str:
+    """That of the visual with the same name, else of one that is just there, else of the first that has one."""
+    coloured = [visual for visual in link.visuals if visual.colour is not None]
+    alike = [
+        *(each for each in coloured if each.name == collision.name),
+        *(
+            each
+            for each in coloured
+            if each.pose == collision.pose and each.geometry.kind == collision.geometry.kind
+        ),
+        *coloured,
+    ]
+    if not alike or alike[0].colour is None:
+        return "grey"
+    return HOUSE.get(alike[0].colour, alike[0].colour)

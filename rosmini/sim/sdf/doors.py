@@ -1,0 +1,53 @@
+"""Doors: models with a plugin of ours that opens them. In real Gazebo, which does not know it, they swing freely on their hinges.
+
+    <model name="door">
+      <link name="leaf">...</link>
+      <joint name="hinge" type="revolute"><parent>world</parent><child>leaf</child><pose>-0.45 0 0 0 0 0</pose>...</joint>
+      <plugin name="door" filename="librosmini_door.so"><opening>1.5708</opening><moving>2</moving><open>5</open><closed>5</closed></plugin>
+    </model>
+
+A joint of the type `prismatic` makes it slide along the joint's axis.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from rosmini.errors import nearest
+from rosmini.sim.motion import Door
+from rosmini.sim.shapes import WorldError
+
+from .document import SdfModel
+from .errors import SdfError
+from .poses import compose
+
+PLUGIN = "librosmini_door.so"
+NUMBERS = ("opening", "moving", "open", "closed", "phase")
+
+
+def door_of(model: SdfModel) -> Door | None:
+    """How a model opens and closes if it is a door. Raises `SdfError`."""
+    plugin = next((each for each in model.plugins if each.filename == PLUGIN), None)
+    if plugin is None:
+        return None
+    element = plugin.element
+    for child in element:
+        if child.tag not in NUMBERS:
+            hint = nearest(child.tag, NUMBERS) or f"it has {', '.join(NUMBERS)}"
+            raise child.error(f"a door has no <{child.tag}>; {hint}")
+    numbers = {child.tag: child.floats(child.text, 1)[0] for child in element}
+    joint = next((each for each in model.joints if each.type in ("revolute", "prismatic")), None)
+    leaf = next((each for each in model.links if joint is not None and each.name == joint.child), None)
+    if joint is None or leaf is None:
+        raise element.error(
+            "a door hangs in a joint of the type revolute, or prismatic if it slides, whose child is its leaf"
+        )
+    x, y, *_ = compose(leaf.pose, joint.pose)
+    try:
+        door = replace(Door(), **numbers)
+        if joint.type == "revolute":
+            return replace(door, hinge=(x, y))
+        return replace(door, slide=math.atan2(joint.axis[1], joint.axis[0]))
+    except WorldError as error:
+        raise SdfError(f"the door {model.name!r}: {error}", element.path, element.line) from error

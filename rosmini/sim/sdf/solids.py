@@ -1,0 +1,230 @@
+"""Shapes of SDF as a flat world has them: upright solids, each an outline on the ground with a bottom and a top.
+
+What stands upright is taken as it is. What lies on a side or stands aslant is taken as its shadow: the outline of it seen from above, from its lowest
+to its highest point. A mesh is cut level at several heights, and stands for each cut as high as it resembles it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry import polygons
+from rosmini.geometry.poses import Pose
+from rosmini.geometry.slices import convex_hull, cut, loops, pieces, thinned
+from rosmini.sim.shapes import Box, Cylinder, Polygon, Simple, Sphere
+
+from .document import Pose6, SdfGeometry
+from .meshes import MeshError, Triangles, load_mesh
+from .poses import matrix, upright
+
+Floats = NDArray[np.float64]
+
+FLAT = 0.01
+"""What is no higher than this above the ground [m] is a part of the ground: wheels roll over it."""
+LEVELS = (0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0, 2.0)
+"""Between these heights above the ground a mesh is cut [m], if its own corners are not all at a few heights."""
+STEPS = 8
+"""So many heights of corners are few."""
+GRAIN = 0.002
+"""How far the outline of a mesh may be from the cut [m]; more where it would keep more than `CORNERS` corners."""
+CORNERS = 60
+ROUND = 64
+"""Corners in place of a circle that stands aslant."""
+
+
+@dataclass(frozen=True)
+class Solid:
+    """An upright part of something."""
+
+    shape: Simple
+    pose: Pose
+    bottom: float
+    top: float
+
+
+def solids(geometry: SdfGeometry, pose: Pose6, *, sliced: bool = True) -> tuple[list[Solid], str]:
+    """What a shape at a pose is in a flat world, and what has to be said about it ("" if nothing).
+
+    With `sliced=False` a mesh is one solid: the convex hull of its shadow. Raises `MeshError`.
+    """
+    maker = _MAKERS.get(geometry.kind)
+    if maker is None:
+        return [], ""
+    if geometry.kind == "mesh" and not sliced:
+        return _shadow(_triangles(geometry, pose).reshape(-1, 3)), ""
+    return maker(geometry, pose)
+
+
+def _standing(shape: Simple, pose: Pose6, bottom: float, top: float) -> list[Solid]:
+    return [Solid(shape, (pose[0], pose[1], pose[5]), bottom, top)]
+
+
+def _shadow(points: Floats) -> list[Solid]:
+    """The convex hull of points (n, 3), seen from above."""
+    x, y = points[:, :2].mean(axis=0)
+    hull = convex_hull(points[:, :2] - (x, y))
+    if len(hull) < 3 or polygons.area(hull) < 1e-9:
+        return []
+    low, high = points[:, 2].min(), points[:, 2].max()
+    return [Solid(_polygon(hull), (float(x), float(y), 0.0), float(low), float(high))]
+
+
+def _polygon(outline: Floats) -> Polygon:
+    return Polygon(tuple((float(x), float(y)) for x, y in outline))
+
+
+def _moved(points: Floats, pose: Pose6) -> Floats:
+    turn = matrix(pose)
+    return points @ turn[:3, :3].T + turn[:3, 3]
+
+
+def _aslant(pose: Pose6) -> str:
+    """Say so if none of the axes of a pose is upright."""
+    if (np.abs(np.abs(matrix(pose)[2, :3]) - 1) < 1e-6).any():
+        return ""
+    return "stands aslant; it is taken as its shadow, from its lowest to its highest point"
+
+
+def _box(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+    x, y, z = geometry.size
+    if upright(pose):
+        return _standing(Box(x, y), pose, pose[2] - z / 2, pose[2] + z / 2), ""
+    corners = np.array([(a, b, c) for a in (-x, x) for b in (-y, y) for c in (-z, z)]) / 2
+    return _shadow(_moved(corners, pose)), _aslant(pose)
+
+
+def _cylinder(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+    r, half = geometry.radius, geometry.length / 2
+    if upright(pose):
+        return _standing(Cylinder(r), pose, pose[2] - half, pose[2] + half), ""
+    angles = np.arange(ROUND) * (2 * math.pi / ROUND)
+    ring = np.stack([r * np.cos(angles), r * np.sin(angles)], axis=1)
+    ends = np.vstack([np.column_stack([ring, np.full(ROUND, z)]) for z in (-half, half)])
+    lying = abs(matrix(pose)[2, 2]) < 1e-6
+    note = "lies on its side; it is taken as its shadow, as wide at every height" if lying else _aslant(pose)
+    return _shadow(_moved(ends, pose)), note
+
+
+def _sphere(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+    r = geometry.radius
+    return _standing(Sphere(r), pose, pose[2] - r, pose[2] + r), ""
+
+
+def _plane(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+    up = matrix(pose)[:3, :3] @ geometry.normal
+    if up[2] < (1 - 1e-6) * np.linalg.norm(up):
+        return [], "a plane that is not level is left out"
+    return [], "a plane that is not at height 0 is left out; the ground is there" if abs(
+        pose[2]
+    ) > 1e-3 else ""
+
+
+def _polyline(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+    outlines = [np.array(outline) for outline in geometry.outlines]
+    if not upright(pose):
+        flat = np.vstack(outlines)
+        ends = np.vstack([np.column_stack([flat, np.full(len(flat), z)]) for z in (0.0, geometry.length)])
+        return _shadow(_moved(ends, pose)), _aslant(pose)
+    found = [
+        each
+        for piece in pieces(outlines)
+        for each in _standing(_polygon(piece), pose, pose[2], pose[2] + geometry.length)
+    ]
+    return found, ""
+
+
+# ---- meshes ----
+
+
+@lru_cache(maxsize=32)
+def _loaded(path: Path, part: str, changed: int) -> Triangles:  # noqa: ARG001 (a file that changed is read again)
+    return load_mesh(path, part)
+
+
+def _triangles(geometry: SdfGeometry, pose: Pose6) -> Triangles:
+    if geometry.mesh is None:
+        raise MeshError("a mesh has no file")
+    changed = geometry.mesh.stat().st_mtime_ns if geometry.mesh.exists() else 0
+    triangles = _loaded(geometry.mesh, geometry.submesh, changed) * geometry.scale
+    return _moved(triangles.reshape(-1, 3), pose).reshape(-1, 3, 3)
+
+
+def _mesh(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
+    triangles = _triangles(geometry, pose)
+    heights = _heights(triangles[..., 2])
+    bands: list[tuple[list[Floats], float, float]] = []
+    open_somewhere = False
+    for low, high in pairwise(heights):
+        segments = cut(triangles, (low + high) / 2)
+        outlines = loops(segments)
+        if outlines is None:
+            open_somewhere = True
+            outlines = [convex_hull(segments.reshape(-1, 2))]
+        outlines = [thin for outline in outlines if (thin := _thin(outline)) is not None]
+        if bands and bands[-1][2] == low and _same(outlines, bands[-1][0]):
+            bands[-1] = (outlines, bands[-1][1], high)
+        elif outlines:
+            bands.append((outlines, low, high))
+    found = [
+        Solid(shape, place, low, high)
+        for outlines, low, high in bands
+        for shape, place in _cover(outlines, pose)
+    ]
+    note = (
+        "is a mesh with holes in its surface: where a cut does not close, it is taken as the hull around it"
+    )
+    return found, note if open_somewhere else ""
+
+
+def _heights(z: Floats) -> list[float]:
+    """Between which heights a mesh is cut."""
+    low, high = max(0.0, float(z.min())), float(z.max())
+    if high <= low:
+        return []
+    own = np.unique(np.round(z, 4))
+    inner = own[(own > low + 1e-3) & (own < high - 1e-3)]
+    levels = (
+        inner.tolist()
+        if len(inner) <= STEPS
+        else [level for level in LEVELS if low + 1e-3 < level < high - 1e-3]
+    )
+    return [low, *levels, high]
+
+
+def _thin(outline: Floats) -> Floats | None:
+    grain = GRAIN
+    thin = thinned(outline, grain)
+    while len(thin) > CORNERS or (
+        len(thin) > 3 and polygons.crossing_sides(thin) is not None and grain < 1.0
+    ):
+        grain *= 2
+        thin = thinned(outline, grain)
+    return thin if len(thin) >= 3 and polygons.area(thin) > 1e-8 else None
+
+
+def _same(a: list[Floats], b: list[Floats]) -> bool:
+    return len(a) == len(b) and all(
+        p.shape == q.shape and np.allclose(p, q, atol=1e-5) for p, q in zip(a, b, strict=True)
+    )
+
+
+def _cover(outlines: list[Floats], pose: Pose6) -> list[tuple[Simple, Pose]]:
+    centre = (pose[0], pose[1])
+    return [(_polygon(piece - centre), (*centre, 0.0)) for piece in pieces(outlines)]
+
+
+_MAKERS = {
+    "box": _box,
+    "cylinder": _cylinder,
+    "sphere": _sphere,
+    "plane": _plane,
+    "polyline": _polyline,
+    "mesh": _mesh,
+}
