@@ -420,7 +420,7 @@ def test_bounds_and_odometry(world):
         ("model( block( points 2 point[0] [0 0] point[1] [1 0] ) )", "a block needs 3 points or more, not 2"),
         ("model( block( points 3 point[0] [0 0] point[1] [1 0] ) )", "a block of 3 points has no point[2]"),
         ("model( block( points 3 point[0] [0 0] point[1] [1 0] point[2] [2 0] ) )", "enclose nothing"),
-        ("model( block( points 4 point[0] [0 0] point[1] [3 1] point[2] [2 0] point[3] [0 1] ) )", "the sides of a block meet"),
+        ("model( block( points 4 point[0] [0 0] point[1] [2 2] point[2] [2 0] point[3] [0 1] ) )", "the sides of a block meet"),
         ("model( gripper_return 1 mass 0 )", "its mass has to be more than 0 kg"),
         ('model( bitmap "nothing.png" )', 'there is no bitmap "nothing.png" in'),
         ('model( bitmap "text.png" )', "cannot be read: cannot identify image file"),
