@@ -1,0 +1,5 @@
+"""`yocs_velocity_smoother`: commands that a robot can follow."""
+
+from .smoother import Limits, VelocitySmoother, limited, towards
+
+__all__ = ["Limits", "VelocitySmoother", "limited", "towards"]
