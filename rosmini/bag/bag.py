@@ -386,10 +386,8 @@ class Bag(Summaries):
     def _decoder(self, conn: Connection) -> Callable[[bytes], Any]:
         cls = self._types.of(conn)
         decode = cls._decode
-        if cls._plain:
-            return decode  # type: ignore[no-any-return]
-        thaw = cls._thaw_numpy if self._numpy else cls._thaw
-        return lambda data: thaw(decode(data))
+        thaw = cls._thawer(numpy=self._numpy)
+        return decode if thaw is None else lambda data: thaw(decode(data))
 
     def __iter__(self) -> Iterator[Any]:
         return self.read_messages()

@@ -92,10 +92,11 @@ class _Wire:
 class _ByteSender(LocalSender):
     """The publisher's end of a connection: what its queue lets go is carried as bytes."""
 
-    __slots__ = ("_wire",)
+    __slots__ = ("_scheduler", "_wire")
 
     def __init__(self, scheduler: Scheduler, wire: _Wire, receiver: Receiver, destination: str) -> None:
         super().__init__(scheduler, receiver, destination)
+        self._scheduler = scheduler
         self._wire = wire
 
     def _flush(self) -> None:

@@ -31,31 +31,32 @@ class TimedEvents:
     """The timers that have not been called."""
 
     def __init__(self) -> None:
-        self._heap: list[tuple[int, int, Timer]] = []
+        self.heap: list[tuple[int, int, Timer]] = []
+        """What is to be called, ordered by time and then by number; it stays the same list."""
         self._sequence = 0
         self._sweep_at = SWEEP_FROM
 
     def __len__(self) -> int:
-        return len(self._heap)
+        return len(self.heap)
 
     def add(self, when_ns: int, callback: Callable[[], object]) -> Timer:
         """Note a call at ``when_ns``."""
         timer = Timer(when_ns, callback)
         self._sequence += 1
-        heapq.heappush(self._heap, (when_ns, self._sequence, timer))
-        if len(self._heap) >= self._sweep_at:
+        heapq.heappush(self.heap, (when_ns, self._sequence, timer))
+        if len(self.heap) >= self._sweep_at:
             self._sweep()
         return timer
 
     def _sweep(self) -> None:
         """Throw out what was taken back: a wait with a long timeout that ends early leaves such an entry."""
-        self._heap = [entry for entry in self._heap if entry[2].callback is not None]
-        heapq.heapify(self._heap)
-        self._sweep_at = max(SWEEP_FROM, 2 * len(self._heap))
+        self.heap[:] = [entry for entry in self.heap if entry[2].callback is not None]
+        heapq.heapify(self.heap)
+        self._sweep_at = max(SWEEP_FROM, 2 * len(self.heap))
 
     def take_due(self, now_ns: int, ready: deque[Callable[[], object]]) -> None:
         """Move the calls that are due into ``ready``."""
-        heap = self._heap
+        heap = self.heap
         while heap and heap[0][0] <= now_ns:
             callback = heapq.heappop(heap)[2].callback
             if callback is not None:
@@ -63,11 +64,11 @@ class TimedEvents:
 
     def next_ns(self) -> int | None:
         """Return the time of the next call, or None."""
-        heap = self._heap
+        heap = self.heap
         while heap and heap[0][2].callback is None:
             heapq.heappop(heap)
         return heap[0][0] if heap else None
 
     def clear(self) -> None:
         """Forget all."""
-        self._heap.clear()
+        self.heap.clear()

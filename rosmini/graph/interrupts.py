@@ -19,7 +19,8 @@ class InterruptGuard:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
-        self._noted = False
+        self.noted = False
+        """An interrupt came that nobody has taken yet."""
         self._depth = 0
         self._previous: Any = None
 
@@ -40,21 +41,13 @@ class InterruptGuard:
             signal.signal(signal.SIGINT, self._previous)
             self._previous = None
 
-    def note(self) -> None:
-        """Note an interrupt that arrived as an exception."""
-        self._noted = True
-
-    def pending(self) -> bool:
-        """Tell whether an interrupt was noted and not yet taken."""
-        return self._noted
-
     def take(self) -> bool:
         """Return whether an interrupt was noted, and forget it."""
-        noted, self._noted = self._noted, False
+        noted, self.noted = self.noted, False
         return noted
 
     def _handle(self, _signum: int, _frame: Any) -> None:
-        if self._noted:
+        if self.noted:
             raise KeyboardInterrupt
-        self._noted = True
+        self.noted = True
         self._wake()

@@ -103,12 +103,16 @@ class Lane:
         if not scheduler.is_hub_thread():
             scheduler.call_soon_threadsafe(lambda: self.submit(task))
             return
+        self.post(task)
+
+    def post(self, task: Callable[[], object]) -> None:
+        """Do as :meth:`submit` does, in the hub's thread only."""
         if self.dead:
             return
         self._tasks.append(task)
         if not self._busy:
             self._busy = True
-            scheduler.ready.append(self._activate_ref)
+            self._scheduler.ready.append(self._activate_ref)
 
     def kill(self) -> None:
         """End the lane: forget its queued tasks and throw :class:`LaneExit` where it is parked."""

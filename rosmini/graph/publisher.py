@@ -36,8 +36,11 @@ class Publication:
         self._latched: Any = None
         self._warned = False
         self._stamp = bool(message_class._has_header)
+        header: Any = message_class._nested.get("std_msgs/Header") if self._stamp else None
+        self._header_class = header
+        self._set_number: Any = None if header is None else header._fields_class.seq.__set__
         self._freeze = message_class._freeze
-        self._plain = bool(message_class._plain)
+        self._thaw_numpy = message_class._thaw_numpy if message_class._plain_numpy else None
 
     @property
     def latch(self) -> bool:
@@ -60,10 +63,15 @@ class Publication:
         Raises ``SerializationError``, which names the field, when the message holds what its type cannot hold.
         """
         if self._stamp:
-            if message.header.frame_id is None:
-                message.header.frame_id = "0"
-            if self._list:  # rospy numbers only what somebody gets
-                message.header.seq = next(self._numbers)
+            header = message.header
+            if header.frame_id is None:
+                header.frame_id = "0"
+            if not self._list:  # rospy numbers only what somebody gets
+                pass
+            elif header.__class__ is self._header_class:
+                self._set_number(header, next(self._numbers))
+            else:
+                header.seq = next(self._numbers)
         frozen = self._freeze(message)
         scheduler = self._scheduler
         if get_ident() != scheduler.thread:
@@ -101,7 +109,7 @@ class Publication:
 
     def _copy(self, frozen: Any) -> Any:
         """Return a frozen message of which one receiver may become the owner."""
-        return self.message_class._thaw(frozen) if self._plain else frozen
+        return frozen if self._thaw_numpy is None else self._thaw_numpy(frozen)
 
     def _warn_unheard(self) -> None:
         self._warned = True

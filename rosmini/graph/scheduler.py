@@ -11,10 +11,7 @@ therefore costs a function call, not a switch.
 
 from __future__ import annotations
 
-import queue
 import threading
-import time
-from collections import deque
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -23,7 +20,7 @@ from greenlet import getcurrent, greenlet
 from rosmini.errors import GraphEnded, RosminiError
 
 from . import threads
-from .events import TimedEvents
+from .event_queue import EVENTS_PER_INSTANT, TICK_QUANTUM_NS, EventQueue
 from .interrupts import InterruptGuard
 from .lanes import Lane, LaneContext, LaneExit, Waiter
 from .notebook import CellOutput, kernel_shell
@@ -32,25 +29,14 @@ from .report import RunReport, Waiting, ended
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .events import Timer
-
 T = TypeVar("T")
 E = TypeVar("E", bound=BaseException)
-
-SIMULATED_START_NS = 1_000 * 10**9
-"""Where simulated time starts: not at zero, because ``Time(0)`` means "the latest"."""
 
 TICKS_PER_YIELD = 1_000
 """How many turns a polling loop makes before the others get theirs."""
 
-TICK_QUANTUM_NS = 1_000_000
-"""How far simulated time goes on in those turns: a microsecond each, about what they take on a real machine."""
 
-EVENTS_PER_INSTANT = 100_000
-"""So many events at one instant of simulated time are taken for a ping-pong, and time moves on by a quantum."""
-
-
-class Scheduler:
+class Scheduler(EventQueue):
     """Runs lanes and timed events; see the module's text.
 
     Args:
@@ -60,30 +46,16 @@ class Scheduler:
     """
 
     def __init__(self, *, simulated: bool = True, rate: float = 1.0) -> None:
-        if not rate > 0:
-            msg = f"the rate of a clock must be positive, not {rate!r}"
-            raise RosminiError(msg)
-        self.simulated = simulated
-        self.rate = rate
+        super().__init__(simulated=simulated, rate=rate)
         self.trace: Callable[[int, str], None] | None = None
         self.on_error: Callable[[Lane, BaseException], None] | None = None
         self.ask_driver: Callable[[Waiter], Callable[[], None]] = partial(threads.complaint, self)
         """Finds who drives while another thread waits; what it returns is called when that takes long."""
-        self.ready: deque[Callable[[], object]] = deque()
-        self._now = SIMULATED_START_NS
-        self._wall_start = time.time_ns()
-        self._mono_start = time.monotonic_ns()
-        self._timed = TimedEvents()
-        self._inbox: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
-        self._holds = 0
-        self._hold_lock = threading.Lock()
         self._owner_lock = threading.Lock()
-        self.thread = threading.get_ident()
         self._idle: list[greenlet] = []
         self._parked: dict[Waiter, Lane] = {}
         self._thread_lanes: dict[int, Lane] = {}
         self._ticks = TICKS_PER_YIELD
-        self._instant = 0
         self.root = Lane(self, "main")
         self._current = self.root
         self._context: LaneContext | None = None
@@ -93,38 +65,7 @@ class Scheduler:
         self._output = None if shell is None else CellOutput(shell)
         self._interrupts = InterruptGuard(lambda: self._inbox.put(None))
 
-    # -- time ----------------------------------------------------------------------------------------------------
-
-    def now_ns(self) -> int:
-        """Return the graph time in nanoseconds."""
-        if self.simulated:
-            return self._now
-        return self._wall_start + int((time.monotonic_ns() - self._mono_start) * self.rate)
-
-    def call_at(self, when_ns: int, callback: Callable[[], object]) -> Timer:
-        """Call ``callback`` at graph time ``when_ns`` (at once when that is over). Only from the hub's thread."""
-        return self._timed.add(when_ns, callback)
-
-    def call_soon(self, callback: Callable[[], object]) -> None:
-        """Call ``callback`` after what is already due now. It must not block: code that may goes into a lane."""
-        if threading.get_ident() == self.thread:
-            self.ready.append(callback)
-        else:
-            self._inbox.put(callback)
-
-    def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
-        """Like :meth:`call_soon`, through the inbox: the only door for other threads."""
-        self._inbox.put(callback)
-
     # -- who is running ------------------------------------------------------------------------------------------
-
-    def is_hub_thread(self) -> bool:
-        """Tell whether the caller is in the thread that runs the queue."""
-        return threading.get_ident() == self.thread
-
-    def is_in_main_thread(self) -> bool:
-        """Tell whether the queue runs in the main thread."""
-        return self.thread == threading.main_thread().ident
 
     def current(self) -> Lane:
         """Return the caller's lane: the main program's own when it is in none."""
@@ -207,20 +148,6 @@ class Scheduler:
     def in_thread(self, function: Callable[[], T]) -> T:
         """Run a blocking call of the operating system in a helper thread while the caller is parked."""
         return threads.in_thread(self, function) if self.is_hub_thread() else function()
-
-    def hold(self) -> None:
-        """Say that something is under way outside the queue: simulated time stands still until :meth:`release`."""
-        with self._hold_lock:
-            self._holds += 1
-
-    def release(self) -> None:
-        """Undo one :meth:`hold`, from any thread, after its result was put into the inbox."""
-
-        def let_go() -> None:
-            with self._hold_lock:
-                self._holds -= 1
-
-        self._inbox.put(let_go)
 
     def may_wait(self) -> bool:
         """Tell whether the caller may be parked for as long as it takes.
@@ -319,7 +246,7 @@ class Scheduler:
 
     def lane_failed(self, lane: Lane, error: BaseException) -> None:
         """Tell whoever should know that a task of ``lane`` raised. For lanes only."""
-        if isinstance(error, KeyboardInterrupt) and self._interrupts.pending():
+        if isinstance(error, KeyboardInterrupt) and self._interrupts.noted:
             return
         if lane.on_error is not None:
             lane.on_error(error)
@@ -373,11 +300,6 @@ class Scheduler:
                 timer.cancel()
         return self.report(waiter.value)
 
-    def quiet(self) -> bool:
-        """Tell whether there is nothing to do at this moment."""
-        due = self._timed.next_ns()
-        return not self.ready and self._inbox.empty() and (due is None or due > self.now_ns())
-
     def stop(self) -> None:
         """End the current :meth:`run`, from any thread or lane."""
         if self._root_waiter is not None:
@@ -429,28 +351,34 @@ class Scheduler:
 
     def _loop(self) -> None:
         """Run events for ever. The body of each worker greenlet; there is one running and some idle."""
-        ready = self.ready
+        ready, heap, simulated = self.ready, self._timed.heap, self.simulated
+        nothing_came, interrupts = self._inbox.empty, self._interrupts
         while True:
             try:
                 while True:
-                    self._instant += len(ready)
-                    for _ in range(len(ready)):
+                    count = len(ready)
+                    self._instant += count
+                    for _ in range(count):
                         if not ready:  # another worker went on while this one was idle
                             break
-                        parked = ready.popleft()()
-                        if isinstance(parked, greenlet):
+                        parked: Any = ready.popleft()()
+                        if parked is not None and isinstance(parked, greenlet):
                             self._idle.append(getcurrent())
                             parked.switch()
                         if self._until is not None:
                             self._check_until()
                     if self._until is not None:
                         self._check_until()
-                    self._take_inbox()
-                    self._take_due()
+                    if interrupts.noted or not nothing_came():
+                        self._take_inbox()
+                    if heap and (
+                        not simulated or heap[0][0] <= self._now or self._instant > EVENTS_PER_INSTANT
+                    ):
+                        self._take_due()
                     if not ready:
                         self._advance()
             except KeyboardInterrupt:
-                self._interrupts.note()
+                interrupts.noted = True
             except Exception as error:
                 self.raise_in_driver(error)
 
@@ -464,19 +392,7 @@ class Scheduler:
         root = self._root_waiter
         if root is not None and not root.done and self._interrupts.take():
             root.fail(self._interruption())
-        inbox = self._inbox
-        while not inbox.empty():
-            item = inbox.get()
-            if item is not None:
-                self.ready.append(item)
-
-    def _take_due(self) -> None:
-        if not self._timed:
-            return
-        if self.simulated and self._instant > EVENTS_PER_INSTANT:
-            self._now += TICK_QUANTUM_NS
-            self._instant = 0
-        self._timed.take_due(self.now_ns(), self.ready)
+        self._empty_inbox()
 
     def _advance(self) -> None:
         """Nothing is due: go on to the next event, or wait for it, or end."""
@@ -485,16 +401,9 @@ class Scheduler:
             if due is not None:
                 self._now = due
                 self._instant = 0
+                if self._until is None:  # else it is asked before anything happens then
+                    self._timed.take_due(due, self.ready)
             elif self._root_waiter is not None and not self._root_waiter.done:
                 self._root_waiter.fail(ended(self._root_waiter.reason, self.waiting()))
             return
-        timeout = 0.2  # Python on Windows notices Ctrl-C only between waits
-        if due is not None and not self.simulated:
-            timeout = min(timeout, (due - self.now_ns()) / 1e9 / self.rate)
-        if timeout > 0:
-            try:
-                item = self._inbox.get(timeout=timeout)
-            except queue.Empty:
-                return
-            if item is not None:
-                self.ready.append(item)
+        self._wait_for_event(due)

@@ -57,10 +57,9 @@ class ServiceServer:
     def respond(self, request: Any) -> Any:
         """Return the frozen response to a frozen request. Raises ``ServiceException`` with the text that the client gets."""
         response_class = self.service_class._response_class
-        request_class = type(request)
-        thaw = request_class._thaw_numpy if self.numpy else request_class._thaw
+        thaw = type(request)._thawer(numpy=self.numpy)
         try:
-            answer = self.handler(request if request_class._plain else thaw(request))
+            answer = self.handler(request if thaw is None else thaw(request))
         except ServiceException as error:  # how a handler refuses a request
             msg = f"service cannot process request: {error}"
             raise ServiceException(msg) from error
@@ -229,10 +228,8 @@ class ServiceClient:
                 else f"service [{self.name}] responded with an error: {problem}"
             )
             raise ServiceException(msg)
-        cls = type(response)
-        if cls._plain:
-            return response
-        return cls._thaw_numpy(response) if self._numpy else cls._thaw(response)
+        thaw = type(response)._thawer(numpy=self._numpy)
+        return response if thaw is None else thaw(response)
 
     def _connect(self) -> ServiceLink:
         if self._closed:

@@ -6,6 +6,7 @@ from collections import deque
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from rosmini.errors import TransportException, TransportInitError, TypeMismatch
+from rosmini.msgs.message import Message
 
 from .mismatch import describe_mismatch
 
@@ -14,6 +15,15 @@ if TYPE_CHECKING:
 
     from .node import Node
     from .transport import Header
+
+
+_set_header: Callable[[Any, Header], None] = Message.__dict__["_connection_header"].__set__
+"""Sets a message's `_connection_header`, past the check of names that an assignment makes."""
+
+
+def _assign_header(message: Any, header: Header) -> None:
+    """Set it on whatever a subscriber of its own kind makes of a message."""
+    message._connection_header = header
 
 
 class _Callback(NamedTuple):
@@ -27,9 +37,15 @@ class _Callback(NamedTuple):
         return (lambda message: function(message, *arguments)) if arguments else function
 
 
-Groups: TypeAlias = (
-    "tuple[tuple[Callable[[Any], Any] | None, tuple[tuple[Callable[[Any], object], _Callback], ...]], ...]"
-)
+class _Group(NamedTuple):
+    """Callbacks that get the same message: how it is made of a frozen one, what tells it where it is from, and what each is called by."""
+
+    thaw: Callable[[Any], Any] | None
+    label: Callable[[Any, Header], None]
+    callbacks: tuple[tuple[Callable[[Any], object], _Callback], ...]
+
+
+Groups: TypeAlias = tuple[_Group, ...]
 
 
 class Connection:
@@ -51,6 +67,8 @@ class Connection:
         self._incoming: deque[Any] = deque()
         self._scheduled = False
         self._last: Any = None
+        self._keep = False
+        self._drain_ref = self._drain
         self._close_link: Callable[[], None] | None = None
         self._lane = node.spawn(f"{node.name} <- {subscription.topic}", self._open)
 
@@ -83,6 +101,7 @@ class Connection:
             self._close_link()
             return
         self.peer = self.header.get("callerid", "")
+        self._keep = self.header.get("latching") == "1"
         self.is_open = True
         if self.message_class is None or self.message_class._type == "*":
             self.message_class = node.graph.type_of_header(self.header, self.message_class)
@@ -143,26 +162,25 @@ class Connection:
                 self.dropped += 1
         if not self._scheduled:
             self._scheduled = True
-            self._lane.submit(self._drain)
+            self._lane.post(self._drain_ref)
 
     def _drain(self) -> None:
         """Call the callbacks for what is queued. In the connection's lane."""
         incoming = self._incoming
-        header = self.header
-        keep = header.get("latching") == "1"
+        header, keep = self.header, self._keep
         try:
             while incoming:
                 frozen = incoming.popleft()
                 self.received += 1
                 if keep:
                     self._last = self._private(frozen)
-                message = None
-                for thaw, callbacks in self.groups or self._regroup():
+                groups = self.groups or self._regroup()
+                for thaw, label, callbacks in groups:
                     if thaw is not None:
                         message = thaw(frozen)
                     else:
-                        message = frozen if message is None else self._private(frozen)
-                    message._connection_header = header
+                        message = frozen if len(groups) == 1 else self._private(frozen)
+                    label(message, header)
                     for call, callback in callbacks:
                         try:
                             call(message)
@@ -172,7 +190,7 @@ class Connection:
             self._scheduled = False
             if incoming and not self._gone:
                 self._scheduled = True
-                self._lane.submit(self._drain)
+                self._lane.post(self._drain_ref)
 
     def _regroup(self) -> Groups:
         self.groups = self.subscription.groups(self.message_class)
@@ -190,7 +208,7 @@ class Connection:
 
     def _private(self, frozen: Any) -> Any:
         cls = type(frozen)
-        return cls._thaw(frozen) if cls._plain else frozen
+        return cls._thaw_numpy(frozen) if cls._plain_numpy else frozen
 
     def replay(self, callback: _Callback, thaw: Callable[[Any], Any] | None) -> None:
         """Give a late callback the message that the publisher latched."""
@@ -275,11 +293,19 @@ class Subscription:
     def groups(self, message_class: Any) -> Groups:
         """Return the callbacks, each with what calls it, by the way in which they want their message."""
         by_thaw: dict[Callable[[Any], Any] | None, list[_Callback]] = {}
+        made: set[Callable[[Any], Any] | None] = set()
         for handle in self.handles:
             if handle.callback is not None:
-                by_thaw.setdefault(handle.thaw_for(message_class), []).append(handle.callback)
+                thaw = handle.thaw_for(message_class)
+                by_thaw.setdefault(thaw, []).append(handle.callback)
+                if handle.makes_its_own:
+                    made.add(thaw)
         return tuple(
-            (thaw, tuple((callback.caller(), callback) for callback in callbacks))
+            _Group(
+                thaw,
+                _assign_header if thaw in made else _set_header,
+                tuple((callback.caller(), callback) for callback in callbacks),
+            )
             for thaw, callbacks in by_thaw.items()
         )
 
@@ -316,6 +342,7 @@ class Subscriber:
         self.callback = None if callback is None else _Callback(self, callback, arguments)
         self._numpy = numpy
         self._receipt = receipt
+        self.makes_its_own = receipt is not None
         self._on_connect = on_connect
         self._on_disconnect = on_disconnect
         subscription.add(self)
@@ -327,9 +354,7 @@ class Subscriber:
         """Return how a frozen message becomes this subscriber's own; None: as it is."""
         if self._receipt is not None:
             return self._receipt(message_class)
-        if message_class._plain:
-            return None
-        thaw: Callable[[Any], Any] = message_class._thaw_numpy if self._numpy else message_class._thaw
+        thaw: Callable[[Any], Any] | None = message_class._thawer(numpy=self._numpy)
         return thaw
 
     def num_connections(self) -> int:

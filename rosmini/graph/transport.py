@@ -47,7 +47,7 @@ class Receiver(Protocol):
     message_class: Any
 
     def deliver(self, messages: Iterable[Any]) -> None:
-        """Take frozen messages, oldest first; they belong to the receiver."""
+        """Take frozen messages, oldest first; they belong to the receiver, what holds them does not. It calls no user's code."""
 
     def closed(self) -> None:
         """Learn that the publisher closed the connection."""
@@ -135,9 +135,10 @@ class LocalSender:
 
     __slots__ = (
         "_closed",
+        "_flush_ref",
         "_queue",
+        "_ready",
         "_receiver",
-        "_scheduler",
         "destination",
         "dropped",
         "on_closed",
@@ -145,8 +146,9 @@ class LocalSender:
     )
 
     def __init__(self, scheduler: Scheduler, receiver: Receiver, destination: str) -> None:
-        self._scheduler = scheduler
+        self._ready = scheduler.ready
         self._receiver = receiver
+        self._flush_ref = self._flush
         self._queue: deque[Any] = deque()
         self._closed = False
         self.destination = destination
@@ -158,7 +160,7 @@ class LocalSender:
         """Queue a message; the oldest makes room when ``size`` are waiting."""
         waiting = self._queue
         if not waiting:
-            self._scheduler.ready.append(self._flush)
+            self._ready.append(self._flush_ref)
         elif size is not None and len(waiting) >= size:
             waiting.popleft()
             self.dropped += 1
@@ -166,14 +168,15 @@ class LocalSender:
         self.sent += 1
 
     def _flush(self) -> None:
-        messages, self._queue = self._queue, deque()
+        queue = self._queue
         if not self._closed:
-            self._receiver.deliver(messages)
+            self._receiver.deliver(queue)
+        queue.clear()
 
     def close(self) -> None:
         """Close from the publisher's side: what is queued still arrives, then the receiver is told."""
         if not self._closed:
-            self._scheduler.ready.append(self._close)
+            self._ready.append(self._close)
 
     def _close(self) -> None:
         if not self._closed:

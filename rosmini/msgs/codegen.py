@@ -19,6 +19,7 @@ import numpy as np
 from rosmini.time import Duration, Time
 
 from . import fields
+from .definition import BYTES
 from .fields import DTYPES, FORMATS
 
 if TYPE_CHECKING:
@@ -187,7 +188,7 @@ class _Generator:
     def array_function(self, field: Field, *, verb: str) -> str:
         """The name of the function that freezes (or thaws) one array field."""
         size = -1 if field.size is None else field.size
-        if field.base in ("uint8", "char"):
+        if field.base in BYTES:
             return self.use(f"freeze_{field.base}s_{field.name}", fields.freeze_bytes(size))
         if field.base in FORMATS:
             return self.use(f"freeze_{field.base}s_{field.name}", fields.array_freezer(field.base, size))
@@ -199,6 +200,18 @@ class _Generator:
         else:
             element = getattr(self.cls_of_field(field), f"_{verb}")
         return self.use(f"freeze_{field.name}", _list_freezer(element, size))
+
+    def not_frozen(self, field: Field) -> str:
+        """The condition under which the array `v` is not yet one over bytes, which nobody can write to, as it is to be."""
+        wrong = [
+            f"v.__class__ is not {self.use('ndarray', np.ndarray)}",
+            f"v.base.__class__ is not {self.use('_bytes', bytes)}",
+            f"v.dtype is not {self.use(f'dtype_{field.base}', DTYPES[field.base])}",
+            "v.ndim != 1",
+            "not v.flags.c_contiguous",
+        ]
+        wrong += [f"len(v) != {field.size}"] if field.size != -1 else []
+        return " or ".join(wrong)
 
     def cls_of_field(self, field: Field) -> type[Message]:
         for node in self.nodes:
@@ -222,8 +235,8 @@ class _Generator:
 
     def default(self, field: Field) -> str:
         if field.size == -1:
-            return "b''" if field.base in ("uint8", "char") else "[]"
-        if field.base in ("uint8", "char") and field.size is not None:
+            return "b''" if field.base in BYTES else "[]"
+        if field.base in BYTES and field.size is not None:
             return f"{self.use('_bytes', bytes)}({field.size})"
         if field.base in FORMATS or field.base == "string":
             single = {"float32": "0.0", "float64": "0.0", "string": "''", "bool": "False"}.get(
@@ -241,18 +254,23 @@ class _Generator:
         self.emit("try:")
         self.emit_sources(2)
         self.emit_targets(2)
-        for run in self.runs():
-            node, name, field, _ = run[0]
-            if self.is_number(run[0]):
-                packer, _struct = self.struct_for(run)
-                self.emit_unpacked(run, f"{packer}.unpack({self.packed(run, packer)})", 2)
-            elif field is not None and field.size is not None:
-                self.emit(
-                    f"{node.target}.{name} = {self.array_function(field, verb='freeze')}({node.source}.{name})",
-                    2,
-                )
+        numbers = [leaf for leaf in self.leaves if self.is_number(leaf)]
+        if numbers:
+            packer, _struct = self.struct_for(numbers)
+            self.emit_unpacked(numbers, f"{packer}.unpack({self.packed(numbers, packer)})", 2)
+        for leaf in self.leaves:
+            node, name, field, kind = leaf
+            if self.is_number(leaf):
+                continue
+            self.emit(f"v = {node.source}.{name}", 2)
+            if field is not None and field.size is not None:
+                freeze, depth = self.array_function(field, verb="freeze"), 2
+                if kind in FORMATS and kind not in BYTES and kind != "bool":
+                    self.emit(f"if {self.not_frozen(field)}:", 2)
+                    depth = 3
+                self.emit(f"v = {freeze}(v)", depth)
+                self.emit(f"{node.target}.{name} = v", 2)
             else:
-                self.emit(f"v = {node.source}.{name}", 2)
                 self.emit("if v.__class__ is not str or not v.isascii():", 2)
                 self.emit(f"v = {self.use('checked_text', fields.checked_text)}(v)", 3)
                 self.emit(f"{node.target}.{name} = v", 2)
@@ -284,7 +302,7 @@ class _Generator:
     def thawed(self, field: Field, kind: str, value: str) -> str:
         """The expression for an array field as a subscriber gets it."""
         as_arrays = self.purpose != "thaw"
-        if kind in ("uint8", "char"):
+        if kind in BYTES:
             if self.purpose != "thaw_numpy":
                 return value
             return f"{self.use('frombuffer', np.frombuffer)}({value}, {self.use('uint8', np.uint8)})"
@@ -320,7 +338,7 @@ class _Generator:
             self.emit(f"v = {self.array_function(field, verb='encode')}({value})", 2)
             if field.size == -1:
                 self.emit(f"parts.append({length}(len(v)))", 2)
-            if kind in ("uint8", "char"):
+            if kind in BYTES:
                 self.emit("parts.append(v)", 2)
             elif kind in FORMATS:
                 self.emit("parts.append(v.tobytes())", 2)
@@ -382,7 +400,7 @@ class _Generator:
         if kind in FORMATS:
             size = struct.calcsize("<" + FORMATS[kind])
             self.emit(f"stop = pos + count * {size}")
-            if kind in ("uint8", "char"):
+            if kind in BYTES:
                 value = "data[pos:stop]"
             elif kind == "bool":
                 value = f"{self.use('bools_from', fields.bools_from)}(data[pos:stop])"
@@ -407,7 +425,7 @@ class _Generator:
             reader = self.cls_of_field(field)._read
             self.emit(f"v, pos = {self.use(f'read_{field.name}', reader)}(data, pos, end)", 2)
         self.emit("found.append(v)", 2)
-        self.emit(f"{target} = tuple(found)")
+        self.emit(f"{target} = found")
 
 
 def _smallest_builtin(kind: str) -> int:
@@ -429,13 +447,13 @@ def _smallest(cls: type[Message]) -> int:
     return total
 
 
-def _list_freezer(element: Callable[[Any], Any], size: int) -> Callable[[Any], tuple[Any, ...]]:
-    def convert(values: Any) -> tuple[Any, ...]:
+def _list_freezer(element: Callable[[Any], Any], size: int) -> Callable[[Any], list[Any]]:
+    def convert(values: Any) -> list[Any]:
         if isinstance(values, (str, bytes, dict)):
             raise TypeError("not a list")
         if size >= 0 and len(values) != size:
             raise ValueError("wrong length")
-        return tuple([element(value) for value in values])
+        return [element(value) for value in values]
 
     return convert
 

@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 __all__ = [
     "ACTION_SUFFIXES",
     "BUILTIN_TYPES",
+    "BYTES",
     "INTEGER_RANGES",
+    "NUMBERS",
     "Constant",
     "Field",
     "MessageSpec",
@@ -39,7 +41,10 @@ INTEGER_RANGES: dict[str, tuple[int, int]] = {
     "byte": (-128, 127),  # deprecated alias of int8
     "char": (0, 255),  # deprecated alias of uint8
 }
-PRIMITIVE_TYPES = frozenset({*INTEGER_RANGES, "float32", "float64", "string", "bool"})
+BYTES = frozenset({"uint8", "char"})
+"""Arrays of these are bytes in rospy."""
+NUMBERS = frozenset({*INTEGER_RANGES, "float32", "float64", "bool"})
+PRIMITIVE_TYPES = frozenset({*NUMBERS, "string"})
 BUILTIN_TYPES = frozenset({*PRIMITIVE_TYPES, "time", "duration"})
 
 # The seven messages that one .action file stands for, longest suffix first so that a name is taken apart rightly.

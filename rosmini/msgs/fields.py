@@ -14,7 +14,7 @@ import numpy as np
 
 from rosmini.errors import DeserializationError, SerializationError
 
-from .definition import INTEGER_RANGES
+from .definition import BYTES, INTEGER_RANGES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -184,9 +184,7 @@ def _check(cls: type[Message], message: Any, prefix: str) -> None:
         if field.size is None:
             _check_value(cls, field, path, value)
             continue
-        if isinstance(value, (str, dict)) or (
-            isinstance(value, bytes) and field.base not in ("uint8", "char")
-        ):
+        if isinstance(value, (str, dict)) or (isinstance(value, bytes) and field.base not in BYTES):
             raise SerializationError(
                 f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]"
             )

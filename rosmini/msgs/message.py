@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from rosmini.errors import DeserializationError, SerializationError, nearest
 
+from .definition import BYTES, NUMBERS
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from io import BytesIO
@@ -59,6 +61,9 @@ class Message:
     _registry: ClassVar[Registry]
     _fields_class: ClassVar[type[Message]]
     _plain: ClassVar[bool]
+    """A frozen message is what a receiver gets: there are no arrays of numbers in it, which rospy gives as tuples and bytes."""
+    _plain_numpy: ClassVar[bool]
+    """A frozen message is what a receiver gets who wants numpy arrays: there are no bytes in it."""
 
     _freeze: ClassVar[Callable[[Any], Any]] = _Compiled()  # type: ignore[assignment]
     _thaw: ClassVar[Callable[[Any], Any]] = _Compiled()  # type: ignore[assignment]
@@ -88,6 +93,13 @@ class Message:
             problem = f"{len(fixed) - used} of {len(fixed)} bytes are left over: the data is of another type"
             raise DeserializationError(f"{cls._type}: {problem}")
         return message  # type: ignore[no-any-return]
+
+    @classmethod
+    def _thawer(cls, *, numpy: bool) -> Callable[[Any], Any] | None:
+        """What makes a frozen message its receiver's own, with numpy arrays or with rospy's tuples and bytes; None: it is already."""
+        if cls._plain_numpy if numpy else cls._plain:
+            return None
+        return cls._thaw_numpy if numpy else cls._thaw
 
     # ---- genpy's interface ----
 
@@ -246,8 +258,10 @@ def make_message_class(
         "_nested": nested,
         "_registry": registry,
         "_fields_class": fields_class,
-        "_plain": all(field.size is None for field in spec.fields)
+        "_plain": not any(field.size is not None and field.base in NUMBERS for field in spec.fields)
         and all(cls._plain for cls in nested.values()),
+        "_plain_numpy": not any(field.size is not None and field.base in BYTES for field in spec.fields)
+        and all(cls._plain_numpy for cls in nested.values()),
         **{constant.name: constant.value for constant in spec.constants},
     }
     cls = type(spec.short_name, (fields_class,), namespace)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from rosmini.packages import PackageIndex, assets_dir
 
-from .definition import INTEGER_RANGES
+from .definition import BYTES, INTEGER_RANGES
 from .registry import Registry
 from .sources import PackageSource
 
@@ -133,7 +133,7 @@ def _types(field: Field, package: str, own_module: str, others: set[str]) -> tup
             single = f"_{owner}.{short}"
     if field.size is None:
         return single, single
-    if base in ("uint8", "char"):
+    if base in BYTES:
         return "Any", "bytes | Sequence[int] | Any"
     if base in INTEGER_RANGES or base in ("float32", "float64", "bool"):
         return "Any", f"Sequence[{single}] | Any"

@@ -26,6 +26,7 @@ class AnyMsg(Message):
     _full_text = ""
     _slot_types: ClassVar[list[str]] = []
     _plain = False
+    _plain_numpy = False
 
     def __init__(self, *args: Any) -> None:
         if args:

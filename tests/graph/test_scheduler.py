@@ -11,8 +11,9 @@ import weakref
 import pytest
 
 from rosmini.errors import GraphEnded, RosminiError
+from rosmini.graph.event_queue import TICK_QUANTUM_NS
 from rosmini.graph.lanes import LaneExit
-from rosmini.graph.scheduler import TICK_QUANTUM_NS, Scheduler
+from rosmini.graph.scheduler import Scheduler
 
 SECOND = 10**9
 

@@ -12,7 +12,7 @@ import pytest
 from rosmini.errors import GraphEnded, ROSException, SerializationError, TypeMismatch
 from rosmini.msgs.geometry_msgs.msg import Point, PointStamped, Polygon, Twist
 from rosmini.msgs.nav_msgs.msg import Path
-from rosmini.msgs.sensor_msgs.msg import Image, LaserScan
+from rosmini.msgs.sensor_msgs.msg import Image, JointState, LaserScan
 from rosmini.msgs.std_msgs.msg import Int32, String
 
 from .conftest import KINDS, close, make, settle, until
@@ -196,6 +196,42 @@ def test_two_callbacks_of_one_node_share_one_message_as_in_rospy(graph: Graph) -
     connected(graph.node("talker"), "t", Twist).publish(Twist())
     until(graph, lambda: len(heard) == 2)
     assert heard[0] is heard[1]
+
+
+@pytest.mark.parametrize("vandal_takes_arrays", [True, False])
+@pytest.mark.parametrize("latch", [True, False])
+def test_subscribers_who_want_it_otherwise_do_not_share_a_message(
+    graph: Graph, vandal_takes_arrays: bool, latch: bool
+) -> None:
+    """One node has both; what one of them does to names, parts and arrays, the others and those who come late do not see."""
+    heard: list[Any] = []
+
+    def vandal(message: Any) -> None:
+        message.header.frame_id = "nowhere"
+        message.name[0] = "spoilt"
+        message.name.append("more")
+        message.position = []
+
+    node = graph.node("listener")
+    node.subscriber("joints", JointState, vandal, numpy=vandal_takes_arrays)
+    node.subscriber("joints", JointState, heard.append, numpy=not vandal_takes_arrays)
+    graph.node("other").subscriber("joints", JointState, vandal)
+    graph.node("third").subscriber("joints", JointState, heard.append)
+    publisher = connected(graph.node("talker"), "joints", JointState, 3, latch=latch)
+    message = JointState(name=["left", "right"], position=[1.0, 2.0])
+    message.header.frame_id = "base_link"
+    publisher.publish(message)
+    until(graph, lambda: len(heard) == 2)
+    if latch:
+        graph.node("late").subscriber("joints", JointState, heard.append)
+        node.subscriber("joints", JointState, heard.append, numpy=vandal_takes_arrays)
+        until(graph, lambda: len(heard) == 4)
+    for each in [*heard, message]:
+        assert (each.header.frame_id, each.name, list(each.position)) == (
+            "base_link",
+            ["left", "right"],
+            [1.0, 2.0],
+        )
 
 
 def test_numeric_arrays_are_numpy_arrays_that_cannot_be_made_writable(graph: Graph) -> None:

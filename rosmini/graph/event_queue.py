@@ -1,0 +1,125 @@
+"""The part of the scheduler that knows no lanes: what time it is, and what is to happen at once, later, or for another thread."""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from collections import deque
+from typing import TYPE_CHECKING
+
+from rosmini.errors import RosminiError
+
+from .events import TimedEvents
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .events import Timer
+
+SIMULATED_START_NS = 1_000 * 10**9
+"""Where simulated time starts: not at zero, because ``Time(0)`` means "the latest"."""
+
+TICK_QUANTUM_NS = 1_000_000
+"""How far simulated time goes on in the turns of a polling loop, or at an instant with too many events: a microsecond each."""
+
+EVENTS_PER_INSTANT = 100_000
+"""So many events at one instant of simulated time are taken for a ping-pong, and time moves on by a quantum."""
+
+
+class EventQueue:
+    """Events in the order of their times; see :class:`~rosmini.graph.scheduler.Scheduler`, which runs them."""
+
+    def __init__(self, *, simulated: bool = True, rate: float = 1.0) -> None:
+        if not rate > 0:
+            msg = f"the rate of a clock must be positive, not {rate!r}"
+            raise RosminiError(msg)
+        self.simulated = simulated
+        self.rate = rate
+        self.thread = threading.get_ident()
+        self.ready: deque[Callable[[], object]] = deque()
+        self._now = SIMULATED_START_NS
+        self._wall_start = time.time_ns()
+        self._mono_start = time.monotonic_ns()
+        self._timed = TimedEvents()
+        self._instant = 0
+        self._inbox: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
+        self._holds = 0
+        self._hold_lock = threading.Lock()
+
+    def now_ns(self) -> int:
+        """Return the graph time in nanoseconds."""
+        if self.simulated:
+            return self._now
+        return self._wall_start + int((time.monotonic_ns() - self._mono_start) * self.rate)
+
+    def call_at(self, when_ns: int, callback: Callable[[], object]) -> Timer:
+        """Call ``callback`` at graph time ``when_ns`` (at once when that is over). Only from the hub's thread."""
+        return self._timed.add(when_ns, callback)
+
+    def call_soon(self, callback: Callable[[], object]) -> None:
+        """Call ``callback`` after what is already due now. It must not block: code that may goes into a lane."""
+        if threading.get_ident() == self.thread:
+            self.ready.append(callback)
+        else:
+            self._inbox.put(callback)
+
+    def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
+        """Like :meth:`call_soon`, through the inbox: the only door for other threads."""
+        self._inbox.put(callback)
+
+    def is_hub_thread(self) -> bool:
+        """Tell whether the caller is in the thread that runs the queue."""
+        return threading.get_ident() == self.thread
+
+    def is_in_main_thread(self) -> bool:
+        """Tell whether the queue runs in the main thread."""
+        return self.thread == threading.main_thread().ident
+
+    def hold(self) -> None:
+        """Say that something is under way outside the queue: simulated time stands still until :meth:`release`."""
+        with self._hold_lock:
+            self._holds += 1
+
+    def release(self) -> None:
+        """Undo one :meth:`hold`, from any thread, after its result was put into the inbox."""
+
+        def let_go() -> None:
+            with self._hold_lock:
+                self._holds -= 1
+
+        self._inbox.put(let_go)
+
+    def quiet(self) -> bool:
+        """Tell whether there is nothing to do at this moment."""
+        due = self._timed.next_ns()
+        return not self.ready and self._inbox.empty() and (due is None or due > self.now_ns())
+
+    # -- for the scheduler's loop --------------------------------------------------------------------------------
+
+    def _empty_inbox(self) -> None:
+        """Take what other threads want done."""
+        inbox = self._inbox
+        while not inbox.empty():
+            item = inbox.get()
+            if item is not None:
+                self.ready.append(item)
+
+    def _take_due(self) -> None:
+        if self.simulated and self._instant > EVENTS_PER_INSTANT:
+            self._now += TICK_QUANTUM_NS
+            self._instant = 0
+        self._timed.take_due(self.now_ns(), self.ready)
+
+    def _wait_for_event(self, due_ns: int | None) -> None:
+        """Wait until then, or for something from another thread, or, lest a Ctrl-C be overlooked, for a moment."""
+        timeout = 0.2  # Python on Windows notices Ctrl-C only between waits
+        if due_ns is not None and not self.simulated:
+            timeout = min(timeout, (due_ns - self.now_ns()) / 1e9 / self.rate)
+        if timeout > 0:
+            try:
+                item = self._inbox.get(timeout=timeout)
+            except queue.Empty:
+                return
+            if item is not None:
+                self.ready.append(item)
