@@ -98,7 +98,7 @@ class TransformMessage(Headed):
         return self.message
 
 
-class JointStates(Headed):
+class JointStateMessage(Headed):
     """`sensor_msgs/JointState`: how far two wheels have turned, and how fast they do."""
 
     def __init__(self, joints: Sequence[str] = WHEELS, frame: str = BASE_LINK) -> None:

@@ -7,10 +7,21 @@ from typing import TYPE_CHECKING, TypeVar
 
 from rosmini.geometry.poses import Pose
 
-from .devices import DifferentialDrive, GroundTruth, ImuDevice, Laser, WheelStates, prefixed
+from .battery import BURGER_BATTERY, WAFFLE_BATTERY, Battery
+from .devices import (
+    BatteryDevice,
+    DifferentialDrive,
+    GroundTruth,
+    ImuDevice,
+    JointStates,
+    Laser,
+    SensorStateDevice,
+    Switches,
+    prefixed,
+)
 from .host import Device, Host
 from .messages import BASE, BASE_LINK, MAP, ODOM
-from .models import RobotModel
+from .models import BURGER, RobotModel
 
 if TYPE_CHECKING:
     from .robot import Robot
@@ -92,7 +103,27 @@ class TurtleBot:
         if options.tf:
             self.drive.publish_transform("/tf")
         self.joints = self._add(
-            WheelStates(host, self.drive, topic=self.topic("joint_states"), frame=self.frame(BASE_LINK))
+            JointStates(host, self.drive, topic=self.topic("joint_states"), frame=self.frame(BASE_LINK))
+        )
+        self.battery: BatteryDevice | None = None
+        self._switches: Switches | None = None
+        if options.board:
+            self._add_board()
+
+    def _add_board(self) -> None:
+        """Give it what the real robot's board has beside."""
+        host, name = self.host, self.name
+        kind = BURGER_BATTERY if self.model.name == BURGER.name else WAFFLE_BATTERY
+        self.battery = self._add(
+            BatteryDevice(host, name, Battery(kind), drive=self.drive, topic=self.topic("battery_state"))
+        )
+        self._add(SensorStateDevice(host, self.drive, self.battery, topic=self.topic("sensor_state")))
+        self._switches = Switches(
+            host,
+            self.drive,
+            None if self.imu is None else self.imu.reset_heading,
+            motor_power=self.topic("motor_power"),
+            reset=self.topic("reset"),
         )
 
     def __repr__(self) -> str:
@@ -120,3 +151,5 @@ class TurtleBot:
         """End its topics."""
         for device in self.devices:
             self.host.remove(device)
+        if self._switches is not None:
+            self._switches.close()

@@ -1,17 +1,24 @@
 """The devices of simulated robots, which TurtleBot3's simulator, Stage and Gazebo share: topics, frames, rates and noise are their arguments."""
 
-from .drive import DifferentialDrive, GroundTruth, OdometryTransforms, PlanarMove, WheelStates
+from .board import BatteryDevice, SensorStateDevice, Switches, contacts
+from .clock import ClockDevice
+from .drive import DifferentialDrive, GroundTruth, JointStates, OdometryTransforms, PlanarMove
 from .names import one_of, order, prefixed
 from .sensors import ImuDevice, Laser
 
 __all__ = [
+    "BatteryDevice",
+    "ClockDevice",
     "DifferentialDrive",
     "GroundTruth",
     "ImuDevice",
+    "JointStates",
     "Laser",
     "OdometryTransforms",
     "PlanarMove",
-    "WheelStates",
+    "SensorStateDevice",
+    "Switches",
+    "contacts",
     "one_of",
     "order",
     "prefixed",

@@ -18,7 +18,7 @@ from rosmini.sim.messages import (
     ODOM,
     POSE_COVARIANCE,
     WHEELS,
-    JointStates,
+    JointStateMessage,
     OdometryMessage,
     TransformMessage,
 )
@@ -268,7 +268,7 @@ class OdometryTransforms(Device):
         self._publisher.unregister()
 
 
-class WheelStates(Device):
+class JointStates(Device):
     """`sensor_msgs/JointState` of a drive's two wheels, as far as the encoders show it.
 
     Args:
@@ -297,7 +297,7 @@ class WheelStates(Device):
     ) -> None:
         super().__init__(host, name or f"{drive.robot.name}/joints", rate or drive.rate)
         self.drive = drive
-        self._message = JointStates(joints, frame)
+        self._message = JointStateMessage(joints, frame)
         self._publisher = host.node.publisher(topic, type(self._message.message), queue_size=30)
 
     def due(self, stamp: Stamp, _: int, /) -> None:

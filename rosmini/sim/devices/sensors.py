@@ -78,7 +78,9 @@ class Laser(Device):
         own = self.lidar is self.robot.model.lidar
         engine = self.host.engine
         ranges = (
-            engine.scan(self.robot.name, noise) if own else engine.scan(self.robot.name, noise, lidar=self.lidar)
+            engine.scan(self.robot.name, noise)
+            if own
+            else engine.scan(self.robot.name, noise, lidar=self.lidar)
         )
         self.pose = self.robot.pose
         self.ranges = ranges if self._rep_117 else unmeasured(ranges)
