@@ -15,16 +15,16 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.polygons import area, inside, sides_of
-from rosmini.geometry.poses import compose, inverse, transform_points
+from rosmini.geometry.polygons import sides_of
 from rosmini.packages import PackageIndex
-from rosmini.sim.shapes import Box, Compound, Polygon, Shape, Simple
-from rosmini.sim.world import Obstacle, Pose, World, WorldError
+from rosmini.sim.shapes import Compound
+from rosmini.sim.world import Obstacle, World, WorldError
 
 from .blocks import Block
 from .errors import Place, StageError
 from .parse import Entity, Parsed, parse_file
 from .robots import BASE, StageRobot, robot
+from .solids import Solid, filled, placed, solid
 from .things import UNUSED, Maker, Thing
 from .values import Reader, Units, units_of
 
@@ -169,22 +169,21 @@ class _World:
         if body is None or not self._there(thing):
             return
         blocks = body.blocks
-        if body.traced and _bottom(thing, blocks[0]) <= 0 and not self.walls:
-            corners = [_placed(thing, each) for each in blocks]
+        if body.traced and solid(thing, blocks[0]).bottom <= 0 and not self.walls:
+            corners = [placed(thing, each) for each in blocks]
             self.walls.append((thing, np.vstack([sides_of(loop) for loop in corners])))
             blocks = ()
-        elif body.traced:
-            blocks = self._filled(thing, blocks)
+        else:
+            blocks = self._filled(thing)
         for each in (*blocks, *body.boundary):
-            self._obstacle(thing, (each,))
+            self._obstacle(thing, each)
 
     def _push(self, thing: Thing, bodies: list[Thing]) -> None:
         """A thing that can be pushed, with all that is on it."""
         blocks: list[tuple[Thing, Block]] = []
         for each in bodies:
             if each.body is not None and self._there(each):
-                own = self._filled(each, each.body.blocks) if each.body.traced else each.body.blocks
-                blocks += [(each, one) for one in (*own, *each.body.boundary)]
+                blocks += [(each, one) for one in (*self._filled(each), *each.body.boundary)]
         if not blocks:
             return
         mass = thing.mass
@@ -193,16 +192,16 @@ class _World:
                 thing.reader.place("mass"),
                 f"{thing.name} can be pushed, so its mass has to be more than 0 kg",
             )
-        parts = [_seen_from(thing, *_shape(owner, each)) for owner, each in blocks]
-        low = min(_bottom(owner, each) for owner, each in blocks)
-        high = max(_top(owner, each) for owner, each in blocks)
+        solids = [solid(owner, each) for owner, each in blocks]
+        low, high = min(each.bottom for each in solids), max(each.top for each in solids)
         if high <= 0:
             self.units.note(thing.place, f"{thing.name} is below the ground and is left out")
-        elif len(blocks) == 1:
-            self._add(thing, *_shape(*blocks[0]), low, high, mass=mass)
+        elif len(solids) == 1:
+            self._add(thing, solids[0], mass)
         else:
-            x, y, _, a = thing.at
-            self._add(thing, Compound(tuple(parts)), (x, y, a), low, high, mass=mass)
+            pose = (thing.at[0], thing.at[1], thing.at[3])
+            parts = Compound(tuple(each.seen_from(pose) for each in solids))
+            self._add(thing, Solid(parts, pose, low, high), mass)
 
     def _there(self, thing: Thing) -> bool:
         """Tell whether anything notices the thing, and note what is not as the file says."""
@@ -218,38 +217,35 @@ class _World:
         self.units.note(thing.reader.place(name), f"{name} changes nothing here: {thing.name} is {what}")
         return True
 
-    def _filled(self, thing: Thing, blocks: tuple[Block, ...]) -> tuple[Block, ...]:
-        """The outer outlines of what was traced; what is hollow is noted."""
-        outer = tuple(each for each in blocks if area(each.outline) > 0)
-        holes = len(blocks) - len(outer)
+    def _filled(self, thing: Thing) -> tuple[Block, ...]:
+        """The blocks of a thing's body, without what is hollow in them."""
+        found, holes = filled(thing)
         if holes:
             what = f"of the bitmaps of a world one may have rooms in it; {holes} hollow parts of {thing.name} are filled"
             self.units.note(thing.reader.place("bitmap"), what)
-        return tuple(
-            each
-            for each in outer
-            if not any(
-                other is not each and inside(each.outline[:1], sides_of(other.outline))[0] for other in outer
-            )
-        )
+        return found
 
-    def _obstacle(self, thing: Thing, blocks: tuple[Block, ...]) -> None:
-        for each in blocks:
-            bottom, top = _bottom(thing, each), _top(thing, each)
-            if top <= 0:
-                self.units.note(thing.place, f"{thing.name} is below the ground and is left out")
-                return
-            shape, pose = _shape(thing, each)
-            self._add(thing, shape, pose, bottom, top)
+    def _obstacle(self, thing: Thing, block: Block) -> None:
+        found = solid(thing, block)
+        if found.top <= 0:
+            self.units.note(thing.place, f"{thing.name} is below the ground and is left out")
+            return
+        self._add(thing, found)
 
-    def _add(
-        self, thing: Thing, shape: Shape, pose: Pose, bottom: float, top: float, mass: float | None = None
-    ) -> None:
+    def _add(self, thing: Thing, what: Solid, mass: float | None = None) -> None:
         count = self.names[thing.name]
         self.names[thing.name] += 1
         name = thing.name if not count else f"{thing.name} ({count + 1})"
         try:
-            found = Obstacle(name, shape, pose, height=top, bottom=bottom, colour=thing.colour, mass=mass)
+            found = Obstacle(
+                name,
+                what.shape,
+                what.pose,
+                height=what.top,
+                bottom=what.bottom,
+                colour=thing.colour,
+                mass=mass,
+            )
         except WorldError as error:
             raise StageError(thing.place, str(error)) from error
         self.obstacles.append(found)
@@ -264,48 +260,6 @@ class _World:
         return World(
             name, tuple(self.obstacles), walls=walls, wall_height=top, starts=starts, title=title, solid=True
         )
-
-
-def _placed(thing: Thing, block: Block) -> NDArray[np.float64]:
-    """The outline of a block (n, 2) in the world's frame."""
-    x, y, _, a = thing.at
-    ox, oy, _, oa = thing.origin
-    corners = transform_points((ox, oy, oa), block.outline)
-    return np.asarray(transform_points((x, y, a), corners))
-
-
-def _seen_from(thing: Thing, shape: Simple, pose: Pose) -> tuple[Simple, Pose]:
-    """A shape of the world, in a thing's frame."""
-    return shape, compose(inverse((thing.at[0], thing.at[1], thing.at[3])), pose)
-
-
-def _bottom(thing: Thing, block: Block) -> float:
-    return thing.at[2] + thing.origin[2] + block.bottom
-
-
-def _top(thing: Thing, block: Block) -> float:
-    return thing.at[2] + thing.origin[2] + block.top
-
-
-def _shape(thing: Thing, block: Block) -> tuple[Simple, Pose]:
-    """A block as a shape at its pose in the world; what is a plain box is one."""
-    x, y, _, a = thing.at
-    ox, oy, _, oa = thing.origin
-    corners = block.outline
-    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    half = np.abs(corners - middle)
-    if len(corners) == 4 and np.allclose(half, half[0], rtol=0, atol=1e-9) and half[0].all():
-        length, width = (2 * half[0]).tolist()
-        own = compose((ox, oy, oa), (float(middle[0]), float(middle[1]), 0.0))
-        px, py, heading = compose((x, y, a), own)
-        return Box(_rounded(length), _rounded(width)), (_rounded(px), _rounded(py), heading)
-    placed = np.asarray(transform_points((ox, oy, oa), corners))
-    return Polygon(tuple((_rounded(px), _rounded(py)) for px, py in placed.tolist())), (x, y, a)
-
-
-def _rounded(value: float) -> float:
-    """A length without the last digits, which are those of stretching [m]."""
-    return round(value, 9) + 0.0
 
 
 def _window(root: Entity, units: Units) -> StageWindow:

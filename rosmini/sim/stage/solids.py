@@ -1,0 +1,74 @@
+"""Bodies of a Stage file as rosmini's shapes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.polygons import area, inside, sides_of
+from rosmini.geometry.poses import Pose, compose, inverse, transform_points
+from rosmini.sim.shapes import Box, Polygon, Shape
+
+from .blocks import Block
+from .things import Pose4, Thing
+
+
+def filled(thing: Thing) -> tuple[tuple[Block, ...], int]:
+    """The blocks of a thing's body without what is hollow, and how many hollow parts there are."""
+    if thing.body is None or not thing.body.traced:
+        return (() if thing.body is None else thing.body.blocks), 0
+    outer = [each for each in thing.body.blocks if area(each.outline) > 0]
+    alone = [
+        each
+        for each in outer
+        if not any(
+            other is not each and inside(each.outline[:1], sides_of(other.outline))[0] for other in outer
+        )
+    ]
+    return tuple(alone), len(thing.body.blocks) - len(outer)
+
+
+@dataclass(frozen=True)
+class Solid:
+    """A block as it stands in the world."""
+
+    shape: Shape
+    pose: Pose
+    bottom: float
+    """How high above the ground it begins and ends [m]."""
+    top: float
+
+    def seen_from(self, pose: Pose) -> tuple[Shape, Pose]:
+        """The shape, and its pose seen from `pose`."""
+        return self.shape, compose(inverse(pose), self.pose)
+
+
+def placed(thing: Thing, block: Block) -> NDArray[np.float64]:
+    """The outline of a block (n, 2) in the world's frame."""
+    return np.asarray(transform_points(_flat(thing.at), transform_points(_flat(thing.origin), block.outline)))
+
+
+def solid(thing: Thing, block: Block) -> Solid:
+    """A block of a thing in the world's frame; what is a plain box becomes one."""
+    ground = thing.at[2] + thing.origin[2]
+    bottom, top = _rounded(ground + block.bottom), _rounded(ground + block.top)
+    corners, origin = block.outline, _flat(thing.origin)
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    half = np.abs(corners - middle)
+    if len(corners) == 4 and np.allclose(half, half[0], rtol=0, atol=1e-9) and half[0].all():
+        length, width = (2 * half[0]).tolist()
+        x, y, heading = compose(_flat(thing.at), compose(origin, (float(middle[0]), float(middle[1]), 0.0)))
+        return Solid(Box(_rounded(length), _rounded(width)), (_rounded(x), _rounded(y), heading), bottom, top)
+    inner = np.asarray(transform_points(origin, corners)).tolist()
+    return Solid(Polygon(tuple((_rounded(x), _rounded(y)) for x, y in inner)), _flat(thing.at), bottom, top)
+
+
+def _flat(pose: Pose4) -> Pose:
+    return (pose[0], pose[1], pose[3])
+
+
+def _rounded(value: float) -> float:
+    """A length without the last digits, which are those of stretching [m]."""
+    return round(value, 9) + 0.0
