@@ -1,0 +1,160 @@
+"""What a model with a drive or with sensors is to the engine: its parts, its outline, its mass and its wheels, from links, collisions and joints.
+
+The engine's robots turn about the middle of their axle; a model's own origin may be elsewhere. `Body.axle` is where the engine's frame is in the model's.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from rosmini.errors import nearest
+from rosmini.geometry.poses import Pose, compose, inverse, transform_points
+from rosmini.sim.models import Drive, RobotModel, WheelErrors, hull
+from rosmini.sim.sdf import ORIGIN, Pose6, SdfJoint, SdfLink, SdfModel, to_obstacles
+from rosmini.sim.sdf.poses import compose as compose6
+from rosmini.sim.sdf.poses import matrix
+from rosmini.sim.shapes import Box, Cylinder, Part, Polygon, Sphere, outline_at, simple_parts
+
+from .errors import SpawnError
+
+TICKS = 1 << 20
+"""A turn of a wheel, as its encoder counts it: Gazebo's joints say their angle exactly."""
+
+CIRCLE = 24
+"""So many corners stand for a round part of an outline."""
+
+DOT = 0.005
+"""Half the side of the outline of a model without collisions [m]."""
+
+
+@dataclass
+class Body:
+    """A model on its way into the engine; plugins say in `ModelPlugin.prepare` how it is driven."""
+
+    model: SdfModel
+    drive: Drive | None = None
+    wheel_separation: float = 0.16
+    wheel_radius: float = 0.033
+    wheel_acceleration: float = math.inf
+    rate: float = 30.0
+    axle: Pose = (0.0, 0.0, 0.0)
+    wheels: tuple[str, str] | None = None
+    """The joints of the left and of the right wheel."""
+    notes: list[str] = field(default_factory=list)
+
+    def joint(self, name: str) -> SdfJoint:
+        """A joint of the model. Raises `SpawnError`."""
+        for joint in self.model.joints:
+            if joint.name == name:
+                return joint
+        names = [joint.name for joint in self.model.joints]
+        hint = nearest(name, names) or f"its joints are: {', '.join(names) or 'none'}"
+        raise SpawnError(f"the model {self.model.name!r} has no joint {name!r}; {hint}")
+
+    def put_on_wheels(self, left: str, right: str, separation: float, radius: float) -> None:
+        """Let two wheels drive it. Raises `SpawnError` if there are no such joints."""
+        self.drive, self.wheels = "differential", (left, right)
+        self.wheel_separation, self.wheel_radius = separation, radius
+        places = {name: pose for name, _, pose in placed_links(self.model)}
+        a, b = (np.array(places[self.joint(name).child][:2]) for name in (left, right))
+        distance = float(np.hypot(*(a - b)))
+        if distance < 1e-6:
+            raise SpawnError(
+                f"the wheels of the joints {left!r} and {right!r} of the model {self.model.name!r} are at the same place"
+            )
+        middle = (a + b) / 2
+        self.axle = (
+            float(middle[0]),
+            float(middle[1]),
+            math.atan2(a[1] - b[1], a[0] - b[0]) - math.pi / 2,
+        )
+        if abs(math.remainder(self.axle[2], 2 * math.pi)) < 1e-9:
+            self.axle = (self.axle[0], self.axle[1], 0.0)
+        if abs(distance - separation) > 0.05 * distance:
+            self.notes.append(
+                f"the wheels of the model {self.model.name!r} are {distance:.3f} m apart, but its plugin says {separation:g} m: it is taken as the plugin says"
+            )
+
+    def robot_model(self) -> RobotModel:
+        """The numbers by which the engine knows it."""
+        parts = self.parts()
+        mass, inertia = self._mass()
+        return RobotModel(
+            name=self.model.name,
+            title=self.model.name,
+            mass=math.inf if self.model.static else mass,
+            inertia=math.inf if self.model.static else inertia,
+            footprint=_footprint(parts),
+            height=max((part.top for part in parts), default=DOT),
+            drive=self.drive,
+            wheel_radius=self.wheel_radius,
+            wheel_separation=self.wheel_separation,
+            wheel_acceleration=self.wheel_acceleration,
+            ticks_per_turn=TICKS,
+            rate=self.rate,
+            errors=WheelErrors(0.0, 0.0, 0.0),
+            parts=parts,
+        )
+
+    def parts(self) -> tuple[Part, ...]:
+        """What others see of it, seen from the middle of its axle."""
+        still = replace(self.model, static=True, name="body")
+        there = inverse(self.axle)
+        found = []
+        for obstacle in to_obstacles(still, ORIGIN):
+            for shape, pose in simple_parts(obstacle.shape, obstacle.pose):
+                top = obstacle.bottom + 2 * shape.radius if isinstance(shape, Sphere) else obstacle.height
+                at = compose(there, pose)
+                found.append(Part(shape, at, obstacle.bottom, top, obstacle.colour, self.model.name))
+        return tuple(found)
+
+    def _mass(self) -> tuple[float, float]:
+        """Mass, and inertia about the vertical axis through the middle of the axle (the theorem of parallel axes)."""
+        mass = inertia = 0.0
+        for _, link, pose in placed_links(self.model):
+            own = link.inertial
+            at = compose6(pose, own.pose)
+            ixx, iyy, izz, ixy, ixz, iyz = own.inertia
+            up = matrix(at)[2, :3]
+            tensor = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+            mass += own.mass
+            away = (at[0] - self.axle[0]) ** 2 + (at[1] - self.axle[1]) ** 2
+            inertia += float(up @ tensor @ up) + own.mass * away
+        return max(mass, 1e-6), max(inertia, 1e-9)
+
+
+def placed_links(
+    model: SdfModel, pose: Pose6 = ORIGIN, inside: str = ""
+) -> Iterator[tuple[str, SdfLink, Pose6]]:
+    """The links of a model, and of the models within it, each with its name and where it is if the model is at `pose`."""
+    for link in model.links:
+        yield inside + link.name, link, compose6(pose, link.pose)
+    for each in model.models:
+        yield from placed_links(each, compose6(pose, each.pose), f"{inside}{each.name}::")
+
+
+def lowest(model: SdfModel, pose: Pose6) -> float | None:
+    """How far the lowest point of what is solid of a model is above its origin [m]; None if nothing is."""
+    high = 1000.0  # nothing is under the ground there
+    up = (0.0, 0.0, high, pose[3], pose[4], 0.0)
+    found = to_obstacles(replace(model, static=True, name="body"), up)
+    return min((each.bottom for each in found), default=high) - high if found else None
+
+
+def _footprint(parts: tuple[Part, ...]) -> tuple[tuple[float, float], ...]:
+    points: list[tuple[float, float]] = []
+    for part in parts:
+        shape = part.shape
+        if isinstance(shape, (Cylinder, Sphere)):
+            angles = np.arange(CIRCLE) * (2 * math.pi / CIRCLE)
+            ring = shape.radius * np.column_stack([np.cos(angles), np.sin(angles)])
+            points += [(float(x), float(y)) for x, y in transform_points(part.pose, ring)]
+        elif isinstance(shape, (Box, Polygon)):
+            points += [(float(x), float(y)) for x, y in outline_at(shape, part.pose)]
+    if not points:
+        points = [(-DOT, -DOT), (DOT, -DOT), (DOT, DOT), (-DOT, DOT)]
+    return hull(points)
