@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from .transport import Header, Sender
 
 
+_NOTHING: Any = object()
+"""What was not given."""
+
+
 class Publication:
     """A node's side of a topic that it publishes: the connections, the latched message, the sequence number."""
 
@@ -214,7 +218,7 @@ class Publisher:
     def __repr__(self) -> str:
         return f"<Publisher {self.topic} [{self.message_class._type}] of {self.node.name}>"
 
-    def publish(self, *args: Any, **fields: Any) -> None:
+    def publish(self, message: Any = _NOTHING, /, *args: Any, **fields: Any) -> None:
         """Publish a message, or the message made from the given field values.
 
         Later changes to the message do not change what was sent. Raises ``ROSException`` after :meth:`unregister` or the node's
@@ -223,10 +227,10 @@ class Publisher:
         publication = self._publication
         if publication is None:
             raise ROSException(self._closed_message())
-        if len(args) == 1 and not fields and type(args[0]) is self.message_class:
-            publication.send(args[0])
+        if message.__class__ is self.message_class and not args and not fields:
+            publication.send(message)
         else:
-            publication.send(self._build(args, fields))
+            publication.send(self._build(() if message is _NOTHING else (message, *args), fields))
 
     def relay(self, message: Any) -> None:
         """Publish a message as it is, with the number in its header: for what another node published first. Raises as :meth:`publish`."""

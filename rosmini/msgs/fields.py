@@ -8,6 +8,7 @@ a ``str`` is refused as a list of strings (genpy sends its letters).
 from __future__ import annotations
 
 import struct
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -99,10 +100,16 @@ def freeze_bytes(size: int) -> Callable[[Any], bytes]:
     return convert
 
 
+@lru_cache(maxsize=256)
+def _packer(code: str, count: int) -> Callable[..., bytes]:
+    """What packs so many numbers."""
+    return struct.Struct(f"<{count}{code}").pack
+
+
 def array_freezer(kind: str, size: int) -> Callable[[Any], NDArray[Any]]:
     """The conversion of a numeric array field to a numpy array over ``bytes``, which nobody can write to."""
     code, dtype = FORMATS[kind], DTYPES[kind]
-    pack, frombuffer, ndarray = struct.pack, np.frombuffer, np.ndarray
+    frombuffer, ndarray = np.frombuffer, np.ndarray
 
     def convert(values: Any) -> NDArray[Any]:
         if isinstance(values, ndarray):
@@ -118,7 +125,7 @@ def array_freezer(kind: str, size: int) -> Callable[[Any], NDArray[Any]]:
         elif isinstance(values, (str, bytes, dict)):
             raise TypeError("not a list")
         else:
-            array = frombuffer(pack(f"<{len(values)}{code}", *values), dtype)
+            array = frombuffer(_packer(code, len(values))(*values), dtype)
         if size >= 0 and len(array) != size:
             raise ValueError("wrong length")
         return array
@@ -151,7 +158,7 @@ def _array_bytes(values: NDArray[Any], dtype: np.dtype[Any]) -> bytes:
     with np.errstate(over="ignore"):
         converted = values.astype(dtype)
     if dtype.kind == "f" and source == "f":
-        lost = bool((np.isinf(converted) != np.isinf(values)).any())
+        lost = np.count_nonzero(np.isinf(converted)) != np.count_nonzero(np.isinf(values))
     else:
         lost = dtype.kind in "iu" and source in "iu" and bool((converted != values).any())
     if lost:
