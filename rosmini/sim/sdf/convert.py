@@ -102,7 +102,9 @@ def to_walker(actor: SdfActor) -> Obstacle:
     try:
         if len(points) > 1:
             length = sum(math.dist(a, b) for a, b in pairwise(points))
-            wait = sum(waits) / len(points) if waits else 0.0
+            if actor.loop and len(points) > 2 and math.dist(points[0], points[-1]) < 1e-6:
+                points.pop()
+            wait = sum(waits) / (len(points) if actor.loop else len(points) - 1)
             motion = Walk(
                 tuple(points), length / walked if walked > 0 else Walk.speed, round(wait, 6), actor.loop
             )

@@ -12,7 +12,6 @@ A joint of the type `prismatic` makes it slide along the joint's axis.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from rosmini.errors import nearest
 from rosmini.sim.motion import Door
@@ -37,6 +36,7 @@ def door_of(model: SdfModel) -> Door | None:
             hint = nearest(child.tag, NUMBERS) or f"it has {', '.join(NUMBERS)}"
             raise child.error(f"a door has no <{child.tag}>; {hint}")
     numbers = {child.tag: child.floats(child.text, 1)[0] for child in element}
+    opening, moving, stays_open, closed, phase = (numbers.get(tag, getattr(Door, tag)) for tag in NUMBERS)
     joint = next((each for each in model.joints if each.type in ("revolute", "prismatic")), None)
     leaf = next((each for each in model.links if joint is not None and each.name == joint.child), None)
     if joint is None or leaf is None:
@@ -45,9 +45,14 @@ def door_of(model: SdfModel) -> Door | None:
         )
     x, y, *_ = compose(leaf.pose, joint.pose)
     try:
-        door = replace(Door(), **numbers)
-        if joint.type == "revolute":
-            return replace(door, hinge=(x, y))
-        return replace(door, slide=math.atan2(joint.axis[1], joint.axis[0]))
+        return Door(
+            opening,
+            (x, y) if joint.type == "revolute" else (0.0, 0.0),
+            None if joint.type == "revolute" else math.atan2(joint.axis[1], joint.axis[0]),
+            moving,
+            stays_open,
+            closed,
+            phase,
+        )
     except WorldError as error:
         raise SdfError(f"the door {model.name!r}: {error}", element.path, element.line) from error
