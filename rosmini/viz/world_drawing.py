@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from rosmini.geometry.poses import Pose, transform_points
 from rosmini.sim.models import RobotModel
-from rosmini.sim.world import Cylinder, Obstacle, World
+from rosmini.sim.shapes import Box, Polygon, Simple, outline_at
+from rosmini.sim.world import Obstacle, Walk, World
 from rosmini.viz.beams import Beams
 from rosmini.viz.rounding import kept, snap
 from rosmini.viz.style import LIGHT, LINE_WIDTH
@@ -69,14 +70,33 @@ def solid(world: World) -> bool:
 def _obstacle(axes: Axes, obstacle: Obstacle) -> None:
     solid = obstacle.colour == "wall"
     colour = "muted" if solid else "line" if obstacle.colour == "grey" else obstacle.colour
-    shape: Path
-    if isinstance(obstacle.shape, Cylinder):
-        shape = _circle(obstacle.pose[:2], obstacle.shape.radius)
-    else:
-        shape = _path([snap(obstacle.outline())], closed=True)
-    _patch(
-        axes, shape, fill=colour, edge=colour, opacity=1.0 if solid else TINT, width=0.5 if solid else LINE_WIDTH, z=3.0
-    )  # fmt: skip
+    over = obstacle.bottom > 0.0  # a robot may pass under it, as under the top of a table
+    shapes = [_shape_path(shape, pose) for shape, pose in obstacle.parts()]
+    for shape in shapes:
+        _patch(
+            axes,
+            shape,
+            fill=colour,
+            edge=colour,
+            opacity=1.0 if solid else TINT / 2 if over else TINT,
+            width=0.5 if solid or over else LINE_WIDTH,
+            z=3.1 if over else 3.0,
+        )
+    if isinstance(obstacle.motion, Walk):
+        ways = obstacle.motion.waypoints
+        line = snap(np.array([*ways, ways[0]] if obstacle.motion.loop else ways))
+        axes.plot(*line.T, color=_paint(colour), linewidth=1.2, zorder=2.5, clip_on=False, dashes=(2.0, 3.0))
+
+
+def _shape_path(shape: Simple, pose: Pose) -> Path:
+    if isinstance(shape, (Box, Polygon)):
+        return _path([snap(outline_at(shape, pose))], closed=True)
+    return _circle(pose[:2], shape.radius)
+
+
+def _paint(colour: str) -> str:
+    """A colour of the palette by its name, or any other as it is."""
+    return LIGHT.get(colour, colour)
 
 
 def draw_scan(axes: Axes, beams: Beams, laser: Pose, scale: float) -> None:
@@ -161,8 +181,8 @@ def _patch(
 
     patch = PathPatch(
         path,
-        facecolor=to_rgba(LIGHT[fill], opacity) if fill else "none",
-        edgecolor=LIGHT[edge] if edge else "none",
+        facecolor=to_rgba(_paint(fill), opacity) if fill else "none",
+        edgecolor=_paint(edge) if edge else "none",
         linewidth=width if edge else 0.0,
         linestyle=(0, dash) if dash else "-",
         capstyle=cap,
