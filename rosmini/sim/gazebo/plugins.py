@@ -107,7 +107,7 @@ class Update(Device):
         super().__init__(host, name, rate)
         self._callback = callback
 
-    def due(self, stamp: Stamp, number: int) -> None:
+    def due(self, stamp: Stamp, _: int, /) -> None:
         """Call the plugin; what it raises is told, and the simulation goes on."""
         self.host.node.guarded(self._callback, stamp[0] + stamp[1] * 1e-9, what=self.name)
 

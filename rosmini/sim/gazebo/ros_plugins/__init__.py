@@ -1,0 +1,17 @@
+"""The plugins of gazebo_ros_pkgs by their libraries' names, with their tags and defaults (http://classic.gazebosim.org/tutorials?tut=ros_gzplugins)."""
+
+from __future__ import annotations
+
+from .drives import DiffDrive, PlanarMove
+from .sensors import ImuModelPlugin, ImuSensorPlugin, LaserPlugin
+from .states import GroundTruthPlugin, JointStatePublisher
+
+__all__ = [
+    "DiffDrive",
+    "GroundTruthPlugin",
+    "ImuModelPlugin",
+    "ImuSensorPlugin",
+    "JointStatePublisher",
+    "LaserPlugin",
+    "PlanarMove",
+]

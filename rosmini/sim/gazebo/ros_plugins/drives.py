@@ -1,0 +1,152 @@
+"""What drives a model: libgazebo_ros_diff_drive.so and libgazebo_ros_planar_move.so."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar
+
+from rosmini.markup import Element
+from rosmini.sim import devices
+from rosmini.sim.devices import DifferentialDrive, WheelStates, one_of
+from rosmini.sim.gazebo.body import Body
+from rosmini.sim.gazebo.model import Model
+from rosmini.sim.gazebo.plugins import ModelPlugin
+from rosmini.sim.gazebo.tags import Tags, tag
+from rosmini.sim.host import Device
+
+from .names import RosNames
+
+
+@dataclass(frozen=True)
+class DiffDriveTags(Tags):
+    """The tags of libgazebo_ros_diff_drive.so."""
+
+    ignored: ClassVar[tuple[str, ...]] = ("wheelTorque", "legacyMode", "publishWheelTF")
+
+    command_topic: str = tag("commandTopic", "cmd_vel", "where commands come in")
+    odometry_topic: str = tag("odometryTopic", "odom", "where the odometry is published")
+    odometry_frame: str = tag("odometryFrame", "odom", "the frame it is told in")
+    base_frame: str = tag("robotBaseFrame", "base_footprint", "the robot's own frame")
+    odometry_source: str = tag(
+        "odometrySource", "world", "encoder: what the wheels' turns tell; world: the truth"
+    )
+    publish_odom_tf: bool = tag("publishOdomTF", True, "publish the transform between the two frames")
+    publish_tf: bool = tag("publishTf", True, "publish the odometry at all")
+    publish_joints: bool = tag("publishWheelJointState", False, "publish how far the wheels have turned")
+    separation: float = tag("wheelSeparation", 0.34, "how far the wheels are apart", unit="m")
+    diameter: float = tag("wheelDiameter", 0.15, "of the wheels", unit="m")
+    acceleration: float = tag(
+        "wheelAcceleration", 0.0, "how fast a rim's speed changes; 0: at once", unit="m/s2"
+    )
+    rate: float = tag("updateRate", 100.0, "how often it publishes", unit="Hz")
+    left: str = tag("leftJoint", "left_joint", "the left wheel's joint")
+    right: str = tag("rightJoint", "right_joint", "the right wheel's joint")
+
+
+class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
+    """Two driven wheels. A command holds until the next one, as in Gazebo."""
+
+    needs_robot = True
+
+    @classmethod
+    def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
+        """Put the model on its wheels."""
+        tags = DiffDriveTags.read(sdf, complain)
+        for name, value in (("wheelSeparation", tags.separation), ("wheelDiameter", tags.diameter)):
+            if value <= 0:
+                raise sdf.need(name).error(f"<{name}> is more than 0 m, not {value:g}")
+        one_of("odometrySource", tags.odometry_source, ("encoder", "world"))
+        body.put_on_wheels(tags.left, tags.right, tags.separation, tags.diameter / 2)
+        body.wheel_acceleration = tags.acceleration or math.inf
+        body.rate = rate_of(tags.rate)
+
+    def load(self, model: Model, sdf: Element) -> None:
+        """Open its topics."""
+        tags = DiffDriveTags.read(sdf, lambda _: None)
+        names = RosNames(model, sdf)
+        host = self.world.host
+        drive = DifferentialDrive(
+            host,
+            model.name,
+            cmd_vel=names.topic(tags.command_topic),
+            odom=names.topic(tags.odometry_topic) if tags.publish_tf else None,
+            odom_frame=names.frame(tags.odometry_frame),
+            base_frame=names.frame(tags.base_frame),
+            tf="/tf" if tags.publish_odom_tf and tags.publish_tf else None,
+            rate=rate_of(tags.rate),
+            source=tags.odometry_source,
+            name=f"{self.name}/drive",
+        )
+        self.devices: list[Device] = [host.add(drive)]
+        if tags.publish_joints:
+            states = WheelStates(
+                host,
+                drive,
+                topic=names.topic("joint_states"),
+                joints=(tags.left, tags.right),
+                frame="",
+                name=f"{self.name}/joints",
+            )
+            self.devices.append(host.add(states))
+
+    def close(self) -> None:
+        """End its topics."""
+        for device in reversed(self.devices):
+            self.world.host.remove(device)
+        super().close()
+
+
+@dataclass(frozen=True)
+class PlanarMoveTags(Tags):
+    """The tags of libgazebo_ros_planar_move.so."""
+
+    command_topic: str = tag("commandTopic", "cmd_vel", "where commands come in")
+    odometry_topic: str = tag("odometryTopic", "odom", "where the odometry is published")
+    odometry_frame: str = tag("odometryFrame", "odom", "the frame it is told in")
+    base_frame: str = tag("robotBaseFrame", "base_footprint", "the robot's own frame")
+    rate: float = tag("odometryRate", 20.0, "how often it publishes", unit="Hz")
+    timeout: float = tag("cmdTimeout", -1.0, "how long a command holds; below 0: until the next", unit="s")
+
+
+class PlanarMove(ModelPlugin, filename="libgazebo_ros_planar_move.so"):
+    """A model that goes anywhere on the ground as it is told. Its odometry is the truth."""
+
+    needs_robot = True
+
+    @classmethod
+    def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
+        """Let the model go anywhere."""
+        body.drive = "holonomic"
+        body.rate = rate_of(PlanarMoveTags.read(sdf, complain).rate)
+
+    def load(self, model: Model, sdf: Element) -> None:
+        """Open its topics."""
+        tags = PlanarMoveTags.read(sdf, lambda _: None)
+        names = RosNames(model, sdf)
+        self.device = self.world.host.add(
+            devices.PlanarMove(
+                self.world.host,
+                model.name,
+                cmd_vel=names.topic(tags.command_topic),
+                odom=names.topic(tags.odometry_topic),
+                odom_frame=names.frame(tags.odometry_frame),
+                base_frame=names.frame(tags.base_frame),
+                tf="/tf",
+                rate=rate_of(tags.rate),
+                timeout=max(0.0, tags.timeout),
+                source="world",
+                name=f"{self.name}/drive",
+            )
+        )
+
+    def close(self) -> None:
+        """End its topics."""
+        self.world.host.remove(self.device)
+        super().close()
+
+
+def rate_of(rate: float, step: float = 0.001) -> float:
+    """A rate [Hz] as plugins give it: 0 means once in each step of the physics."""
+    return rate if rate > 0 else 1 / step
