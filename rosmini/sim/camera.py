@@ -27,7 +27,7 @@ from rosmini.geometry.poses import Pose
 from . import raster, shading
 from .models import CameraModel
 from .raster import GROUND, Eye, Lens
-from .scenery import Scenery
+from .scene import Scene
 from .shapes import Part
 from .world import World
 
@@ -36,9 +36,10 @@ __all__ = ["CameraError", "CameraInfo", "Eye", "camera_info", "capture", "depth"
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 Depths = NDArray[np.float32]
+Ints = NDArray[np.int64]
 
-View = Scenery | World | Iterable[Part]
-"""What there is to see; a `Scenery` that is kept is quickest."""
+View = Scene | World | Iterable[Part]
+"""What there is to see; a `Scene` that is kept is quickest."""
 
 VARIABLE = "ROSMINI_RASTER"
 """The environment variable that chooses a backend where the caller does not: numba or numpy."""
@@ -134,17 +135,11 @@ def capture(
 
     """
     eye = camera if isinstance(camera, Eye) else eye_of(camera, pose)
-    scenery = _scenery(view)
-    inverse, shown = look(eye, scenery, backend=backend)
+    scene = _scene(view)
+    inverse, shown = look(eye, scene, backend=backend)
     if depth_far is None and isinstance(camera, CameraModel):
         depth_far = camera.depth_far
-    image = shading.coloured(eye, scenery, inverse, shown)
-    if noise is not None:
-        image += np.asarray(noise, dtype=np.float32)[..., None]
-    image *= 255.0
-    np.clip(image, 0.0, 255.0, out=image)
-    image += 0.5
-    return image.astype(np.uint8), _depths(inverse, eye, depth_far)
+    return _image(eye, scene, inverse, shown, noise, backend), _depths(inverse, eye, depth_far)
 
 
 def render(
@@ -166,7 +161,7 @@ def depth(
     eye = camera if isinstance(camera, Eye) else eye_of(camera, pose)
     if far is None and isinstance(camera, CameraModel):
         far = camera.depth_far
-    inverse, _ = look(eye, _scenery(view), backend=backend)
+    inverse, _ = look(eye, _scene(view), backend=backend)
     return _depths(inverse, eye, far)
 
 
@@ -179,7 +174,7 @@ def camera_noise(camera: CameraModel, rng: np.random.Generator, scale: float = 1
     return (drawn * np.float32(deviation)).astype(np.float64)
 
 
-def look(eye: Eye, scenery: Scenery, *, backend: str | None = None) -> tuple[Floats, NDArray[np.int64]]:
+def look(eye: Eye, scene: Scene, *, backend: str | None = None) -> tuple[Floats, Ints]:
     """What each pixel shows: the inverse of its depth (h, w) [1/m], 0 for the sky; and the number (h, w) of what it is.
 
     Faces, cylinders and balls are numbered in this order; -1 is the ground or the sky.
@@ -187,25 +182,52 @@ def look(eye: Eye, scenery: Scenery, *, backend: str | None = None) -> tuple[Flo
     lens, rays = eye.lens, eye.rays()
     inverse = _ground(eye, rays)
     shown = np.full((lens.height, lens.width), GROUND, dtype=np.int64)
-    faces, rods, balls = scenery.faces, scenery.rods, scenery.balls
-    towards = np.einsum("ij,ij->i", scenery.normals, eye.position - faces[:, 0])
+    faces, rods, balls = scene.faces, scene.rods, scene.balls
+    towards = np.einsum("ij,ij->i", scene.normals, eye.position - faces[:, 0])
     corners = eye.seen(faces.reshape(-1, 3)).reshape(-1, 4, 3)
-    plan = raster.plan(corners, (towards > 0) | scenery.thin, lens)
+    plan = raster.plan(corners, (towards > 0) | scene.thin, lens)
     rod_low = np.column_stack([rods[:, 0] - rods[:, 2], rods[:, 1] - rods[:, 2], rods[:, 3]])
     rod_high = np.column_stack([rods[:, 0] + rods[:, 2], rods[:, 1] + rods[:, 2], rods[:, 4]])
     radius = balls[:, 3:]
     rod_boxes = raster.boxes_around(rod_low, rod_high, eye)
     ball_boxes = raster.boxes_around(balls[:, :3] - radius, balls[:, :3] + radius, eye)
+    second, third = len(faces), len(faces) + len(rods)
+    if _chosen(backend) == "numba":
+        from .raster_numba import compiled  # it takes a moment to load
+
+        draw_faces, draw_rods, draw_balls, _ = compiled()
+        near, far, eye_at = lens.near, lens.far, np.ascontiguousarray(eye.position)
+        draw_faces(*(np.ascontiguousarray(each) for each in plan), near, far, inverse, shown)
+        draw_rods(second, rods, rod_boxes, eye_at, rays, near, far, inverse, shown)
+        draw_balls(third, balls, ball_boxes, eye_at, rays, near, far, inverse, shown)
+    else:
+        raster.draw(plan, lens, inverse, shown)
+        raster.draw_rods(second, rods, rod_boxes, eye.position, rays, lens, inverse, shown)
+        raster.draw_balls(third, balls, ball_boxes, eye.position, rays, lens, inverse, shown)
+    return inverse, shown
+
+
+def _image(
+    eye: Eye, scene: Scene, inverse: Floats, shown: Ints, noise: Floats | None, backend: str | None
+) -> Image:
     if _chosen(backend) == "numba":
         from .raster_numba import compiled
 
-        draw, draw_rods, draw_balls = compiled()
-    else:
-        draw, draw_rods, draw_balls = raster.draw, raster.draw_rods, raster.draw_balls
-    draw(plan, lens, inverse, shown)
-    draw_rods(len(faces), rods, rod_boxes, eye.position, rays, lens, inverse, shown)
-    draw_balls(len(faces) + len(rods), balls, ball_boxes, eye.position, rays, lens, inverse, shown)
-    return inverse, shown
+        image = np.empty((*shown.shape, 3), dtype=np.uint8)
+        faces, rods, balls, paints = shading.looks_of(eye, scene)
+        extra = np.empty((0, 0)) if noise is None else np.ascontiguousarray(noise, dtype=np.float64)
+        *_, shade = compiled()
+        shade(
+            inverse, shown, eye.position, eye.rays(), 1 / eye.lens.fx, shading.LOOKS, faces, rods, balls, paints, extra, image
+        )  # fmt: skip
+        return image
+    bright = shading.coloured(eye, scene, inverse, shown)
+    if noise is not None:
+        bright += np.asarray(noise, dtype=np.float32)[..., None]
+    bright *= 255.0
+    np.clip(bright, 0.0, 255.0, out=bright)
+    bright += 0.5
+    return bright.astype(np.uint8)
 
 
 def _ground(eye: Eye, rays: Floats) -> Floats:
@@ -215,7 +237,7 @@ def _ground(eye: Eye, rays: Floats) -> Floats:
         return np.zeros((lens.height, lens.width))
     a, b, c = (-rays[2] / height).tolist()
     u, v = np.arange(lens.width, dtype=np.float64), np.arange(lens.height, dtype=np.float64)
-    inverse = (a + c * v)[:, None] + b * u
+    inverse: Floats = (a + c * v)[:, None] + b * u
     inverse[(inverse < 1e-9) | (inverse > 1 / lens.near)] = 0.0
     return inverse
 
@@ -226,10 +248,10 @@ def _depths(inverse: Floats, eye: Eye, far: float | None) -> Depths:
         return np.where(inverse * far >= 1.0 - 1e-12, 1.0 / inverse, np.inf).astype(np.float32)
 
 
-def _scenery(view: View) -> Scenery:
-    if isinstance(view, Scenery):
+def _scene(view: View) -> Scene:
+    if isinstance(view, Scene):
         return view
-    return Scenery.of_world(view) if isinstance(view, World) else Scenery.of(view)
+    return Scene.of_world(view) if isinstance(view, World) else Scene.of(view)
 
 
 def _chosen(backend: str | None) -> str:

@@ -154,7 +154,7 @@ def boxes_around(low: Floats, high: Floats, eye: Eye) -> Ints:
         axis=1,
     )  # fmt: skip
     each = _boxes(eye.seen(sides.reshape(-1, 3)).reshape(-1, 4, 3), eye.lens).reshape(-1, 4, 4)
-    box = np.where([True, False, True, False], each.min(axis=1), each.max(axis=1))
+    box: Ints = np.where([True, False, True, False], each.min(axis=1), each.max(axis=1))
     nothing = (each[..., 0] > each[..., 1]) | (each[..., 2] > each[..., 3])
     box[nothing.all(axis=1)] = (0, -1, 0, -1)
     return box
