@@ -165,3 +165,19 @@ def _crossing_heights(sides: Floats) -> Floats:
     hit = meets & (along > 0) & (along < 1) & (other > 0) & (other < 1)
     heights: Floats = (begin[:, None, 1] + along * way[:, None, 1])[hit]
     return heights
+
+
+def within(centres: Floats, half: float, sides: Floats) -> NDArray[np.bool_]:
+    """Through which of some squares, each by its centre (n, 2), with sides of `2 half` [m] along the axes, one of `sides` (m, 4) passes."""
+    hit = np.zeros(len(centres), dtype=bool)
+    for x1, y1, x2, y2 in sides:
+        enter, leave = np.zeros(len(centres)), np.ones(len(centres))
+        miss = np.zeros(len(centres), dtype=bool)
+        for begin, way, middle in ((x1, x2 - x1, centres[:, 0]), (y1, y2 - y1, centres[:, 1])):
+            if way == 0:
+                miss |= np.abs(begin - middle) >= half
+                continue
+            a, b = (middle - half - begin) / way, (middle + half - begin) / way
+            enter, leave = np.maximum(enter, np.minimum(a, b)), np.minimum(leave, np.maximum(a, b))
+        hit |= ~miss & (enter < leave)
+    return hit

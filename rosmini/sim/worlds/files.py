@@ -1,0 +1,79 @@
+"""Worlds in files, of whatever kind."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Literal
+
+from rosmini.sim.sdf import SdfError, converted, load
+from rosmini.sim.sdf.document import Note
+from rosmini.sim.world import World
+
+from .traced import world_from_map
+
+Kind = Literal["sdf", "stage", "map", "urdf", "xml"]
+
+
+def kind_of(path: str | os.PathLike[str]) -> Kind:
+    """What a file is, told from what stands in it: XML by its first element, a map by its suffix or fields, else it is taken for a Stage world."""
+    path = Path(path)
+    try:
+        head = path.read_bytes()[:50_000].decode("utf-8", "replace").lstrip("\ufeff")
+    except OSError:
+        head = ""
+    if head.lstrip().startswith("<"):
+        first = re.search(
+            r"<([A-Za-z_][\w:.-]*)",
+            re.sub(r"<!--.*?(-->|$)|<[?].*?[?]>|<!DOCTYPE[^>]*>", "", head, flags=re.DOTALL),
+        )
+        tag = first[1] if first else ""
+        return "sdf" if tag in ("sdf", "gazebo") else "urdf" if tag == "robot" else "xml"
+    if path.suffix.lower() in (".yaml", ".yml", ".pgm", ".png") or not head:
+        return (
+            "sdf" if path.suffix.lower() == ".sdf" else "stage" if path.suffix.lower() == ".world" else "map"
+        )
+    if re.search(r"^(image|resolution|origin)\s*:", head, flags=re.MULTILINE):
+        return "map"
+    return "stage"
+
+
+def world_from_file(path: str | os.PathLike[str]) -> World:
+    """The world in a file. Raises what the reader of its kind raises, and `SdfError` for XML that is no SDF."""
+    kind = kind_of(path)
+    if kind == "stage":
+        from rosmini.sim import stage
+
+        return stage.load(path).world
+    if kind == "map":
+        return world_from_map(path)
+    return world_from_sdf(path)
+
+
+def world_from_sdf(path: str | os.PathLike[str], *, name: str = "", title: str = "") -> World:
+    """The first world in an SDF file; see `sdf_world` for what was left out. Raises `SdfError`."""
+    return sdf_world(path, name=name, title=title)[0]
+
+
+def sdf_world(
+    path: str | os.PathLike[str], *, name: str = "", title: str = ""
+) -> tuple[World, tuple[Note, ...]]:
+    """The first world in an SDF file, and notes about what of the file is not in it. Raises `SdfError`.
+
+    A world that is called `default`, as most are, gets the name of its file.
+    """
+    document = load(path)
+    if not document.worlds:
+        found = [f"the model {each.name!r}" for each in document.models]
+        has = (
+            f"; it has {', '.join(found)}, which stands in a world by <include> or spawn_model"
+            if found
+            else ""
+        )
+        raise SdfError(f"there is no <world> in this file{has}", str(path), 1)
+    first = document.worlds[0]
+    made, notes = converted(first, title=title or f"The world {Path(path).name}")
+    called = name or (Path(path).stem if first.name == "default" else first.name)
+    return replace(made, name=called), (*document.notes, *notes)

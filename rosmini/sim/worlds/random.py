@@ -1,0 +1,261 @@
+"""Worlds by chance: rooms with doors and things in them, always connected, the same for the same seed.
+
+Rooms come of splitting a rectangle again and again by a wall with a door in it, so every room can be reached. Things then stand so far from the
+walls and from one another that a robot gets around each of them: what is taken out of a connected floor are patches that do not touch.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry import polygons
+from rosmini.sim.motion import Walk
+from rosmini.sim.shapes import Box, Cylinder, Polygon, Shape, is_finite
+from rosmini.sim.world import Obstacle, Pose, World, WorldError
+
+from .furniture import wall
+
+PASSAGE = 0.7
+"""A robot of this diameter gets everywhere [m]."""
+DOOR = 1.0
+THICKNESS = 0.12
+NARROWEST = 2.0
+"""What a room measures at least, either way [m]."""
+HEIGHT = 0.6
+COLOURS = ("blue", "orange", "green", "vermilion", "purple", "sky")
+TRIES = 400
+
+
+def random_world(
+    seed: int,
+    *,
+    size: tuple[float, float] = (10.0, 8.0),
+    rooms: int = 4,
+    obstacles: int = 10,
+    movable: int = 0,
+    walkers: int = 0,
+    starts: int = 3,
+) -> World:
+    """A walled floor of `size` [m] with its centre in the origin, split into rooms with things in them; the same for the same arguments.
+
+    A robot less than 0.7 m wide can go from every start to every room and around every thing. `movable` of the things can be pushed, and `walkers`
+    people go to and fro. Where there is no room for as many rooms, things or walkers as were asked for, there are fewer; `starts` there are as many
+    as asked for, or a `WorldError` is raised, as it is for a floor narrower than 2 m and for numbers that make no sense.
+    """
+    _check(size, rooms=rooms, obstacles=obstacles, movable=movable, walkers=walkers, starts=starts)
+    plan = _Plan(np.random.default_rng(seed), (-size[0] / 2, -size[1] / 2, size[0] / 2, size[1] / 2))
+    plan.split(rooms)
+    for i in range(obstacles + movable):
+        plan.place_thing(i, pushed=i >= obstacles)
+    for i in range(walkers):
+        plan.place_walker(i)
+    found = plan.free_places(starts)
+    if len(found) < starts:
+        raise WorldError(
+            f"in a world of {size[0]:g} m by {size[1]:g} m with so many things there is no room for {starts} starts"
+        )
+    return World(
+        f"random_{seed}",
+        (*plan.walls, *plan.things),
+        wall_height=HEIGHT,
+        starts=tuple(found),
+        title=f"A world by chance, of the seed {seed}",
+    )
+
+
+def _check(size: tuple[float, float], **counts: int) -> None:
+    if len(size) != 2 or not all(is_finite(side) and side >= NARROWEST for side in size):
+        raise WorldError(f"size is {size!r}; it has to be a length and a width of {NARROWEST:g} m or more")
+    for name, value in counts.items():
+        least = 1 if name in ("rooms", "starts") else 0
+        if not isinstance(value, int) or isinstance(value, bool) or value < least:
+            raise WorldError(f"{name} is {value!r}; it has to be a whole number, {least} or more")
+
+
+Rectangle = tuple[float, float, float, float]
+"""x and y of the lower left and of the upper right corner [m]."""
+
+
+@dataclass
+class _Plan:
+    """A floor that fills."""
+
+    rng: np.random.Generator
+    floor: Rectangle
+    walls: list[Obstacle] = field(default_factory=list)
+    things: list[Obstacle] = field(default_factory=list)
+    discs: list[tuple[float, float, float]] = field(default_factory=list)
+    """Around the things: x, y, radius."""
+    routes: list[tuple[float, float, float, float]] = field(default_factory=list)
+    """Of the walkers."""
+    doors: list[tuple[bool, float, float, float]] = field(default_factory=list)
+    """In a wall along x or not, at which y or x, from where to where."""
+
+    def __post_init__(self) -> None:
+        x0, y0, x1, y1 = self.floor
+        t = THICKNESS / 2
+        for name, begin, end in (
+            ("south", (x0 - t, y0), (x1 + t, y0)),
+            ("north", (x0 - t, y1), (x1 + t, y1)),
+            ("west", (x0, y0 + t), (x0, y1 - t)),
+            ("east", (x1, y0 + t), (x1, y1 - t)),
+        ):
+            self.walls += wall(name, begin, end, THICKNESS, height=HEIGHT)
+
+    # ---- rooms ----
+
+    def split(self, count: int) -> None:
+        """Split the floor into rooms, the largest first."""
+        rooms = [self.floor]
+        while len(rooms) < count:
+            rooms.sort(key=lambda room: (room[2] - room[0]) * (room[3] - room[1]), reverse=True)
+            for i, room in enumerate(rooms):
+                parts = self._parts(room)
+                if parts:
+                    rooms[i : i + 1] = parts
+                    break
+            else:
+                return
+
+    def _parts(self, room: Rectangle) -> list[Rectangle]:
+        """Two rooms in the place of one, and a wall with a door between them; none if the room is too small."""
+        x0, y0, x1, y1 = room
+        for upright in (x1 - x0 >= y1 - y0, x1 - x0 < y1 - y0):  # across the longer side first
+            low, high = (x0, x1) if upright else (y0, y1)
+            begin, end = (y0, y1) if upright else (x0, x1)
+            if high - low < 2 * NARROWEST or end - begin < NARROWEST:
+                continue
+            for _ in range(TRIES // 10):
+                at = round(float(self.rng.uniform(low + NARROWEST, high - NARROWEST)), 3)
+                if self._meets_door(at, begin, end, upright=upright):
+                    continue
+                door = round(float(self.rng.uniform(begin + 0.3, end - 0.3 - DOOR)), 3)
+                self._add_wall(at, begin, end, door, upright=upright)
+                return (
+                    [(x0, y0, at, y1), (at, y0, x1, y1)] if upright else [(x0, y0, x1, at), (x0, at, x1, y1)]
+                )
+        return []
+
+    def _meets_door(self, at: float, begin: float, end: float, *, upright: bool) -> bool:
+        """Tell whether a wall at x (upright) or y would end in, or beside, a door."""
+        return any(
+            along == upright and min(abs(where - begin), abs(where - end)) < 0.01 and a - 0.3 < at < b + 0.3
+            for along, where, a, b in self.doors
+        )
+
+    def _add_wall(self, at: float, begin: float, end: float, door: float, *, upright: bool) -> None:
+        ends = ((at, begin), (at, end)) if upright else ((begin, at), (end, at))
+        gap = (door, door + DOOR)
+        self.walls += wall(f"inner {len(self.doors) + 1}", *ends, THICKNESS, [gap], HEIGHT)
+        self.doors.append((not upright, at, *gap))
+
+    # ---- things ----
+
+    def place_thing(self, number: int, *, pushed: bool) -> None:
+        """Put a thing where it leaves a passage all around; nowhere if there is no such place."""
+        shape, reach = self._shape(pushed=pushed)
+        place = self._place(reach + PASSAGE, reach)
+        if place is None:
+            return
+        pose = (*place, round(float(self.rng.uniform(-math.pi, math.pi)), 3))
+        colour = COLOURS[int(self.rng.integers(len(COLOURS)))]
+        name = f"{'crate' if pushed else 'thing'} {number + 1}"
+        self.discs.append((*place, reach))
+        self.things.append(
+            Obstacle(name, shape, pose, HEIGHT / 2 if pushed else HEIGHT, colour, 1.0 if pushed else None)
+        )
+
+    def _shape(self, *, pushed: bool) -> tuple[Shape, float]:
+        kind = 0 if pushed else int(self.rng.integers(3))
+        if kind == 1:
+            radius = round(float(self.rng.uniform(0.1, 0.35)), 3)
+            return Cylinder(radius), radius
+        if kind == 2:
+            count, radius = int(self.rng.integers(3, 8)), float(self.rng.uniform(0.2, 0.45))
+            corners = tuple(
+                (round(radius * math.cos(a), 3), round(radius * math.sin(a), 3))
+                for a in (2 * math.pi * i / count for i in range(count))
+            )
+            return Polygon(corners), max(math.hypot(*corner) for corner in corners)
+        low, high = (0.15, 0.35) if pushed else (0.2, 0.8)
+        length, width = (round(float(side), 3) for side in self.rng.uniform(low, high, 2))
+        return Box(length, width), math.hypot(length, width) / 2
+
+    def _place(self, from_walls: float, reach: float) -> tuple[float, float] | None:
+        """A place so far from walls, and a passage from things and the ways of walkers."""
+        x0, y0, x1, y1 = self.floor
+        for _ in range(TRIES):
+            x, y = (round(float(v), 3) for v in self.rng.uniform((x0, y0), (x1, y1)))
+            if self._clear((x, y, x, y), from_walls, reach + PASSAGE):
+                return (x, y)
+        return None
+
+    def _clear(self, way: tuple[float, float, float, float], from_walls: float, from_things: float) -> bool:
+        """Tell whether a straight way, or a place, keeps away from walls, things and the ways of walkers."""
+        sides = np.vstack([polygons.sides_of(each.outline()) for each in self.walls])
+        begin_end = np.array(way).reshape(2, 2)
+        if _apart(np.array(way), sides) < from_walls:
+            return False
+        if self.discs:
+            discs = np.array(self.discs)
+            if (polygons.distances(discs[:, :2], np.array([way])) - discs[:, 2] < from_things).any():
+                return False
+        return not self.routes or (
+            _apart(np.array(way), np.array(self.routes)) >= from_things
+            and bool((polygons.distances(begin_end, np.array(self.routes)) >= from_things).all())
+        )
+
+    def place_walker(self, number: int) -> None:
+        """Let somebody go to and fro where nothing is in the way; nobody if there is no such way."""
+        for _ in range(TRIES):
+            begin = self._place(0.5, 0.0)
+            if begin is None:
+                return
+            turn, length = self.rng.uniform(-math.pi, math.pi), self.rng.uniform(1.5, 4.0)
+            end = (round(begin[0] + length * math.cos(turn), 3), round(begin[1] + length * math.sin(turn), 3))
+            if self._clear((*begin, *end), 0.5, 0.5):
+                self.routes.append((*begin, *end))
+                speed = round(float(self.rng.uniform(0.3, 0.8)), 2)
+                motion = Walk((begin, end), speed=speed, wait=1.0)
+                body = Cylinder(0.2)
+                self.things.append(
+                    Obstacle(f"walker {number + 1}", body, (*begin, 0.0), 1.75, "purple", motion=motion)
+                )
+                return
+
+    def free_places(self, count: int) -> list[Pose]:
+        """Places where a robot can start, a passage from one another."""
+        found: list[Pose] = []
+        x0, y0, x1, y1 = self.floor
+        for _ in range(count * TRIES):
+            if len(found) == count:
+                break
+            x, y = (round(float(v), 3) for v in self.rng.uniform((x0, y0), (x1, y1)))
+            apart = all(math.dist((x, y), other[:2]) >= PASSAGE for other in found)
+            if apart and self._clear((x, y, x, y), PASSAGE / 2, PASSAGE / 2 + 0.1):
+                found.append((x, y, round(float(self.rng.uniform(-math.pi, math.pi)), 3)))
+        return found
+
+
+Floats = NDArray[np.float64]
+
+
+def _apart(way: Floats, sides: Floats) -> float:
+    """How far a straight way (4,) is from the nearest of `sides` (n, 4); 0 if it crosses one."""
+    ends = sides.reshape(-1, 2)
+    gap = min(polygons.distances(ends, way[None]).min(), polygons.distances(way.reshape(2, 2), sides).min())
+    a, b, c, d = way[:2], way[2:], sides[:, :2], sides[:, 2:]
+    crosses = (_side(a, b, c) * _side(a, b, d) < 0) & (_side(c, d, a) * _side(c, d, b) < 0)
+    return 0.0 if crosses.any() else float(gap)
+
+
+def _side(a: Floats, b: Floats, c: Floats) -> Floats:
+    """On which side of the line from a to b c is, by the sign."""
+    area: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (
+        c[..., 0] - a[..., 0]
+    )
+    return area
