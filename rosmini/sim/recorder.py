@@ -1,19 +1,23 @@
-"""A node that writes down a run: it subscribes to what a robot says of itself, and gathers arrays from the messages."""
+"""A node that writes down a run: it subscribes to what robots say of themselves, and gathers arrays from the messages."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry.angles import yaw_from_quaternion
+from rosmini.geometry.poses import Pose, compose, inverse
 from rosmini.msgs import message_class
 
+from .markers import first_poses, obstacles_of
 from .models import LidarModel, RobotModel
-from .recording import Recording, RecordingError, since
-from .world import World
+from .recording import Moved, Recording, RecordingError, since
+from .shapes import simple_parts
+from .world import Obstacle, World
 
 if TYPE_CHECKING:
     from rosmini.graph import Graph
@@ -34,18 +38,20 @@ class Simulated(Protocol):
 
 
 class Recorder:
-    """Gathers `scan`, `odom`, `base_pose_ground_truth` and `cmd_vel` of one robot.
+    """Gathers `scan`, `odom`, `base_pose_ground_truth` and `cmd_vel` of a robot, or of several.
 
     It is an ordinary node and knows only what the messages say. Times are those of their headers; a `geometry_msgs/Twist` has none, so
     a command counts from when it arrives. If the clock goes back (a simulation that was reset, a bag in a loop), a new run begins.
 
     Args:
         graph: where the robot is.
-        simulator: what has `world` and `model`; or give these two.
+        simulator: what has `world` and `model`; or give these two. If it has several robots, all that are there now are recorded.
         world: what the robot drives in.
         model: which robot it is.
         namespace: that of the robot's topics, and of this node.
         name: of this node.
+        things: on which topic it is told where things are that move: `visualization_msgs/MarkerArray`s, as the simulator's `obstacles`, or
+            `gazebo_msgs/ModelStates`, as `/gazebo/model_states`. Without it they are taken to stay where they are.
 
     Raises:
         RecordingError: neither a simulator nor a world and a model are given.
@@ -61,32 +67,58 @@ class Recorder:
         model: RobotModel | None = None,
         namespace: str = "/",
         name: str = "recorder",
+        things: str | None = None,
     ) -> None:
+        robots: dict[str, Any] = {}
+        first = ""
         if simulator is not None:
             world, model = world or simulator.world, model or simulator.model
+            robots, first = dict(getattr(simulator, "robots", {})), getattr(simulator, "name", "")
+            if things is None and getattr(getattr(simulator, "parameters", None), "obstacles", False):
+                things = simulator.node.resolve("obstacles")  # type: ignore[attr-defined]
         if world is None or model is None:
             raise RecordingError(
                 "a recorder has to know the world and the robot: Recorder(graph, simulator), or Recorder(graph, world=..., model=...)"
             )
         self.world = world
         self.model = model
-        self._tracks: dict[str, _Track] = {name: _Track() for name in (TRUTH, ODOM, SCAN, COMMANDS)}
         self.node = graph.node(name, namespace=namespace or "/")
-        odometry = message_class("nav_msgs/Odometry")
-        self.node.subscriber(TRUTH, odometry, self._pose, arguments=(TRUTH,))
-        self.node.subscriber(ODOM, odometry, self._pose, arguments=(ODOM,))
-        self.node.subscriber(SCAN, message_class("sensor_msgs/LaserScan"), self._scan)
-        self.node.subscriber(COMMANDS, message_class("geometry_msgs/Twist"), self._command)
+        self._things = None if things is None else _Things(self, things)
+        self._runs: dict[str, _Run] = {}
+        own = robots.pop(first, None)
+        self._first = _Run(self, first, model, getattr(own, "namespace", "") if own is not None else "")
+        self._runs[first] = self._first
+        for other, robot in robots.items():
+            self.add(other, robot.model, robot.namespace)
+
+    def add(self, name: str, model: RobotModel, namespace: str | None = None) -> None:
+        """Record another robot too, from now on; its topics are in the namespace, which is its name if nothing else is said.
+
+        Raises:
+            RecordingError: one of this name is recorded already.
+
+        """
+        if name in self._runs:
+            raise RecordingError(f"a robot {name!r} is recorded already; give the other one another name")
+        self._runs[name] = _Run(self, name, model, name if namespace is None else namespace)
 
     def __repr__(self) -> str:
-        counts = ", ".join(f"{len(track.rows)} {topic}" for topic, track in self._tracks.items())
-        return f"<Recorder {self.node.name}: {counts}>"
+        counts = ", ".join(f"{len(track.rows)} {topic}" for topic, track in self._first.tracks.items())
+        more = len(self._runs) - 1
+        return f"<Recorder {self.node.name}: {counts}{f', and {more} more robots' if more else ''}>"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The robots that are recorded."""
+        return tuple(self._runs)
 
     def clear(self) -> None:
         """Forget what was recorded; what comes from now on is a new run."""
-        for track in self._tracks.values():
-            track.stamps.clear()
-            track.rows.clear()
+        for run in self._runs.values():
+            for track in run.tracks.values():
+                track.clear()
+        if self._things is not None:
+            self._things.clear()
 
     def stop(self) -> None:
         """End the node; what was recorded stays. Harmless when repeated."""
@@ -96,45 +128,32 @@ class Recorder:
         """The run so far. It begins with the first pose of which both the truth and odometry are known.
 
         Odometry is interpolated at the times of the truth; a simulator gives both at the same times. A command that came earlier and
-        is still in force counts from the begin.
+        is still in force counts from the begin. Of other robots there is what they did from then on; one of which nothing is known is left out.
 
         Raises:
             RecordingError: nothing was recorded yet, or the scans are not those of the robot's laser.
 
         """
-        truth, odom = self._tracks[TRUTH], self._tracks[ODOM]
-        stamps = np.array(truth.stamps, dtype=np.int64)
-        if truth.rows and odom.rows:
-            stamps = stamps[(stamps >= odom.stamps[0]) & (stamps <= odom.stamps[-1])]
-        if not (truth.rows and odom.rows and len(stamps)):
+        begin = self._first.begin()
+        if begin is None:
             raise RecordingError(self._nothing())
-        begin = int(stamps[0])
-        times = seconds(stamps, begin)
-        commands, scans = self._tracks[COMMANDS], self._tracks[SCAN]
-        given = np.column_stack(
-            [seconds(commands.stamps, begin), np.array(commands.rows, dtype=float).reshape(-1, 2)]
-        )
-        scan_times = seconds(scans.stamps, begin)
-        kept = scan_times >= 0
-        turned = [
-            aligned(scan, self.model.laser) for scan, keep in zip(scans.rows, kept, strict=True) if keep
+        others = [
+            run.recording(begin)
+            for run in self._runs.values()
+            if run is not self._first and run.begin() is not None
         ]
-        return Recording(
-            self.world,
-            self.model,
-            times=times,
-            truth=truth.at(times, begin),
-            odom=odom.at(times, begin),
-            commands=since(given, 0.0),
-            scan_times=scan_times[kept],
-            scans=np.array(turned, dtype=float).reshape(len(turned), self.model.laser.beams),
-        )
+        own = self._first.recording(begin)
+        if not others and self._things is None:
+            return own
+        things = () if self._things is None else self._things.moved(begin, float(own.times[-1]))
+        return replace(own, name=self._first.name, others=tuple(others), things=things)
 
     def _nothing(self) -> str:
-        silent = [topic for topic in (TRUTH, ODOM) if not self._tracks[topic].rows]
+        tracks = self._first.tracks
+        silent = [topic for topic in (TRUTH, ODOM) if not tracks[topic].rows]
         if not silent:
             return f"the messages on {TRUTH} and {ODOM} have no time in common: do both come from the same clock?"
-        names = [self.node.resolve(topic) for topic in silent]
+        names = [self.node.resolve(self._first.topic(topic)) for topic in silent]
         said = "; ".join(f"no message on {name}, {self.node.graph.who_publishes(name)}" for name in names)
         if self.node.shutdown_reason is not None:
             return f"nothing was recorded before the recorder was stopped: {said}."
@@ -143,36 +162,171 @@ class Recorder:
             f"topics have a namespace, give it: Recorder(..., namespace='/robot1')."
         )
 
+    def went_back(self, topic: str, by: float) -> None:
+        """The clock went back [s]: say so, and begin anew."""
+        self.node.logwarn(
+            f"the time on {self.node.resolve(topic)} went back by {by:.3f} s: a new recording begins"
+        )
+        self.clear()
+
+    def stamp(self, header: Any) -> int:
+        """A header's time [ns]; that of arrival where the sender left it out."""
+        return header.stamp.to_nsec() or self.node.clock.now_ns()
+
+
+class _Run:
+    """What came on the topics of one robot."""
+
+    def __init__(self, recorder: Recorder, name: str, model: RobotModel, namespace: str) -> None:
+        self.name, self.model, self._recorder, self._namespace = name, model, recorder, namespace
+        self.tracks: dict[str, _Track] = {topic: _Track() for topic in (TRUTH, ODOM, SCAN, COMMANDS)}
+        node, odometry = recorder.node, message_class("nav_msgs/Odometry")
+        node.subscriber(self.topic(TRUTH), odometry, self._pose, arguments=(TRUTH,))
+        node.subscriber(self.topic(ODOM), odometry, self._pose, arguments=(ODOM,))
+        if model.lidar is not None:
+            node.subscriber(self.topic(SCAN), message_class("sensor_msgs/LaserScan"), self._scan)
+        node.subscriber(self.topic(COMMANDS), message_class("geometry_msgs/Twist"), self._command)
+
+    def topic(self, name: str) -> str:
+        """One of its topics."""
+        return f"{self._namespace.rstrip('/')}/{name}" if self._namespace else name
+
     def _pose(self, message: Any, topic: str) -> None:
         position, q = message.pose.pose.position, message.pose.pose.orientation
         yaw = yaw_from_quaternion(q.x, q.y, q.z, q.w)
-        self._add(topic, self._stamp(message), (position.x, position.y, yaw))
+        self._add(topic, self._recorder.stamp(message.header), (position.x, position.y, yaw))
 
     def _scan(self, message: Any) -> None:
-        self._add(SCAN, self._stamp(message), message)
+        self._add(SCAN, self._recorder.stamp(message.header), message)
 
     def _command(self, message: Any) -> None:
         velocities = (message.linear.x, message.angular.z)
         if all(math.isfinite(v) for v in velocities):  # nobody can drive another one
-            self._add(COMMANDS, self.node.clock.now_ns(), velocities)
-
-    def _stamp(self, message: Any) -> int:
-        """The header's time [ns]; that of arrival where the sender left it out."""
-        return message.header.stamp.to_nsec() or self.node.clock.now_ns()
+            self._add(COMMANDS, self._recorder.node.clock.now_ns(), velocities)
 
     def _add(self, topic: str, stamp: int, row: Any) -> None:
-        track = self._tracks[topic]
-        if track.stamps and stamp < track.stamps[-1]:
-            self.node.logwarn(
-                f"the time on {self.node.resolve(topic)} went back by {(track.stamps[-1] - stamp) / 1e9:.3f} s: "
-                "a new recording begins"
-            )
-            self.clear()
-        if track.stamps and stamp == track.stamps[-1]:  # the last word counts
-            track.rows[-1] = row
-            return
-        track.stamps.append(stamp)
-        track.rows.append(row)
+        back = self.tracks[topic].behind(stamp)
+        if back:
+            self._recorder.went_back(self.topic(topic), back)
+        self.tracks[topic].add(stamp, row)
+
+    def _times(self) -> NDArray[np.int64]:
+        """The stamps [ns] of the truth for which odometry is known too."""
+        truth, odom = self.tracks[TRUTH], self.tracks[ODOM]
+        stamps = np.array(truth.stamps, dtype=np.int64)
+        if not (truth.rows and odom.rows):
+            return stamps[:0]
+        return stamps[(stamps >= odom.stamps[0]) & (stamps <= odom.stamps[-1])]
+
+    def begin(self) -> int | None:
+        """The first stamp [ns] for which the truth and odometry are known."""
+        stamps = self._times()
+        return int(stamps[0]) if len(stamps) else None
+
+    def recording(self, begin: int) -> Recording:
+        """What it did from `begin` [ns] on; of what came later all."""
+        stamps = self._times()
+        times = seconds(stamps[stamps >= begin] if (stamps >= begin).any() else stamps[-1:], begin)
+        commands, scans = self.tracks[COMMANDS], self.tracks[SCAN]
+        given = np.column_stack(
+            [seconds(commands.stamps, begin), np.array(commands.rows, dtype=float).reshape(-1, 2)]
+        )
+        scan_times = seconds(scans.stamps, begin)
+        kept = scan_times >= 0
+        lidar = self.model.lidar
+        turned = (
+            []
+            if lidar is None
+            else [aligned(scan, lidar) for scan, keep in zip(scans.rows, kept, strict=True) if keep]
+        )
+        return Recording(
+            self._recorder.world,
+            self.model,
+            times=times,
+            truth=self.tracks[TRUTH].at(times, begin),
+            odom=self.tracks[ODOM].at(times, begin),
+            commands=since(given, 0.0),
+            scan_times=scan_times[kept],
+            scans=np.array(turned, dtype=float).reshape(len(turned), 0 if lidar is None else lidar.beams),
+            name=self.name if len(self._recorder.names) > 1 else "",
+        )
+
+
+class _Things:
+    """What came on the topic that tells where things are."""
+
+    def __init__(self, recorder: Recorder, topic: str) -> None:
+        self._recorder, self._topic = recorder, topic
+        self._tracks: dict[str, _Track] = {}
+        self._looks: dict[str, Obstacle] = {}
+        if topic.rpartition("/")[2] == "model_states":
+            recorder.node.subscriber(topic, message_class("gazebo_msgs/ModelStates"), self._states)
+        else:
+            recorder.node.subscriber(topic, message_class("visualization_msgs/MarkerArray"), self._markers)
+        self._known = {o.name: o for o in recorder.world.obstacles}
+
+    def clear(self) -> None:
+        """Forget where they were."""
+        self._tracks.clear()
+
+    def _markers(self, message: Any) -> None:
+        poses = first_poses(message)
+        new = set(poses) - set(self._looks)
+        if new:
+            made = obstacles_of(message)
+            for name in new:
+                known = self._known.get(name)
+                self._looks[name] = made[name] if known is None else known
+        stamp = self._recorder.stamp(message.markers[0].header) if message.markers else 0
+        for name, pose in poses.items():
+            look = self._looks[name]
+            _, offset = next(iter(simple_parts(look.shape)))
+            self._add(name, stamp, compose(pose, inverse(offset)))
+
+    def _states(self, message: Any) -> None:
+        stamp = self._recorder.node.clock.now_ns()
+        for name, pose in zip(message.name, message.pose, strict=True):
+            if name in self._known:
+                q = pose.orientation
+                self._looks[name] = self._known[name]
+                self._add(
+                    name, stamp, (pose.position.x, pose.position.y, yaw_from_quaternion(q.x, q.y, q.z, q.w))
+                )
+
+    def _add(self, name: str, stamp: int, pose: Pose) -> None:
+        track = self._tracks.setdefault(name, _Track())
+        back = track.behind(stamp)
+        if back:
+            self._recorder.went_back(self._topic, back)
+            track = self._tracks.setdefault(name, _Track())
+        track.add(stamp, pose)
+
+    def moved(self, begin: int, end: float) -> tuple[Moved, ...]:
+        """Where they were from `begin` [ns] to `end` [s after it]; of what stood still the place alone."""
+        found = []
+        for name, track in self._tracks.items():
+            times = seconds(track.stamps, begin)
+            poses = np.array(track.rows, dtype=float)
+            poses[:, 2] = np.unwrap(poses[:, 2])
+            look = replace(self._looks[name], pose=tuple(poses[0].tolist()), motion=None)
+            whole = Moved(look, times, poses)
+            first, last = max(0.0, float(times[0])), min(end, float(times[-1]))
+            inside = whole.window(first, max(first, last))
+            keep = turning_points(inside.poses)
+            found.append(Moved(inside.at(first), inside.times[keep], inside.poses[keep]))
+        return tuple(found)
+
+
+def turning_points(poses: Floats) -> NDArray[np.intp]:
+    """Which rows of poses (n, 3) say something: the first and the last, and those that differ from the one before or the one after."""
+    if len(poses) == 1:
+        return np.array([0])
+    differs = (np.abs(np.diff(poses, axis=0)) > 1e-9).any(axis=1)
+    keep = np.zeros(len(poses), dtype=bool)
+    keep[0] = keep[-1] = True
+    keep[1:] |= differs
+    keep[:-1] |= differs
+    return np.flatnonzero(keep)
 
 
 class _Track:
@@ -181,6 +335,23 @@ class _Track:
     def __init__(self) -> None:
         self.stamps: list[int] = []
         self.rows: list[Any] = []
+
+    def clear(self) -> None:
+        """Forget it."""
+        self.stamps.clear()
+        self.rows.clear()
+
+    def behind(self, stamp: int) -> float:
+        """By how much [s] a stamp [ns] lies before the last one."""
+        return max(0.0, (self.stamps[-1] - stamp) / 1e9) if self.stamps else 0.0
+
+    def add(self, stamp: int, row: Any) -> None:
+        """Add what came; of two at one time the last word counts."""
+        if self.stamps and stamp == self.stamps[-1]:
+            self.rows[-1] = row
+            return
+        self.stamps.append(stamp)
+        self.rows.append(row)
 
     def at(self, times: Floats, begin: int) -> Floats:
         """Poses (n, 3) at `times` [s since begin], linear between those that came; headings are not wrapped."""

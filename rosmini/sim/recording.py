@@ -1,4 +1,4 @@
-"""A recorded run: what one robot did, meant and saw, as arrays."""
+"""A recorded run: what one robot did, meant and saw, as arrays; and beside it other robots, and things that moved."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError
+from rosmini.errors import RosminiError, nearest
 from rosmini.geometry.angles import normalize_angle
 from rosmini.geometry.poses import compose, inverse
 from rosmini.graph.show import show
 
 from .models import RobotModel
-from .world import World
+from .world import Obstacle, World
 
 Floats = NDArray[np.float64]
 
@@ -33,8 +33,57 @@ class Drift(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
+class Moved:
+    """A thing of the world that does not stay where it is, and where it was.
+
+    Raises:
+        RecordingError: an array has another shape, or times do not increase.
+
+    """
+
+    obstacle: Obstacle
+    """What it is, where it was at first."""
+    times: Floats
+    """(n,) [s], increasing; n is at least 1. In between it moved evenly; before and after, it stood."""
+    poses: Floats
+    """(n, 3): x [m], y [m], heading [rad]; headings are not wrapped."""
+
+    def __post_init__(self) -> None:
+        name, n = self.obstacle.name, len(self.times)
+        if not n or self.times.shape != (n,) or self.poses.shape != (n, 3):
+            raise RecordingError(
+                f"where {name!r} was must be times (n,) and poses (n, 3), not {self.times.shape} and {self.poses.shape}"
+            )
+        if not np.isfinite(self.poses).all() or (np.diff(self.times) <= 0).any():
+            raise RecordingError(
+                f"the times when {name!r} was somewhere must increase, and its poses be finite"
+            )
+
+    def at(self, time: float) -> Obstacle:
+        """The thing where it was then."""
+        return replace(self.obstacle, pose=_between(self.times, self.poses, time))
+
+    @property
+    def distance(self) -> float:
+        """How far it moved [m]."""
+        return float(np.linalg.norm(np.diff(self.poses[:, :2], axis=0), axis=1).sum())
+
+    def window(self, t0: float, t1: float) -> Moved:
+        """Where it was from `t0` to `t1`."""
+        inner = (self.times > t0) & (self.times < t1)
+        ends = [_between(self.times, self.poses, t) for t in (t0, t1)]
+        if t1 <= t0:
+            return replace(self, times=np.array([t0]), poses=np.array(ends[:1]))
+        return replace(
+            self,
+            times=np.concatenate([[t0], self.times[inner], [t1]]),
+            poses=np.vstack([ends[0], self.poses[inner], ends[1]]),
+        )
+
+
+@dataclass(frozen=True, eq=False)
 class Recording:
-    """A run of one robot. All times are seconds since the begin of the run, all poses x [m], y [m], heading [rad].
+    """A run of one robot, and, if there were any, of others beside it. All times are seconds since the begin of the run, all poses x [m], y [m], heading [rad].
 
     `truth` and `odom` are sampled at `times`; each of them is in its own frame (`map` and `odom`), as the messages were.
 
@@ -57,6 +106,12 @@ class Recording:
     """(k,)"""
     scans: Floats
     """(k, beams): ranges [m], inf where nothing was hit; beam i looks at 2 pi i / beams from ahead, counter-clockwise."""
+    name: str = ""
+    """The robot's, where there are several."""
+    others: tuple[Recording, ...] = ()
+    """The runs of the other robots, by the same clock."""
+    things: tuple[Moved, ...] = ()
+    """What of the world was moved, or moved by itself."""
 
     def __post_init__(self) -> None:
         n, k, beams = len(self.times), len(self.scan_times), self.model.laser.beams
@@ -77,10 +132,35 @@ class Recording:
                 raise RecordingError(f"{name} of a recording must increase")
 
     def __repr__(self) -> str:
+        who = self.model.name if not self.others else " and ".join(each.name for each in self.robots)
         return (
-            f"<Recording of {self.model.name} in {self.world.name}: {self.duration:.1f} s, {len(self.times)} poses, "
+            f"<Recording of {who} in {self.world.name}: {self.duration:.1f} s, {len(self.times)} poses, "
             f"{len(self.scans)} scans, {len(self.commands)} commands>"
         )
+
+    @property
+    def robots(self) -> tuple[Recording, ...]:
+        """The runs of all robots, this one first."""
+        return (self, *self.others)
+
+    def of(self, name: str) -> Recording:
+        """The same run, seen from the robot called `name`. Raises `RecordingError`."""
+        for each in self.robots:
+            if each.name == name:
+                rest = tuple(
+                    replace(other, others=(), things=()) for other in self.robots if other is not each
+                )
+                return replace(each, others=rest, things=self.things)
+        there = ", ".join(repr(each.name) for each in self.robots)
+        raise RecordingError(
+            f"no robot {name!r} was recorded, but {there}. {nearest(name, [r.name for r in self.robots])}".rstrip()
+        )
+
+    def world_at(self, time: float) -> World:
+        """The world with its things where they were then."""
+        moved = {thing.obstacle.name: thing.at(time) for thing in self.things}
+        stayed = [moved.pop(o.name, o) for o in self.world.obstacles]
+        return replace(self.world, obstacles=(*stayed, *moved.values()))
 
     @property
     def duration(self) -> float:
@@ -119,8 +199,7 @@ class Recording:
 
     def pose_at(self, time: float) -> tuple[float, float, float]:
         """Where the robot was at a time of the run; before its begin and after its end, where it was then."""
-        x, y, heading = (float(np.interp(time, self.times, column)) for column in self.truth.T)
-        return (x, y, heading)
+        return _between(self.times, self.truth, time)
 
     def window(self, t0: float, t1: float) -> Recording:
         """The part of the run from `t0` to `t1`; times stay what they were, and the command in force at `t0` is there.
@@ -144,6 +223,12 @@ class Recording:
             commands=since(self.commands[self.commands[:, 0] <= t1], t0),
             scan_times=self.scan_times[seen],
             scans=self.scans[seen],
+            others=tuple(
+                other.window(t0, t1)
+                for other in self.others
+                if ((other.times >= t0) & (other.times <= t1)).any()
+            ),
+            things=tuple(thing.window(t0, t1) for thing in self.things),
         )
 
     def show(self, **options: Any) -> Any:
@@ -151,7 +236,7 @@ class Recording:
         return show("recording", self, **options)
 
     def plots(self, **options: Any) -> Any:
-        """Velocities and the error of odometry over time; the options are those of `rosmini.viz.recording_plots`."""
+        """Velocities, and the error of odometry, over time; the options are those of `rosmini.viz.recording_plots`."""
         return show("recording_plots", self, **options)
 
     def replay(self, **options: Any) -> Any:
@@ -171,6 +256,12 @@ def since(commands: Floats, begin: float) -> Floats:
         return after
     before[:, 0] = begin
     return np.vstack([before, after])
+
+
+def _between(times: Floats, poses: Floats, time: float) -> tuple[float, float, float]:
+    """A pose of (n, 3), linear between those at `times` (n,)."""
+    x, y, heading = (float(np.interp(time, times, column)) for column in poses.T)
+    return (x, y, heading)
 
 
 def _pose(row: Floats) -> tuple[float, float, float]:

@@ -114,12 +114,6 @@ def test_the_scene_does_not_hang_on_the_last_bit():
     assert "-0.0," not in json.dumps(scene(0.0))
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf])
-def test_a_robot_that_cannot_be_drawn_is_refused_by_name(bad):
-    with pytest.raises(ViewError, match="robot 'burger' has the number"):
-        scene_data(World("w"), replace(BURGER, wheel_separation=bad))
-
-
 @given(st.lists(st.integers(-(2**50), 2**50)))
 def test_whole_numbers_come_back_as_they_were(values):
     array = np.array(values, dtype=np.int64)

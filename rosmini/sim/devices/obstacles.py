@@ -1,0 +1,55 @@
+"""Where the things are that do not stay where they are: what robots push, walkers, doors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rosmini.msgs import message_class
+from rosmini.sim.host import Device, Host, Stamp
+from rosmini.sim.markers import Markers
+from rosmini.sim.messages import MAP
+
+
+class ObstacleMarkers(Device):
+    """`visualization_msgs/MarkerArray` with all that moves, as RViz draws it: one marker for each simple part, its namespace the thing's name.
+
+    Args:
+        host: where it happens.
+        topic: where it is published.
+        frame: the world's frame.
+        rate: how often [Hz].
+        name: the device's.
+
+    """
+
+    always = False
+
+    def __init__(
+        self,
+        host: Host,
+        *,
+        topic: str = "obstacles",
+        frame: str = MAP,
+        rate: float = 10.0,
+        name: str = "obstacles",
+    ) -> None:
+        super().__init__(host, name, rate)
+        self._publisher = host.node.publisher(
+            topic, message_class("visualization_msgs/MarkerArray"), queue_size=10
+        )
+        self._markers = Markers(frame)
+
+    def wanted(self) -> bool:
+        """Tell whether anybody listens."""
+        return self._publisher.num_connections() > 0
+
+    def due(self, stamp: Stamp, _: int, /) -> None:
+        """Say where they are, and which have gone."""
+        self._publisher.publish(self._message(stamp))
+
+    def _message(self, stamp: Stamp) -> Any:
+        return self._markers.message(self.host.engine.obstacles(), stamp)
+
+    def close(self) -> None:
+        """End the topic."""
+        self._publisher.unregister()
