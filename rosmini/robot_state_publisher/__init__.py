@@ -1,1 +1,15 @@
 """`robot_state_publisher`: where the links of a robot are, told to tf (http://wiki.ros.org/robot_state_publisher)."""
+
+from __future__ import annotations
+
+from .chain import Chain, joint_transform
+from .description import read_description
+from .node import RobotStatePublisher, RobotStatePublisherParameters
+
+__all__ = [
+    "Chain",
+    "RobotStatePublisher",
+    "RobotStatePublisherParameters",
+    "joint_transform",
+    "read_description",
+]
