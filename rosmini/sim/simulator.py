@@ -17,6 +17,7 @@ from rosmini.graph import Node
 from rosmini.graph.show import show
 from rosmini.msgs import service_class
 
+from .devices.obstacles import ObstacleMarkers
 from .engine import Engine, RobotGone
 from .host import Host
 from .models import RobotModel
@@ -49,6 +50,9 @@ class SimulatorParameters(Parameters):
     tf_prefix: str = parameter("", "what the names of the robot's frames begin with: tb3_0 gives tb3_0/odom")
     board: bool = parameter(
         False, "have the topics of the robot's board too: sensor_state, battery_state, motor_power, reset"
+    )
+    obstacles: bool = parameter(
+        False, "publish where all that moves by itself or can be pushed is, as markers on obstacles"
     )
     use_rep_117: bool = parameter(
         True,
@@ -93,6 +97,8 @@ class Simulator:
             self.name
         )  # where numba has to compile, it does so now and not while the robot drives
         self.host = Host(node, self.engine)
+        if own.obstacles:
+            self.host.add(ObstacleMarkers(self.host))
         self._ended = False
         self.robots: dict[str, TurtleBot] = {}
         """Those that are in the world, by name, in the sequence of their coming."""
