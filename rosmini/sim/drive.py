@@ -1,11 +1,15 @@
-"""The differential drive: from a commanded velocity to the way of the robot, in closed form.
+"""The drives: from a commanded velocity to the way of the robot, in closed form.
 
 A wheel's rim has a speed u [m/s] and goes over to the wanted one at the rate a [m/s2], as fast as it can: a ramp. So nothing here depends on the
 step with which it is asked. With b the distance of the wheels, v and w the speed ahead [m/s] and to the left [rad/s]:
 
     u_left = v - w b / 2,   u_right = v + w b / 2;   v = (u_left + u_right) / 2,   w = (u_right - u_left) / b
 
-(Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2011, section 3.2.) Headings are counter-clockwise and never wrapped.
+(Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots, 2011, section 3.2.) Where the robot's own speeds v and w have limits
+too, at most a_v and a_w, they go over to the wanted ones each at its limit, and both more slowly if a rim cannot follow.
+
+A holonomic robot has the speed vy to its left side besides, and each of v, vy and w goes over to the wanted one by itself. Headings are
+counter-clockwise and never wrapped.
 """
 
 from __future__ import annotations
@@ -24,6 +28,9 @@ _NODES = (
     (0.6699905217924281, 0.32607257743127307),
     (0.9305681557970263, 0.17392742256872692),
 )
+
+ROUNDING = 1e-12
+"""Speeds that differ by less [m/s, rad/s] are the same."""
 
 PANEL = 0.2
 """So far at most the robot turns [rad] within one panel of the quadrature: four points are then exact to a part in 1e11."""
@@ -77,6 +84,86 @@ def phases(
             found.append((end - begin, rates[0], rates[1]))
             begin = end
     return found
+
+
+def limited_phases(
+    left: float,
+    right: float,
+    left_target: float,
+    right_target: float,
+    separation: float,
+    limits: tuple[float, float, float],
+    dt: float,
+) -> list[Phase]:
+    """The `dt` seconds in which a robot's speeds v and w go over to their targets at no more than their limits: one to three phases.
+
+    The limits are those of v [m/s2], of w [rad/s2] and of a rim [m/s2].
+    """
+    v, w = body_velocity(left, right, separation)
+    goal_v, goal_w = body_velocity(left_target, right_target, separation)
+    linear, angular, rim = limits
+    half = separation / 2
+    found: list[Phase] = []
+    while dt > 0:
+        rise_v, rise_w = goal_v - v, goal_w - w
+        a = min(linear, rim) if abs(rise_v) > ROUNDING else 0.0
+        b = min(angular, rim / half) if abs(rise_w) > ROUNDING else 0.0
+        if a and b:
+            slower = min(1.0, rim / (a + b * half))
+            a, b = a * slower, b * slower
+        ends = [abs(rise) / rate for rise, rate in ((rise_v, a), (rise_w, b)) if rate]
+        if not ends or min(ends) == 0:  # a limit that is infinite was heeded when the command came
+            found.append((dt, 0.0, 0.0))
+            break
+        h = min(*ends, dt)
+        dv, dw = math.copysign(a, rise_v), math.copysign(b, rise_w)
+        found.append((h, dv - dw * half, dv + dw * half))
+        v, w = v + dv * h, w + dw * h
+        dt -= h
+    return found
+
+
+Speeds = tuple[float, float, float]
+"""Ahead and to the left side [m/s], and to the left [rad/s]."""
+
+
+def ramps(speeds: Speeds, targets: Speeds, limits: Speeds, dt: float) -> list[tuple[float, Speeds]]:
+    """The `dt` seconds in which each speed goes over to its target at its limit: phases, each with how long it lasts and the rates meanwhile."""
+    rises = tuple(target - speed for speed, target in zip(speeds, targets, strict=True))
+    ends = [abs(rise) / limit for rise, limit in zip(rises, limits, strict=True)]
+    found: list[tuple[float, Speeds]] = []
+    begin = 0.0
+    for end in sorted({*(end for end in ends if end < dt), dt}):
+        if end > begin:
+            a, b, c = (
+                math.copysign(limit, rise) if arrival > begin else 0.0
+                for rise, limit, arrival in zip(rises, limits, ends, strict=True)
+            )
+            found.append((end - begin, (a, b, c)))
+            begin = end
+    return found
+
+
+def glide(pose: Pose, speeds: Speeds, rates: Speeds, dt: float) -> Pose:
+    """Where a holonomic robot is after `dt` seconds that has these speeds, which change at these rates.
+
+    With constant speeds its way is an arc too: the chord of a unicycle's, from a heading that is turned by the direction of (v, vy).
+    """
+    v, vy, w = speeds
+    dv, dvy, dw = rates
+    x, y, theta = pose
+    if not (dv or dvy or dw):
+        aside = math.atan2(vy, v)
+        px, py, _ = arc((x, y, theta + aside), math.hypot(v, vy), w, dt)
+        return (px, py, theta + w * dt)
+    if w == 0 and dw == 0:
+        ahead, left = v * dt + dv * dt * dt / 2, vy * dt + dvy * dt * dt / 2
+        c, s = math.cos(theta), math.sin(theta)
+        return (x + c * ahead - s * left, y + s * ahead + c * left, theta)
+    # a speed to the left is one ahead of a heading that is turned by a quarter
+    px, py, heading = unicycle(pose, v, w, dv, dw, dt)
+    qx, qy, _ = unicycle((0.0, 0.0, theta + math.pi / 2), vy, w, dvy, dw, dt)
+    return (px + qx, py + qy, heading)
 
 
 def unicycle(pose: Pose, v: float, w: float, dv: float, dw: float, dt: float) -> Pose:

@@ -18,37 +18,38 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.errors import RosminiError, nearest
-from rosmini.geometry.poses import Pose
+from rosmini.geometry.poses import Pose, compose
 
-from . import lidar
-from .drive import limited, rim_speeds
-from .models import RobotModel
-from .odometry import SLIP_PERIOD, RealWheels
-from .robot import Robot
-from .world import Cylinder, Obstacle, World, WorldError, edges
+from .clockwork import EPSILON, STEP, Clockwork
+from .lidar import scan as measure
+from .models import LidarModel, RobotModel
+from .movers import Mover
+from .odometry import RealWheels
+from .robot import Robot, Thing, make_robot
+from .sights import Sights, parts_of, stacked
+from .shapes import Part, Polygon
+from .state import EngineState, RobotState
+from .world import Obstacle, World, WorldError
 
 if TYPE_CHECKING:
-    from .physics import Contacts
+    from .physics import Contacts, RoverMemory, Surface
+    from .touching import Touch
 
 Floats = NDArray[np.float64]
-
-STEP = 0.005
-"""How long one step of the physics is [s]."""
-
-SAFE = 1e-4
-"""From so near [m] on, a robot is looked at step by step."""
+Velocity = tuple[float, float, float]
+"""Along x and y of the frame map [m/s], and to the left [rad/s]."""
 
 PLAY = 0.999
 """By this factor a footprint is smaller when it is asked whether there is room for it: 0.1 mm on each side of a Burger."""
 
-EPSILON = 1e-9
-"""Times that differ by less [s] are the same."""
+__all__ = ["EPSILON", "STEP", "Engine", "EngineState", "RobotGone"]
 
 
 class RobotGone(RosminiError):
@@ -59,7 +60,9 @@ class Engine:
     """A world with robots in it. Times are seconds since the engine was made.
 
     `rng(name)` returns the random generator for what is called `name`; with `noise` 0 the robots are those of the book, without errors, and
-    between 0 and 1, or above, the errors are scaled.
+    between 0 and 1, or above, the errors are scaled. Each robot has a generator of its own, so another robot changes nobody's errors.
+
+    `world` has the obstacles that were there at the begin, and those that were put in since; where those are now that can move tells `obstacles`.
     """
 
     def __init__(
@@ -69,12 +72,18 @@ class Engine:
         self.noise = noise
         self.now = 0.0
         self.robots: dict[str, Robot] = {}
+        self.movers: dict[str, Mover] = {}
+        """The things that move by themselves."""
+        self.step = STEP
+        """How long one step of the physics is [s]."""
         self._rng = rng
-        self._slips = SLIP_PERIOD
-        self._next_change = SLIP_PERIOD
         self._contacts: Contacts | None = None
-        self._moving = False
-        self._scenery: dict[float, tuple[Floats, Floats]] = {}
+        self._sights = Sights(world)
+        self._clockwork = Clockwork(self)
+        self._changed = 0
+        for obstacle in world.obstacles:
+            if obstacle.motion is not None:
+                self.movers[obstacle.name] = Mover(obstacle, obstacle.motion)
 
     @property
     def contacts(self) -> Contacts:
@@ -96,23 +105,46 @@ class Engine:
     def add(self, name: str, model: RobotModel, pose: Pose | None = None) -> Robot:
         """Put a robot into the world; without a pose at the first start that is free.
 
-        Raises `WorldError`, which names what stands there, and `RosminiError` if there is a robot of this name.
+        Raises `WorldError`, which names what stands there, and `RosminiError` if there is a robot or an obstacle of this name.
         """
+        self._check_name(name)
+        where = self._start(model) if pose is None else self._free(model, pose)
+        return self._enter(name, model, where)
+
+    def _enter(self, name: str, model: RobotModel, pose: Pose) -> Robot:
+        new = make_robot(name, model, pose, RealWheels(model, self._rng(f"{name}/wheels"), self.noise))
+        self.robots[name] = new
+        self._embody(new)
+        self._look_again()
+        return new
+
+    def _embody(self, new: Robot) -> None:
+        name, model = new.name, new.model
+        if isinstance(new, Thing):
+            loose = math.isinf(model.mass)
+            mass = None if loose else model.mass
+            body = Obstacle(name, Polygon(model.footprint), new.pose, model.height, mass=mass)
+            self.contacts.insert(body, shown=False, loose=loose)
+        else:
+            self.contacts.add(name, model, new.pose)
+
+    def _check_name(self, name: str) -> None:
         if name in self.robots:
             msg = f"there is a robot {name!r} in the world {self.world.name!r} already; give the other one another name"
             raise RosminiError(msg)
-        where = self._start(model) if pose is None else self._free(model, pose)
-        robot = Robot(name, model, where, RealWheels(model, self._rng(f"{name}/wheels"), self.noise))
-        self.robots[name] = robot
-        self.contacts.add(name, model, where)
-        self._look_again()
-        return robot
+        if any(name == obstacle.name for obstacle in self.world.obstacles):
+            msg = f"there is an obstacle {name!r} in the world {self.world.name!r} already; give the new one another name"
+            raise RosminiError(msg)
 
     def remove(self, name: str) -> None:
-        """Take a robot out of the world. Raises `RobotGone`."""
-        self.robot(name)
+        """Take a robot out of the world, even while it moves. Raises `RobotGone`."""
+        gone = self.robot(name)
         del self.robots[name]
-        self.contacts.remove(name)
+        if isinstance(gone, Thing):
+            self.contacts.take_away(name)
+        else:
+            self.contacts.remove(name)
+        self._sights.forget_viewer(name)
         self._look_again()
 
     def robot(self, name: str) -> Robot:
@@ -126,37 +158,77 @@ class Engine:
 
     def place(self, name: str, pose: Pose) -> None:
         """Lift a robot and put it down elsewhere, at rest; its odometry does not notice. Raises `WorldError` and `RobotGone`."""
-        robot = self.robot(name)
-        robot.pose = self._free(robot.model, pose, name)
-        robot.left = robot.right = robot.left_target = robot.right_target = 0.0
-        robot.expires = math.inf
-        robot.touching = False
-        self.contacts.move(name, robot.pose)
+        self.robot(name)
+        self.put(name, pose)
+
+    def put(self, name: str, pose: Pose, velocity: Velocity = (0.0, 0.0, 0.0)) -> None:
+        """Lift a robot or an obstacle and put it down elsewhere, with a velocity in the directions of the frame map [m/s, m/s, rad/s].
+
+        A robot is told to stop by that; it slows down as its drive can, and of a velocity to its side one with two wheels takes nothing. What cannot
+        be pushed takes no velocity. Raises `WorldError` if something stands there, or for what moves by itself; `RobotGone` if there is no such thing.
+        """
+        if not all(math.isfinite(part) for part in (*pose, *velocity)):
+            msg = f"{name!r} cannot be placed at {pose} with the velocity {velocity}: all of it has to be finite numbers"
+            raise WorldError(msg)
+        if name not in self.robots:
+            self._put_obstacle(self._obstacle(name), pose, velocity)
+        else:
+            lifted = self.robots[name]
+            lifted.pose = self._free(lifted.model, pose, name)
+            vx, vy, w = velocity
+            c, s = math.cos(pose[2]), math.sin(pose[2])
+            lifted.launch((c * vx + s * vy, c * vy - s * vx, w))
+            if isinstance(lifted, Thing):
+                self.contacts.place(name, lifted.pose, velocity)
+            else:
+                self.contacts.move(name, lifted.pose)
+        self._clockwork.moving = self.contacts.moving
         self._look_again()
+
+    def _put_obstacle(self, obstacle: Obstacle, pose: Pose, velocity: Velocity) -> None:
+        if obstacle.motion is not None:
+            msg = f"the obstacle {obstacle.name!r} cannot be put anywhere: it moves by itself; take it away, and insert another"
+            raise WorldError(msg)
+        hindrance = self._hindrance_of(replace(obstacle, pose=pose))
+        if hindrance is not None:
+            x, y, theta = pose
+            msg = f"the obstacle {obstacle.name!r} cannot be placed at ({x:.2f}, {y:.2f}) with heading {theta:.2f}: {hindrance} is in its way"
+            raise WorldError(msg)
+        if obstacle.movable:
+            self.contacts.place(obstacle.name, pose, velocity)
+        else:
+            self.take_away(obstacle.name)
+            self._insert(replace(obstacle, pose=pose))
 
     def reset(self) -> None:
         """Put every robot and every obstacle back to where it began, with encoders at zero."""
         self.contacts.reset()
-        for robot in self.robots.values():
-            robot.stop()
-            robot.pose = robot.start
-            self.contacts.move(robot.name, robot.pose)
+        for mover in self.movers.values():
+            mover.start()
+        for each in self.robots.values():
+            each.stop()
+            each.pose = each.start
+            if isinstance(each, Thing):
+                self.contacts.place(each.name, each.pose)
+            else:
+                self.contacts.move(each.name, each.pose)
+        self._clockwork.moving = False
         self._look_again()
 
-    def command(self, name: str, v: float, w: float, timeout: float = 0.0) -> None:
-        """Tell a robot's wheels how to turn: v [m/s] ahead and w [rad/s] to the left, cut to what it can do.
+    def command(self, name: str, v: float, w: float, timeout: float = 0.0, *, vy: float = 0.0) -> None:
+        """Tell a robot's wheels how to turn: v [m/s] ahead, w [rad/s] to the left, and vy [m/s] to its left side, cut to what it can do.
 
-        After `timeout` seconds without another command the robot stops; 0: never. Raises `RosminiError` for what is no finite number.
+        After `timeout` seconds without another command the robot stops; 0: never. A robot on two wheels takes no notice of vy. Raises `RosminiError`
+        for what is no finite number, and for a thing without a drive.
         """
-        robot = self.robot(name)
-        if not (math.isfinite(v) and math.isfinite(w)):
-            msg = f"the robot {name!r} cannot go {v} m/s and {w} rad/s: both have to be finite"
+        told = self.robot(name)
+        if not math.isfinite(v + w + vy):
+            aside = f", {vy} m/s to its side" if vy else ""
+            msg = f"the robot {name!r} cannot go {v} m/s{aside} and {w} rad/s: both have to be finite"
             raise RosminiError(msg)
-        model = robot.model
-        v, w = limited(v, w, model.max_linear, model.max_angular)
-        robot.left_target, robot.right_target = rim_speeds(v, w, model.wheel_separation)
-        robot.expires = self.now + timeout if timeout else math.inf
-        self._next_change = min([self._slips, *(robot.expires for robot in self.robots.values())])
+        told.drive(v, vy, w)
+        told.expires = self.now + timeout if timeout else math.inf
+        self._clockwork.plan()
 
     def _free(self, model: RobotModel, pose: Pose, name: str = "") -> Pose:
         if not all(math.isfinite(part) for part in pose):
@@ -165,7 +237,7 @@ class Engine:
         hindrance = self._hindrance(model, pose, name)
         if hindrance is not None:
             x, y, theta = pose
-            free = self.world.free_place(pose, model.footprint)
+            free = self.world.free_place(pose, model.footprint, model.height)
             hint = "" if free is None else f". There is room at ({free[0]:.2f}, {free[1]:.2f})"
             msg = (
                 f"no robot can be placed at ({x:.2f}, {y:.2f}) with heading {theta:.2f} in the world {self.world.name!r}: "
@@ -176,11 +248,11 @@ class Engine:
 
     def _hindrance(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
         """Return what stands at `pose`, in words; None if a robot has room there."""
-        self._tell_places()
+        self._clockwork.tell_places()
         corners = np.array(model.footprint)
         middle = corners.mean(axis=0)
         within = middle + (corners - middle) * PLAY  # where a robot only touches, it may stand
-        return self.world.blocked(pose, within) or self.contacts.hindrance(model, pose, name)
+        return self.world.blocked(pose, within, model.height) or self.contacts.hindrance(model, pose, name)
 
     def _start(self, model: RobotModel) -> Pose:
         for start in self.world.starts:
@@ -188,157 +260,279 @@ class Engine:
                 return start
         return self._free(model, self.world.starts[0])
 
+    # -- things --------------------------------------------------------------------------------------------------
+
+    def insert(self, obstacle: Obstacle) -> None:
+        """Put an obstacle into the world while time goes on: a fixed one, one that can be pushed, or one that moves by itself.
+
+        Raises `RosminiError` if its name is taken, and `WorldError` if a robot, or something that can move, stands there.
+        """
+        self._check_name(obstacle.name)
+        hindrance = self._hindrance_of(obstacle)
+        if hindrance is not None:
+            x, y, _ = obstacle.pose
+            msg = f"the obstacle {obstacle.name!r} cannot be put to ({x:.2f}, {y:.2f}): {hindrance} is in its way"
+            raise WorldError(msg)
+        self._insert(obstacle)
+
+    def _hindrance_of(self, obstacle: Obstacle) -> str | None:
+        self._clockwork.tell_places()
+        return self.contacts.hindrance_of(obstacle, obstacle.at(0.0))
+
+    def _insert(self, obstacle: Obstacle) -> None:
+        contacts = self.contacts
+        self.world = self.world.with_obstacles([obstacle])
+        contacts.insert(obstacle)
+        if obstacle.motion is not None:
+            self.movers[obstacle.name] = Mover(obstacle, obstacle.motion)
+        self._sights.forget(self.world)
+        self._look_again()
+
+    def take_away(self, name: str) -> None:
+        """Take an obstacle out of the world while time goes on. Raises `RobotGone` if there is none of this name."""
+        self._obstacle(name)
+        self.contacts.take_away(name)
+        self.movers.pop(name, None)
+        self.world = replace(
+            self.world, obstacles=tuple(each for each in self.world.obstacles if each.name != name)
+        )
+        self._sights.forget(self.world)
+        self._clockwork.moving = self.contacts.moving
+        self._look_again()
+
+    def _obstacle(self, name: str) -> Obstacle:
+        names = {obstacle.name: obstacle for obstacle in self.world.obstacles}
+        if name not in names:
+            hint = nearest(name, [*names, *self.robots])
+            msg = f"there is nothing {name!r} in the world {self.world.name!r} that could be moved or taken away. {hint}"
+            raise RobotGone(msg.rstrip())
+        return names[name]
+
+    def obstacles(self) -> tuple[Obstacle, ...]:
+        """The movable obstacles where they are now; then those that move by themselves."""
+        moving = (replace(mover.obstacle, pose=mover.pose) for mover in self.movers.values())
+        return (*self.contacts.obstacles(), *moving)
+
+    def pose(self, name: str) -> Pose:
+        """Where a robot or an obstacle is now. Raises `RobotGone`."""
+        if name in self.robots:
+            return self.robots[name].pose
+        obstacle = self._obstacle(name)
+        if name in self.movers:
+            return self.movers[name].pose
+        crate = self.contacts.crate(name)
+        return obstacle.pose if crate is None else crate.pose
+
+    def velocity(self, name: str) -> Velocity:
+        """How fast a robot or an obstacle moves now, in the directions of the frame map [m/s, m/s, rad/s]. Raises `RobotGone`."""
+        crate = self.contacts.crate(name)
+        if crate is not None:
+            return crate.velocity
+        if name in self.robots:
+            v, vy, w = self.robots[name].velocity
+            c, s = math.cos(self.robots[name].pose[2]), math.sin(self.robots[name].pose[2])
+            return (c * v - s * vy, s * v + c * vy, w)
+        self._obstacle(name)
+        return self.movers[name].velocity if name in self.movers else (0.0, 0.0, 0.0)
+
+    def touching(self, name: str) -> list[Touch]:
+        """What a robot, or an obstacle that can move, touches now: with what, where, and how hard. Raises `RobotGone`.
+
+        The forces are those of the last step in which anything touched: what a thing was pushed with, or what wheels that slip push with.
+        """
+        from .touching import touches
+
+        if name not in self.robots:
+            obstacle = self._obstacle(name)
+            if obstacle.fixed:
+                msg = (
+                    f"the obstacle {name!r} is fixed: ask the robots and the things that move what they touch"
+                )
+                raise RobotGone(msg)
+        self._clockwork.tell_places()
+        return touches(self.contacts, name)
+
+    @property
+    def friction(self) -> float:
+        """Friction of bodies on each other."""
+        return self.contacts.surface.friction
+
+    @friction.setter
+    def friction(self, value: float) -> None:
+        self._tune(friction=value)
+
+    @property
+    def gravity(self) -> float:
+        """What presses wheels and things to the ground [m/s2]."""
+        return self.contacts.surface.gravity
+
+    @gravity.setter
+    def gravity(self, value: float) -> None:
+        self._tune(gravity=value)
+
+    @property
+    def surface(self) -> Surface:
+        """Everything about friction and gravity."""
+        return self.contacts.surface
+
+    def _tune(self, **changes: float) -> None:
+        for what, value in changes.items():
+            if not (math.isfinite(value) and value >= 0):
+                msg = f"{what} cannot be {value}; it has to be a finite number, 0 or more"
+                raise WorldError(msg)
+        self.contacts.tune(replace(self.contacts.surface, **changes))
+
     # -- time ----------------------------------------------------------------------------------------------------
 
     def advance(self, until: float) -> None:
         """Let time go on until then; what is over stays as it is."""
-        while until - self.now > EPSILON:
-            if until < self._next_change:
-                self._go(until)
-            else:
-                self._go(self._next_change)
-                self._changes()
-
-    def _changes(self) -> None:
-        """Let happen what is due now: commands that are too old, and the slip of the next second."""
-        for robot in self.robots.values():
-            if robot.expires - self.now <= EPSILON:
-                robot.left_target = robot.right_target = 0.0
-                robot.expires = math.inf
-        if self._slips - self.now <= EPSILON:
-            self._slips += SLIP_PERIOD
-            for robot in self.robots.values():
-                robot.wheels.slip()
-        self._next_change = min([self._slips, *(robot.expires for robot in self.robots.values())])
-
-    def _go(self, until: float) -> None:
-        """Let time go on while nobody's mind changes."""
-        if not self._moving:
-            stuck = False
-            rolled = []
-            dt = until - self.now
-            for robot in self.robots.values():
-                before = robot.wheel_state()
-                pose, moved = robot.roll(dt)
-                rolled.append((robot, before, pose, moved))
-                stuck = stuck or (moved > robot.room and moved > self._look(robot))
-            if not stuck:
-                for robot, _, pose, moved in rolled:
-                    robot.settle()
-                    robot.pose = pose
-                    robot.room -= moved
-                    robot.touching = False
-                self.now = until
-                return
-            for robot, before, _, _ in rolled:
-                robot.set_wheel_state(before)
-        while until - self.now > EPSILON:
-            grid = (math.floor(self.now / STEP + 1e-6) + 1) * STEP
-            self._step(min(grid, until))
-
-    def _step(self, until: float) -> None:
-        """Let time go on by a step, with an eye on what touches."""
-        dt = until - self.now
-        ways, free = {}, not self._moving
-        for robot in self.robots.values():
-            if not robot.touching:
-                robot.note()
-            pose, moved = robot.roll(dt)
-            robot.settle()
-            ways[robot.name] = (robot.pose, pose)
-            robot.room -= moved
-            free = free and (robot.room > 0 or moved == 0)
-        self.now = until
-        if free:
-            for name, (_, pose) in ways.items():
-                self.robots[name].pose = pose
-                self.robots[name].touching = False
-            return
-        self._tell_places()
-        for name, (pose, touching) in self.contacts.step(ways, dt).items():
-            self.robots[name].carried(pose, dt, touching=touching)
-        moving = self.contacts.moving
-        for robot in self.robots.values():
-            if not robot.touching and not moving:
-                self._look(robot)
-        self._moving = moving
-
-    # -- what is near --------------------------------------------------------------------------------------------
-
-    def _look_again(self) -> None:
-        """Forget how much room the robots have."""
-        for robot in self.robots.values():
-            robot.room = 0.0
-
-    def _look(self, robot: Robot) -> float:
-        """Measure, and return, how far a robot can move without touching anything."""
-        self._tell_places()
-        robot.room = self.contacts.room(robot.name) - SAFE
-        return robot.room
-
-    def _tell_places(self) -> None:
-        """Tell the bodies where the robots are that have moved by themselves, and how fast these go."""
-        for robot in self.robots.values():
-            if not robot.touching:
-                v, w = robot.seen
-                theta = robot.pose[2]
-                self.contacts.move(robot.name, robot.pose, (v * math.cos(theta), v * math.sin(theta), w))
-
-    def _solid(self, height: float) -> tuple[Floats, Floats]:
-        """The fixed segments (n, 4) and discs (m, 3) that are at least so high [m]."""
-        if height not in self._scenery:
-            world = self.world
-            segments, discs = _parts([o for o in world.obstacles if not o.movable and o.height >= height])
-            if world.wall_height >= height:
-                segments = np.vstack([world.walls.reshape(-1, 4), segments])
-            self._scenery[height] = (segments, discs)
-        return self._scenery[height]
-
-    def scenery(self, name: str) -> tuple[Floats, Floats]:
-        """What the laser of this robot can see: segments (n, 4) and discs (m, 3), other robots among them, in the frame map."""
-        robot = self.robot(name)
-        height = robot.model.laser.mount[2]
-        segments, discs = self._solid(height)
-        movable = [o for o in self.contacts.obstacles() if o.height >= height]
-        if movable:
-            more_segments, more_discs = _parts(movable)
-            segments, discs = np.vstack([segments, more_segments]), np.vstack([discs, more_discs])
-        others = [_as_disc(other) for other in self.robots.values() if other is not robot]
-        if others:
-            discs = np.vstack([discs, others])
-        return segments, discs
-
-    def scan(self, name: str, noise: Floats | None = None) -> Floats:
-        """The ranges (beams,) [m] that a robot's laser measures now; see `rosmini.sim.lidar.scan`."""
-        robot = self.robot(name)
-        return lidar.scan(robot.model.laser, robot.pose, *self.scenery(name), noise)
-
-    def obstacles(self) -> tuple[Obstacle, ...]:
-        """The movable obstacles where they are now."""
-        return self.contacts.obstacles()
+        self._clockwork.advance(until)
 
     def peek(self, name: str, when: float) -> Pose:
         """Where a robot will be then, soon, without letting time go on: a look changes nothing of what happens.
 
         If something may be in its way until then, the answer is where it is now. Raises `RobotGone`.
         """
-        robot = self.robot(name)
-        if when <= self.now or when > self._next_change or self._moving:
-            return robot.pose
-        kept = robot.wheel_state()
-        pose, moved = robot.roll(when - self.now)
-        robot.set_wheel_state(kept)
-        return pose if moved <= robot.room else robot.pose
+        return self._clockwork.peek(self.robot(name), when)
 
+    def _look_again(self) -> None:
+        """Forget how much room the robots have."""
+        self._changed += 1
+        self._clockwork.look_again()
 
-def _as_disc(robot: Robot) -> tuple[float, float, float]:
-    x, y, theta = robot.pose
-    ahead = robot.model.laser.mount[0]
-    return (x + ahead * math.cos(theta), y + ahead * math.sin(theta), robot.model.body_radius)
+    def state(self) -> EngineState:
+        """Everything that is and moves here: `restore` brings it back, and the same happens from then on, to the last bit.
 
+        The physics forgets, for that, what its solver remembers of the last steps: where nothing touches, a state that is taken changes nothing.
+        """
+        if self.contacts.pruned:
+            self._rebuild()
+        self._renew(self.contacts.memory())
+        return EngineState(
+            now=self.now,
+            world=self.world,
+            noise=self.noise,
+            step=self.step,
+            surface=self.contacts.surface,
+            slips=self._clockwork.slips,
+            moving=self._clockwork.moving,
+            robots=tuple(RobotState(each.name, each.model, each.state()) for each in self.robots.values()),
+            things={
+                crate.obstacle.name: (crate.obstacle, crate.pose, crate.velocity)
+                for crate in self.contacts.crates
+            },
+            movers={
+                name: (mover.clock, mover.pose, mover.room, mover.waiting)
+                for name, mover in self.movers.items()
+            },
+            bodies=self.contacts.memory(),
+        )
 
-def _parts(obstacles: list[Obstacle]) -> tuple[Floats, Floats]:
-    """The sides (n, 4) and the discs (m, 3) of obstacles where they stand."""
-    sides = [edges(o.outline()) for o in obstacles if not isinstance(o.shape, Cylinder)]
-    discs = [(*o.pose[:2], o.shape.radius) for o in obstacles if isinstance(o.shape, Cylinder)]
-    return np.vstack([np.empty((0, 4)), *sides]), np.array(discs, dtype=float).reshape(-1, 3)
+    def restore(self, state: EngineState) -> None:
+        """Be as it was when the state was taken, here or in another engine of the same world. Robots that were not there go, others come back."""
+        same = state.world is self.world and not self.contacts.pruned
+        there = {(each.name, each.model) for each in self.robots.values()}
+        same = same and there == {(each.name, each.model) for each in state.robots}
+        self.now, self.world, self.noise, self.step = state.now, state.world, state.noise, state.step
+        old, self.robots = self.robots, {}
+        for each in state.robots:
+            kept = old.get(each.name)
+            if kept is None or kept.model != each.model:
+                wheels = RealWheels(each.model, self._rng(f"{each.name}/wheels"), self.noise)
+                kept = make_robot(each.name, each.model, (0.0, 0.0, 0.0), wheels)
+            kept.restore(each.state)
+            self.robots[each.name] = kept
+        self._clockwork.look_again()
+        if not same:
+            self._rebuild()
+        self._tune(**asdict(state.surface))
+        for name, (_, pose, velocity) in state.things.items():
+            self.contacts.place(name, pose, velocity)
+        for name, (clock, pose, _, waiting) in state.movers.items():
+            mover = self.movers[name]
+            mover.clock, mover.pose, mover.waiting = clock, pose, waiting
+            self.contacts.place(name, pose)
+        self._renew(state.bodies)
+        for each in state.robots:
+            self.robots[each.name].room = each.state["room"]
+        for name, (_, _, room, _) in state.movers.items():
+            self.movers[name].room = room
+        self._clockwork.slips, self._clockwork.moving = state.slips, state.moving
+        self._clockwork.plan()
+        self._sights.forget(self.world)
+        self._changed += 1
+
+    def _rebuild(self) -> None:
+        """Make all bodies anew, the fixed ones too."""
+        things = {crate.obstacle.name: (crate.pose, crate.velocity) for crate in self.contacts.crates}
+        surface, self._contacts = self.contacts.surface, None
+        self._tune(**asdict(surface))
+        self.movers = {
+            obstacle.name: self.movers.get(obstacle.name) or Mover(obstacle, obstacle.motion)
+            for obstacle in self.world.obstacles
+            if obstacle.motion is not None
+        }
+        for each in self.robots.values():
+            self._embody(each)
+        for crate in self.contacts.crates:
+            if crate.obstacle.name in things:
+                self.contacts.place(crate.obstacle.name, *things[crate.obstacle.name])
+
+    def _renew(self, memory: dict[str, RoverMemory]) -> None:
+        self.contacts.renew({name: each.pose for name, each in self.robots.items()}, memory)
+
+    # -- what is seen --------------------------------------------------------------------------------------------
+
+    def scenery(self, name: str, lidar: LidarModel | None = None) -> tuple[Floats, Floats]:
+        """What the laser of this robot can see: segments (n, 4) and discs (m, 3), other robots among them, in the frame map."""
+        viewer = self.robot(name)
+        laser = viewer.model.laser if lidar is None else lidar
+        x, y, theta = viewer.pose
+        c, s = math.cos(theta), math.sin(theta)
+        mx, my, height = laser.mount
+        x, y = x + c * mx - s * my, y + s * mx + c * my
+        radius = laser.range_max + 6 * laser.noise
+        found = [self._sights.fixed_around(name, x, y, height, radius)]
+        shown = (crate for crate in self.contacts.crates if crate.shown)
+        found += [self._sights.thing(crate.obstacle, height, crate.pose) for crate in shown]
+        found += [self._sights.thing(mover.obstacle, height, mover.pose) for mover in self.movers.values()]
+        if len(self.robots) > 1:
+            every = list(self.robots.values())
+            own = next(i for i, each in enumerate(every) if each is viewer)
+            moment = (self.now, self._changed, len(every))
+            crowd = self._sights.crowd(
+                moment, height, [each.model for each in every], [each.pose for each in every]
+            )
+            found.append(crowd.around(x, y, radius, own))
+        return stacked(found)
+
+    def scan(self, name: str, noise: Floats | None = None, lidar: LidarModel | None = None) -> Floats:
+        """The ranges (beams,) [m] that a laser on a robot measures now: its own, or another; see `rosmini.sim.lidar.scan`.
+
+        Raises `RobotGone`, and `ModelError` if it has none and none is given.
+        """
+        viewer = self.robot(name)
+        laser = viewer.model.laser if lidar is None else lidar
+        return measure(laser, viewer.pose, *self.scenery(name, laser), noise)
+
+    def visible(self, name: str = "") -> list[Part]:
+        """All that stands in the world now, but for its thin walls: parts with their poses in the frame map, each with the name of whose it is.
+
+        What belongs to the robot `name` is left out: no camera sees its own robot.
+        """
+        found = [parts_of(o) for o in self.world.obstacles if o.fixed]
+        found += [parts_of(crate.obstacle, crate.pose) for crate in self.contacts.crates if crate.shown]
+        found += [parts_of(mover.obstacle, mover.pose) for mover in self.movers.values()]
+        for each in self.robots.values():
+            if each.name != name:
+                height = each.model.height
+                found += [
+                    replace(
+                        part,
+                        pose=compose(each.pose, part.pose),
+                        top=part.top if math.isfinite(part.top) else height,
+                        name=each.name,
+                    )
+                    for part in each.model.solid
+                ]
+        return found

@@ -1,6 +1,7 @@
-"""A laser that turns: from what stands around to the ranges of a `sensor_msgs/LaserScan`.
+"""A laser: from what stands around to the ranges of a `sensor_msgs/LaserScan`.
 
-Beam i looks at the angle i 2 pi / n, counter-clockwise from ahead, and measures the distance to the first thing in its way plus Gaussian noise.
+Beam i looks at the angle angle_min + i increment, counter-clockwise from where the laser looks, and measures the distance to the first thing in its way
+plus Gaussian noise. A laser that turns has beams all around: angle_min is 0, and the increment 2 pi / n.
 What it cannot measure follows REP 117 (https://www.ros.org/reps/rep-0117.html), as in Gazebo: inf where nothing is within reach, -inf where something is
 too close. A real LDS-01 sends 0 for what it cannot measure, and its driver, `hls_lfcd_lds_driver`, passes that on; `unmeasured` makes this form of ours.
 
@@ -32,11 +33,11 @@ def scan(
     x, y, theta = pose
     c, s = math.cos(theta), math.sin(theta)
     mx, my, _ = lidar.mount
-    step = 2 * math.pi / lidar.beams
+    first = theta + lidar.yaw + lidar.angle_min
     # the noise may bring a range that is just too long back into reach
     reach = lidar.range_max if noise is None else lidar.range_max + 6 * lidar.noise
     ranges = raycast(
-        segments, discs, x + c * mx - s * my, y + s * mx + c * my, theta, step, lidar.beams, reach
+        segments, discs, x + c * mx - s * my, y + s * mx + c * my, first, lidar.increment, lidar.beams, reach
     )
     return measured(lidar, ranges if noise is None else ranges + noise)
 

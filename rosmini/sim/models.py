@@ -265,6 +265,11 @@ class RobotModel:
         """The distance from base_footprint to the farthest corner of the footprint."""
         return max(math.hypot(x, y) for x, y in self.footprint)
 
+    @cached_property
+    def own_limits(self) -> bool:
+        """Tell whether the robot's speeds have limits besides those of its rims."""
+        return not (math.isinf(self.linear_acceleration) and math.isinf(self.angular_acceleration))
+
     @property
     def laser(self) -> LidarModel:
         """The lidar of a robot that has one. Raises `ModelError`."""

@@ -13,8 +13,10 @@ errors in mobile robots, IEEE Transactions on Robotics and Automation, 1996).
 
 from __future__ import annotations
 
+import copy
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -92,3 +94,15 @@ class RealWheels:
         if self._slip:
             left, right = (self._slip * self._rng.standard_normal(2)).tolist()
             self.left, self.right = self._radii[0] * (1 - left), self._radii[1] * (1 - right)
+
+    def state(self) -> dict[str, Any]:
+        """Everything about them, the generator of their slips included."""
+        kept = {key: value for key, value in vars(self).items() if key != "_rng"}
+        return {**kept, "generator": copy.deepcopy(self._rng.bit_generator.state)}
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Be as they were then."""
+        for key, value in state.items():
+            if key != "generator":
+                setattr(self, key, value)
+        self._rng.bit_generator.state = copy.deepcopy(state["generator"])

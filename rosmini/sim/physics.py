@@ -3,37 +3,44 @@
 A robot that touches nothing moves by its own equations (`rosmini.sim.drive`), exactly. Where it comes to touch something it is asked here, a few
 milliseconds at a time, how far it gets. Walls and fixed obstacles do not move; movable ones are pushed, held by the friction of the ground; and the
 wheels cannot push harder than their grip allows (Coulomb: the force is at most mu m g).
+
+Robots that touch nothing are ghosts here: their bodies may be where they were long ago, and nothing bumps into them.
 """
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Iterable
+from dataclasses import replace
 
-import numpy as np
 import pymunk
-from numpy.typing import NDArray
-from pymunk import autogeometry
 
 from rosmini.geometry.poses import Pose
 
-from .imu import GRAVITY
+from .bodies import (
+    DRAG,
+    FRICTION,
+    GRIP,
+    IS_GHOST,
+    IS_LOOK,
+    IS_SOLID,
+    VIEW,
+    Crate,
+    Leaf,
+    Owner,
+    Rover,
+    Surface,
+    grip_again,
+    hold_again,
+    make_crate,
+    make_leaf,
+    make_rover,
+    put,
+    shapes_of,
+)
 from .models import RobotModel
-from .shapes import ROUND, Simple, simple_parts
 from .world import Obstacle, World
 
-VIEW = 0.5
-"""So far [m] a robot looks around itself; what is farther away does not matter yet."""
-
-GRIP = 0.7
-"""Friction of rubber wheels on the ground. This number and the next two are ordinary ones for such materials; none is published for the robot."""
-
-DRAG = 0.5
-"""Friction of a movable obstacle on the ground."""
-
-FRICTION = 0.3
-"""Friction of bodies on each other."""
+__all__ = ["DRAG", "FRICTION", "GRIP", "VIEW", "Contacts", "Surface", "correction"]
 
 TOUCH = 1e-9
 """Bodies that overlap by less [m] only touch."""
@@ -50,238 +57,405 @@ ROUNDS = 20
 REST = 1e-4
 """A movable obstacle that is slower [m/s, rad/s] stands."""
 
+Velocity = tuple[float, float, float]
+"""Along x and y of the world [m/s], and to the left [rad/s]."""
 
-@dataclass
-class _Crate:
-    obstacle: Obstacle
-    body: pymunk.Body
-    shapes: list[pymunk.Shape]
+AT_REST: Velocity = (0.0, 0.0, 0.0)
 
-
-@dataclass
-class _Rover:
-    model: RobotModel
-    body: pymunk.Body
-    shape: pymunk.Poly
-    view: pymunk.Poly
-    """The footprint grown by VIEW, which nothing bumps into."""
-    axle: pymunk.Body
-    """Goes as the wheels turn, and takes the body along as well as the grip allows."""
-    grip: tuple[pymunk.PivotJoint, pymunk.GearJoint]
+RoverMemory = tuple[float, float, float, tuple[float, float]]
+"""The velocity of a robot's body, and how fast its wheels slide over the ground [m/s]."""
 
 
 class Contacts:
-    """The bodies of one world; robots come and go by name."""
+    """The bodies of one world; robots and things come and go by name."""
 
-    def __init__(self, world: World) -> None:
-        self._space = pymunk.Space()
-        self._space.collision_slop = SLACK
-        self._space.iterations = 30
-        self._names: dict[pymunk.Shape, str] = {}
-        self._rovers: dict[str, _Rover] = {}
-        self._crates: list[_Crate] = []
-        ground = self._space.static_body
+    def __init__(self, world: World, surface: Surface | None = None) -> None:
+        self.surface = Surface() if surface is None else surface
+        self.space = pymunk.Space()
+        self.space.collision_slop = SLACK
+        self.space.iterations = 30
+        self.owners: dict[pymunk.Shape, Owner] = {}
+        self.rovers: dict[str, Rover] = {}
+        self._crates: list[Crate] = []
+        self.leaves: dict[str, Leaf] = {}
+        self.fixed: dict[str, list[pymunk.Shape]] = {}
+        self.dt = 0.0
+        """How long the last step was [s]; 0 before the first."""
+        self.pruned = False
+        """True once a fixed thing was taken away."""
+        self.space.on_collision(1, None, pre_solve=self._pass_under)
+        ground = self.space.static_body
         for x1, y1, x2, y2 in world.walls.tolist():
             wall = pymunk.Segment(ground, (x1, y1), (x2, y2), 0.0)
-            self._add(wall, f"the wall from ({x1:.2f}, {y1:.2f}) to ({x2:.2f}, {y2:.2f})")
+            wall.filter = IS_SOLID
+            self._add(wall, Owner("wall", "wall", 0.0, world.wall_height, (x1, y1, x2, y2)))
         for obstacle in world.obstacles:
-            if obstacle.movable:
-                self._crates.append(self._crate(obstacle))
-            else:
-                for shape in _shapes(obstacle, ground, obstacle.pose):
-                    self._add(shape, f"the obstacle {obstacle.name!r}")
+            self.insert(obstacle)
 
-    def _add(self, shape: pymunk.Shape, name: str) -> None:
-        shape.friction = FRICTION
-        self._names[shape] = name
-        self._space.add(shape)
+    def _add(self, shape: pymunk.Shape, owner: Owner) -> None:
+        shape.friction = self.surface.friction
+        if owner.kind in ("wall", "fixed"):
+            shape.elasticity = 1.0  # how much a thing rebounds from it is told by the thing alone
+        self.owners[shape] = owner
+        self.space.add(shape)
 
-    def _crate(self, obstacle: Obstacle) -> _Crate:
-        mass = obstacle.mass or 0.0
-        body = pymunk.Body()
-        shapes = _shapes(obstacle, body, (0.0, 0.0, 0.0))
-        area = sum(shape.area for shape in shapes)
+    def _pass_under(self, arbiter: pymunk.Arbiter, *_: object) -> None:
+        one, other = (self.owners[shape] for shape in arbiter.shapes)
+        if not one.meets(other.bottom, other.top):
+            arbiter.process_collision = False
+
+    def tune(self, surface: Surface) -> None:
+        """Let things rub otherwise from now on."""
+        self.surface = surface
+        for shape in self.owners:
+            shape.friction = surface.friction
+        for crate in self._crates:
+            self.space.remove(*crate.drag)
+            hold_again(crate, self.space.static_body, surface)
+            self.space.add(*crate.drag)
+        for rover in self.rovers.values():
+            if rover.awake:
+                self.space.remove(*rover.grip)
+            grip_again(rover, surface)
+            if rover.awake:
+                self.space.add(*rover.grip)
+
+    # -- things --------------------------------------------------------------------------------------------------
+
+    def insert(self, obstacle: Obstacle, *, shown: bool = True, loose: bool = False) -> None:
+        """Put a thing where its pose is; `loose` for one that nobody pushes, but that may be put elsewhere."""
+        owner = Owner("fixed", obstacle.name, obstacle.bottom, obstacle.height)
+        if obstacle.movable:
+            crate = make_crate(obstacle, self.space.static_body, self.surface)
+            crate.shown = shown
+            self._crates.append(crate)
+            self._enter(crate)
+            self.place(obstacle.name, obstacle.pose)
+        elif obstacle.motion is not None or loose:
+            leaf = self.leaves[obstacle.name] = make_leaf(obstacle)
+            self.space.add(leaf.body)
+            for shape in leaf.shapes:
+                self._add(shape, replace(owner, kind="leaf"))
+            self.place(obstacle.name, obstacle.at(0.0))
+        else:
+            shapes = self.fixed[obstacle.name] = shapes_of(obstacle, self.space.static_body, obstacle.pose)
+            for shape in shapes:
+                self._add(shape, owner)
+
+    def _enter(self, crate: Crate) -> None:
+        obstacle = crate.obstacle
+        self.space.add(crate.body)
+        for shape in crate.shapes:
+            self._add(shape, Owner("crate", obstacle.name, obstacle.bottom, obstacle.height))
+        self.space.add(*crate.drag)
+
+    def take_away(self, name: str) -> None:
+        """Take a thing away."""
+        crate = self.crate(name)
+        if crate is not None:
+            self._crates.remove(crate)
+            self.space.remove(*crate.drag, *crate.shapes, crate.body)
+            shapes = crate.shapes
+        elif name in self.leaves:
+            leaf = self.leaves.pop(name)
+            self.space.remove(*leaf.shapes, leaf.body)
+            shapes = leaf.shapes
+        else:
+            shapes = self.fixed.pop(name)
+            self.pruned = True
+            self.space.remove(*shapes)
         for shape in shapes:
-            shape.density = mass / area
-        self._space.add(body)
-        for shape in shapes:
-            self._add(shape, f"the obstacle {obstacle.name!r}")
-        x, y, theta = obstacle.pose
-        _put(body, (x, y, theta))
-        ground = self._space.static_body
-        slide = pymunk.PivotJoint(ground, body, (0, 0), body.center_of_gravity)
-        turn = pymunk.GearJoint(ground, body, 0.0, 1.0)
-        slide.max_bias = turn.max_bias = 0.0  # they hold what moves and pull nothing back
-        slide.max_force = DRAG * mass * GRAVITY
-        # the lever of friction that is spread over a disc of this size is two thirds of its radius
-        turn.max_force = slide.max_force * 2 / 3 * math.sqrt(area / math.pi)
-        self._space.add(slide, turn)
-        self._space.reindex_shapes_for_body(body)
-        return _Crate(obstacle, body, shapes)
+            del self.owners[shape]
+
+    def crate(self, name: str) -> Crate | None:
+        """The thing of this name that can be pushed, if there is one."""
+        return next((crate for crate in self._crates if crate.obstacle.name == name), None)
+
+    @property
+    def crates(self) -> list[Crate]:
+        """All things that can be pushed."""
+        return self._crates
+
+    def place(self, name: str, pose: Pose, velocity: Velocity = AT_REST) -> None:
+        """Put a thing that is not fixed elsewhere; only what can be pushed has a velocity there."""
+        crate = self.crate(name)
+        body = self.leaves[name].body if crate is None else crate.body
+        put(body, pose)
+        if crate is not None:
+            (vx, vy, w), lever = velocity, body.center_of_gravity.rotated(body.angle)
+            body.velocity, body.angular_velocity = (vx - w * lever.y, vy + w * lever.x), w
+        self.space.reindex_shapes_for_body(body)
+
+    @property
+    def moving(self) -> bool:
+        """True while something that was pushed still moves."""
+        return any(_slides(crate.body) for crate in self._crates)
+
+    def sliding(self) -> list[Crate]:
+        """The things that were pushed and still move."""
+        return [crate for crate in self._crates if _slides(crate.body)]
+
+    def obstacles(self) -> tuple[Obstacle, ...]:
+        """The movable obstacles where they are now."""
+        return tuple(replace(crate.obstacle, pose=crate.pose) for crate in self._crates if crate.shown)
+
+    def reset(self) -> None:
+        """Put the movable obstacles back to where they were."""
+        for crate in self._crates:
+            self.place(crate.obstacle.name, crate.obstacle.pose)
+
+    def stuck(self, name: str, pose: Pose) -> bool:
+        """Tell whether something that can give way is where a thing that moves by itself would be at `pose`, more than where it is now."""
+        leaf = self.leaves[name]
+        owner = self.owners[leaf.shapes[0]]
+        put(leaf.probe, pose)
+        return any(
+            self._depth_in_others(probe, owner) > max(10 * SLACK, self._depth_in_others(shape, owner))
+            for probe, shape in zip(leaf.probes, leaf.shapes, strict=True)
+        )
+
+    def _depth_in_others(self, shape: pymunk.Shape, owner: Owner) -> float:
+        deepest = 0.0
+        for hit in self.space.shape_query(shape):
+            if hit.shape is not None:
+                other = self.owners[hit.shape]
+                if (
+                    other.kind in ("robot", "crate", "leaf")
+                    and other.name != owner.name
+                    and owner.meets(other.bottom, other.top)
+                ):
+                    deepest = max(deepest, *_depths(hit.contact_point_set))
+        return deepest
 
     # -- robots --------------------------------------------------------------------------------------------------
 
     def add(self, name: str, model: RobotModel, pose: Pose) -> None:
         """Put a robot there."""
-        body = pymunk.Body(model.mass, model.inertia)
-        shape = pymunk.Poly(body, model.footprint)
-        view = pymunk.Poly(body, model.footprint, radius=VIEW)
-        axle = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
-        along, around = pymunk.PivotJoint(axle, body, (0, 0), (0, 0)), pymunk.GearJoint(axle, body, 0.0, 1.0)
-        along.max_bias = around.max_bias = 0.0  # they bring speeds together, not places
-        along.max_force = GRIP * model.mass * GRAVITY
-        around.max_force = along.max_force * model.wheel_separation / 2
-        self._space.add(body, axle, along, around)
-        self._add(shape, f"the robot {name!r}")
-        self._rovers[name] = _Rover(model, body, shape, view, axle, (along, around))
+        rover = self.rovers[name] = make_rover(model, self.surface)
+        self.space.add(rover.body, rover.axle)
+        self._add(rover.shape, Owner("robot", name, 0.0, model.height))
         self.move(name, pose)
 
     def remove(self, name: str) -> None:
         """Take a robot away."""
-        rover = self._rovers.pop(name)
-        del self._names[rover.shape]
-        self._space.remove(*rover.grip, rover.shape, rover.body, rover.axle)
+        rover = self.rovers.pop(name)
+        del self.owners[rover.shape]
+        if rover.awake:
+            self.space.remove(*rover.grip)
+        self.space.remove(rover.shape, rover.body, rover.axle)
 
-    def move(self, name: str, pose: Pose, velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+    def wake(self, names: Iterable[str]) -> None:
+        """Let these robots, and no others, be bumped into."""
+        wanted = set(names)
+        for name, rover in self.rovers.items():
+            if rover.awake != (name in wanted):
+                self._wake(rover, awake=name in wanted)
+
+    def _wake(self, rover: Rover, *, awake: bool) -> None:
+        rover.awake = awake
+        rover.shape.filter = IS_SOLID if awake else IS_GHOST
+        if awake:
+            grip_again(rover, self.surface)
+            self.space.add(*rover.grip)
+        else:
+            self.space.remove(*rover.grip)
+            rover.body.velocity, rover.body.angular_velocity = (0.0, 0.0), 0.0
+            rover.slip = (0.0, 0.0)
+
+    def move(self, name: str, pose: Pose, velocity: Velocity = AT_REST) -> None:
         """Tell where a robot is that has moved by itself, and how fast it goes in the world's directions."""
-        body = self._rovers[name].body
-        _put(body, pose)
+        body = self.rovers[name].body
+        put(body, pose)
         body.velocity, body.angular_velocity = velocity[:2], velocity[2]
-        self._space.reindex_shapes_for_body(body)
+        self.space.reindex_shapes_for_body(body)
 
     def hindrance(self, model: RobotModel, pose: Pose, ignoring: str = "") -> str | None:
         """Return what a robot of this model would overlap with at `pose`, in words; None if it has room there."""
-        probe = pymunk.Body(model.mass, model.inertia)
-        shape = pymunk.Poly(probe, model.footprint)
-        _put(probe, pose)
-        rover = self._rovers.get(ignoring)
-        found = [
-            hit.shape
-            for hit in self._space.shape_query(shape)
-            if max(_depths(hit.contact_point_set)) > OVERLAP
-        ]
-        # of two shapes that coincide pymunk knows no depth
-        middle = probe.local_to_world(shape.center_of_gravity)
-        found += [hit.shape for hit in self._space.point_query(middle, 0.0, pymunk.ShapeFilter())]
-        names = [
-            self._names[each]
-            for each in found
-            if each is not None and (rover is None or each is not rover.shape)
-        ]
-        return names[0] if names else None
+        probe = pymunk.Body(1.0, 1.0)
+        return self._in_the_way(
+            [pymunk.Poly(probe, model.footprint)], probe, pose, ignoring, 0.0, model.height
+        )
+
+    def hindrance_of(self, obstacle: Obstacle, pose: Pose) -> str | None:
+        """Return what a thing would overlap with at `pose`, in words; None if it has room there. Fixed things and walls do not count."""
+        probe = pymunk.Body(1.0, 1.0)
+        shapes = shapes_of(obstacle, probe, (0.0, 0.0, 0.0))
+        soft = ("robot", "crate", "leaf")
+        return self._in_the_way(shapes, probe, pose, obstacle.name, obstacle.bottom, obstacle.height, soft)
+
+    def _in_the_way(
+        self,
+        shapes: list[pymunk.Shape],
+        probe: pymunk.Body,
+        pose: Pose,
+        ignoring: str,
+        bottom: float,
+        top: float,
+        kinds: tuple[str, ...] = ("wall", "fixed", "robot", "crate", "leaf"),
+    ) -> str | None:
+        put(probe, pose)
+        found: list[pymunk.Shape | None] = []
+        for shape in shapes:
+            shape.filter = IS_LOOK
+            hits = self.space.shape_query(shape)
+            found += [hit.shape for hit in hits if max(_depths(hit.contact_point_set)) > OVERLAP]
+        for shape in shapes:
+            # of two shapes that coincide pymunk knows no depth
+            middle = probe.local_to_world(shape.center_of_gravity)
+            found += [hit.shape for hit in self.space.point_query(middle, 0.0, IS_LOOK)]
+        for each in found:
+            if each is not None:
+                owner = self.owners[each]
+                if owner.kind in kinds and owner.name != ignoring and owner.meets(bottom, top):
+                    return owner.words()
+        return None
 
     def room(self, name: str) -> float:
         """How far [m] any point of a robot can move before it touches something, if that is not more than VIEW.
 
         Of the way to another robot that is half, for both may be coming.
         """
-        rover = self._rovers[name]
-        free = VIEW
-        for hit in self._space.shape_query(rover.view):
+        return min([VIEW, *(gap / 2 if moves else gap for gap, _, moves in self.around(name))])
+
+    def around(self, name: str) -> list[tuple[float, str, bool]]:
+        """What is within VIEW of a robot: how far away [m], whose it is, and whether that moves by itself.
+
+        Of robots that sleep it is told how far they are from where they were last told to be.
+        """
+        rover = self.rovers[name]
+        found = []
+        for hit in self.space.shape_query(rover.view):
             if hit.shape is None or hit.shape is rover.shape:
                 continue
-            gap = VIEW - max(_depths(hit.contact_point_set))
-            free = min(free, gap / 2 if self._is_robot(hit.shape) else gap)
-        return free
-
-    def _is_robot(self, shape: pymunk.Shape) -> bool:
-        return any(shape is rover.shape for rover in self._rovers.values())
-
-    # -- movable obstacles ---------------------------------------------------------------------------------------
-
-    @property
-    def moving(self) -> bool:
-        """True while an obstacle moves."""
-        return any(_slides(crate.body) for crate in self._crates)
-
-    def obstacles(self) -> tuple[Obstacle, ...]:
-        """The movable obstacles where they are now."""
-        return tuple(_moved(crate.obstacle, crate.body) for crate in self._crates)
-
-    def reset(self) -> None:
-        """Put the movable obstacles back to where they were."""
-        for crate in self._crates:
-            _put(crate.body, crate.obstacle.pose)
-            crate.body.velocity, crate.body.angular_velocity = (0.0, 0.0), 0.0
-            self._space.reindex_shapes_for_body(crate.body)
+            owner = self.owners[hit.shape]
+            if owner.bottom <= rover.model.height:
+                gap = VIEW - max(_depths(hit.contact_point_set))
+                found.append((gap, owner.name, owner.kind in ("robot", "leaf")))
+        return found
 
     # -- contact -------------------------------------------------------------------------------------------------
 
     def step(self, ways: dict[str, tuple[Pose, Pose]], dt: float) -> dict[str, tuple[Pose, bool]]:
         """Let `dt` seconds pass in which each robot's wheels take it from the first pose to the second, if nothing is in the way.
 
-        Return where each robot is then, and whether anything kept it from where it would have gone.
+        Return where each robot is then, and whether anything kept it from where it would have gone. Robots that are not told of are ghosts.
         """
+        for name in ways:
+            if not self.rovers[name].awake:
+                self._wake(self.rovers[name], awake=True)
         poses = {name: after for name, (_, after) in ways.items()}
         for name, pose in poses.items():
-            _put(self._rovers[name].body, pose)
+            put(self.rovers[name].body, pose)
         held = self._make_way(poses, dt)
         for name, (before, after) in ways.items():
-            rover = self._rovers[name]
+            rover = self.rovers[name]
             body, axle = rover.body, rover.axle
             axle.velocity = ((after[0] - before[0]) / dt, (after[1] - before[1]) / dt)
             axle.angular_velocity = (after[2] - before[2]) / dt
             # pymunk moves each body by the velocity it has, looks what touches, and then changes the velocities
             (vx, vy), w = body.velocity, body.angular_velocity
             x, y, theta = poses[name]
-            _put(body, (x - vx * dt, y - vy * dt, theta - w * dt))
-        self._space.step(dt)
+            put(body, (x - vx * dt, y - vy * dt, theta - w * dt))
+            rover.slip = ((after[0] - x) / dt, (after[1] - y) / dt) if name in held else (0.0, 0.0)
+        self.space.step(dt)
+        self.dt = dt
         for name, pose in poses.items():
-            _put(self._rovers[name].body, pose)
+            put(self.rovers[name].body, pose)
         return {name: (pose, name in held) for name, pose in poses.items()}
 
     def _make_way(self, poses: dict[str, Pose], dt: float) -> set[str]:
         """Bring the robots out of what they have driven into, and out of each other; return who was moved by that."""
-        sliding = [crate.body for crate in self._crates if _slides(crate.body)]
+        sliding = [crate.body for crate in self.sliding()]
         kept = [(*body.position, body.angle) for body in sliding]
         for body in sliding:  # to where they will be when the step is over
             body.angle += body.angular_velocity * dt
             body.position += body.velocity * dt
-            self._space.reindex_shapes_for_body(body)
+            self.space.reindex_shapes_for_body(body)
         for name in poses:
-            self._space.reindex_shapes_for_body(self._rovers[name].body)
+            self.space.reindex_shapes_for_body(self.rovers[name].body)
         moved: set[str] = set()
+        names = list(poses)
         for _ in range(ROUNDS):
-            pushed = [other for name in poses for other in self._push_out(name, poses)]
-            if not pushed:
+            pushed = {name: self._push_out(name, poses) for name in names}
+            again = [other for others in pushed.values() for other in others]
+            if not again:
                 break
-            moved.update(pushed)
+            moved.update(again)
         for body, pose in zip(sliding, kept, strict=True):
-            _put(body, pose)
+            put(body, pose)
         return moved
 
     def _push_out(self, name: str, poses: dict[str, Pose]) -> list[str]:
         """Move a robot out of the thing into which it reaches deepest, and a robot there likewise; return who was moved."""
+        rover = self.rovers[name]
         worst, hit = TOUCH, None
-        for each in self._space.shape_query(self._rovers[name].shape):
+        for each in self.space.shape_query(rover.shape):
             depth = max(_depths(each.contact_point_set)) - self._slack(each.shape)
-            if depth > worst:
+            if (
+                depth > worst
+                and each.shape is not None
+                and self.owners[each.shape].bottom <= rover.model.height
+            ):
                 worst, hit = depth, each
-        if hit is None:
+        if hit is None or hit.shape is None:
             return []
         n = hit.contact_point_set.normal
         slack = self._slack(hit.shape)
         depths = [depth - slack for depth in _depths(hit.contact_point_set)]
         places = [point.point_a for point in hit.contact_point_set.points]
-        others = [
-            other for other, rover in self._rovers.items() if rover.shape is hit.shape and other in poses
-        ]
+        owner = self.owners[hit.shape]
+        others = [owner.name] if owner.kind == "robot" and owner.name in poses else []
         for who, nx, ny in [(name, -n.x, -n.y), *((other, n.x, n.y) for other in others)]:
             x, y, theta = poses[who]
-            model = self._rovers[who].model
+            model = self.rovers[who].model
             levers = [(place.x - x) * ny - (place.y - y) * nx for place in places]
             along, turn = correction(depths, levers, model.mass, model.inertia)
             part = 1 / (1 + len(others))
             poses[who] = (x + part * along * nx, y + part * along * ny, theta + part * turn)
-            body = self._rovers[who].body
-            _put(body, poses[who])
-            self._space.reindex_shapes_for_body(body)
+            body = self.rovers[who].body
+            put(body, poses[who])
+            self.space.reindex_shapes_for_body(body)
         return [name, *others]
 
     def _slack(self, shape: pymunk.Shape | None) -> float:
         """How deep a robot may reach into a shape."""
         body = None if shape is None else shape.body
         return SLACK if body is not None and body.body_type == pymunk.Body.DYNAMIC else 0.0
+
+    # -- the same again ------------------------------------------------------------------------------------------
+
+    def memory(self) -> dict[str, RoverMemory]:
+        """What the bodies of robots have that may touch something: it is nowhere else."""
+        return {
+            name: (*rover.body.velocity, rover.body.angular_velocity, rover.slip)
+            for name, rover in self.rovers.items()
+            if rover.awake
+        }
+
+    def renew(self, poses: dict[str, Pose], memory: dict[str, RoverMemory]) -> None:
+        """Make all that moves anew, in the order of the names, with robots at these poses: what the solver remembers of earlier steps is forgotten."""
+        models = {name: rover.model for name, rover in self.rovers.items()}
+        for name in models:
+            self.remove(name)
+        loose: list[Crate | Leaf] = [*self._crates, *self.leaves.values()]
+        for each in loose:
+            drag = each.drag if isinstance(each, Crate) else ()
+            self.space.remove(*drag, *each.shapes, each.body)
+        for each in sorted(loose, key=lambda thing: thing.obstacle.name):
+            pose, velocity = each.pose, each.velocity
+            self.space.add(each.body, *each.shapes)
+            if isinstance(each, Crate):
+                hold_again(each, self.space.static_body, self.surface)
+                self.space.add(*each.drag)
+            self.place(each.obstacle.name, pose, velocity)
+        for name in sorted(models):
+            self.add(name, models[name], poses[name])
+        for name, (vx, vy, w, slip) in sorted(memory.items()):
+            self._wake(self.rovers[name], awake=True)
+            self.move(name, poses[name], (vx, vy, w))
+            self.rovers[name].slip = slip
+        self.rovers = {name: self.rovers[name] for name in models}
+        self.dt = 0.0
 
 
 def correction(depths: list[float], levers: list[float], mass: float, inertia: float) -> tuple[float, float]:
@@ -311,47 +485,3 @@ def _depths(contacts: pymunk.ContactPointSet) -> list[float]:
     """How deep two shapes overlap at each point of their contact; pymunk's own `distance` has either sign."""
     n = contacts.normal
     return [(point.point_a - point.point_b).dot(n) for point in contacts.points]
-
-
-def _put(body: pymunk.Body, pose: Pose) -> None:
-    # in this order: pymunk turns a body about its centre of mass, which takes its origin elsewhere
-    body.angle = pose[2]
-    body.position = (pose[0], pose[1])
-
-
-def _moved(obstacle: Obstacle, body: pymunk.Body) -> Obstacle:
-    from dataclasses import replace
-
-    return replace(obstacle, pose=(body.position.x, body.position.y, body.angle))
-
-
-def _shapes(obstacle: Obstacle, body: pymunk.Body, pose: Pose) -> list[pymunk.Shape]:
-    """The convex parts of an obstacle that stands at `pose` of the body's frame."""
-    return [
-        piece for shape, place in simple_parts(obstacle.shape, pose) for piece in _pieces(shape, body, place)
-    ]
-
-
-def _pieces(shape: Simple, body: pymunk.Body, pose: Pose) -> list[pymunk.Shape]:
-    x, y, theta = pose
-    if isinstance(shape, ROUND):
-        return [pymunk.Circle(body, shape.radius, (x, y))]
-    outline: NDArray[np.float64] = shape.outline
-    placed = pymunk.Transform(
-        a=math.cos(theta), b=math.sin(theta), c=-math.sin(theta), d=math.cos(theta), tx=x, ty=y
-    )
-    make = partial(pymunk.Poly, body, transform=placed)
-    corners = [(float(px), float(py)) for px, py in outline]
-    if _convex(corners):
-        return [make(corners)]
-    return [make(part) for part in autogeometry.convex_decomposition([*corners, corners[0]], 0.0)]
-
-
-def _convex(corners: list[tuple[float, float]]) -> bool:
-    turns = [
-        (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
-        for (ax, ay), (bx, by), (cx, cy) in zip(
-            corners, corners[1:] + corners[:1], corners[2:] + corners[:2], strict=True
-        )
-    ]
-    return all(turn >= 0 for turn in turns)

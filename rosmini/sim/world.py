@@ -83,6 +83,10 @@ class Obstacle:
     """How high above the ground it begins [m]: what is lower, a robot or a laser, passes under it."""
     motion: Motion | None = None
     """How it moves by itself; None: it does not."""
+    drag: float | None = None
+    """Of what can be pushed: its friction on the ground; None: that of the engine, 0.5."""
+    restitution: float = 0.0
+    """Of what can be pushed: how much of its speed it has after a blow, from 0 to 1; of two such things the product counts."""
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not self.name.strip():
@@ -108,6 +112,8 @@ class Obstacle:
             )
             or (positive_problem("mass", self.mass) if self.mass is not None else "")
             or colour_problem(self.colour)
+            or ("" if self.drag is None else _range_problem("drag", self.drag, math.inf))
+            or _range_problem("restitution", self.restitution, 1.0)
             or self._motion_problem()
         )
         if problem:
@@ -208,8 +214,10 @@ class World:
             return f"walls[{wrong[0]}] is {walls[wrong[0]].tolist()}; its numbers have to be finite"
         walls.flags.writeable = False
         object.__setattr__(self, "walls", walls)
+        if not self.solid:
+            return ""
         ends, counts = np.unique(walls.reshape(-1, 2), axis=0, return_counts=True)
-        if self.solid and (counts % 2).any():
+        if (counts % 2).any():
             x, y = ends[counts % 2 == 1][0]
             return (
                 f"its walls are solid but not closed: one ends at ({x:.3f}, {y:.3f}), where no other begins"
@@ -374,3 +382,9 @@ class _Place:
 
 def _count(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def _range_problem(field_name: str, value: object, most: float) -> str:
+    if is_finite(value) and 0 <= float(value) <= most:  # type: ignore[arg-type]
+        return ""
+    return f"{field_name} is {value!r}; it has to be a finite number from 0 {'on' if math.isinf(most) else f'to {most:g}'}"

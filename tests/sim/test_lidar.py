@@ -80,13 +80,13 @@ def test_what_is_lower_than_the_laser_is_not_seen():
     assert seen(0.25) == pytest.approx(0.9 + 0.032)
 
 
-def test_robots_see_one_another_as_discs():
+def test_robots_see_one_another_at_the_height_of_the_laser():
     engine = Engine(world("empty"), lambda name: np.random.default_rng(0), noise=0.0)
     engine.add("one", BURGER, (0.0, 0.0, 0.0))
     engine.add("two", BURGER, (1.0, 0.0, math.pi))
-    # from laser to laser it is 1.064 m
-    assert engine.scan("one")[0] == pytest.approx(1.064 - 0.105)
-    assert engine.scan("two")[0] == pytest.approx(1.064 - 0.105)
+    # the other's laser is a disc of 55 mm, 17 mm behind its axle; from the own laser to its middle it is 1.049 m
+    assert engine.scan("one")[0] == pytest.approx(1.049 - 0.055)
+    assert engine.scan("two")[0] == pytest.approx(1.049 - 0.055)
     engine.remove("two")
     assert not np.isfinite(engine.scan("one")).any()
 
