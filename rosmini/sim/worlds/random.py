@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,7 @@ THICKNESS = 0.12
 NARROWEST = 2.0
 """What a room measures at least, either way [m]."""
 HEIGHT = 0.6
-COLOURS = ("blue", "orange", "green", "vermilion", "purple", "sky")
+COLOURS = ("blue", "orange", "green", "vermilion", "sky")
 TRIES = 400
 
 
@@ -75,6 +76,8 @@ def _check(size: tuple[float, float], **counts: int) -> None:
         if not isinstance(value, int) or isinstance(value, bool) or value < least:
             raise WorldError(f"{name} is {value!r}; it has to be a whole number, {least} or more")
 
+
+Floats = NDArray[np.float64]
 
 Rectangle = tuple[float, float, float, float]
 """x and y of the lower left and of the upper right corner [m]."""
@@ -155,6 +158,11 @@ class _Plan:
 
     # ---- things ----
 
+    @cached_property
+    def sides(self) -> Floats:
+        """Of the walls (n, 4), once there are all."""
+        return np.vstack([polygons.sides_of(each.outline()) for each in self.walls])
+
     def place_thing(self, number: int, *, pushed: bool) -> None:
         """Put a thing where it leaves a passage all around; nowhere if there is no such place."""
         shape, reach = self._shape(pushed=pushed)
@@ -196,9 +204,8 @@ class _Plan:
 
     def _clear(self, way: tuple[float, float, float, float], from_walls: float, from_things: float) -> bool:
         """Tell whether a straight way, or a place, keeps away from walls, things and the ways of walkers."""
-        sides = np.vstack([polygons.sides_of(each.outline()) for each in self.walls])
         begin_end = np.array(way).reshape(2, 2)
-        if _apart(np.array(way), sides) < from_walls:
+        if _apart(np.array(way), self.sides) < from_walls:
             return False
         if self.discs:
             discs = np.array(self.discs)
@@ -239,9 +246,6 @@ class _Plan:
             if apart and self._clear((x, y, x, y), PASSAGE / 2, PASSAGE / 2 + 0.1):
                 found.append((x, y, round(float(self.rng.uniform(-math.pi, math.pi)), 3)))
         return found
-
-
-Floats = NDArray[np.float64]
 
 
 def _apart(way: Floats, sides: Floats) -> float:
