@@ -33,7 +33,7 @@ class StageLaser:
     """A ranger: one fan of rays, equally far apart, the first and the last on the borders of its field of view."""
 
     pose: Pose4
-    """Seen from the robot's pose on the ground; where the rays come from is `height` above the ground."""
+    """Seen from the robot's pose; the rays come from `height` above the ground [m]."""
     height: float
     range_min: float
     range_max: float
@@ -50,7 +50,9 @@ class StageCamera:
     """A camera, which also measures depth."""
 
     pose: Pose4
-    """Seen from the robot's pose on the ground."""
+    """Seen from the robot's pose."""
+    elevation: float
+    """How high above the ground it is [m]."""
     width: int
     height: int
     fov: tuple[float, float]
@@ -58,9 +60,9 @@ class StageCamera:
     near: float
     far: float
     pan: float
-    """[rad], to the left"""
+    """How far it is turned to the right of its pose [rad]: Stage's sense, against REP 103."""
     tilt: float
-    """[rad], downwards"""
+    """How far it looks down [rad]."""
     place: Place
 
 
@@ -262,5 +264,14 @@ def _camera(thing: Thing, base: Thing) -> StageCamera:
     fov = (math.radians(horizontal), math.radians(vertical))
     pose = moved(_on(thing, base), thing.origin)
     return StageCamera(
-        pose, int(width), int(height), fov, near, far, math.radians(pan), math.radians(tilt), thing.place
+        pose,
+        base.at[2] + pose[2],
+        int(width),
+        int(height),
+        fov,
+        near,
+        far,
+        math.radians(pan),
+        math.radians(tilt),
+        thing.place,
     )
