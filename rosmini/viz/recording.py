@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry.poses import Pose
-from rosmini.sim.recording import Drift, Recording
+from rosmini.sim.recording import Drift, Moved, Recording
 from rosmini.viz.beams import beams_of
 from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, place, say, step_of, ticks
 from rosmini.viz.rounding import degrees, fixed, kept, snap
 from rosmini.viz.rqt.wording import plural
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
-from rosmini.viz.world import HEIGHT, Scene, laser_pose, pose_text
+from rosmini.viz.world import HEIGHT, Other, Scene, laser_pose, pose_text
 from rosmini.viz.world_drawing import DASHES
 
 if TYPE_CHECKING:
@@ -28,18 +28,26 @@ Floats = NDArray[np.float64]
 LEFT, GAP, TOP, BOTTOM, ROW_GAP = 50.0, 66.0, 58.0, 42.0, 50.0
 """Around and between the plots [px]."""
 STROKE = 1.8
+LEAST_WAY = 0.005
+"""A thing that was moved by less [m] is not said to have moved."""
 
 
 class RunScene(Scene):
     """The end of a run, and the way to there."""
 
     def __init__(self, recording: Recording, *, scan: bool) -> None:
-        super().__init__(recording.world, recording.model)
+        end = float(recording.times[-1])
+        super().__init__(recording.world_at(end) if recording.things else recording.world, recording.model)
         self.recording = recording
         self.trail = recording.truth
         self.odom = recording.odom_in_map()
         self.robot = _pose(self.trail[-1])
         self.ghost = _pose(self.odom[-1])
+        self.name = recording.name
+        self.others = [Other(run.name, run.model, run.pose_at(end), run.truth) for run in recording.others]
+        moved = [thing for thing in recording.things if thing.distance > LEAST_WAY]
+        self.places = [thing.obstacle for thing in moved]
+        self.ways = [(thing.poses[:, :2], thing.obstacle.colour) for thing in moved]
         if scan:
             if not len(recording.scans):
                 raise ViewError("no scan was recorded: leave scan=True out, or let the simulation run longer")
@@ -49,12 +57,15 @@ class RunScene(Scene):
     def text(self, title: str | None) -> str:
         """What happened, in numbers."""
         run = self.recording
+        name = run.name if run.others and run.name else run.model.name
         lines = [
             f"{title or f'run in {run.world.name}'}: {fixed(run.distance, 2)} m in {fixed(run.duration, 1)} s",
-            f"{run.model.name}: start {pose_text(run.truth[0])}, end {pose_text(run.truth[-1])}",
+            f"{name}: start {pose_text(run.truth[0])}, end {pose_text(run.truth[-1])}",
             f"odometry: {_drift_text(run.drift())} at the end",
             f"recorded: {plural(len(run.times), 'pose')}, {plural(len(run.scans), 'scan')}, {plural(len(run.commands), 'command')}",
         ]
+        lines += [_other_text(other) for other in run.others]
+        lines += [f"{thing.obstacle.name}: moved {fixed(thing.distance, 2)} m" for thing in self._moved()]
         if self.beams is not None:
             lines.append(f"last scan: {self.beams.text()}")
         return "\n".join(lines)
@@ -66,8 +77,23 @@ class RunScene(Scene):
         return (
             f"The way of a robot in the world {run.world.name}, from above: a solid line from {pose_text(run.truth[0])} to "
             f"{pose_text(run.truth[-1])}, {fixed(run.distance, 2)} m long, driven in {fixed(run.duration, 1)} s. A dashed line shows "
-            f"where odometry believes that it was: {_drift_text(run.drift())} at the end.{seen}"
+            f"where odometry believes that it was: {_drift_text(run.drift())} at the end.{self._beside()}{seen}"
         )
+
+    def _moved(self) -> list[Moved]:
+        return [thing for thing in self.recording.things if thing.distance > LEAST_WAY]
+
+    def _beside(self) -> str:
+        """Other robots and things that moved, as sentences."""
+        others, moved = self.recording.others, [thing.obstacle.name for thing in self._moved()]
+        said = ""
+        if others:
+            ways = [f"{run.name} drove {fixed(run.distance, 2)} m" for run in others[:6]]
+            more = f", and {len(others) - 6} more" if len(others) > 6 else ""
+            said += f" Beside it {', '.join(ways)}{more}."
+        if moved:
+            said += f" Moved, with a dashed outline where it stood at first: {', '.join(moved)}."
+        return said
 
 
 def recording_picture(
@@ -79,8 +105,8 @@ def recording_picture(
 ) -> Picture:
     """Draw a run from above: where the robot was, and where its odometry believes that it was, laid on the same start.
 
-    At the end of each way the robot is drawn: as it is, and as a dashed outline where odometry puts it. Obstacles stand where
-    they stood at first, for no message says whether they were pushed.
+    At the end of each way the robot is drawn: as it is, and as a dashed outline where odometry puts it. Other robots have colours and names. Things
+    stand where they stood at the end if they were recorded, with a dashed outline where they stood at first, else where they stood at first.
 
     Args:
         recording: the run.
@@ -95,11 +121,14 @@ def recording_picture(
     return RunScene(_checked(recording), scan=scan).picture(title, size)
 
 
-def recording_plots(recording: Recording, *, title: str | None = None, width: float = WIDTH) -> Picture:
+def recording_plots(
+    recording: Recording, *, odometry: bool = True, title: str | None = None, width: float = WIDTH
+) -> Picture:
     """Plot a run over time: the velocities, as commanded and as driven, and how far odometry is off.
 
     Args:
         recording: the run.
+        odometry: whether the error of odometry is plotted beside the velocities.
         title: a caption under the picture, and the first words of its text form.
         width: of the picture [CSS px].
 
@@ -111,15 +140,14 @@ def recording_plots(recording: Recording, *, title: str | None = None, width: fl
     if not run.duration:
         raise ViewError("a run of a single moment cannot be plotted over time: let the simulation run longer")
     with house_style():
-        figure = _plots(run, width)
-        return matplotlib_picture(
-            figure, text=_plots_text(run, title), alt=_plots_alt(run), form="svg", caption=title
-        )
+        figure = _plots(run, width, odometry=odometry)
+        text, alt = _plots_text(run, title, odometry=odometry), _plots_alt(run, odometry=odometry)
+        return matplotlib_picture(figure, text=text, alt=alt, form="svg", caption=title)
 
 
-def _plots(run: Recording, width: float) -> Figure:
+def _plots(run: Recording, width: float, *, odometry: bool) -> Figure:
     row = 132.0
-    column = (width - 2 * LEFT - GAP + 40.0) / 2
+    column = (width - 2 * LEFT - GAP + 40.0) / 2 if odometry else width - 2 * LEFT + 40.0
     figure = blank_figure(width, TOP + 2 * row + ROW_GAP + BOTTOM)
     driven, drift = run.velocities(), run.drift()
     span = (float(run.times[0]), float(run.times[-1]))
@@ -131,9 +159,11 @@ def _plots(run: Recording, width: float) -> Figure:
         if len(given):
             times = np.append(np.repeat(run.commands[:, 0], 2)[1:], span[1])
             _curve(axes, times, np.repeat(given, 2), "orange", dashed=True, label="commanded")
-    for i, (values, label) in enumerate(
-        ((drift.position, "odometry: position error [m]"), (np.rad2deg(drift.heading), "odometry: heading error [deg]"))
-    ):  # fmt: skip
+    errors = (
+        (drift.position, "odometry: position error [m]"),
+        (np.rad2deg(drift.heading), "odometry: heading error [deg]"),
+    )
+    for i, (values, label) in enumerate(errors if odometry else ()):
         axes = place(figure, LEFT + column + GAP, TOP + i * (row + ROW_GAP), column, row)
         _frame(axes, label, span, values, (0.01, 1.0)[i], last=i == 1)
         _curve(axes, run.times, values, "vermilion")
@@ -179,7 +209,7 @@ def _curve(
     )
 
 
-def _plots_text(run: Recording, title: str | None) -> str:
+def _plots_text(run: Recording, title: str | None, *, odometry: bool) -> str:
     driven = np.abs(run.velocities()).max(axis=0)
     lines = [
         f"{title or f'run in {run.world.name}'}: {fixed(run.duration, 1)} s, {plural(len(run.commands), 'command')}",
@@ -188,6 +218,8 @@ def _plots_text(run: Recording, title: str | None) -> str:
     if len(run.commands):
         given = np.abs(run.commands[:, 1:]).max(axis=0)
         lines.insert(1, f"commanded: at most {fixed(given[0], 2)} m/s and {fixed(given[1], 2)} rad/s")
+    if not odometry:
+        return "\n".join(lines)
     drift = run.drift()
     lines.append(
         f"odometry: {_drift_text(drift)} at the end; at most {fixed(drift.position.max(), 3)} m and "
@@ -196,12 +228,19 @@ def _plots_text(run: Recording, title: str | None) -> str:
     return "\n".join(lines)
 
 
-def _plots_alt(run: Recording) -> str:
+def _plots_alt(run: Recording, *, odometry: bool) -> str:
     driven = np.abs(run.velocities()).max(axis=0)
+    error = f" The error of odometry: {_drift_text(run.drift())} at the end." if odometry else ""
     return (
-        f"Four plots over {fixed(run.duration, 1)} s. The velocities, as commanded by {plural(len(run.commands), 'message')} and as driven: the robot "
-        f"reaches {fixed(driven[0], 2)} m/s and {fixed(driven[1], 2)} rad/s. The error of odometry: {_drift_text(run.drift())} at the end."
+        f"{'Four' if odometry else 'Two'} plots over {fixed(run.duration, 1)} s. The velocities, as commanded by "
+        f"{plural(len(run.commands), 'message')} and as driven: the robot reaches {fixed(driven[0], 2)} m/s and "
+        f"{fixed(driven[1], 2)} rad/s.{error}"
     )
+
+
+def _other_text(run: Recording) -> str:
+    end = pose_text(run.truth[-1])
+    return f"{run.name} ({run.model.name}): {fixed(run.distance, 2)} m, start {pose_text(run.truth[0])}, end {end}"
 
 
 def _drift_text(drift: Drift) -> str:

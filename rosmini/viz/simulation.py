@@ -11,7 +11,7 @@ from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import World
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.view import Picture
-from rosmini.viz.world import HEIGHT, world_picture
+from rosmini.viz.world import HEIGHT, Other, world_picture
 
 
 def simulation_picture(
@@ -22,7 +22,7 @@ def simulation_picture(
     title: str | None = None,
     size: tuple[float, float] = (WIDTH, HEIGHT),
 ) -> Picture:
-    """Draw a simulator's world as it is now, with its robot, and its last scan from where it was taken.
+    """Draw a simulator's world as it is now, with its robots, and the first one's last scan from where it was taken.
 
     Args:
         simulator: what `rosrun("rosmini_sim", "simulator")` gives.
@@ -37,16 +37,25 @@ def simulation_picture(
 
     """
     world: World = simulator.world
-    fixed = [obstacle for obstacle in world.obstacles if not obstacle.movable]
+    fixed = [obstacle for obstacle in world.obstacles if obstacle.fixed]
+    moving = [replace(obstacle, motion=None) for obstacle in simulator.engine.obstacles()]
     way, odom = (trail.truth, trail.odom_in_map()) if isinstance(trail, Recording) else (trail, None)
+    runs = trail.others if isinstance(trail, Recording) else ()
+    ways = {run.name: run.truth for run in runs}
     return world_picture(
-        replace(world, obstacles=(*fixed, *simulator.engine.obstacles())),
+        replace(world, obstacles=(*fixed, *moving)),
         robot=simulator.truth(),
         model=simulator.model,
         scan=simulator.last_scan() if scan else None,
         scan_from=simulator.scan_pose,
         trail=way,
         odom=odom,
+        others=[
+            Other(name, robot.model, simulator.truth(name), ways.get(name))
+            for name, robot in simulator.robots.items()
+            if name != simulator.name
+        ],
+        name=simulator.name,
         title=title,
         size=size,
     )

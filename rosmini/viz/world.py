@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rosmini.geometry.poses import Pose, compose
 from rosmini.sim.models import BURGER, RobotModel
-from rosmini.sim.world import World
+from rosmini.sim.world import Obstacle, World
 from rosmini.viz.beams import Beams, beams_of
 from rosmini.viz.figures import (
     LARGEST,
@@ -31,10 +32,13 @@ from rosmini.viz.view import Picture, ViewError, matplotlib_picture
 from rosmini.viz.world_drawing import (
     DASHES,
     TRAIL_WIDTH,
+    draw_name,
+    draw_place,
     draw_robot,
     draw_scan,
     draw_start,
     draw_trail,
+    draw_way,
     draw_world,
 )
 
@@ -54,6 +58,10 @@ FLATTEST = 0.2
 """The least height of what is seen by its width, and the other way round."""
 
 
+COLOURS = ("green", "purple", "sky", "vermilion", "orange")
+"""Of robots beside the first one, which is blue."""
+
+
 def world_picture(
     world: World,
     *,
@@ -63,6 +71,8 @@ def world_picture(
     scan_from: Sequence[float] | None = None,
     trail: ArrayLike | None = None,
     odom: ArrayLike | None = None,
+    others: Iterable[Other] = (),
+    name: str = "",
     title: str | None = None,
     size: tuple[float, float] = (WIDTH, HEIGHT),
 ) -> Picture:
@@ -76,6 +86,8 @@ def world_picture(
         scan_from: where the robot was when it saw that; where it is, if not given.
         trail: where the robot was, (n, 2) or (n, 3), in the world's frame: a solid line.
         odom: where its odometry believes that it was, likewise: a dashed line.
+        others: more robots, each an `Other`: they are drawn in other colours, with their names.
+        name: of the robot, where there are others.
         title: a caption under the picture, and the first words of its text form.
         size: the largest width and height [CSS px].
 
@@ -98,7 +110,30 @@ def world_picture(
         scene.laser = laser_pose(seen_from, scene.model)
     scene.trail = None if trail is None else _line(trail, "trail")
     scene.odom = None if odom is None else _line(odom, "odom")
+    scene.others, scene.name = [other.checked() for other in others], name
     return scene.picture(title, size)
+
+
+@dataclass(frozen=True)
+class Other:
+    """Another robot in a picture."""
+
+    name: str
+    model: RobotModel
+    pose: Pose
+    trail: Floats | None = None
+    """Where it was, (n, 2) or (n, 3)."""
+
+    def checked(self) -> Other:
+        """Itself, if it can be drawn. Raises `ViewError`."""
+        what = f"of the robot {self.name!r}"
+        trail = None if self.trail is None else _line(self.trail, f"the trail {what}")
+        return replace(self, pose=pose_of(self.pose, f"the pose {what}"), trail=trail)
+
+
+def colour_of(number: int) -> str:
+    """The colour of the robot of this number among the others."""
+    return COLOURS[number % len(COLOURS)]
 
 
 class Scene:
@@ -114,6 +149,13 @@ class Scene:
         self.laser: Pose = (0.0, 0.0, 0.0)
         self.trail: Floats | None = None
         self.odom: Floats | None = None
+        self.name = ""
+        """Of the robot, where there are others."""
+        self.others: list[Other] = []
+        self.places: list[Obstacle] = []
+        """Things where they stood before they were moved."""
+        self.ways: list[tuple[Floats, str]] = []
+        """Where things were moved along, (n, 2), and their colours."""
 
     def picture(self, title: str | None, size: tuple[float, float]) -> Picture:
         """The drawing of it."""
@@ -128,6 +170,10 @@ class Scene:
 
     def _draw(self, axes: Axes, scale: float) -> None:
         draw_world(axes, self.world, scale)
+        for place_ in self.places:
+            draw_place(axes, place_)
+        for way, colour in self.ways:
+            draw_way(axes, way, colour, scale)
         if self.beams is not None:
             draw_scan(axes, self.beams, self.laser, scale)
         if self.trail is not None:
@@ -137,8 +183,18 @@ class Scene:
             draw_trail(axes, self.odom[:, :2], scale, colour="orange", dashed=True)
         if self.ghost is not None:
             draw_robot(axes, self.model, self.ghost, scale, ghost=True)
+        for i, other in enumerate(self.others):
+            colour = colour_of(i)
+            if other.trail is not None:
+                draw_trail(axes, other.trail[:, :2], scale, colour=colour)
+                draw_start(axes, other.trail[0, :2], scale, colour=colour)
+        for i, other in enumerate(self.others):
+            draw_robot(axes, other.model, other.pose, scale, colour=colour_of(i))
+            draw_name(axes, other.model, other.pose, other.name, colour_of(i), scale)
         if self.robot is not None:
             draw_robot(axes, self.model, self.robot, scale)
+            if self.others and self.name:
+                draw_name(axes, self.model, self.robot, self.name, "blue", scale)
 
     def _legend(self) -> list[Any]:
         from matplotlib.lines import Line2D
@@ -146,7 +202,7 @@ class Scene:
         def line(label: str, colour: str, **options: Any) -> Line2D:
             return Line2D([], [], color=LIGHT[colour], linewidth=TRAIL_WIDTH, label=label, **options)
 
-        handles = []
+        handles: list[Any] = []
         if self.trail is not None:
             handles.append(line("where it was", "blue"))
         if self.odom is not None:
@@ -163,6 +219,9 @@ class Scene:
             if pose is not None:
                 points += [np.array([pose[:2]]) - self.model.reach, np.array([pose[:2]]) + self.model.reach]
         points += [line[:, :2] for line in (self.trail, self.odom) if line is not None]
+        for other in self.others:
+            points += [np.array([other.pose[:2]]) + side * other.model.reach for side in (-1, 1)]
+            points += [] if other.trail is None else [other.trail[:, :2]]
         if self.beams is not None and self.beams.hits.any():
             reach = self.beams.ranges[self.beams.hits]
             heading = self.beams.angles[self.beams.hits] + self.laser[2]
@@ -184,7 +243,12 @@ class Scene:
         """A line for each thing that is drawn."""
         lines = [f"{title or f'world {self.world.name}'}: {contents(self.world)}"]
         if self.robot is not None:
-            lines.append(f"{self.model.name}: pose {pose_text(self.robot)}")
+            lines.append(
+                f"{self.name if self.others and self.name else self.model.name}: pose {pose_text(self.robot)}"
+            )
+        for other in self.others:
+            driven = "" if other.trail is None else f", {fixed(length_of(other.trail), 2)} m driven"
+            lines.append(f"{other.name} ({other.model.name}): pose {pose_text(other.pose)}{driven}")
         if self.beams is not None:
             lines.append(f"scan: {self.beams.text()}")
         if self.trail is not None:
@@ -204,6 +268,8 @@ class Scene:
             said.append(
                 f"The robot is at x {fixed(x, 2)} m, y {fixed(y, 2)} m, heading {degrees(heading, 0)} degrees."
             )
+        if self.others:
+            said.append(_others_sentence(self.others))
         if self.beams is not None:
             said.append(_sentence(self.beams.clause()))
         if self.trail is not None:
@@ -218,6 +284,14 @@ class Scene:
         if self.trail is None or self.odom is None or len(self.trail) != len(self.odom):
             return None
         return fixed(math.dist(self.trail[-1, :2], self.odom[-1, :2]), 3)
+
+
+def _others_sentence(others: list[Other]) -> str:
+    """Where the other robots are, in words; of many only how many they are."""
+    if len(others) > 6:
+        return f"There are {len(others)} more robots, each in a colour of its own."
+    places = [f"{o.name} at x {fixed(o.pose[0], 2)} m, y {fixed(o.pose[1], 2)} m" for o in others]
+    return f"Beside it there {'is' if len(places) == 1 else 'are'} {', '.join(places)}."
 
 
 def laser_pose(robot: Pose, model: RobotModel) -> Pose:

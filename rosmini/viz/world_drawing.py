@@ -6,7 +6,7 @@ Everything is in metres in the frame of the world and rounded to millimetres; `s
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from rosmini.sim.shapes import Box, Polygon, Simple, outline_at
 from rosmini.sim.world import Obstacle, Walk, World
 from rosmini.viz.beams import Beams
 from rosmini.viz.rounding import kept, snap
-from rosmini.viz.style import LIGHT, LINE_WIDTH
+from rosmini.viz.style import LABEL_SIZE, LIGHT, LINE_WIDTH
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,33 +38,21 @@ TOLERANCE = 0.137
 """By how much a line may be drawn too straight [px]: nobody sees it, and most of its points need not be written."""
 WHEEL_WIDTH = 0.55
 """The width of a wheel by its radius."""
+LASER_BY = 0.2
+"""A laser is drawn by its robot's length, but of one that is longer [m] as if it were so long: it is the same laser."""
 
 
 def draw_world(axes: Axes, world: World, scale: float) -> None:
-    """Walls and obstacles. Thin walls that are the outlines of blocks are filled."""
+    """Walls and obstacles. Walls that go round something solid, as those of a traced map, are filled."""
     for obstacle in world.obstacles:
         _obstacle(axes, obstacle)
     if len(world.walls):
         lines = [_thinned(np.array(line), scale) for line in _chained(snap(world.walls).tolist())]
-        if solid(world):
+        if world.solid and all(len(line) > 3 and (line[0] == line[-1]).all() for line in lines):
             blocks = _path([line[:-1] for line in lines], closed=True)
             _patch(axes, blocks, fill="muted", edge="muted", width=1.0, z=3.0)
         else:
             _patch(axes, _path(lines), edge="muted", width=2.5, cap="round", z=3.0)
-
-
-def solid(world: World) -> bool:
-    """Tell whether thin walls are the outlines of blocks, as a map is traced to: closed, and no robot starts inside of one."""
-    lines = _chained(world.walls.tolist())
-    if not lines or any(len(line) < 4 or line[0] != line[-1] for line in lines):
-        return False
-    x1, y1, x2, y2 = world.walls.T
-    for x, y, _ in world.starts:
-        crossing = (y1 > y) != (y2 > y)
-        rise = np.where(crossing, y2 - y1, 1.0)
-        if np.count_nonzero(crossing & (x < x1 + (y - y1) / rise * (x2 - x1))) % 2:
-            return False
-    return True
 
 
 def _obstacle(axes: Axes, obstacle: Obstacle) -> None:
@@ -130,12 +118,44 @@ def draw_trail(
     axes.plot(*line.T, color=LIGHT[colour], linewidth=TRAIL_WIDTH, zorder=4.0, clip_on=False, **dashes)
 
 
-def draw_start(axes: Axes, point: ArrayLike, scale: float) -> None:
+def draw_start(axes: Axes, point: ArrayLike, scale: float, *, colour: str = "blue") -> None:
     """A ring where a way begins."""
-    _patch(axes, _circle(point, 4.5 / scale), fill="page", edge="blue", opacity=1.0, width=2.0, z=4.5)
+    _patch(axes, _circle(point, 4.5 / scale), fill="page", edge=colour, opacity=1.0, width=2.0, z=4.5)
 
 
-def draw_robot(axes: Axes, model: RobotModel, pose: Pose, scale: float, *, ghost: bool = False) -> None:
+def draw_place(axes: Axes, obstacle: Obstacle) -> None:
+    """Where a thing stood before it was moved: a dashed outline."""
+    colour = "line" if obstacle.colour in ("grey", "wall") else obstacle.colour
+    for shape, pose in obstacle.parts():
+        _patch(axes, _shape_path(shape, pose), edge=colour, width=1.2, dash=(3.0, 2.0), z=2.6)
+
+
+def draw_way(axes: Axes, points: Floats, colour: str, scale: float) -> None:
+    """Where a thing was moved along: a fine line through points (n, 2)."""
+    line = _thinned(snap(points), scale)
+    colour = "line" if colour in ("grey", "wall") else colour
+    axes.plot(*line.T, color=_paint(colour), linewidth=1.2, zorder=2.7, clip_on=False, dashes=(3.0, 2.0))
+
+
+def draw_name(axes: Axes, model: RobotModel, pose: Pose, name: str, colour: str, scale: float) -> None:
+    """A robot's name beside it."""
+    axes.annotate(
+        name,
+        (float(snap(pose[0])), float(snap(pose[1]))),
+        xytext=(0.0, -max(model.reach * scale, LEAST_ROBOT) - 3.0),
+        textcoords="offset points",
+        ha="center",
+        va="top",
+        color=LIGHT[colour],
+        size=LABEL_SIZE,
+        zorder=8.0,
+        bbox={"facecolor": LIGHT["page"], "alpha": 0.75, "edgecolor": "none", "pad": 1.0},
+    )
+
+
+def draw_robot(
+    axes: Axes, model: RobotModel, pose: Pose, scale: float, *, ghost: bool = False, colour: str = "blue"
+) -> None:
     """The robot from above: plate, wheels, laser, and a nose that says where ahead is. A ghost is a dashed outline."""
     xs, ys = np.array(model.footprint).T
     length = float(xs.max() - xs.min())
@@ -153,14 +173,20 @@ def draw_robot(axes: Axes, model: RobotModel, pose: Pose, scale: float, *, ghost
         for outline in (plate, _path([arrow], closed=True)):
             _patch(axes, outline, edge="orange", width=1.6, dash=(3.0, 2.0), z=6.0)
         return
-    _patch(axes, plate, fill="blue", edge="page", opacity=1.0, width=1.2, z=7.0)
-    _patch(axes, _path([arrow], closed=True), fill="blue", edge="page", opacity=1.0, width=0.8, z=7.0)
+    _patch(axes, plate, fill=colour, edge="page", opacity=1.0, width=1.2, z=7.0)
+    _patch(axes, _path([arrow], closed=True), fill=colour, edge="page", opacity=1.0, width=0.8, z=7.0)
+    if model.drive == "differential":
+        _wheels(axes, model, put)
+    if model.lidar is not None:
+        centre, size = put([model.lidar.mount[:2]])[0], min(length, LASER_BY) * grown
+        _patch(axes, _circle(centre, 0.26 * size), fill="page", opacity=1.0, z=7.2)
+        _patch(axes, _circle(centre, 0.11 * size), fill="vermilion", opacity=1.0, z=7.3)
+
+
+def _wheels(axes: Axes, model: RobotModel, put: Callable[[Iterable[Sequence[float]]], Floats]) -> None:
     r, side, half = model.wheel_radius, model.wheel_separation / 2, WHEEL_WIDTH * model.wheel_radius / 2
     wheels = [put([(-r, y - half), (r, y - half), (r, y + half), (-r, y + half)]) for y in (-side, side)]
     _patch(axes, _path(wheels, closed=True), fill="ink", opacity=1.0, z=7.1)
-    centre = put([model.laser.mount[:2]])[0]
-    _patch(axes, _circle(centre, 0.26 * length * grown), fill="page", opacity=1.0, z=7.2)
-    _patch(axes, _circle(centre, 0.11 * length * grown), fill="vermilion", opacity=1.0, z=7.3)
 
 
 def _patch(
