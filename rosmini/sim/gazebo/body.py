@@ -82,7 +82,7 @@ class Body:
     def robot_model(self) -> RobotModel:
         """The numbers by which the engine knows it."""
         parts = self.parts()
-        mass, inertia = self._mass()
+        mass, inertia = self.weight()
         return RobotModel(
             name=self.model.name,
             title=self.model.name,
@@ -112,8 +112,8 @@ class Body:
                 found.append(Part(shape, at, obstacle.bottom, top, obstacle.colour, self.model.name))
         return tuple(found)
 
-    def _mass(self) -> tuple[float, float]:
-        """Mass, and inertia about the vertical axis through the middle of the axle (the theorem of parallel axes)."""
+    def weight(self) -> tuple[float, float]:
+        """Mass, and inertia about the vertical axis through the middle of the axle [kg, kg m2] (the theorem of parallel axes)."""
         mass = inertia = 0.0
         for _, link, pose in placed_links(self.model):
             own = link.inertial

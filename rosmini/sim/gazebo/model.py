@@ -6,6 +6,7 @@ be pushed. All stands upright on flat ground: a height, a roll or a pitch stays 
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -19,6 +20,8 @@ from rosmini.markup import Element
 from rosmini.sim.robot import Robot
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfModel, SdfSensor
 from rosmini.sim.sdf.poses import compose as compose6
+from rosmini.sim.sdf.poses import pose6
+from rosmini.sim.world import WorldError
 
 from .body import Body, placed_links
 from .errors import UnknownEntity
@@ -80,7 +83,7 @@ class Model:
         if self.body is not None:
             pose = self.world.engine.robot(self.name).pose
             return pose if self.body.axle == (0.0, 0.0, 0.0) else compose(pose, inverse(self.body.axle))
-        return self.world.thing(self.name).pose
+        return self.world.engine.pose(self.obstacles[0])
 
     @property
     def pose(self) -> Pose6:
@@ -93,19 +96,31 @@ class Model:
         """How fast its origin goes, in the frame of the world."""
         if self.fixed is not None:
             return STILL
-        vx, vy, w = self.world.engine.velocity(self.name)
+        vx, vy, w = self.world.engine.velocity(self.name if self.body is not None else self.obstacles[0])
         if self.body is not None and self.body.axle[:2] != (0.0, 0.0):
             at, middle = self.flat, self.world.engine.robot(self.name).pose
             vx, vy = vx - w * (at[1] - middle[1]), vy + w * (at[0] - middle[0])
         return (vx, vy, w)
 
+    @property
+    def weight(self) -> tuple[float, float]:
+        """Its mass [kg], and its inertia about the vertical axis [kg m2]."""
+        if self.body is not None:
+            numbers = self.body.robot_model()
+            return (numbers.mass, numbers.inertia)
+        return Body(self.sdf).weight()
+
     def set_pose(self, pose: Pose6, velocity: Velocity = STILL) -> None:
-        """Put it elsewhere, whatever stands there, with a velocity in the frame of the world. Raises `WorldError` for what is not finite."""
+        """Put it elsewhere, with a velocity in the frame of the world. Raises `GazeboError` for what is not finite, `WorldError` if something stands there."""
         self.world.move(self, pose, velocity)
 
     def set_velocity(self, velocity: Velocity) -> None:
-        """Give it a velocity in the frame of the world: what pushes, drags or kicks it. A driven robot's wheels take that back."""
-        self.world.move(self, self.pose, velocity)
+        """Give it a velocity in the frame of the world: what pushes, drags or kicks it; if something is in its way it keeps its own.
+
+        A driven robot's wheels take that back. Raises `GazeboError` for what is not finite.
+        """
+        with contextlib.suppress(WorldError):
+            self.world.move(self, self.pose, velocity)
 
     # -- of what it consists -------------------------------------------------------------------------------------
 
@@ -209,8 +224,6 @@ class Sensor:
 
 def _spin(axis: tuple[float, float, float], angle: float) -> Pose6:
     """A turn about an axis, as a pose."""
-    from rosmini.sim.sdf.poses import pose6
-
     x, y, z = axis
     length = math.sqrt(x * x + y * y + z * z)
     if not length or not angle:

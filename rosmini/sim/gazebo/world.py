@@ -17,7 +17,7 @@ from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfLink, SdfModel, SdfPlugin, SdfWorld, converted, to_obstacles
 from rosmini.sim.sdf.poses import compose as compose6
-from rosmini.sim.world import Obstacle, World, WorldError
+from rosmini.sim.world import Obstacle, World
 
 from .body import Body, lowest, placed_links
 from .errors import GazeboError, SpawnError, UnknownEntity, UnknownPlugin
@@ -200,13 +200,6 @@ class GazeboWorld:
             return model.pose, model.velocity
         return model.link_pose(link), model.link_velocity(link)
 
-    def thing(self, name: str) -> Obstacle:
-        """The obstacle of the engine of this name, where it is now. Raises `UnknownEntity`."""
-        for obstacle in self.engine.obstacles():
-            if obstacle.name == name:
-                return obstacle
-        raise UnknownEntity(f"there is nothing that moves and is called {name!r} in the world {self.name!r}")
-
     def spawn(
         self,
         sdf: SdfModel,
@@ -256,7 +249,7 @@ class GazeboWorld:
         if body.drive or sensors or any(getattr(cls, "needs_robot", False) for cls, _ in found):
             self._add_robot(model, body)
         else:
-            self._add_things(model, check=check)
+            self._add_things(model)
         self.models[name] = model
         try:
             self._load(model, found, sensors)
@@ -287,33 +280,16 @@ class GazeboWorld:
         for note in body.notes:
             self.node.logwarn(note)
 
-    def _add_things(self, model: Model, *, check: bool) -> None:
+    def _add_things(self, model: Model) -> None:
         obstacles = to_obstacles(model.sdf, model.start)
         if not obstacles and model.sdf.links:
             self.node.loginfo(f"the model {model.name!r} has nothing solid: nothing will run against it")
-        added: list[str] = []
         try:
-            for obstacle in obstacles:
-                if check and obstacle.movable:
-                    self._check_room(obstacle)
-                self.engine.insert(obstacle)
-                added.append(obstacle.name)
+            model.obstacles = self._insert_all(obstacles)
         except RosminiError as error:
-            for name in added:
-                self.engine.take_away(name)
             raise SpawnError(f"the model {model.name!r} cannot come into the world: {error}") from error
-        model.obstacles = tuple(added)
         if not any(obstacle.movable or obstacle.motion for obstacle in obstacles):
             model.fixed = model.start
-
-    def _check_room(self, obstacle: Obstacle) -> None:
-        """Raise `WorldError` if a thing that can be pushed has no room."""
-        for name, robot in self.engine.robots.items():
-            reach = robot.model.reach
-            away = math.dist(robot.pose[:2], obstacle.pose[:2])
-            if away < 1e-9 or (away < reach / 2 and obstacle.bottom < robot.model.height):
-                msg = f"the robot {name!r} stands at ({obstacle.pose[0]:.2f}, {obstacle.pose[1]:.2f})"
-                raise WorldError(msg)
 
     def _load(self, model: Model, found: list[tuple[type[Plugin], SdfPlugin]], sensors: list[Sensor]) -> None:
         for sensor in sensors:
@@ -346,26 +322,46 @@ class GazeboWorld:
         self._tell("delete", model)
 
     def move(self, model: Model, pose: Pose6, velocity: Velocity = STILL) -> None:
-        """Put a model elsewhere, whatever stands there, with a velocity in the frame of the world. Raises `GazeboError` for what is not finite."""
+        """Put a model elsewhere, with a velocity in the frame of the world. Raises `GazeboError` for what is not finite, `WorldError` if something stands there."""
         if not all(math.isfinite(part) for part in (*pose, *velocity)):
             msg = f"the model {model.name!r} cannot be put to {pose} with the velocity {velocity}: all numbers have to be finite"
             raise GazeboError(msg)
         self.host.catch_up()
         if model.fixed is not None:
-            for name in model.obstacles:
-                self.engine.take_away(name)
-            model.fixed = pose
-            found = to_obstacles(replace(model.sdf, name=model.name), pose) if model.obstacles else ()
-            for obstacle in found:
-                self.engine.insert(obstacle)
-            model.obstacles = tuple(each.name for each in found)
+            self._move_fixed(model, pose)
         else:
             at = (pose[0], pose[1], pose[5])
             if model.body is not None:
                 self.engine.put(model.name, compose(at, model.body.axle), velocity)
             else:
-                self.engine.put(model.name, at, velocity)
+                self.engine.put(model.obstacles[0], at, velocity)
         self._tell("move", model)
+
+    def _move_fixed(self, model: Model, pose: Pose6) -> None:
+        """Take what stands fixed away, and put it down elsewhere; where it was, if there is no room."""
+        old = tuple(each for each in self.engine.world.obstacles if each.name in model.obstacles)
+        found = _moved(old, model, pose)
+        for name in model.obstacles:
+            self.engine.take_away(name)
+        try:
+            model.obstacles = self._insert_all(found)
+        except RosminiError:
+            self._insert_all(old)
+            raise
+        model.fixed = pose
+
+    def _insert_all(self, obstacles: Iterable[Obstacle]) -> tuple[str, ...]:
+        """Put obstacles into the world, all or none; return their names."""
+        added: list[str] = []
+        try:
+            for obstacle in obstacles:
+                self.engine.insert(obstacle)
+                added.append(obstacle.name)
+        except RosminiError:
+            for name in added:
+                self.engine.take_away(name)
+            raise
+        return tuple(added)
 
     def _tell(self, what: str, model: Model) -> None:
         for callback in self.on_change:
@@ -424,3 +420,10 @@ def _still(model: SdfModel) -> bool:
     if _plugins(model) or any(link.sensors for _, link, _ in placed_links(model)):
         return False
     return not any(each.movable for each in to_obstacles(model))
+
+
+def _moved(old: tuple[Obstacle, ...], model: Model, pose: Pose6) -> tuple[Obstacle, ...]:
+    """What a fixed model is at another pose."""
+    if any(link.collisions for _, link, _ in placed_links(model.sdf)):
+        return to_obstacles(replace(model.sdf, name=model.name), pose)
+    return tuple(replace(each, pose=(pose[0], pose[1], pose[5])) for each in old)

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from rosmini.markup import Element
 from rosmini.sim import devices
-from rosmini.sim.devices import DifferentialDrive, WheelStates, one_of
+from rosmini.sim.devices import DifferentialDrive, JointStates, one_of
 from rosmini.sim.gazebo.body import Body
 from rosmini.sim.gazebo.model import Model
 from rosmini.sim.gazebo.plugins import ModelPlugin
@@ -19,7 +19,7 @@ from rosmini.sim.host import Device
 from .names import RosNames
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class DiffDriveTags(Tags):
     """The tags of libgazebo_ros_diff_drive.so."""
 
@@ -81,7 +81,7 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
         )
         self.devices: list[Device] = [host.add(drive)]
         if tags.publish_joints:
-            states = WheelStates(
+            states = JointStates(
                 host,
                 drive,
                 topic=names.topic("joint_states"),
@@ -98,7 +98,7 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
         super().close()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PlanarMoveTags(Tags):
     """The tags of libgazebo_ros_planar_move.so."""
 

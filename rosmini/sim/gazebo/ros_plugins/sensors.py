@@ -30,7 +30,7 @@ def number(element: Element, way: str, default: float) -> float:
 # ---- lasers ----
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LaserTags(Tags):
     """The tags of libgazebo_ros_laser.so."""
 
@@ -108,7 +108,7 @@ def lidar_of(sensor: Sensor) -> LidarModel:
 # ---- inertial measurement units ----
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ImuTags(Tags):
     """The tags of libgazebo_ros_imu.so."""
 
@@ -177,7 +177,7 @@ class ImuModelPlugin(ModelPlugin, filename="libgazebo_ros_imu.so"):
         super().close()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ImuSensorTags(Tags):
     """The tags of libgazebo_ros_imu_sensor.so."""
 

@@ -24,7 +24,7 @@ from .drives import rate_of
 from .names import RosNames
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class JointStateTags(Tags):
     """The tags of libgazebo_ros_joint_state_publisher.so."""
 
@@ -83,7 +83,7 @@ class _JointStates(Device):
         self._publisher.unregister()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class GroundTruthTags(Tags):
     """The tags of libgazebo_ros_p3d.so."""
 

@@ -1,0 +1,165 @@
+"""The node `gazebo_ros/gzclient`: a view of a running server.
+
+It knows nothing of the server but the address of Gazebo's Master. There it finds the server's topics: it asks for the scene on ~/request, hears where
+all is on ~/pose/info, and draws what it knows. The simulation goes on whether a client looks or not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from rosmini.errors import ScriptError
+from rosmini.graph import Node
+from rosmini.sim.world import World
+
+from .master import address, find_master
+from .msgs import (
+    Model,
+    PosesStamped,
+    Request,
+    Response,
+    Scene,
+    Time,
+    WorldControl,
+    WorldReset,
+    WorldStatistics,
+)
+from .transport import TransportNode
+
+WAIT_S = 30.0
+"""How long a client waits for a server."""
+
+IGNORED = ("--verbose", "-g", "--gui-plugin", "--gui-client-plugin")
+
+
+class GazeboClient:
+    """A view of a running server.
+
+    Args:
+        node: the started node.
+        args: those of gzclient: --verbose, -g PLUGIN; neither changes anything here.
+
+    Raises:
+        ScriptError: other arguments.
+        ROSException: no server runs at the address of Gazebo's Master.
+
+    """
+
+    node_name = "gazebo_gui"
+
+    def __init__(self, node: Node, *args: str) -> None:
+        wrong = [word for word in args if word.startswith("-") and word not in IGNORED]
+        if wrong:
+            raise ScriptError(f"gzclient: there is no option {wrong[0]}; it has {', '.join(IGNORED)}")
+        self.node = node
+        graph = node.graph
+        node.wait_until(
+            lambda: find_master(graph) is not None,
+            WAIT_S,
+            "Gazebo's server",
+            lambda: f"no server runs at {address()}: start one with `rosrun gazebo_ros gzserver`",
+        )
+        master = find_master(graph)
+        if master is None:
+            raise ScriptError(f"the server at {address()} has ended")
+        self.master = master
+        self.transport = TransportNode(master, f"gzclient {node.name}")
+        self._models: dict[str, Model] = {}
+        self._scene: Scene | None = None
+        self._asked = 0
+        self.statistics: WorldStatistics | None = None
+        """How time goes on, as the server said last."""
+        self.time = Time()
+        """Of the last places."""
+        self._to_request = self.transport.advertise("~/request", Request)
+        self._to_control = self.transport.advertise("~/world_control", WorldControl)
+        self.transport.subscribe("~/response", self._response)
+        self.transport.subscribe("~/model/info", self._model)
+        self.transport.subscribe("~/pose/info", self._moved)
+        self.transport.subscribe("~/world_stats", self._told)
+        self._ask("scene_info")
+        node.on_shutdown(self.transport.close)
+
+    def __repr__(self) -> str:
+        return f"<GazeboClient {self.node.name}: {self.text}>"
+
+    # -- what the server says ------------------------------------------------------------------------------------
+
+    def _ask(self, request: str, data: str = "") -> None:
+        self._asked += 1
+        self._to_request.publish(Request(self._asked, request, data))
+
+    def _response(self, message: Response) -> None:
+        if message.response != "success":
+            return
+        if isinstance(message.serialized_data, Scene):
+            self._scene = message.serialized_data
+            self._models = {model.name: model for model in self._scene.model}
+        elif message.request == "entity_delete":
+            self._models.pop(str(message.serialized_data), None)
+
+    def _model(self, message: Model) -> None:
+        self._models[message.name] = message
+
+    def _moved(self, message: PosesStamped) -> None:
+        self.time = message.time
+        for pose in message.pose:
+            if pose.name in self._models:
+                self._models[pose.name] = replace(self._models[pose.name], pose=pose)
+
+    def _told(self, message: WorldStatistics) -> None:
+        self.statistics = message
+
+    # -- what it shows -------------------------------------------------------------------------------------------
+
+    @property
+    def models(self) -> tuple[str, ...]:
+        """The names of the models that it knows of."""
+        return tuple(self._models)
+
+    @property
+    def text(self) -> str:
+        """What is to be seen, in words: where each model is that is not static."""
+        name = self._scene.name if self._scene is not None else "?"
+        moving = [
+            f"{model.name} at ({model.pose.position.x:.2f}, {model.pose.position.y:.2f})"
+            for model in self._models.values()
+            if not model.is_static and model.pose is not None
+        ]
+        count = len(self._models)
+        there = f"{count} model{'' if count == 1 else 's'} in {name}"
+        return f"{there}: {', '.join(moving)}" if moving else there
+
+    def world(self) -> World:
+        """What it knows, as a world that can be drawn."""
+        from .topics import world_of_scene
+
+        scene = self._scene or Scene("default")
+        return world_of_scene(replace(scene, model=tuple(self._models.values())))
+
+    def show(self, **options: Any) -> Any:
+        """A picture of what it knows; the options are those of `rosmini.viz.world_picture`."""
+        return self.world().show(**options)
+
+    def show3d(self, **options: Any) -> Any:
+        """What it knows in three dimensions; the options are those of `rosmini.viz.meshcat.world_3d`."""
+        return self.world().show3d(**options)
+
+    # -- its buttons ---------------------------------------------------------------------------------------------
+
+    def pause(self) -> None:
+        """Press pause."""
+        self._to_control.publish(WorldControl(pause=True))
+
+    def play(self) -> None:
+        """Press play."""
+        self._to_control.publish(WorldControl(pause=False))
+
+    def step(self, count: int = 1) -> None:
+        """Press the button for a step, so many times."""
+        self._to_control.publish(WorldControl(multi_step=count))
+
+    def reset(self) -> None:
+        """Choose Edit, Reset World."""
+        self._to_control.publish(WorldControl(reset=WorldReset(all=True)))

@@ -1,0 +1,195 @@
+"""The nodes `gazebo_ros/gzserver` and `gazebo_ros/gazebo`: Gazebo's server, with its ROS side (gazebo_ros_api_plugin), and with a client.
+
+    rosmini run gazebo_ros/gzserver worlds/empty.world -u + ...
+
+The node is called /gazebo, as there. It publishes /clock (and sets /use_sim_time, so that nodes that come later live on it), ~model_states and
+~link_states, takes ~set_model_state and ~set_link_state, offers the services of `rosmini.sim.gazebo.services`, and its physics can be turned while it
+runs (dynamic_reconfigure). /clock and the states are told 100 times a second of the world's time, which the parameter ~pub_clock_frequency changes;
+Gazebo without that parameter does so in each step of its physics, 1000 times, which `_pub_clock_frequency:=1000` gives.
+"""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any, NoReturn
+
+from rosmini.dynamic_reconfigure import Server as ReconfigureServer
+from rosmini.errors import ParameterError, ScriptError
+from rosmini.graph import Node
+from rosmini.sim.devices import ClockDevice
+from rosmini.sim.gazebo.errors import GazeboError
+from rosmini.sim.sdf import SdfWorld
+from rosmini.sim.world import World
+
+from .client import GazeboClient
+from .master import start_master
+from .physics import PhysicsConfig, PhysicsProperties
+from .services import Services
+from .sources import EMPTY, load_world
+from .states import StateTopics
+from .topics import ServerTopics
+from .transport import NAMESPACE
+from .world import GazeboWorld
+
+CLOCK_RATE = 100.0
+"""How often /clock ticks if the parameter ~pub_clock_frequency does not say [Hz]."""
+
+BUILT_IN = ("libgazebo_ros_api_plugin.so", "libgazebo_ros_paths_plugin.so")
+"""The plugins that gazebo_ros's gzserver always loads: they are what this node is."""
+
+ENGINES = ("ode", "bullet", "dart", "simbody")
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise ScriptError(f"{self.prog}: {message}. {self.format_usage().strip()}")
+
+
+def server_parser(prog: str = "gzserver") -> argparse.ArgumentParser:
+    """The arguments of gzserver, as far as they mean something here."""
+    parser = _Parser(prog=prog, add_help=False, description="Gazebo's server.")
+    parser.add_argument(
+        "world", nargs="?", default=EMPTY, help="an SDF world file, or one of rosmini's worlds"
+    )
+    parser.add_argument("-u", "--pause", action="store_true", help="begin with time that stands")
+    parser.add_argument("--verbose", action="store_true", help="say more")
+    parser.add_argument("-e", "--physics", default="ode", help="the physics engine; all are rosmini's here")
+    parser.add_argument("-s", "--server-plugin", action="append", default=[], help="load a plugin")
+    parser.add_argument("--iters", type=int, default=0, help="end after so many steps of the physics")
+    parser.add_argument("--seed", type=int, default=0, help="goes with the graph here: Graph(seed=...)")
+    parser.add_argument("-r", "--record", action="store_true", help="record a log: `rosbag record` does here")
+    parser.add_argument("-g", "--gui-plugin", action="append", default=[], help="there are none here")
+    return parser
+
+
+class GazeboServer:
+    """Gazebo's server.
+
+    Args:
+        node: the started node.
+        args: those of gzserver: a world file, -u, --verbose, -e ENGINE, -s PLUGIN...
+        world: the world itself, before the argument.
+        noise: scales the noise of all sensors; 0: none.
+
+    Raises:
+        ScriptError: the arguments make no sense.
+        GazeboError: there is no such world, or another server runs at the same address.
+        SdfError: the world's file is broken.
+
+    """
+
+    node_name = "gazebo"
+
+    def __init__(
+        self, node: Node, *args: str, world: World | SdfWorld | str | None = None, noise: float = 1.0
+    ) -> None:
+        options = server_parser().parse_args(args)
+        self.node = node
+        source = options.world if world is None else world
+        found = source if isinstance(source, (World, SdfWorld)) else load_world(source)
+        if options.physics not in ENGINES:
+            raise ScriptError(
+                f"gzserver: there is no physics engine {options.physics!r}; Gazebo has {', '.join(ENGINES)}, all rosmini's here"
+            )
+        if options.record:
+            node.logwarn(
+                "gzserver -r records a log of Gazebo's own; here `rosbag record` records what happens"
+            )
+        self.world = GazeboWorld(node, found, paused=options.pause, noise=noise)
+        self.started_ns = self.world.host.clock.now_ns()
+        """When the server came [ns]."""
+        self.master = start_master(node.graph, self)
+        self.clock = self.world.host.add(ClockDevice(self.world.host, rate=_rate(node)))
+        node.set_param("/use_sim_time", True)
+        self.states = StateTopics(self.world, self.clock.rate)
+        self.services = Services(self.world, self.set_physics)
+        self.topics = ServerTopics(self, NAMESPACE)
+        self.reconfigure = ReconfigureServer(node, PhysicsConfig, self._reconfigured)
+        for name in options.server_plugin:
+            if name.rsplit("/", 1)[-1] not in BUILT_IN:
+                self.world.load_plugin(name)
+        if options.iters:
+            host = self.world.host
+            host.clock.call_at(
+                host.clock.now_ns() + round(options.iters * self.world.physics.time_step * 1e9), self._end
+            )
+        if options.verbose:
+            node.loginfo(f"{self.world!r}: {', '.join(self.world.models) or 'no models'}")
+        node.on_shutdown(self._close)
+
+    def __repr__(self) -> str:
+        return f"<GazeboServer {self.node.name}: {self.world!r}>"
+
+    # -- for who started it --------------------------------------------------------------------------------------
+
+    @property
+    def engine(self) -> Any:
+        """The engine of the world."""
+        return self.world.engine
+
+    def truth(self, model: str) -> tuple[float, float, float]:
+        """Where a model is now: x [m], y [m], heading [rad]. Raises `UnknownEntity`."""
+
+        def look() -> tuple[float, float, float]:
+            self.world.host.catch_up()
+            return self.world.model(model).flat
+
+        return self.node.scheduler.on_hub(look)
+
+    def client(self) -> GazeboClient:
+        """A client that shows this server, as a node `gazebo_gui` of the same graph."""
+        return GazeboClient(self.node.graph.node("gazebo_gui", anonymous=True))
+
+    def set_physics(self, physics: PhysicsProperties) -> None:
+        """Change how the world is stepped; the parameters follow."""
+        self.world.set_physics(physics)
+        self.reconfigure.update_configuration(PhysicsConfig.values(physics))
+
+    def _reconfigured(self, config: Any, level: int) -> Any:
+        if level == -1:
+            config.update(PhysicsConfig.values(self.world.physics))
+        elif any(config[name] != value for name, value in PhysicsConfig.values(self.world.physics).items()):
+            self.world.set_physics(PhysicsConfig.applied(self.world.physics, config))
+        return config
+
+    def show(self, **options: Any) -> Any:
+        """A picture of the world as it is now; the options are those of `rosmini.viz.world_picture`."""
+        return self.topics.snapshot().show(**options)
+
+    def show3d(self, **options: Any) -> Any:
+        """The world as it is now in three dimensions; the options are those of `rosmini.viz.meshcat.world_3d`."""
+        return self.topics.snapshot().show3d(**options)
+
+    def _end(self) -> None:
+        self.node.shutdown("so many steps as --iters said have passed")
+
+    def _close(self) -> None:
+        self.world.close()
+        self.topics.close()
+        self.master.close()
+
+
+class Gazebo(GazeboServer):
+    """The node `gazebo_ros/gazebo`: a server, and a client that shows it (`.gui`)."""
+
+    def __init__(self, node: Node, *args: str, **options: Any) -> None:
+        super().__init__(node, *args, **options)
+        self.gui = GazeboClient(node.graph.node("gazebo_gui", namespace=node.namespace))
+        node.on_shutdown(lambda: self.gui.node.shutdown("the server ended"))
+
+    def show(self, **options: Any) -> Any:
+        """What the client shows."""
+        return self.gui.show(**options)
+
+
+def _rate(node: Node) -> float:
+    name = "~pub_clock_frequency"
+    rate = node.get_param(name, CLOCK_RATE, expect=float)
+    if not rate > 0:
+        raise ParameterError(
+            f"parameter {node.resolve_parameter(name)} is {rate}; it has to be more than 0 Hz"
+        )
+    return float(rate)
+
+
+__all__ = ["Gazebo", "GazeboError", "GazeboServer", "server_parser"]

@@ -1,0 +1,34 @@
+"""A model of a text: URDF as well as SDF."""
+
+from __future__ import annotations
+
+from rosmini import urdf
+from rosmini.markup import MarkupError, parse
+from rosmini.sim import sdf
+from rosmini.sim.sdf import Pose6, SdfModel
+
+from .from_urdf import Converted, from_urdf
+from .model import Model
+from .world import GazeboWorld
+
+
+def model_of_text(text: str, path: str = "model_xml") -> Converted:
+    """The model that a URDF, or an SDF with a model in it, describes. Raises `UrdfError`, `SdfError` or `MarkupError`."""
+    root = parse(text, path)
+    if root.tag == "robot":
+        return from_urdf(urdf.load(text, path=path))
+    return Converted(model_of_sdf(text))
+
+
+def model_of_sdf(xml: str) -> SdfModel:
+    """The first model of an SDF text; one of its world, if it has a world. Raises `SdfError`."""
+    document = sdf.load(xml)
+    for model in (*document.models, *(each for world in document.worlds for each in world.models)):
+        return model
+    raise MarkupError("there is no <model> in the SDF, and no <include> of one", "model_xml", 1)
+
+
+def spawn_text(world: GazeboWorld, text: str, name: str, pose: Pose6 | None, *, namespace: str = "") -> Model:
+    """Let the model that a text describes come into a world. Raises `SpawnError` and what the readers raise."""
+    converted = model_of_text(text)
+    return world.spawn(converted.model, name, pose, namespace=namespace, frames=converted.frames)

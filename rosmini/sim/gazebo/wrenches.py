@@ -1,0 +1,97 @@
+"""Forces on things: what the service apply_body_wrench does.
+
+While a force F [N] and a torque T [N m] act on a thing of the mass m and the inertia I, each step of `PERIOD` adds F dt / m to its velocity and
+T dt / I to its turning; friction takes of it what it takes of any sliding thing.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from rosmini.sim.sdf import Pose6
+
+from .errors import GazeboError
+from .model import Model
+from .plugins import Update
+
+if TYPE_CHECKING:
+    from .world import GazeboWorld
+
+RATE = 200.0
+"""How often forces act [Hz]: once in each of the engine's own steps."""
+
+
+@dataclass
+class Wrench:
+    """A force and a torque on a thing, in the frame of the world."""
+
+    model: Model
+    body: str
+    force: tuple[float, float]
+    torque: float
+    start: float
+    end: float
+    mass: float
+    inertia: float
+
+
+class Wrenches:
+    """All that act in a world."""
+
+    def __init__(self, world: GazeboWorld) -> None:
+        self._world = world
+        self._acting: list[Wrench] = []
+        self._update: Update | None = None
+
+    def apply(self, model: Model, link: str, frame: Pose6, request: Any) -> None:
+        """Let what a gazebo_msgs/ApplyBodyWrench asks for act. Raises `GazeboError` for what wheels or the ground hold, and for no finite force."""
+        if model.fixed is not None or model.static:
+            raise GazeboError(f"the model {model.name!r} is static: no force moves it")
+        if model.body is not None and model.body.drive:
+            raise GazeboError(
+                f"the model {model.name!r} stands on its wheels, which hold it where its drive wants it; give it a velocity on cmd_vel, or push it with "
+                "another model"
+            )
+        force, torque, point = request.wrench.force, request.wrench.torque, request.reference_point
+        if not all(math.isfinite(each) for each in (force.x, force.y, torque.z, point.x, point.y)):
+            raise GazeboError("a force has to be finite")
+        c, s = math.cos(frame[5]), math.sin(frame[5])
+        fx, fy = c * force.x - s * force.y, s * force.x + c * force.y
+        turn = torque.z + point.x * force.y - point.y * force.x
+        now = self._world.now
+        start = max(now, request.start_time.to_sec())
+        lasting = request.duration.to_sec()
+        mass, inertia = model.weight
+        end = math.inf if lasting < 0 else start + lasting
+        self._acting.append(Wrench(model, f"{model.name}::{link}", (fx, fy), turn, start, end, mass, inertia))
+        if self._update is None:
+            host = self._world.host
+            self._update = host.add(Update(host, "forces on bodies", RATE, self._push))
+
+    def clear(self, body: str) -> None:
+        """Let nothing act on a body any more."""
+        self._acting = [each for each in self._acting if body not in (each.body, each.model.name)]
+
+    def _push(self, now: float) -> None:
+        dt = 1 / RATE
+        there = self._world.models
+        self._acting = [
+            each for each in self._acting if each.end > now - dt and there.get(each.model.name) is each.model
+        ]
+        for each in self._acting:
+            span = min(now, each.end) - max(now - dt, each.start)
+            if span > 1e-9:
+                vx, vy, w = each.model.velocity
+                fx, fy = each.force
+                each.model.set_velocity(
+                    (
+                        vx + fx * span / each.mass,
+                        vy + fy * span / each.mass,
+                        w + each.torque * span / each.inertia,
+                    )
+                )
+        if not self._acting and self._update is not None:
+            self._world.host.remove(self._update)
+            self._update = None
