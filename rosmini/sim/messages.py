@@ -24,6 +24,8 @@ ODOM, BASE, MAP, BASE_LINK = "odom", "base_footprint", "map", "base_link"
 
 WHEELS = ["wheel_left_joint", "wheel_right_joint"]
 
+STILL = (0.0, 0.0)
+
 UNMEASURED = 1e12
 POSE_COVARIANCE = (1e-5, 1e-5, UNMEASURED, UNMEASURED, UNMEASURED, 1e-3)
 """Of x, y, z and the turns about them, as Gazebo's differential drive states them; the robot's firmware leaves them at 0."""
@@ -126,11 +128,12 @@ class ImuMessage(Headed):
 
     def fill(self, imu: Imu, number: int, robot: Robot, heading: float) -> Any:
         """Say what sample `number` shows, if the robot had this heading [rad] when the unit was switched on."""
-        motion = robot.motion()
+        v, w, dv, dw = robot.motion()
+        aside = STILL
+        if robot.model.drive != "differential":
+            aside = (robot.velocity[1], robot.acceleration_aside)
         gyro, accel = self._gyro, self._accel
-        gyro.x, gyro.y, gyro.z, accel.x, accel.y, accel.z = imu.read(
-            number, motion.v, motion.w, motion.dv, motion.dw
-        )
+        gyro.x, gyro.y, gyro.z, accel.x, accel.y, accel.z = imu.read(number, v, w, dv, dw, aside)
         half = (robot.pose[2] - heading + imu.heading_error(number)) / 2
         self._orientation.z, self._orientation.w = math.sin(half), math.cos(half)
         return self.message

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from rosmini.errors import RosminiError
 from rosmini.geometry.poses import Pose
 from rosmini.graph import Node
 from rosmini.graph.show import show
@@ -19,7 +20,7 @@ from rosmini.msgs import service_class
 
 from .devices.obstacles import ObstacleMarkers
 from .engine import Engine, RobotGone
-from .host import Host
+from .host import Host, HostState
 from .models import RobotModel
 from .models import model as model_called
 from .parameters import Parameters, parameter
@@ -58,6 +59,15 @@ class SimulatorParameters(Parameters):
         True,
         "write inf for what is too far and -inf for what is too near; else 0.0, as a real LDS-01 does",
     )
+
+
+@dataclass(frozen=True)
+class SimulatorState:
+    """What `Simulator.save` returns."""
+
+    world: str
+    robots: tuple[Start, ...]
+    host: HostState
 
 
 class Simulator:
@@ -242,6 +252,48 @@ class Simulator:
             return None if laser is None else laser.message
 
         return self.node.scheduler.on_hub(copy)
+
+    def save(self) -> SimulatorState:
+        """Everything that it will go on from: robots, odometry, batteries, movable obstacles, time, random generators. It can be pickled."""
+
+        def take() -> SimulatorState:
+            self._open()
+            starts = [
+                Start(each.name, each.model, each.robot.start, each.namespace, each.tf_prefix)
+                for each in self.robots.values()
+            ]
+            return SimulatorState(self.world.name, tuple(starts), self.host.save())
+
+        return self.node.scheduler.on_hub(take)
+
+    def restore(self, state: SimulatorState) -> None:
+        """Go on from there, to the last bit as it went on then: robots that have come since go, those that have gone come back.
+
+        Stamps follow the node's clock, which does not go back. Raises `RosminiError` for the state of another world.
+        """
+
+        def become() -> None:
+            self._open()
+            if state.world != self.world.name:
+                msg = f"a state of the world {state.world!r} cannot be restored in the world {self.world.name!r}"
+                raise RosminiError(msg)
+            before = {start.name: start for start in state.robots}
+            for name, robot in list(self.robots.items()):
+                start = before.get(name)
+                if start is None or (robot.model, robot.namespace, robot.tf_prefix) != (
+                    start.model,
+                    start.namespace,
+                    start.tf_prefix,
+                ):
+                    self.delete(name)
+            missing = [start for start in state.robots if start.name not in self.robots]
+            self.engine.restore(state.host.engine)
+            for start in missing:
+                self._bring(start)
+            self.robots = {name: self.robots[name] for name in before}
+            self.host.restore(state.host)
+
+        self.node.scheduler.on_hub(become)
 
     def remove(self) -> None:
         """Take all robots out of the world: their topics end, and the graph goes on. Harmless when repeated."""

@@ -10,6 +10,7 @@ from rosmini.geometry.poses import Pose
 from .battery import BURGER_BATTERY, WAFFLE_BATTERY, Battery
 from .devices import (
     BatteryDevice,
+    CameraDevice,
     DifferentialDrive,
     GroundTruth,
     ImuDevice,
@@ -18,10 +19,11 @@ from .devices import (
     SensorStateDevice,
     Switches,
     prefixed,
+    within,
 )
 from .host import Device, Host
 from .messages import BASE, BASE_LINK, MAP, ODOM
-from .models import BURGER, RobotModel
+from .models import BURGER, CameraModel, RobotModel
 
 if TYPE_CHECKING:
     from .robot import Robot
@@ -105,10 +107,27 @@ class TurtleBot:
         self.joints = self._add(
             JointStates(host, self.drive, topic=self.topic("joint_states"), frame=self.frame(BASE_LINK))
         )
+        self.cameras = tuple(self._add(self._camera(camera)) for camera in self.model.cameras)
         self.battery: BatteryDevice | None = None
         self._switches: Switches | None = None
         if options.board:
             self._add_board()
+
+    def _camera(self, camera: CameraModel) -> CameraDevice:
+        """A camera, on the topics that ROBOTIS's descriptions give it in Gazebo."""
+        depth = camera.depth
+        return CameraDevice(
+            self.host,
+            self.name,
+            camera,
+            image=self.topic(f"{camera.name}/rgb/image_raw"),
+            info=self.topic(f"{camera.name}/rgb/camera_info"),
+            depth=self.topic(f"{camera.name}/depth/image_raw") if depth else None,
+            depth_info=self.topic(f"{camera.name}/depth/camera_info") if depth else None,
+            points=self.topic(f"{camera.name}/depth/points") if depth else None,
+            frame=self.frame(camera.frame),
+            noise=self.options.noise,
+        )
 
     def _add_board(self) -> None:
         """Give it what the real robot's board has beside."""
@@ -136,7 +155,7 @@ class TurtleBot:
 
     def topic(self, name: str) -> str:
         """The name of one of its topics."""
-        return prefixed(self.namespace, name)
+        return within(self.namespace, name)
 
     def frame(self, name: str) -> str:
         """The name of one of its frames."""

@@ -1,13 +1,17 @@
 """The devices of simulated robots, which TurtleBot3's simulator, Stage and Gazebo share: topics, frames, rates and noise are their arguments."""
 
 from .board import BatteryDevice, SensorStateDevice, Switches, contacts
+from .bumper import Bumper
+from .camera import CameraDevice
 from .clock import ClockDevice
 from .drive import DifferentialDrive, GroundTruth, JointStates, OdometryTransforms, PlanarMove
-from .names import one_of, order, prefixed
+from .names import one_of, order, prefixed, within
 from .sensors import ImuDevice, Laser
 
 __all__ = [
     "BatteryDevice",
+    "Bumper",
+    "CameraDevice",
     "ClockDevice",
     "DifferentialDrive",
     "GroundTruth",
@@ -22,4 +26,5 @@ __all__ = [
     "one_of",
     "order",
     "prefixed",
+    "within",
 ]

@@ -174,8 +174,7 @@ class SensorStateDevice(Device):
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Tell the state."""
         robot, message = self.robot, self._told.message
-        touched = contacts(self.host, robot.name) if robot.touching else []
-        message.bumper = bits(pressed(self.bumper, robot.pose, touched)) if touched else 0
+        message.bumper = bits(pressed(self.bumper, robot.pose, contacts(self.host, robot.name)))
         message.torque = self.drive.powered
         message.left_encoder, message.right_encoder = (_int32(ticks) for ticks in robot.ticks)
         message.battery = 0.0 if self.battery is None else self.battery.shown.voltage
@@ -233,9 +232,7 @@ class Switches:
 
 def contacts(host: Host, robot: str) -> list[tuple[tuple[float, float], float]]:
     """Where a robot touches something, in the frame of the world [m], and how hard [N]."""
-    return [
-        ((touch.place[0], touch.place[1]), math.hypot(*touch.force)) for touch in host.engine.touching(robot)
-    ]
+    return [((touch.x, touch.y), touch.force) for touch in host.engine.touching(robot)]
 
 
 def _int32(number: int) -> int:

@@ -23,6 +23,7 @@ from rosmini.sim.messages import (
     TransformMessage,
 )
 from rosmini.sim.odometry import Odometry
+from rosmini.sim.robot import HolonomicRobot
 
 from .names import one_of, order
 
@@ -213,19 +214,38 @@ class DifferentialDrive(Device):
 
 
 class PlanarMove(DifferentialDrive):
-    """A base that goes ahead, to the side and turns as it is told: Gazebo's planar move, Stage's drive "omni". Arguments as for `DifferentialDrive`.
-
-    It has no wheels whose turns could be counted, so its odometry is the truth (`source` "world" or "start").
-    """
+    """A base that goes ahead, to the side and turns as it is told: Gazebo's planar move, Stage's drive "omni". Arguments as for `DifferentialDrive`."""
 
     sideways = True
-
-    def __init__(self, host: Host, robot: str, *, source: str = "start", **options: Any) -> None:
-        one_of("odometry source of a planar move", source, SOURCES[1:])
-        super().__init__(host, robot, source=source, **options)
+    _reckoned_from: Pose = (0.0, 0.0, 0.0)
 
     def _update(self) -> None:
-        self.reckoned = self._true()
+        robot = self.robot
+        if self.source == "encoder" and isinstance(robot, HolonomicRobot):
+            v, vy, w = robot.speeds
+            self.reckoned = Reckoned(compose(inverse(self._reckoned_from), robot.reckoned), v, vy, w)
+        else:
+            self.reckoned = self._true()
+
+    def reset(self) -> None:
+        """Begin with an odometry of zero, at the place where the robot is put back to."""
+        super().reset()
+        self._reckoned_from = (0.0, 0.0, 0.0)
+
+    def reset_odometry(self) -> None:
+        """Let the odometry be zero here and now."""
+        super().reset_odometry()
+        if isinstance(self.robot, HolonomicRobot):
+            self._reckoned_from = self.robot.reckoned
+
+    def state(self) -> Any:
+        """The odometry, and whether the motors have current."""
+        return super().state(), self._reckoned_from
+
+    def restore(self, state: Any) -> None:
+        """Believe what was believed then."""
+        own, self._reckoned_from = state
+        super().restore(own)
 
 
 class OdometryTransforms(Device):
@@ -375,5 +395,4 @@ class GroundTruth(Device):
 
 def speeds(robot: Robot) -> tuple[float, float, float]:
     """How fast a robot really goes: ahead and to its left side [m/s], and to the left [rad/s]."""
-    motion = robot.motion()
-    return (motion.v, 0.0, motion.w)
+    return robot.velocity

@@ -26,14 +26,27 @@ def order(what: str) -> int:
     return SEQUENCE.index(what)
 
 
-def prefixed(prefix: str, name: str) -> str:
-    """A topic in a namespace, or a frame with a tf_prefix: tb3_0/odom. What begins with a slash stays as it is, without the slash if it is a frame.
+def within(namespace: str, topic: str) -> str:
+    """A topic in a namespace; one that begins with a slash stays as it is.
 
-    >>> prefixed("tb3_0", "odom"), prefixed("", "odom"), prefixed("/tb3_0/", "odom"), prefixed("tb3_0", "/tf")
-    ('tb3_0/odom', 'odom', 'tb3_0/odom', '/tf')
+    >>> within("tb3_0", "odom"), within("", "odom"), within("/tb3_0/", "odom"), within("tb3_0", "/tf")
+    ('tb3_0/odom', 'odom', '/tb3_0/odom', '/tf')
+    """
+    if not namespace or topic.startswith("/"):
+        return topic
+    return f"{namespace.rstrip('/')}/{topic}"
+
+
+def prefixed(prefix: str, frame: str) -> str:
+    """A frame with a tf_prefix. No frame begins with a slash (tf2), and one that did has no prefix (http://wiki.ros.org/geometry/CoordinateFrameConventions).
+
+    >>> prefixed("tb3_0", "odom"), prefixed("", "odom"), prefixed("/tb3_0/", "odom"), prefixed("tb3_0", "/map")
+    ('tb3_0/odom', 'odom', 'tb3_0/odom', 'map')
     """
     prefix = prefix.strip("/")
-    return f"{prefix}/{name}" if prefix and not name.startswith("/") else name
+    if not prefix or frame.startswith("/"):
+        return frame.lstrip("/")
+    return f"{prefix}/{frame}"
 
 
 def one_of(what: str, value: str, values: Iterable[str]) -> str:

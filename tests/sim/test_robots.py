@@ -1,0 +1,553 @@
+"""Several robots in one simulator: names, spawning, deleting, saving and restoring; and TurtleBot3's board."""
+
+from __future__ import annotations
+
+import math
+import pickle
+from collections import defaultdict
+from typing import Any
+
+import pytest
+
+from rosmini.errors import ParameterError, RosminiError
+from rosmini.graph import Graph
+from rosmini.msgs import message_class
+from rosmini.sim.engine import RobotGone
+from rosmini.sim.models import BURGER, WAFFLE, UnknownModel
+from rosmini.sim.simulator import Simulator
+from rosmini.sim.world import World, WorldError
+
+Twist = message_class("geometry_msgs/Twist")
+TOPICS = {
+    "scan": "sensor_msgs/LaserScan",
+    "odom": "nav_msgs/Odometry",
+    "joint_states": "sensor_msgs/JointState",
+    "imu": "sensor_msgs/Imu",
+    "base_pose_ground_truth": "nav_msgs/Odometry",
+}
+
+
+@pytest.fixture
+def graph():
+    with Graph() as made:
+        yield made
+
+
+def start(graph: Graph, world: World | str = "empty", **parameters: Any) -> Simulator:
+    node = graph.node("simulator")
+    for name, value in {"noise": 0.0, "cmd_vel_timeout": 0.0, **parameters}.items():
+        node.set_param("~" + name, value)
+    return Simulator(node, world=world)
+
+
+class Ears:
+    """Hears robots, and commands them."""
+
+    def __init__(
+        self, graph: Graph, *robots: str, name: str = "ears", tf: bool = True, topics: Any = TOPICS
+    ) -> None:
+        self.graph = graph
+        self.node = graph.node(name)
+        self.heard: dict[str, list[Any]] = defaultdict(list)
+        for robot in robots:
+            for topic in topics:
+                full = f"{robot}/{topic}" if robot else topic
+                self.node.subscriber(full, message_class(TOPICS[topic]), self.heard[full].append)
+        if tf:
+            self.node.subscriber("/tf", message_class("tf2_msgs/TFMessage"), self.heard["tf"].append)
+        self.publishers: dict[str, Any] = {}
+
+    def command(self, robot: str, v: float, w: float = 0.0) -> None:
+        topic = f"{robot}/cmd_vel" if robot else "cmd_vel"
+        if topic not in self.publishers:
+            self.publishers[topic] = self.node.publisher(topic, Twist, queue_size=1)
+            self.publishers[topic].wait_for_subscribers(timeout=1.0)
+        message = Twist()
+        message.linear.x, message.angular.z = v, w
+        self.publishers[topic].publish(message)
+
+    def bytes(self) -> dict[str, list[bytes]]:
+        return {topic: [type(m)._encode(m) for m in messages] for topic, messages in self.heard.items()}
+
+
+# -- names -----------------------------------------------------------------------------------------------------------
+
+
+def test_a_number_of_robots_has_a_namespace_and_a_prefix_each(graph):
+    simulator = start(graph, robots=3)
+    ears = Ears(graph, "tb3_0", "tb3_1", "tb3_2")
+    graph.run(1.05)
+    assert list(simulator.robots) == ["tb3_0", "tb3_1", "tb3_2"]
+    for i in range(3):
+        assert {topic: len(ears.heard[f"tb3_{i}/{topic}"]) for topic in TOPICS} == {
+            "scan": 5,
+            "odom": 31,
+            "joint_states": 31,
+            "imu": 209,
+            "base_pose_ground_truth": 31,
+        }
+        assert ears.heard[f"tb3_{i}/scan"][-1].header.frame_id == f"tb3_{i}/base_scan"
+        odom = ears.heard[f"tb3_{i}/odom"][-1]
+        assert (odom.header.frame_id, odom.child_frame_id) == (f"tb3_{i}/odom", f"tb3_{i}/base_footprint")
+        truth = ears.heard[f"tb3_{i}/base_pose_ground_truth"][-1]
+        assert (truth.header.frame_id, truth.child_frame_id) == ("map", f"tb3_{i}/base_footprint")
+        assert ears.heard[f"tb3_{i}/imu"][-1].header.frame_id == f"tb3_{i}/imu_link"
+    places = [simulator.truth(f"tb3_{i}")[:2] for i in range(3)]
+    assert min(math.dist(a, b) for a in places for b in places if a != b) > 0.2
+
+
+def test_one_message_on_tf_tells_of_all_robots(graph):
+    start(graph, robots=3)
+    ears = Ears(graph)
+    graph.run(0.5)
+    frames = [(t.header.frame_id, t.child_frame_id) for t in ears.heard["tf"][-1].transforms]
+    assert frames == [(f"tb3_{i}/odom", f"tb3_{i}/base_footprint") for i in range(3)]
+    assert len(ears.heard["tf"]) == pytest.approx(15, abs=1)
+
+
+def test_robots_are_told_one_by_one(graph):
+    simulator = start(
+        graph,
+        robots=[
+            "red",
+            {"name": "blue", "model": "waffle", "x": 2.0, "y": 1.0, "yaw": 0.5},
+            {"name": "plain", "namespace": "", "tf_prefix": "p", "x": -2.0},
+        ],
+    )
+    assert simulator.truth("blue") == (2.0, 1.0, 0.5)
+    assert simulator.robot("blue").model is WAFFLE
+    plain = simulator.robot("plain")
+    assert (plain.topic("odom"), plain.frame("odom")) == ("odom", "p/odom")
+    assert simulator.name == "red"
+    assert simulator.truth() == simulator.truth("red")
+
+
+@pytest.mark.parametrize(
+    ("robots", "message"),
+    [
+        (0, "number of robots"),
+        (True, "number of robots"),
+        ("many", "number of robots"),
+        ([], "number of robots"),
+        ([{"x": 1.0}], "the name of a robot"),
+        ([{"name": "a", "modle": "burger"}], "did you mean model"),
+        ([{"name": "a", "x": "far"}], "has to be a number"),
+        ([{"name": "a", "namespace": 3}], "has to be a string"),
+        (["a", "a"], "two robots are called 'a'"),
+    ],
+)
+def test_what_is_wrong_with_the_robots_is_named(graph, robots, message):
+    with pytest.raises(ParameterError, match=message):
+        start(graph, robots=robots)
+
+
+def test_one_robot_may_have_a_prefix(graph):
+    start(graph, tf_prefix="tb3")
+    ears = Ears(graph, "")
+    graph.run(0.5)
+    assert ears.heard["odom"][-1].header.frame_id == "tb3/odom"
+    (transform,) = ears.heard["tf"][-1].transforms
+    assert transform.child_frame_id == "tb3/base_footprint"
+
+
+def test_the_environment_chooses_the_model(graph, monkeypatch):
+    monkeypatch.setenv("TURTLEBOT3_MODEL", "waffle_pi")
+    simulator = start(graph)
+    assert simulator.model.name == "waffle_pi"
+    assert simulator.spawn("other", pose=(1.0, 1.0, 0.0)).model.name == "waffle_pi"
+
+
+# -- coming and going ------------------------------------------------------------------------------------------------
+
+
+def test_a_robot_comes_while_the_others_drive(graph):
+    simulator = start(graph)
+    ears = Ears(graph, "", "late")
+    ears.command("", 0.1)
+    graph.run(1.0)
+    late = simulator.spawn("late", pose=(3.0, 0.0, 1.0))
+    assert repr(late) == "<TurtleBot3 Burger late at (3.00, 0.00)>"
+    assert repr(simulator).endswith("and 1 more in empty>")
+    graph.run(1.0)
+    assert len(ears.heard["late/odom"]) >= 29
+    assert ears.heard["late/odom"][-1].header.stamp == ears.heard["odom"][-1].header.stamp
+    assert [t.child_frame_id for t in ears.heard["tf"][-1].transforms] == [
+        "base_footprint",
+        "late/base_footprint",
+    ]
+    ears.command("late", 0.2)
+    graph.run(1.0)
+    assert simulator.truth("late")[0] == pytest.approx(3.0 + 0.18 * math.cos(1.0), abs=2e-3)
+    assert simulator.truth()[0] > 0.25
+
+
+def test_they_see_and_push_one_another(graph):
+    simulator = start(graph)
+    simulator.spawn("ahead", pose=(0.6, 0.0, 0.0))
+    ears = Ears(graph, "")
+    graph.run(0.5)
+    seen = simulator.last_scan().ranges[0]
+    assert 0.45 < seen < 0.58  # from laser to laser it is 0.6 m
+    assert simulator.last_scan("ahead").ranges[180] == pytest.approx(seen, abs=0.05)
+    ears.command("", 0.2)
+    graph.run(5.0)
+    assert simulator.truth("ahead")[0] > 0.7
+
+
+def test_without_a_place_it_finds_one(graph):
+    simulator = start(graph, world="arena")
+    names = [f"r{i}" for i in range(12)]
+    for name in names:
+        simulator.spawn(name)
+    places = [simulator.truth(name)[:2] for name in ("burger", *names)]
+    assert min(math.dist(a, b) for i, a in enumerate(places) for b in places[:i]) > 0.2
+
+
+def test_a_deleted_robot_leaves_while_it_moves(graph):
+    simulator = start(graph)
+    simulator.spawn("gone", pose=(1.0, 0.0, 0.0))
+    ears = Ears(graph, "", "gone")
+    ears.command("gone", 0.2)
+    ears.command("", 0.1)
+    graph.run(1.0)
+    simulator.delete("gone")
+    graph.run(0.001)
+    count = len(ears.heard["gone/odom"])
+    graph.run(1.0)
+    assert len(ears.heard["gone/odom"]) == count
+    assert [t.child_frame_id for t in ears.heard["tf"][-1].transforms] == ["base_footprint"]
+    published = [topic for topic, _ in graph.master.getSystemState("/test")[2][0]]
+    assert [topic for topic in published if topic.startswith("/gone/")] == [
+        "/gone/cmd_vel"
+    ]  # the driver's own
+    assert simulator.truth()[0] > 0.15
+    with pytest.raises(RobotGone, match="no robot 'gone'"):
+        simulator.truth("gone")
+    simulator.spawn("gone", pose=(1.0, 0.0, 0.0))
+    graph.run(1.0)
+    assert simulator.truth("gone") == (1.0, 0.0, 0.0)
+    assert len(ears.heard["gone/odom"]) > count + 20
+
+
+def test_when_the_first_has_gone_it_is_said(graph):
+    simulator = start(graph)
+    simulator.spawn("other", pose=(1.0, 0.0, 0.0))
+    simulator.delete("burger")
+    with pytest.raises(RobotGone, match=r"no robot 'burger' .*robots: other"):
+        simulator.truth()
+    assert simulator.truth("other") == (1.0, 0.0, 0.0)
+    simulator.delete("other")
+    simulator.spawn("third", pose=(0.0, 0.0, 0.0))
+    graph.run(0.5)
+    simulator.remove()
+    with pytest.raises(RobotGone, match="it was removed"):
+        simulator.spawn("fourth")
+
+
+def test_errors_of_spawning_say_what_to_do_and_change_nothing(graph):
+    simulator = start(graph, world="arena")
+    ears = Ears(graph, "")
+    graph.run(0.5)
+    with pytest.raises(RosminiError, match="a robot 'burger' in the world 'arena' already"):
+        simulator.spawn("burger", pose=(1.0, 0.0, 0.0))
+    with pytest.raises(UnknownModel, match="did you mean waffle"):
+        simulator.spawn("other", "wafle")
+    with pytest.raises(WorldError, match=r"'burger' is in its way.*room at \("):
+        simulator.spawn("other", pose=(0.05, 0.0, 0.0))
+    with pytest.raises(WorldError, match=r"'east wall' is in its way.*room at \("):
+        simulator.spawn("other", pose=(1.99, 0.0, 0.0))
+    with pytest.raises(WorldError, match="finite"):
+        simulator.spawn("other", pose=(math.nan, 0.0, 0.0))
+    with pytest.raises(RosminiError, match="cannot be called"):
+        simulator.spawn("a b")
+    with pytest.raises(RobotGone, match="did you mean burger"):
+        simulator.delete("burgr")
+    assert list(simulator.robots) == ["burger"]
+    count = len(ears.heard["odom"])
+    graph.run(0.5)
+    assert len(ears.heard["odom"]) == count + 15
+
+
+def test_a_company_changes_no_noise():
+    def run(company: bool) -> dict[str, list[bytes]]:
+        with Graph(seed=5) as graph:
+            simulator = start(graph, noise=1.0)
+            if company:
+                simulator.spawn("far", pose=(50.0, 50.0, 0.0))
+            ears = Ears(graph, "", tf=False)
+            ears.command("", 0.2, 0.4)
+            graph.run(0.5)
+            if company:
+                simulator.delete("far")
+            graph.run(2.0)
+            return ears.bytes()
+
+    alone = run(company=False)
+    assert len(alone["imu"]) > 400
+    assert run(company=True) == alone
+
+
+# -- commands --------------------------------------------------------------------------------------------------------
+
+
+def test_a_command_that_is_no_number_stops_that_robot_alone(graph, capsys):
+    simulator = start(graph, robots=2)
+    ears = Ears(graph)
+    ears.command("tb3_0", 0.2)
+    ears.command("tb3_1", 0.2)
+    graph.run(1.0)
+    ears.command("tb3_1", math.nan)
+    graph.run(0.5)
+    stopped = simulator.truth("tb3_1")
+    before = simulator.truth("tb3_0")
+    graph.run(1.0)
+    assert simulator.truth("tb3_1") == stopped
+    assert math.dist(simulator.truth("tb3_0")[:2], before[:2]) == pytest.approx(0.2, abs=1e-6)
+    assert capsys.readouterr().err.count("linear.x = nan on /tb3_1/cmd_vel") == 1
+
+
+# -- saving and restoring --------------------------------------------------------------------------------------------
+
+
+def drive(graph: Graph, ears: Ears, robots: tuple[str, ...]) -> None:
+    for i, (v, w) in enumerate([(0.2, 0.3), (-0.1, 1.0), (0.22, 0.0), (0.1, -2.0)]):
+        for k, robot in enumerate(robots):
+            ears.command(robot, v, w + 0.1 * k)
+        graph.run(0.4 + 0.1 * i)
+    graph.run(0.001)  # what was sent arrives
+
+
+def content(messages: list[Any]) -> list[bytes]:
+    """Messages without their stamps and numbers, in bytes."""
+    out = []
+    for message in messages:
+        for part in [message, *getattr(message, "transforms", [])]:
+            header = getattr(part, "header", None)
+            if header is not None:
+                header.seq = header.stamp.secs = header.stamp.nsecs = 0
+        out.append(type(message)._encode(message))
+    return out
+
+
+@pytest.mark.parametrize("world", ["arena", "empty"])
+def test_what_is_restored_goes_on_to_the_last_bit(graph, world):
+    simulator = start(graph, world=world, robots=2, noise=1.0, board=True)
+    names = ("tb3_0", "tb3_1")
+    ears = Ears(graph, *names)
+    drive(graph, ears, names)
+    state = pickle.loads(pickle.dumps(simulator.save()))
+    runs = []
+    for _ in range(3):
+        for messages in ears.heard.values():
+            messages.clear()
+        drive(graph, ears, names)
+        runs.append(
+            (
+                {topic: content(messages) for topic, messages in ears.heard.items()},
+                [simulator.truth(name) for name in names],
+                [simulator.robot(name).odometry for name in names],
+                [simulator.robot(name).battery.battery.level for name in names],  # type: ignore[union-attr]
+            )
+        )
+        simulator.restore(state)
+    first, second, third = runs
+    assert len(first[0]["tb3_1/imu"]) > 300
+    assert second[1:] == first[1:] == third[1:]
+    assert second[0] == first[0] == third[0]
+
+
+def test_a_state_can_be_restored_in_another_graph():
+    def run(state: Any = None) -> Any:
+        with Graph(seed=3) as graph:
+            simulator = start(graph, world="arena", noise=1.0)
+            ears = Ears(graph, "")
+            graph.run(0.01)
+            if state is None:
+                simulator.spawn("second", "waffle", (1.0, 1.0, 0.0))
+                drive(graph, ears, ("", "second"))
+                state = simulator.save()
+            else:
+                simulator.restore(state)
+            drive(graph, ears, ("", "second"))
+            return state, [simulator.truth(name) for name in ("burger", "second")], simulator.odometry
+
+    state, *after = run()
+    assert run(pickle.loads(pickle.dumps(state)))[1:] == tuple(after)
+
+
+def test_robots_come_and_go_with_the_state(graph):
+    simulator = start(graph)
+    simulator.spawn("old", pose=(1.0, 0.0, 0.0))
+    graph.run(0.5)
+    state = simulator.save()
+    simulator.delete("old")
+    simulator.spawn("new", "waffle", (3.0, 0.0, 0.0))
+    simulator.place((0.0, 2.0, 0.0))
+    graph.run(0.5)
+    simulator.restore(state)
+    assert list(simulator.robots) == ["burger", "old"]
+    assert simulator.truth() == (0.0, 0.0, 0.0)
+    assert simulator.truth("old") == (1.0, 0.0, 0.0)
+    ears = Ears(graph, "old")
+    graph.run(0.5)
+    assert len(ears.heard["old/odom"]) >= 14
+
+
+def test_a_state_of_another_world_is_refused(graph):
+    state = start(graph).save()
+    with Graph() as other:
+        simulator = start(other, world="arena")
+        with pytest.raises(
+            RosminiError, match="state of the world 'empty' cannot be restored in the world 'arena'"
+        ):
+            simulator.restore(state)
+
+
+def test_reset_puts_all_back(graph):
+    simulator = start(graph, robots=2)
+    starts = [simulator.truth(name) for name in simulator.robots]
+    ears = Ears(graph)
+    drive(graph, ears, ("tb3_0", "tb3_1"))
+    simulator.reset()
+    assert [simulator.truth(name) for name in simulator.robots] == starts
+    graph.run(0.1)
+    assert [robot.odometry for robot in simulator.robots.values()] == [(0.0, 0.0, 0.0)] * 2
+
+
+# -- the board -------------------------------------------------------------------------------------------------------
+
+
+class Board(Ears):
+    """Hears what the board tells."""
+
+    def __init__(self, graph: Graph, **parameters: Any) -> None:
+        self.simulator = start(graph, board=True, **parameters)
+        super().__init__(graph, "")
+        for topic, kind in (
+            ("sensor_state", "turtlebot3_msgs/SensorState"),
+            ("battery_state", "sensor_msgs/BatteryState"),
+        ):
+            self.node.subscriber(topic, message_class(kind), self.heard[topic].append)
+        self.power = self.node.publisher("motor_power", message_class("std_msgs/Bool"))
+        self.zero = self.node.publisher("reset", message_class("std_msgs/Empty"))
+        graph.run(0.1)
+
+
+def test_the_board_tells_its_state_at_its_rate(graph):
+    board = Board(graph)
+    graph.run(2.0)
+    assert len(board.heard["sensor_state"]) == pytest.approx(60, abs=3)
+    assert len(board.heard["battery_state"]) == pytest.approx(60, abs=3)
+    state = board.heard["sensor_state"][-1]
+    assert (state.bumper, state.torque, state.left_encoder, state.right_encoder) == (0, True, 0, 0)
+    assert state.battery == pytest.approx(board.heard["battery_state"][-1].voltage)
+    battery = board.heard["battery_state"][-1]
+    assert 12.0 < battery.voltage < 12.6
+    assert battery.current < 0
+    assert battery.design_capacity == pytest.approx(1.8)
+
+
+def test_encoders_are_told_in_ticks(graph):
+    board = Board(graph)
+    board.command("", 0.1)
+    graph.run(3.0)
+    state = board.heard["sensor_state"][-1]
+    way = board.simulator.truth()[0]
+    assert state.left_encoder == state.right_encoder
+    assert state.left_encoder == pytest.approx(way / (2 * math.pi * 0.033) * 4096, abs=80)
+
+
+def test_a_wall_presses_the_bumper(graph):
+    board = Board(graph, world="arena", x=1.8, y=0.0, yaw=0.0)
+    board.command("", 0.2)
+    graph.run(2.0)
+    assert board.heard["sensor_state"][-1].bumper == 1
+    board.command("", -0.2)
+    graph.run(1.0)
+    assert board.heard["sensor_state"][-1].bumper == 0
+
+
+def test_motors_without_current_do_not_turn(graph):
+    board = Board(graph)
+    board.command("", 0.2)
+    graph.run(0.5)
+    board.power.publish(data=False)
+    graph.run(0.5)
+    stood = board.simulator.truth()
+    board.command("", 0.2)
+    graph.run(0.5)
+    assert board.simulator.truth() == stood
+    assert not board.heard["sensor_state"][-1].torque
+    board.power.publish(data=True)
+    graph.run(0.1)
+    board.command("", 0.2)
+    graph.run(0.5)
+    assert board.simulator.truth()[0] > stood[0] + 0.05
+
+
+def test_reset_sets_odometry_and_heading_to_zero_where_it_is(graph):
+    board = Board(graph)
+    board.command("", 0.2, 0.5)
+    graph.run(1.0)
+    board.command("", 0.0)
+    graph.run(0.5)
+    place = board.simulator.truth()
+    board.zero.publish()
+    graph.run(0.1)
+    assert board.simulator.odometry == (0.0, 0.0, 0.0)
+    assert board.simulator.truth() == place
+    q = board.heard["imu"][-1].orientation
+    assert (q.z, q.w) == (0.0, 1.0)
+    board.command("", 0.2)
+    graph.run(1.0)
+    assert board.simulator.odometry == (
+        pytest.approx(0.18, abs=0.01),
+        pytest.approx(0.0, abs=1e-3),
+        pytest.approx(0.0, abs=1e-3),
+    )
+
+
+def test_an_empty_battery_stops_the_robot_until_it_is_charged(graph, capsys):
+    board = Board(graph)
+    battery = board.simulator.robot().battery
+    assert battery is not None
+    battery.battery.level = 0.0
+    board.command("", 0.1)
+    graph.run(3.0)
+    stood = board.simulator.truth()
+    graph.run(1.0)
+    assert board.simulator.truth() == stood
+    assert "the battery of burger is empty" in capsys.readouterr().err
+    assert not board.heard["battery_state"][-1].present
+    battery.charge()
+    board.command("", 0.1)
+    graph.run(1.0)
+    assert board.simulator.truth()[0] > stood[0] + 0.05
+
+
+def test_driving_drains_more_than_standing():
+    def left(v: float) -> float:
+        with Graph() as graph:
+            simulator = start(graph, board=True)
+            ears = Ears(graph, tf=False)
+            ears.command("", v)
+            graph.run(30.0)
+            battery = simulator.robot().battery
+            assert battery is not None
+            return battery.battery.level
+
+    assert left(0.22) < left(0.0) < 1.0
+
+
+def test_without_the_board_its_topics_are_not_there(graph):
+    start(graph)
+    names = {name for name, _ in graph.master.getTopicTypes("/test")[2]}
+    assert not names & {"/sensor_state", "/battery_state", "/motor_power", "/reset"}
+
+
+def test_models_and_poses_of_spawned_robots_stay(graph):
+    simulator = start(graph)
+    simulator.spawn("w", WAFFLE, (2.0, 0.0, 0.0), namespace="/other/ns", tf_prefix="")
+    robot = simulator.robot("w")
+    assert (robot.topic("scan"), robot.frame("base_scan")) == ("/other/ns/scan", "base_scan")
+    assert simulator.robot().model is BURGER
