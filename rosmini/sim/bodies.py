@@ -119,6 +119,8 @@ class Rover:
     """It may touch something; else nothing bumps into its body, which may be elsewhere."""
     slip: tuple[float, float] = (0.0, 0.0)
     """How fast its wheels slid over the ground in the last step [m/s], in the world's directions."""
+    told: tuple[Pose, tuple[float, float, float]] | None = None
+    """Where its body was put last, and with which velocity, if it has not moved since."""
 
 
 @dataclass

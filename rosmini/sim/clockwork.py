@@ -11,6 +11,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rosmini.geometry.poses import Pose
 
@@ -53,9 +54,9 @@ class Clockwork:
         """True while something that was pushed still moves."""
         self.slips = SLIP_PERIOD
         """When the wheels' slip changes next [s]."""
-        self.next_change = SLIP_PERIOD
-        """When somebody's mind changes next [s]."""
+        self._next_change: float | None = None
         self._drivers: list[Robot] | None = None
+        self._places: tuple[tuple[float, int], NDArray[np.float64]] | None = None
 
     @property
     def drivers(self) -> list[Robot]:
@@ -64,9 +65,16 @@ class Clockwork:
             self._drivers = [each for each in self.engine.robots.values() if not isinstance(each, Thing)]
         return self._drivers
 
+    @property
+    def next_change(self) -> float:
+        """When somebody's mind changes next [s]: a command gets too old, or the slip of the next second begins."""
+        if self._next_change is None:
+            self._next_change = min([self.slips, *(robot.expires for robot in self.drivers)])
+        return self._next_change
+
     def plan(self) -> None:
-        """Find out when somebody's mind changes next: commands that get too old, and the slip of the next second."""
-        self.next_change = min([self.slips, *(robot.expires for robot in self.drivers)])
+        """Learn that somebody may change his mind at another time than before."""
+        self._next_change = None
 
     def advance(self, until: float) -> None:
         """Let time go on until then."""
@@ -269,10 +277,7 @@ class Clockwork:
         engine, contacts = self.engine, self.engine.contacts
         x, y, _ = robot.pose
         reach = robot.model.reach + AROUND
-        near: dict[str, Robot | Mover] = {}
-        for other in engine.robots.values():
-            if math.hypot(other.pose[0] - x, other.pose[1] - y) < reach + other.model.reach:
-                near[other.name] = other
+        near: dict[str, Robot | Mover] = {each.name: each for each in self._robots_around(robot, reach)}
         for mover in engine.movers.values():
             if math.hypot(mover.pose[0] - x, mover.pose[1] - y) < reach + mover.reach:
                 near[mover.obstacle.name] = mover
@@ -288,6 +293,19 @@ class Clockwork:
             room = min(room, gap)
         robot.room = room - SAFE
         return robot.room
+
+    def _robots_around(self, robot: Robot, reach: float) -> list[Robot]:
+        """The robots, itself among them, whose circles come nearer [m] than that."""
+        every = list(self.engine.robots.values())
+        if len(every) == 1:
+            return every
+        moment = (self.engine.now, self.engine.changed)
+        if self._places is None or self._places[0] != moment:
+            table = np.array([(*each.pose[:2], each.model.reach) for each in every])
+            self._places = (moment, table)
+        x, y, reaches = self._places[1].T
+        near = np.hypot(x - robot.pose[0], y - robot.pose[1]) < reach + reaches
+        return [every[i] for i in np.flatnonzero(near).tolist()]
 
     def _look_around(self, mover: Mover) -> float:
         """Measure, and return, how far a thing that moves by itself can move without coming near to anything; by circles around all."""

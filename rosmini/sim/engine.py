@@ -33,8 +33,8 @@ from .models import LidarModel, RobotModel
 from .movers import Mover
 from .odometry import RealWheels
 from .robot import Robot, Thing, make_robot
-from .sights import Sights, parts_of, stacked
 from .shapes import Part, Polygon
+from .sights import Sights, parts_of, stacked
 from .state import EngineState, RobotState
 from .world import Obstacle, World, WorldError
 
@@ -80,7 +80,8 @@ class Engine:
         self._contacts: Contacts | None = None
         self._sights = Sights(world)
         self._clockwork = Clockwork(self)
-        self._changed = 0
+        self.changed = 0
+        """How often something came, went, or was put elsewhere."""
         for obstacle in world.obstacles:
             if obstacle.motion is not None:
                 self.movers[obstacle.name] = Mover(obstacle, obstacle.motion)
@@ -397,7 +398,7 @@ class Engine:
 
     def _look_again(self) -> None:
         """Forget how much room the robots have."""
-        self._changed += 1
+        self.changed += 1
         self._clockwork.look_again()
 
     def state(self) -> EngineState:
@@ -460,7 +461,7 @@ class Engine:
         self._clockwork.slips, self._clockwork.moving = state.slips, state.moving
         self._clockwork.plan()
         self._sights.forget(self.world)
-        self._changed += 1
+        self.changed += 1
 
     def _rebuild(self) -> None:
         """Make all bodies anew, the fixed ones too."""
@@ -499,7 +500,7 @@ class Engine:
         if len(self.robots) > 1:
             every = list(self.robots.values())
             own = next(i for i, each in enumerate(every) if each is viewer)
-            moment = (self.now, self._changed, len(every))
+            moment = (self.now, self.changed, len(every))
             crowd = self._sights.crowd(
                 moment, height, [each.model for each in every], [each.pose for each in every]
             )

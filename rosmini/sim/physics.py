@@ -260,11 +260,15 @@ class Contacts:
         else:
             self.space.remove(*rover.grip)
             rover.body.velocity, rover.body.angular_velocity = (0.0, 0.0), 0.0
+            rover.told = None
             rover.slip = (0.0, 0.0)
 
     def move(self, name: str, pose: Pose, velocity: Velocity = AT_REST) -> None:
         """Tell where a robot is that has moved by itself, and how fast it goes in the world's directions."""
-        body = self.rovers[name].body
+        rover = self.rovers[name]
+        if rover.told == (pose, velocity):
+            return
+        rover.told, body = (pose, velocity), rover.body
         put(body, pose)
         body.velocity, body.angular_velocity = velocity[:2], velocity[2]
         self.space.reindex_shapes_for_body(body)
@@ -356,6 +360,7 @@ class Contacts:
             (vx, vy), w = body.velocity, body.angular_velocity
             x, y, theta = poses[name]
             put(body, (x - vx * dt, y - vy * dt, theta - w * dt))
+            rover.told = None
             rover.slip = ((after[0] - x) / dt, (after[1] - y) / dt) if name in held else (0.0, 0.0)
         self.space.step(dt)
         self.dt = dt
@@ -377,10 +382,11 @@ class Contacts:
         names = list(poses)
         for _ in range(ROUNDS):
             pushed = {name: self._push_out(name, poses) for name in names}
-            again = [other for others in pushed.values() for other in others]
+            again = {other for others in pushed.values() for other in others}
             if not again:
                 break
-            moved.update(again)
+            moved |= again
+            names = [name for name in names if name in again] + sorted(again.difference(names))
         for body, pose in zip(sliding, kept, strict=True):
             put(body, pose)
         return moved
