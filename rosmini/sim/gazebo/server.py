@@ -101,8 +101,8 @@ class GazeboServer:
         self.master = start_master(node.graph, self)
         self.clock = self.world.host.add(ClockDevice(self.world.host, rate=_rate(node)))
         node.set_param("/use_sim_time", True)
-        self.states = StateTopics(self.world, self.clock.rate)
         self.services = Services(self.world, self.set_physics)
+        self.states = StateTopics(self.world, self.services, self.clock.rate)
         self.topics = ServerTopics(self, NAMESPACE)
         self.reconfigure = ReconfigureServer(node, PhysicsConfig, self._reconfigured)
         for name in options.server_plugin:

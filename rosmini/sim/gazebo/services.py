@@ -12,7 +12,7 @@ from typing import Any
 
 from rosmini.errors import RosminiError
 from rosmini.markup import parse
-from rosmini.msgs import service_class
+from rosmini.msgs import message_class, service_class
 from rosmini.sim.sdf import Pose6
 from rosmini.sim.sdf.poses import compose, from_quaternion, inverse, matrix
 
@@ -140,12 +140,14 @@ class Services:
             text = f"GetModelState: reference relative_entity_name not found, {SCOPE.format('body')} {error}"
             return refused(text)
         self._counts[name] = self._counts.get(name, 0) + 1
-        header = {"seq": self._counts[name], "stamp": self.world.host.stamp, "frame_id": other}
+        header = message_class("std_msgs/Header")(
+            seq=self._counts[name], stamp=self.world.host.stamp, frame_id=other
+        )
         return done(
             "GetModelState: got properties",
             header=header,
-            pose=pose_fields(pose),
-            twist=twist_fields(velocity),
+            pose=pose_message(pose),
+            twist=twist_message(velocity),
         )
 
     def set_model_state(self, request: Any) -> Reply:
@@ -188,12 +190,12 @@ class Services:
         pose, velocity = relative((model.link_pose(link), model.link_velocity(link)), frame)
         return done(
             "GetLinkState: got state",
-            link_state={
-                "link_name": request.link_name,
-                "pose": pose_fields(pose),
-                "twist": twist_fields(velocity),
-                "reference_frame": request.reference_frame,
-            },
+            link_state=message_class("gazebo_msgs/LinkState")(
+                link_name=request.link_name,
+                pose=pose_message(pose),
+                twist=twist_message(velocity),
+                reference_frame=request.reference_frame,
+            ),
         )
 
     def set_link_state(self, request: Any) -> Reply:
@@ -264,7 +266,7 @@ class Services:
         ixx, iyy, izz, ixy, ixz, iyz = inertial.inertia
         return done(
             "GetLinkProperties: got properties",
-            com=pose_fields(inertial.pose),
+            com=pose_message(inertial.pose),
             gravity_mode=True,
             mass=inertial.mass,
             ixx=ixx,
@@ -360,17 +362,20 @@ def pose_of(message: Any) -> Pose6:
     return (at.x, at.y, at.z, *from_quaternion(to.x, to.y, to.z, to.w))
 
 
-def pose_fields(pose: Pose6) -> Reply:
-    """The fields of a geometry_msgs/Pose."""
-    x, y, z, roll, pitch, yaw = pose
-    qx, qy, qz, qw = quaternion(roll, pitch, yaw)
-    return {"position": {"x": x, "y": y, "z": z}, "orientation": {"x": qx, "y": qy, "z": qz, "w": qw}}
+def pose_message(pose: Pose6) -> Any:
+    """A geometry_msgs/Pose."""
+    message = message_class("geometry_msgs/Pose")()
+    at, to = message.position, message.orientation
+    at.x, at.y, at.z, roll, pitch, yaw = pose
+    to.x, to.y, to.z, to.w = quaternion(roll, pitch, yaw)
+    return message
 
 
-def twist_fields(velocity: Velocity) -> Reply:
-    """The fields of a geometry_msgs/Twist."""
-    vx, vy, w = velocity
-    return {"linear": {"x": vx, "y": vy}, "angular": {"z": w}}
+def twist_message(velocity: Velocity) -> Any:
+    """A geometry_msgs/Twist."""
+    message = message_class("geometry_msgs/Twist")()
+    message.linear.x, message.linear.y, message.angular.z = velocity
+    return message
 
 
 def relative(state: tuple[Pose6, Velocity], frame: tuple[Pose6, Velocity]) -> tuple[Pose6, Velocity]:
@@ -381,4 +386,4 @@ def relative(state: tuple[Pose6, Velocity], frame: tuple[Pose6, Velocity]) -> tu
     return compose(inverse(at), pose), (float(rx), float(ry), w - fw)
 
 
-__all__ = ["Services", "pose_fields", "pose_of", "relative", "twist_fields"]
+__all__ = ["Services", "pose_message", "pose_of", "relative", "twist_message"]

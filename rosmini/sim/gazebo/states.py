@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from types import SimpleNamespace
 from typing import Any
 
+from rosmini.graph import Node
 from rosmini.msgs import message_class
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.sdf import Pose6
 
 from .model import Velocity
-from .msgs import quaternion
+from .services import Services, pose_message, twist_message
 from .world import GazeboWorld
 
 Entry = tuple[str, Pose6, Velocity]
@@ -25,8 +27,6 @@ class _States(Device):
         super().__init__(host, topic, rate)
         self._world = world
         self._class: Any = message_class(kind)
-        self._pose: Any = message_class("geometry_msgs/Pose")
-        self._twist: Any = message_class("geometry_msgs/Twist")
         self._publisher = host.node.publisher(topic, self._class, queue_size=10)
 
     def wanted(self) -> bool:
@@ -39,18 +39,9 @@ class _States(Device):
         message = self._class()
         for name, pose, velocity in self.entries():
             message.name.append(name)
-            message.pose.append(self._pose_message(pose))
-            twist = self._twist()
-            twist.linear.x, twist.linear.y, twist.angular.z = velocity
-            message.twist.append(twist)
+            message.pose.append(pose_message(pose))
+            message.twist.append(twist_message(velocity))
         self._publisher.publish(message)
-
-    def _pose_message(self, pose: Pose6) -> Any:
-        message = self._pose()
-        at, to = message.position, message.orientation
-        at.x, at.y, at.z, *turn = pose
-        to.x, to.y, to.z, to.w = quaternion(turn[0], turn[1], turn[2])
-        return message
 
     def close(self) -> None:
         self._publisher.unregister()
@@ -64,9 +55,26 @@ class _LinkStates(_States):
 
 
 class StateTopics:
-    """The two topics of states of a world, `rate` times a second."""
+    """The two topics of states of a world, `rate` times a second, and the two that set them."""
 
-    def __init__(self, world: GazeboWorld, rate: float) -> None:
-        host = world.host
+    def __init__(self, world: GazeboWorld, services: Services, rate: float) -> None:
+        host, node = world.host, world.node
+        for name, kind, handler in (
+            ("~set_model_state", "ModelState", services.set_model_state),
+            ("~set_link_state", "LinkState", services.set_link_state),
+        ):
+            node.subscriber(name, message_class(f"gazebo_msgs/{kind}"), _taking(node, kind, handler))
         host.add(_States(host, world, "~model_states", "gazebo_msgs/ModelStates", rate))
         host.add(_LinkStates(host, world, "~link_states", "gazebo_msgs/LinkStates", rate))
+
+
+def _taking(node: Node, kind: str, handler: Callable[[Any], dict[str, Any]]) -> Callable[[Any], None]:
+    """What takes a message as the service takes a request; what is refused is told, for a topic has no answer."""
+    field = {"ModelState": "model_state", "LinkState": "link_state"}[kind]
+
+    def take(message: Any) -> None:
+        answer = handler(SimpleNamespace(**{field: message}))
+        if not answer["success"]:
+            node.logerr(answer["status_message"])
+
+    return take

@@ -236,7 +236,7 @@ class GazeboWorld:
         self._check_new(name, pose)
         if check and not sdf.static:
             above = lowest(sdf, pose)
-            pose = (pose[0], pose[1], -above if above is not None else pose[2], *pose[3:])
+            pose = (pose[0], pose[1], 0.0 - above if above is not None else pose[2], *pose[3:])
         model = Model(self, name, sdf, pose, namespace, frames or {})
         found = self._plugin_classes(_plugins(sdf), f"the model {name!r}", ModelPlugin)
         body = Body(sdf)
