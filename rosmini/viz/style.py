@@ -7,7 +7,8 @@ CSS custom properties (`--rosmini-ink`), with the light colour as fallback, so t
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from colorsys import hls_to_rgb, rgb_to_hls
 from types import MappingProxyType
 
 FONT = '"Helvetica Neue", Helvetica, Arial, "Liberation Sans", "DejaVu Sans", sans-serif'
@@ -86,18 +87,31 @@ def declarations(palette: Mapping[str, str], names: list[str] | None = None) -> 
     return "".join(f"--rosmini-{name}:{palette[name]};" for name in names or palette)
 
 
-def themed(selector: str, names: list[str]) -> str:
+def dark_of(colour: str) -> str:
+    """A colour `#rrggbb` that is not in the palette, as it is on a dark page: the same hue, and bright enough to be seen there."""
+    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    hue, lightness, saturation = rgb_to_hls(red, green, blue)
+    lighter = hls_to_rgb(hue, max(lightness, 0.40 + 0.45 * lightness), saturation)
+    return "#" + "".join(f"{round(255 * part):02x}" for part in lighter)
+
+
+def themed(selector: str, names: list[str], others: Iterable[str] = ()) -> str:
     """Rules that give inline pictures the dark palette on dark pages, and a picture opened alone a page of its own.
+
+    `others` are colours beside the palette, `#rrggbb`, that become custom properties too: `--rosmini-rrggbb`.
 
     `svg:root` matches only where the SVG is the document, so what a reader's system prefers rules there, while on a
     page the page's own switch does.
     """
     dark = ",".join(f"{page} {selector}" for page in DARK_PAGES)
+    dark_colours = declarations(DARK, names) + "".join(
+        f"--rosmini-{colour[1:]}:{dark_of(colour)};" for colour in others
+    )
     return (
-        f"@media not print{{{dark}{{{declarations(DARK, names)}}}}}"
+        f"@media not print{{{dark}{{{dark_colours}}}}}"
         f"svg:root{{background:{LIGHT['page']}}}"
         f"@media screen and (prefers-color-scheme:dark){{"
-        f"svg:root{{background:{DARK['page']};{declarations(DARK, names)}}}}}"
+        f"svg:root{{background:{DARK['page']};{dark_colours}}}}}"
     )
 
 

@@ -64,14 +64,15 @@ def document(
     css: str,
     colours: list[str],
     kind: str = "rosmini-svg",
+    others: Iterable[str] = (),
 ) -> str:
     """A whole picture: usable as a file, and inline in a page of any theme.
 
     `alt` is what a screen reader says; `css` may use the custom properties named in `colours`; `kind` is the class of the
-    picture, to which its rules keep. Where a page is too narrow, the picture shrinks with it, but not below 60 per cent:
+    picture, to which its rules keep; `others` are colours beside the palette that `css` uses. Where a page is too narrow, the picture shrinks with it, but not below 60 per cent:
     its text stays legible and the figure scrolls.
     """
-    style = f".{kind} text{{font-family:{FONT}}}{css}{themed(f'.{kind}', colours)}"
+    style = f".{kind} text{{font-family:{FONT}}}{css}{themed(f'.{kind}', colours, others)}"
     least = number(min(width, max(0.6 * width, 320.0)))
     return element(
         "svg",

@@ -1,7 +1,8 @@
 """From matplotlib's SVG to ours: it follows the theme of its page, it is small, and it is the same on every machine.
 
 - Colours of the light palette become custom properties, so the picture turns dark with its page; black is ink and white is
-  the page. Each stays as an attribute too, for programs that know no custom properties.
+  the page. Other colours may become custom properties of their own, lighter on dark pages. Each stays as an attribute too,
+  for programs that know no custom properties.
 - Numbers keep a hundredth of a pixel. Matplotlib writes six decimals, of which the last may depend on the machine; they
   are rounded as decimal text, so what it wrote alike stays alike.
 - Ids that nothing refers to go. The others (of clip paths and markers) are made from what they name, so two pictures on a
@@ -31,6 +32,7 @@ KIND = "rosmini-plot"
 _NUMBER = re.compile(r"-?\d+\.\d+(?:e-?\d+)?")
 _FONT = re.compile(r"(?P<weight>bold|\d00)?\s*(?P<size>[\d.]+)px")
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
+_PAINT = re.compile(r' (fill|stroke)="(#[0-9a-f]{6})"')
 _DOT = re.compile(r"M([^A-Za-z]+)L\1(?=M|$)")
 _COORDINATES = {
     "d", "x", "y", "x1", "y1", "x2", "y2", "cx", "cy", "r", "width", "height", "points", "transform",
@@ -44,8 +46,11 @@ _DEFAULTS = {
 _OURS = {"#000000": style.LIGHT["ink"], "#ffffff": style.LIGHT["page"]}
 
 
-def themed_svg(svg: str, *, title: str, alt: str) -> str:
-    """The SVG that matplotlib wrote with `svg.fonttype` "none", rewritten. A point of the figure becomes a CSS pixel."""
+def themed_svg(svg: str, *, title: str, alt: str, adapt: bool = False) -> str:
+    """The SVG that matplotlib wrote with `svg.fonttype` "none", rewritten. A point of the figure becomes a CSS pixel.
+
+    With `adapt` colours beside the palette are lighter on dark pages; else they stay as they are.
+    """
     root = fromstring(svg[svg.index("<svg") :])
     names = _new_names(root)
     body = "".join(_written(child, names) for child in root)
@@ -56,10 +61,25 @@ def themed_svg(svg: str, *, title: str, alt: str) -> str:
         for paint in ("fill", "stroke")
         if f' {paint}="{style.LIGHT[name]}"' in body
     )
+    painted = set(_PAINT.findall(body)) if adapt else set()
+    others = sorted({colour for _, colour in painted} - set(style.LIGHT.values()))
+    css += "".join(
+        f'.{KIND} [{paint}="{colour}"]{{{paint}:var(--rosmini-{colour[1:]}, {colour})}}'
+        for paint, colour in sorted(painted)
+        if colour in others
+    )
     width, height = (float(side) for side in root.attrib["viewBox"].split()[2:])
     drawn = element("g", body, stroke_linejoin="round")
     return document(
-        drawn, width=width, height=height, title=title, alt=alt, css=css, colours=colours, kind=KIND
+        drawn,
+        width=width,
+        height=height,
+        title=title,
+        alt=alt,
+        css=css,
+        colours=colours,
+        kind=KIND,
+        others=others,
     )
 
 

@@ -178,11 +178,12 @@ def matplotlib_picture(
     form: Literal["png", "svg"] = "png",
     dpi: float = 110.0,
     caption: str | None = None,
+    adapt: bool = False,
 ) -> Picture:
     """A picture of a matplotlib figure, with no date and no random ids in it.
 
     As SVG it follows the theme of its page where it uses the colours of `rosmini.viz.style.LIGHT`, black or white
-    (see `rosmini.viz.themed`); text is laid out for DejaVu Sans. As PNG it has `dpi` dots an inch.
+    (see `rosmini.viz.themed`), and if `adapt` where it uses any others; text is laid out for DejaVu Sans. As PNG it has `dpi` dots an inch.
     The figure is not shown by Jupyter's inline backend as well if it was made with `matplotlib.figure.Figure`.
 
     Raises:
@@ -201,5 +202,5 @@ def matplotlib_picture(
         figure.savefig(file, format=form, dpi=dpi, metadata=metadata)
     if form == "png":
         return Picture(file.getvalue(), text=text, alt=alt, caption=caption)
-    svg = themed_svg(file.getvalue().decode(), title=text.partition("\n")[0], alt=alt)
+    svg = themed_svg(file.getvalue().decode(), title=text.partition("\n")[0], alt=alt, adapt=adapt)
     return Picture(svg, text=text, alt=alt, caption=caption)

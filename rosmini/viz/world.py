@@ -165,7 +165,7 @@ class Scene:
             self._draw(axes, scale)
             legend(figure, handles, LEFT)
             return matplotlib_picture(
-                figure, text=self.text(title), alt=self.alt(), form="svg", caption=title
+                figure, text=self.text(title), alt=self.alt(), form="svg", caption=title, adapt=True
             )
 
     def _draw(self, axes: Axes, scale: float) -> None:

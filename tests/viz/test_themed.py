@@ -72,6 +72,16 @@ def test_black_is_ink_and_each_colour_follows_the_theme():
         assert ".rosmini-plot" in selector or selector == "svg:root", selector
 
 
+def test_a_colour_beside_the_palette_is_lighter_on_dark_pages():
+    dull, bright = SVG.replace("#0072b2", "#102040"), SVG.replace("#0072b2", "#ffe0c0")
+    svg = themed_svg(dull, title="t", alt="a", adapt=True)
+    assert '.rosmini-plot [stroke="#102040"]{stroke:var(--rosmini-102040, #102040)}' in svg
+    [dark] = set(re.findall(r"--rosmini-102040:(#[0-9a-f]{6})", svg))
+    assert sum(int(dark[i : i + 2], 16) for i in (1, 3, 5)) > 2 * (0x10 + 0x20 + 0x40)
+    assert "--rosmini-ffe0c0:#ffe0c0" in themed_svg(bright, title="t", alt="a", adapt=True)
+    assert "--rosmini-102040" not in themed_svg(dull, title="t", alt="a")
+
+
 def test_ids_say_what_they_name():
     first = themed_svg(SVG, title="t", alt="a")
     other_names = SVG.replace("p1", "p77").replace("m1", "m5")
