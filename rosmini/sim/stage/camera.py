@@ -13,11 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry.poses import compose
-from rosmini.msgs import message_class
 from rosmini.sim.camera import axes_of, capture
-from rosmini.sim.devices import order
-from rosmini.sim.host import Device, Host, Stamp
-from rosmini.sim.messages import Headed
+from rosmini.sim.devices.camera import CameraDevice, heard, image_message
+from rosmini.sim.host import Host, Stamp
+from rosmini.sim.models import CameraModel
 from rosmini.sim.raster import Eye, Lens
 
 from .names import Names
@@ -26,15 +25,12 @@ from .robots import StageCamera
 MILLIMETRES = 1000
 
 
-class StageCameraDevice(Device):
+class StageCameraDevice(CameraDevice):
     """A camera on a robot, published once a step.
 
     `canonical` depths are 32FC1, in metres, -inf for what is nearer than `range` says and inf for what is farther (REP 118); else they are 16UC1, in
     millimetres, with 0 for both.
     """
-
-    order = order("camera")
-    always = False
 
     def __init__(
         self,
@@ -47,64 +43,70 @@ class StageCameraDevice(Device):
         rate: float,
         canonical: bool,
     ) -> None:
-        super().__init__(host, f"{robot}/camera{'' if number is None else f'_{number}'}", rate)
-        self.robot = host.engine.robot(robot)
-        self.camera = camera
+        name = "camera" if number is None else f"camera_{number}"
+        x, y, _, _ = camera.pose
         self.frame = names.frame("camera", number)
+        model = CameraModel(
+            name=name,
+            mount=(x, y, camera.elevation),
+            width=camera.width,
+            height=camera.height,
+            horizontal_fov=camera.fov[0],
+            near=camera.near,
+            far=camera.far,
+            rate=rate,
+            frame=self.frame,
+        )
+        super().__init__(host, robot, model, image=None, info=None)
+        self.stage_camera = camera
         self.canonical = canonical
         self.lens = lens(camera)
-        self._image = Headed("sensor_msgs/Image", self.frame)
-        self._depth = Headed("sensor_msgs/Image", self.frame)
-        self._info = Headed("sensor_msgs/CameraInfo", self.frame)
+        self._image = image_message(model, self.frame, "rgba8", 4)
+        depth = ("32FC1", 4) if canonical else ("16UC1", 2)
+        self._depth = image_message(model, self.frame, *depth)
         self._describe()
-        image = message_class("sensor_msgs/Image")
-        self._to_image = host.node.publisher(names.topic("image", number), image, queue_size=10)
-        self._to_depth = host.node.publisher(names.topic("depth", number), image, queue_size=10)
-        info = message_class("sensor_msgs/CameraInfo")
-        self._to_info = host.node.publisher(names.topic("camera_info", number), info, queue_size=10)
+        node, image, info = host.node, type(self._image.message), type(self._info.message)
+        self._to_image = node.publisher(names.topic("image", number), image, queue_size=10)
+        self._to_depth = node.publisher(names.topic("depth", number), image, queue_size=10)
+        self._to_info = node.publisher(names.topic("camera_info", number), info, queue_size=10)
+        self._publishers = (self._to_image, self._to_depth, self._to_info)
 
     def _describe(self) -> None:
         lens = self.lens
-        for headed, encoding, size in (
-            (self._image, "rgba8", 4),
-            (self._depth, "32FC1" if self.canonical else "16UC1", 4 if self.canonical else 2),
-        ):
-            message: Any = headed.message
-            message.height, message.width = lens.height, lens.width
-            message.encoding, message.step = encoding, lens.width * size
         info: Any = self._info.message
-        info.height, info.width, info.distortion_model = lens.height, lens.width, "plumb_bob"
         info.D = [0.0] * 4
         info.K = [lens.fx, 0.0, lens.cx, 0.0, lens.fy, lens.cy, 0.0, 0.0, 1.0]
-        info.R = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
         info.P = [lens.fx, 0.0, lens.cx, 0.0, 0.0, lens.fy, lens.cy, 0.0, 0.0, 0.0, 1.0, 0.0]
 
     def wanted(self) -> bool:
-        """Tell whether anybody looks."""
-        return self._to_image.num_connections() > 0 or self._to_depth.num_connections() > 0
+        """Tell whether anybody looks; for the numbers alone nothing is done."""
+        return heard(self._to_image) or heard(self._to_depth)
 
     def eye(self) -> Eye:
         """Where it is now, and where it looks."""
-        camera = self.camera
+        camera = self.stage_camera
         x, y, heading = compose(self.robot.pose, (camera.pose[0], camera.pose[1], camera.pose[3]))
         return Eye(np.array([x, y, camera.elevation]), axes_of(heading - camera.pan, camera.tilt), self.lens)
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Take a picture."""
-        image, depths = capture(self.eye(), self.robot.pose, self.host.engine.visible(self.robot.name))
-        for headed in (self._image, self._depth, self._info):
-            headed.stamp(*stamp)
-        if self._to_image.num_connections():
-            opaque = np.full((*image.shape[:2], 1), 255, dtype=np.uint8)
-            self._image.message.data = np.concatenate([image, opaque], axis=2).tobytes()
-            self._to_image.publish(self._image.message)
-        if self._to_depth.num_connections():
-            self._depth.message.data = self._measured(depths).tobytes()
-            self._to_depth.publish(self._depth.message)
-        self._to_info.publish(self._info.message)
+        image, depths = capture(self.eye(), self.robot.pose, self._scene())
+        opaque = np.full((*image.shape[:2], 1), 255, dtype=np.uint8)
+        pixels = np.concatenate([image, opaque], axis=2)
+        for to, told, data in (
+            (self._to_image, self._image, pixels),
+            (self._to_depth, self._depth, self._measured(depths)),
+        ):
+            if to is not None and heard(to):
+                told.message.data = data.tobytes()
+                told.stamp(*stamp)
+                to.publish(told.message)
+        if self._to_info is not None:
+            self._info.stamp(*stamp)
+            self._to_info.publish(self._info.message)
 
     def _measured(self, depths: NDArray[np.float32]) -> NDArray[Any]:
-        near, far = self.camera.near, self.camera.far
+        near, far = self.stage_camera.near, self.stage_camera.far
         if self.canonical:
             told = np.where(depths <= near, -np.inf, np.where(depths >= far, np.inf, depths))
             return told.astype("<f4")
@@ -113,12 +115,7 @@ class StageCameraDevice(Device):
 
     def rotation(self) -> tuple[float, float, float, float]:
         """The quaternion of its optical frame (x to the right, y down, z ahead: REP 103), seen from base_link."""
-        return optical(self.camera.pose[3] - self.camera.pan, self.camera.tilt)
-
-    def close(self) -> None:
-        """End the topics."""
-        for publisher in (self._to_image, self._to_depth, self._to_info):
-            publisher.unregister()
+        return optical(self.stage_camera.pose[3] - self.stage_camera.pan, self.stage_camera.tilt)
 
 
 def lens(camera: StageCamera) -> Lens:

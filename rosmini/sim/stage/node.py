@@ -220,6 +220,11 @@ class Stageros:
         )
 
     @property
+    def name(self) -> str:
+        """The first robot's name."""
+        return self.robot().name
+
+    @property
     def model(self) -> RobotModel:
         """The first robot's model."""
         return self.robot().model

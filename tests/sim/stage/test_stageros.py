@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from rosmini.errors import ParameterError, RosminiError, ScriptError
 from rosmini.geometry.angles import yaw_from_quaternion
@@ -445,6 +446,19 @@ def test_a_camera_is_published_while_somebody_looks(bench):
     assert opaque == 255
     turn = next(t for t in ours.heard["tf"][-1].transforms if t.child_frame_id == "camera").transform.rotation
     assert (turn.x, turn.y, turn.z, turn.w) == pytest.approx((-0.5, 0.5, -0.5, 0.5))
+
+
+def test_a_camera_sees_the_walls_of_a_floor_plan(graph: Graph, tmp_path: Path):
+    dark = np.zeros((40, 60), dtype=np.uint8)
+    dark[1:-1, 1:-1] = 255
+    Image.fromarray(dark).save(tmp_path / "plan.png")
+    camera = "position( camera( resolution [3 3] fov [10 10] pose [0 0 -0.5 90] ) )"
+    (tmp_path / "a.world").write_text(f'model( bitmap "plan.png" size [6 4 1] )\n{camera}')
+    ours = Bench(graph, str(tmp_path / "a.world"))
+    ours.listen("depth")
+    graph.run(0.15)
+    depths = np.frombuffer(bytes(ours.heard["depth"][0].data), dtype="<f4")
+    assert depths[4] == pytest.approx(1.9, abs=0.01)
 
 
 def test_depth_in_millimetres(bench):
