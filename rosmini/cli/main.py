@@ -39,6 +39,7 @@ class Entry(NamedTuple):
 COMMANDS: dict[str, Entry] = {
     "run": Entry("rosmini.cli.run", "run scripts written for rospy as nodes of one graph"),
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
+    "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
     "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),
     "book": Entry("rosmini.cli.book", "build the book from the stored outputs and open it"),
     "lab": Entry("rosmini.cli.lab", "open the notebooks in JupyterLab"),

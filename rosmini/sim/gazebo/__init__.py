@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+from . import examples, ros_plugins  # their plugins are known from here on
+from .client import GazeboClient
 from .errors import GazeboError, SpawnError, UnknownEntity, UnknownPlugin
+from .gz import Gz
 from .plugins import ModelPlugin, SensorPlugin, WorldPlugin, plugin_class, plugin_filenames
+from .server import Gazebo, GazeboServer
 from .tags import Tags, tag
 from .transport import Master, TransportNode
 
 __all__ = [
+    "Gazebo",
+    "GazeboClient",
     "GazeboError",
+    "GazeboServer",
+    "Gz",
     "Master",
     "ModelPlugin",
     "SensorPlugin",
@@ -18,7 +26,9 @@ __all__ = [
     "UnknownEntity",
     "UnknownPlugin",
     "WorldPlugin",
+    "examples",
     "plugin_class",
     "plugin_filenames",
+    "ros_plugins",
     "tag",
 ]

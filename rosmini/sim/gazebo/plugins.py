@@ -120,8 +120,6 @@ def _base(filename: str) -> str:
 
 def plugin_class(filename: str) -> type[Plugin]:
     """The class that stands for a library. Raises `UnknownPlugin`, with the nearest name."""
-    from . import ros_plugins  # noqa: F401  (its classes are known from then on)
-
     found = _CLASSES.get(_base(filename))
     if found is None:
         known = plugin_filenames()
@@ -132,6 +130,4 @@ def plugin_class(filename: str) -> type[Plugin]:
 
 def plugin_filenames() -> tuple[str, ...]:
     """The libraries that there are plugins for, sorted."""
-    from . import ros_plugins  # noqa: F401
-
     return tuple(sorted({name for cls in _CLASSES.values() for name in cls.filenames}))

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from .cameras import BumperPlugin, CameraPlugin, DepthCameraPlugin
 from .drives import DiffDrive, PlanarMove
 from .sensors import ImuModelPlugin, ImuSensorPlugin, LaserPlugin
 from .states import GroundTruthPlugin, JointStatePublisher
 
 __all__ = [
+    "BumperPlugin",
+    "CameraPlugin",
+    "DepthCameraPlugin",
     "DiffDrive",
     "GroundTruthPlugin",
     "ImuModelPlugin",
