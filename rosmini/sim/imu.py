@@ -71,12 +71,27 @@ class Imu:
         aside: tuple[float, float] = (0.0, 0.0),
     ) -> tuple[float, float, float, float, float, float]:
         """Sample `number`, counted from 0 and never backwards: angular velocities x, y, z [rad/s] and accelerations x, y, z [m/s2]."""
+        return self.measure(number, v, w, dv, dw, aside)[:6]
+
+    def measure(
+        self,
+        number: int,
+        v: float,
+        w: float,
+        dv: float,
+        dw: float,
+        aside: tuple[float, float] = (0.0, 0.0),
+    ) -> tuple[float, float, float, float, float, float, float]:
+        """What `read` returns, and after it what `heading_error` does."""
         x, y, _ = self._mount
         ax, ay = acceleration(x, y, v, w, dv, dw, aside)
         if not self._scale:
-            return (0.0, 0.0, w, ax, ay, GRAVITY)
-        e = self._sample(number)
-        return (e[0], e[1], w + e[2], ax + e[3], ay + e[4], GRAVITY + e[5])
+            return (0.0, 0.0, w, ax, ay, GRAVITY, 0.0)
+        if number >= self._end:
+            self._draw(number)
+        place = number - self._first
+        e = self._noise[place]
+        return (e[0], e[1], w + e[2], ax + e[3], ay + e[4], GRAVITY + e[5], self._drifts[place])
 
     def heading_error(self, number: int) -> float:
         """By how much the integral of what the gyroscope showed, up to sample `number`, differs from the turn of the robot [rad]."""
@@ -85,11 +100,6 @@ class Imu:
         if number >= self._end:
             self._draw(number)
         return self._drifts[number - self._first]
-
-    def _sample(self, number: int) -> list[float]:
-        if number >= self._end:
-            self._draw(number)
-        return self._noise[number - self._first]
 
     def _draw(self, number: int) -> None:
         """Draw the blocks up to that of sample `number`."""
