@@ -19,7 +19,7 @@ import numpy as np
 from . import collada
 from .surface import Floats, Surface, box, join, lathe, polygon, prism, rod, rounded
 
-PLATE, HOLE = "#3a424a", "#15191d"
+PLATE, HOLE = "#454e57", "#181c20"
 METAL, BRASS = "#c3cad1", "#b99a5b"
 RUBBER, RIM = "#1b1f23", "#5b6670"
 SERVO, BATTERY, LABEL = "#2b3138", "#2456a6", "#e8ecf0"
@@ -37,9 +37,13 @@ PITCH = 0.0125
 
 
 def holes(
-    half_length: float, half_width: float, tops: Sequence[float], inside: Callable[[float, float], bool]
+    half_length: float,
+    half_width: float,
+    tops: Sequence[float],
+    inside: Callable[[float, float], bool],
+    deep: int = 1,
 ) -> Surface:
-    """What makes a waffle of plates: square holes, dark, on top of each; below the highest, those near the edge that one sees."""
+    """What makes a waffle of plates: square holes, dark, on top of each; below the highest, the `deep` outer rows that one sees."""
     size = 0.0036
     tile = np.array([(-size, -size, 0), (size, -size, 0), (size, size, 0), (-size, size, 0)])
     rows, columns = int((half_length - 0.006) / PITCH), int((half_width - 0.006) / PITCH)
@@ -47,7 +51,7 @@ def holes(
     for top in tops:
         for i in range(-rows, rows + 1):
             for j in range(-columns, columns + 1):
-                edge = abs(i) == rows or abs(j) == columns
+                edge = abs(i) > rows - deep or abs(j) > columns - deep
                 if (top == tops[-1] or edge) and inside(i * PITCH, j * PITCH):
                     found.append(polygon(tile + np.array([i * PITCH, j * PITCH, top + 0.0003])))
     return join(found, HOLE, "holes")
@@ -274,26 +278,26 @@ def waffle_base() -> list[Surface]:
     motors = [each for side in (-1, 1) for each in box((0.053, side * 0.104, 0.027), (0.0465, 0.036, 0.0285))]
     horns = [rod(0.0085, -0.0075, 0.0075, 12, "y").at(0.064, side * 0.1285, 0.023) for side in (-1, 1)]
     chips = [
-        *box((0.035, 0.004, ON_SECOND + 0.0126), (0.016, 0.016, 0.002)),
-        *box((0.060, -0.030, ON_SECOND + 0.0146), (0.014, 0.020, 0.006)),
+        *box((0.067, 0.004, ON_SECOND + 0.0126), (0.016, 0.016, 0.002)),
+        *box((0.092, -0.030, ON_SECOND + 0.0146), (0.014, 0.020, 0.006)),
     ]
     tops = [z + THICKNESS for z in floors]
     return [
         join(plates, PLATE, "plates"),
-        holes(half, half, tops, lambda x, y: abs(x) + abs(y) < 2 * half - cut - 0.008),
+        holes(half, half, tops, lambda x, y: abs(x) + abs(y) < 2 * half - cut - 0.008, 2),
         pillars(places, floors),
         join(motors, SERVO, "motors"),
         join([*horns, _caster(-0.113, 0.064), _caster(-0.113, -0.064)], METAL, "horns"),
         *_battery(-0.030, tops[0], 0.088, 0.046),
-        board(0.040, 0.0, ON_SECOND + 0.010, 0.075, 0.105, BOARD, "opencr"),
+        board(0.072, 0.0, ON_SECOND + 0.010, 0.075, 0.105, BOARD, "opencr"),
         join(chips, CHIP, "chips"),
-        _spacers([(0.040, 0.0, ON_SECOND, 0.075, 0.105)]),
+        _spacers([(0.072, 0.0, ON_SECOND, 0.075, 0.105)]),
     ]
 
 
 def joule() -> list[Surface]:
     """The Waffle's computer: an Intel Joule on its board, with fins to cool it."""
-    x, z = -0.055, ON_SECOND + 0.010
+    x, z = -0.070, ON_SECOND + 0.010
     fins = [
         each for i in range(7) for each in box((x + (i - 3) * 0.005, 0.0, z + 0.011), (0.0018, 0.040, 0.012))
     ]
@@ -306,7 +310,7 @@ def joule() -> list[Surface]:
 
 def raspberry_pi() -> list[Surface]:
     """The Waffle Pi's computer."""
-    x, z = -0.055, ON_SECOND + 0.010
+    x, z = -0.070, ON_SECOND + 0.010
     sockets = [
         each for y in (-0.019, 0.0, 0.019) for each in box((x - 0.037, y, z + 0.0086), (0.017, 0.0145, 0.014))
     ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rosmini.viz.meshcat.recorder import Recorder
 from rosmini.viz.meshcat.scene import Camera, Scene3D
+from rosmini.viz.meshcat.urdf import urdf_3d
 from rosmini.viz.meshcat.view import MeshcatView, replay_3d, robot_3d, simulation_3d, world_3d
 
 __all__ = [
@@ -14,5 +15,6 @@ __all__ = [
     "replay_3d",
     "robot_3d",
     "simulation_3d",
+    "urdf_3d",
     "world_3d",
 ]

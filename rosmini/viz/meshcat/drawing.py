@@ -16,9 +16,11 @@ from rosmini.viz import style
 from rosmini.viz.rounding import snap
 from rosmini.viz.svg import document, element
 
+from .hidden import painting_order as painting_order_of_triangles
 from .order import painting_order
 from .scene import Camera, Scene3D, grid
 from .solids import Part, Prism, Solid, triangulate
+from .surfaces import LinkPart, triangles_in_world
 
 Floats = NDArray[np.float64]
 
@@ -33,13 +35,21 @@ def draw(scene: Scene3D, *, title: str, alt: str) -> str:
     look = _Look(scene.camera)
     body = [*_ground(scene, look), *_trails(scene, look)]
     groups = _groups(scene)
+    described = _described(scene)
+    if described:
+        groups = [*groups, *((outline, []) for outline, _ in described)]
+    first = len(groups) - len(described)
     order = painting_order([outline for outline, _ in groups], look.position[:2])
     # Laser points are on what is seen from the robot: in the picture, all that is farther than the robot.
-    robot = next((n for n, i in enumerate(order) if _robot(groups[i][1][0][0])), len(order))
+    robot = next((n for n, i in enumerate(order) if i >= first or _robot(groups[i][1][0][0])), len(order))
     for n, i in enumerate(order):
         if n == robot:
             body += _scans(scene, look)
-        body += _painted(look, groups[i][1])
+        body += (
+            _painted_surfaces(look, scene, described[i - first][1])
+            if i >= first
+            else _painted(look, groups[i][1])
+        )
     colours = [*THINGS, *(trail.colour for trail in scene.trails if trail.colour not in THINGS)]
     return document(
         element("g", "".join(body), stroke_linejoin="round", stroke_linecap="round", stroke_width=0.8),
@@ -78,6 +88,20 @@ class _Look:
         if not inside:
             return ""
         return "M" + "L".join(f"{x:.5g},{y:.5g}" for x, y in points) + ("Z" if closed else "")
+
+    def facing(self, triangles: Floats) -> NDArray[np.int64]:
+        """Which triangles (n, 3, 3) are wholly before the camera and look at it."""
+        normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 1])
+        size = np.linalg.norm(normals, axis=1)
+        towards = ((self.position - triangles.mean(axis=1)) * normals).sum(axis=1)
+        ahead = (((triangles - self.position) @ self._axes.T)[:, :, 2] >= NEAR).all(axis=1)
+        return np.flatnonzero(ahead & (size > 1e-12) & (towards > 1e-9 * size))
+
+    def projected(self, triangles: Floats) -> Floats:
+        """Of each corner (n, 3, 3) its place in the picture [px] and how far ahead it is [m]."""
+        seen = (triangles - self.position) @ self._axes.T
+        flat = seen[:, :, :2] / seen[:, :, 2:] * self._scale
+        return np.dstack([WIDTH / 2 + flat[:, :, 0], HEIGHT / 2 - flat[:, :, 1], seen[:, :, 2]])
 
 
 def _before(points: Floats) -> Floats:
@@ -146,6 +170,40 @@ def _groups(scene: Scene3D) -> list[tuple[Floats, Group]]:
     return found + [(_outline(group, scene.transform(name)), group) for name, group in robots.items()]
 
 
+def _described(scene: Scene3D) -> list[tuple[Floats, list[LinkPart]]]:
+    """The robots that are drawn from their description, with the rectangles around them along their own axes."""
+    robots: dict[str, list[LinkPart]] = {}
+    for part in scene.surfaces:
+        robots.setdefault("/".join(part.node.split("/")[:2]), []).append(part)
+    found = []
+    for name, parts in robots.items():
+        place = scene.transform(name)
+        corners = np.vstack(
+            [triangles_in_world(part, scene.transform(part.node)).reshape(-1, 3) for part in parts]
+        )
+        found.append((_around(corners, place), parts))
+    return found
+
+
+def _painted_surfaces(look: _Look, scene: Scene3D, parts: list[LinkPart]) -> Iterator[str]:
+    """The triangles of a robot that one sees, those of one colour that follow one another as one path."""
+    corners = np.vstack([triangles_in_world(part, scene.transform(part.node)) for part in parts])
+    colours = [part.colour for part in parts for _ in range(len(part.surface.faces))]
+    faces = look.facing(corners)
+    order = painting_order_of_triangles(look.projected(corners[faces]), WIDTH, HEIGHT)
+    last, way = "", ""
+    for i in (int(faces[j]) for j in order):
+        shaded = _shaded(look, corners[i], colours[i])
+        if shaded is None:
+            continue
+        if shaded[2] != last and way:
+            yield element("path", d=way, fill=last, stroke=last)
+            way = ""
+        last, way = shaded[2], way + shaded[1]
+    if way:
+        yield element("path", d=way, fill=last, stroke=last)
+
+
 def _robot(part: Part) -> bool:
     return part.node.startswith("robots/")
 
@@ -168,6 +226,11 @@ def _outline(group: Group, place: Floats) -> Floats:
         flat = solid.outline if isinstance(solid, Prism) else next(iter(solid.faces()))[:, :2]
         return np.asarray(flat @ at[:2, :2].T + at[:2, 3])
     corners = np.vstack([face for _, solid, at in group for face in _faces(solid, at)])
+    return _around(corners, place)
+
+
+def _around(corners: Floats, place: Floats) -> Floats:
+    """The rectangle (4, 2) around points (n, 3) along the axes of `place`."""
     own = (corners - place[:3, 3]) @ place[:3, :3]
     (x0, y0), (x1, y1) = own[:, :2].min(axis=0), own[:, :2].max(axis=0)
     box = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])

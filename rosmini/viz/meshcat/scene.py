@@ -23,6 +23,7 @@ from rosmini.viz.rounding import snap
 from . import burger
 from .recorder import Recorder, meshcat
 from .solids import Facets, Part, Prism, Rod, mesh, rounded
+from .surfaces import LinkPart
 
 Floats = NDArray[np.float64]
 Colour = tuple[float, float, float]
@@ -84,6 +85,8 @@ class Scene3D:
 
     camera: Camera
     parts: list[Part] = field(default_factory=list)
+    surfaces: list[LinkPart] = field(default_factory=list)
+    """Of robots that are drawn from their description."""
     trails: list[Trail] = field(default_factory=list)
     scans: list[Floats] = field(default_factory=list)
     """Points (n, 3) in the world that lasers saw."""
@@ -158,6 +161,14 @@ class Scene3D:
                 if solid.axis == "z":
                     place[:3, :3] = [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
             path[str(i)].set_transform(rounded(place))
+
+    def add_surface(self, part: LinkPart) -> None:
+        """Add a surface to its node."""
+        self.surfaces.append(part)
+        geometry = meshcat().geometry
+        material = geometry.MeshPhongMaterial(color=int(part.colour[1:], 16), shininess=26, specular=0x0E0E0E)
+        triangles = geometry.TriangularMeshGeometry(rounded(part.surface.vertices), part.surface.faces)
+        self.visualizer[f"{part.node}/{part.name}"].set_object(triangles, material)
 
     def add_ground(self, bounds: tuple[float, float, float, float]) -> None:
         """Add a floor that reaches half a metre further than `bounds`, with a line each metre."""

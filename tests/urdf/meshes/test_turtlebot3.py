@@ -1,0 +1,71 @@
+import numpy as np
+import pytest
+
+from rosmini.packages import assets_dir
+from rosmini.urdf.meshes import read
+from rosmini.urdf.meshes.__main__ import main
+from rosmini.urdf.meshes.turtlebot3 import MESHES, files
+
+FOLDER = assets_dir() / "ros" / "turtlebot3_description" / "meshes"
+
+
+@pytest.fixture(scope="module")
+def made():
+    return files()
+
+
+def test_the_committed_meshes_are_what_the_generator_makes(made):
+    there = {path.relative_to(FOLDER).as_posix(): path for path in FOLDER.rglob("*") if path.is_file()}
+    assert set(there) == set(made)
+    for name, data in made.items():
+        assert there[name].read_bytes() == data, f"{name}: run python -m rosmini.urdf.meshes"
+
+
+def test_together_they_are_small(made):
+    assert sum(map(len, made.values())) < 300_000
+
+
+def bounds(name):
+    both = [surface.bounds for surface in read(FOLDER / name)]
+    return np.min([low for low, _ in both], axis=0), np.max([high for _, high in both], axis=0)
+
+
+@pytest.mark.parametrize(
+    ("name", "size"),
+    [
+        (
+            "wheels/tire.dae",
+            (0.066, 0.0185, 0.066),
+        ),  # description: radius 33 mm, width 18 mm; the hub stands out
+        ("sensors/lds.dae", (0.0955, 0.0695, 0.040)),  # LDS-01: 95.5 x 69.5 x 39.5 mm
+        ("sensors/r200.dae", (0.0136, 0.130, 0.025)),  # R200: 130 x 20 x 7 mm, on a foot
+        (
+            "bases/waffle_base.dae",
+            (0.266, 0.272, 0.104),
+        ),  # description: 266 x 266 mm; horns of the motors reach the wheels
+        ("bases/burger_base.dae", (0.138, 0.142, 0.152)),  # e-manual: 138 mm long
+    ],
+)
+def test_measures(name, size):
+    low, high = bounds(name)
+    assert high - low == pytest.approx(size, abs=2.5e-3)
+
+
+@pytest.mark.parametrize("name", sorted(MESHES))
+def test_every_surface_has_a_colour_and_looks_to_all_sides(name):
+    surfaces = read(FOLDER / name)
+    assert len({surface.colour for surface in surfaces}) >= 2
+    for surface in surfaces:
+        assert surface.colour is not None
+        assert np.isfinite(surface.vertices).all()
+        corners = surface.triangles
+        flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        size = np.linalg.norm(flat, axis=1)
+        towards = np.einsum("ij,ikj->ik", flat, surface.normals[surface.faces])
+        assert (towards[size > 1e-9] > 0).all()
+
+
+def test_the_command_writes_them(tmp_path, capsys, made):
+    main([str(tmp_path)])
+    assert {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*.dae")} == set(made)
+    assert "kB  together" in capsys.readouterr().out
