@@ -105,7 +105,7 @@ def _sdf(path: Path) -> tuple[str, list[str]]:
             f"the model {model.name!r}: {_count(len(model.links), 'link')}, {_count(len(solid), 'obstacle')}"
         )
     said += [f"the actor {actor.name!r}" for actor in document.actors]
-    return f"SDF {document.version or 'of no version'}: {'; '.join(said) or 'nothing in it'}", notes
+    return f"SDF {document.version}: {'; '.join(said) or 'nothing in it'}", notes
 
 
 def _stage(path: Path) -> tuple[str, list[str]]:

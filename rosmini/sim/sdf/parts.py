@@ -22,6 +22,7 @@ from .document import (
     SdfSensor,
     SdfVisual,
 )
+from .errors import SdfError
 from .frames import Scope, given
 from .resources import Resources
 
@@ -160,10 +161,19 @@ def _collision(element: Element, scope: Scope, here: Pose6, reading: Reading) ->
 
 
 def _visual(element: Element, scope: Scope, here: Pose6, reading: Reading) -> SdfVisual:
+    shape = element.need("geometry")
+    uri = shape.find("mesh/uri")
+    try:
+        looks = geometry(shape, reading)
+    except SdfError as error:
+        if uri is None or error.line != uri.line:
+            raise
+        reading.note(uri, f"this mesh, which is only looked at, is left out: {error.message}")
+        looks = SdfGeometry("other", line=shape.line)
     return SdfVisual(
         name_of(element),
         scope.seen_from(here, given(element)),
-        geometry(element.need("geometry"), reading),
+        looks,
         colour_of(element.find("material")),
         element.line,
     )

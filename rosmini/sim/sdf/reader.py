@@ -59,7 +59,7 @@ def _document(root: Element, reading: Reading) -> Sdf:
     worlds = tuple(_world(each, reading) for each in unique(root.all("world"), "world"))
     models = tuple(_model(each, given(each).pose, reading, 0) for each in unique(root.all("model"), "model"))
     actors = tuple(_actor(each, scope, reading) for each in unique(root.all("actor"), "actor"))
-    return Sdf(root.get("version"), worlds, models, actors, root.path, tuple(reading.notes))
+    return Sdf(root.attribute("version"), worlds, models, actors, root.path, tuple(reading.notes))
 
 
 # ---- worlds ----

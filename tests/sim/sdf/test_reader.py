@@ -1,0 +1,341 @@
+"""SDF as plain data: what is read, where it is, and what is said about files that are broken."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rosmini.errors import RosminiError
+from rosmini.sim.sdf import SdfError, load
+from rosmini.sim.sdf.poses import compose, from_quaternion, inverse, matrix, pose6, upright
+
+BOX = "<geometry><box><size>1 2 3</size></box></geometry>"
+
+
+def world(inside: str) -> str:
+    return f"<sdf version='1.7'>\n<world name='w'>\n{inside}\n</world>\n</sdf>"
+
+
+def model(inside: str, name: str = "m") -> str:
+    return f"<sdf version='1.7'>\n<model name='{name}'>\n{inside}\n</model>\n</sdf>"
+
+
+# ---- poses ----
+
+numbers = st.floats(-20, 20)
+angles = st.floats(-math.pi, math.pi)
+poses = st.tuples(numbers, numbers, numbers, angles, angles, angles)
+
+
+@given(poses, poses)
+def test_composing_poses_is_multiplying_their_matrices(a, b):
+    assert matrix(compose(a, b)) == pytest.approx(matrix(a) @ matrix(b), abs=1e-9)
+
+
+@given(poses)
+def test_a_pose_and_its_inverse_are_none(pose):
+    assert matrix(compose(pose, inverse(pose))) == pytest.approx(np.eye(4), abs=1e-6)
+    assert matrix(pose6(matrix(pose))) == pytest.approx(matrix(pose), abs=1e-6)
+
+
+@given(numbers, numbers, numbers, angles, poses)
+def test_poses_that_stand_upright_stay_so_and_their_yaws_add_up(x, y, z, yaw, other):
+    here = (x, y, z, 0.0, 0.0, yaw)
+    flat = (*other[:3], 0.0, 0.0, other[5])
+    assert upright(compose(here, flat))
+    assert compose(here, flat)[5] == pytest.approx(yaw + other[5])
+
+
+def test_angles_turn_about_fixed_axes_roll_first():
+    # A quarter of a turn about x takes y up; one about z after that leaves it up.
+    assert matrix((0, 0, 0, math.pi / 2, 0, math.pi / 2))[:3, :3] @ [0, 1, 0] == pytest.approx([0, 0, 1])
+    assert matrix((0, 0, 0, 0, math.pi / 2, 0))[:3, :3] @ [1, 0, 0] == pytest.approx([0, 0, -1])
+    assert not upright((0, 0, 0, 0.01, 0, 0))
+    assert not upright((0, 0, 0, math.pi, 0, 0))
+    assert from_quaternion(0, 0, 2 * math.sin(0.3), 2 * math.cos(0.3)) == pytest.approx((0, 0, 0.6))
+
+
+# ---- what is read ----
+
+
+def test_a_world_is_read_with_all_its_parts():
+    found = load(
+        world(
+            """
+            <physics type='ode'><max_step_size>0.002</max_step_size><real_time_factor>2</real_time_factor>
+              <real_time_update_rate>0</real_time_update_rate><ode/></physics>
+            <gravity>0 0 -1.62</gravity>
+            <plugin name='p' filename='libp.so'><a>1</a></plugin>
+            <frame name='start_1'><pose>1 2 0 0 0 3</pose></frame>
+            <model name='cart'>
+              <pose>1 2 0 0 0 0.5</pose>
+              <link name='base'>
+                <pose>0 0 0.1 0 0 0</pose>
+                <inertial><mass>3</mass><inertia><ixx>0.1</ixx><iyy>0.2</iyy><izz>0.3</izz></inertia></inertial>
+                <collision name='c'><geometry><cylinder><radius>0.2</radius><length>0.4</length></cylinder></geometry>
+                  <surface><friction><ode><mu>0.7</mu></ode></friction></surface></collision>
+                <visual name='v'><geometry><sphere><radius>0.2</radius></sphere></geometry>
+                  <material><script><name>Gazebo/Red</name></script></material></visual>
+                <sensor name='eye' type='ray'><pose>0.1 0 0 0 0 0</pose><update_rate>5</update_rate>
+                  <ray><scan/></ray><plugin name='q' filename='libq.so'/></sensor>
+              </link>
+              <link name='wheel'><pose>0 0.3 0 0 0 0</pose></link>
+              <joint name='axle' type='revolute'><parent>base</parent><child>wheel</child><axis><xyz>0 1 0</xyz></axis></joint>
+              <plugin name='drive' filename='libdrive.so'/>
+            </model>
+            <actor name='man'><script><loop>false</loop><delay_start>2</delay_start><trajectory id='0' type='walk'>
+              <waypoint><time>4</time><pose>2 0 1 0 0 0</pose></waypoint>
+              <waypoint><time>0</time><pose>0 0 1 0 0 0</pose></waypoint></trajectory></script></actor>
+            """
+        )
+    )
+    (made,) = found.worlds
+    assert found.version == "1.7"
+    assert (
+        made.physics.max_step_size,
+        made.physics.real_time_factor,
+        made.physics.real_time_update_rate,
+    ) == (0.002, 2, 0)
+    assert made.gravity == (0, 0, -1.62)
+    assert made.plugins[0].filename == "libp.so"
+    assert made.plugins[0].element.word("a") == "1"
+    assert made.frames == (("start_1", (1, 2, 0, 0, 0, 3)),)
+    (cart,) = made.models
+    assert cart.pose == (1, 2, 0, 0, 0, 0.5)
+    assert not cart.static
+    base, wheel = cart.links
+    assert base.inertial.mass == 3
+    assert base.inertial.inertia == (0.1, 0.2, 0.3, 0, 0, 0)
+    assert (base.collisions[0].geometry.radius, base.collisions[0].geometry.length) == (0.2, 0.4)
+    assert base.collisions[0].friction == 0.7
+    assert base.visuals[0].colour == "#ff0000"
+    eye = base.sensors[0]
+    assert (eye.type, eye.update_rate, eye.pose[0], eye.plugins[0].filename) == ("ray", 5, 0.1, "libq.so")
+    assert eye.element.find("ray/scan") is not None
+    assert wheel.pose == (0, 0.3, 0, 0, 0, 0)
+    joint = cart.joints[0]
+    assert (joint.name, joint.type, joint.parent, joint.child, joint.axis) == (
+        "axle",
+        "revolute",
+        "base",
+        "wheel",
+        (0, 1, 0),
+    )
+    assert cart.plugins[0].name == "drive"
+    (man,) = made.actors
+    assert [moment for moment, _ in man.waypoints] == [0, 4]
+    assert (man.loop, man.delay) == (False, 2)
+    assert found.notes == ()
+
+
+def test_poses_are_resolved_through_the_frames_they_name():
+    (made,) = load(
+        model(
+            """
+            <frame name='mast' attached_to='base'><pose>0 0 1 0 0 1.5707963267948966</pose></frame>
+            <link name='base'><pose>1 0 0 0 0 0</pose></link>
+            <link name='head'><pose relative_to='mast'>0.5 0 0 0 0 0</pose>
+              <collision name='c'><pose relative_to='base'>0 0 0.2 0 0 0</pose>BOX</collision></link>
+            <link name='hand'><pose relative_to='neck'>0 0 0.1 0 0 0</pose></link>
+            <joint name='neck' type='fixed'><pose>0 0.1 0 0 0 0</pose><parent>base</parent><child>head</child></joint>
+            <model name='inner'><pose relative_to='head'>0 0 0.5 0 0 0</pose><link name='l'><pose>0 0 0.25 0 0 0</pose></link></model>
+            <link name='cap'><pose relative_to='inner::l'>0 0 1 0 0 0</pose></link>
+            """.replace("BOX", BOX)
+        )
+    ).models
+    links = {link.name: link for link in made.links}
+    # The mast stands 1 m above the base and looks along y.
+    assert links["head"].pose[:3] == pytest.approx((1, 0.5, 1))
+    assert links["hand"].pose[:3] == pytest.approx((0.9, 0.5, 1.1))
+    assert made.models[0].pose[:3] == pytest.approx((1, 0.5, 1.5))
+    assert links["cap"].pose[:3] == pytest.approx((1, 0.5, 2.75))
+    seen = compose(links["head"].pose, links["head"].collisions[0].pose)
+    assert seen[:3] == pytest.approx((1, 0, 0.2))
+
+
+def test_angles_may_be_degrees_or_a_quaternion():
+    (made,) = load(
+        model(
+            "<link name='a'><pose degrees='true'>0 0 0 0 0 90</pose></link>"
+            "<link name='b'><pose rotation_format='quat_xyzw'>1 2 3 0 0 1 1</pose></link>"
+        )
+    ).models
+    assert made.links[0].pose[5] == pytest.approx(math.pi / 2)
+    assert made.links[1].pose == pytest.approx((1, 2, 3, 0, 0, math.pi / 2))
+
+
+def test_the_state_of_a_saved_world_counts_more_than_where_its_models_began():
+    (made,) = load(
+        world(
+            "<model name='a'><link name='l'/></model><state world_name='w'><model name='a'><pose>1 2 0 0 0 1</pose></model></state>"
+        )
+    ).worlds
+    assert made.models[0].pose == (1, 2, 0, 0, 0, 1)
+
+
+# ---- includes ----
+
+
+@pytest.fixture
+def brick(tmp_path, monkeypatch):
+    folder = tmp_path / "models" / "brick"
+    folder.mkdir(parents=True)
+    (folder / "model.config").write_text(
+        "<model><name>b</name><sdf version='1.4'>old.sdf</sdf><sdf version='1.10'>new.sdf</sdf></model>"
+    )
+    (folder / "new.sdf").write_text(
+        model(f"<pose>0 0 1 0 0 0</pose><link name='l'><collision name='c'>{BOX}</collision></link>", "brick")
+    )
+    monkeypatch.setenv("GAZEBO_MODEL_PATH", f"{tmp_path / 'nowhere'}:{tmp_path / 'models'}")
+    return folder
+
+
+def test_models_are_included_from_the_model_path(brick):
+    (made,) = load(
+        world(
+            "<include><uri>model://brick</uri></include>"
+            "<include><uri>model://brick</uri><name>second</name><pose>1 0 0 0 0 0</pose><static>1</static><plugin name='p' filename='libp.so'/></include>"
+        )
+    ).worlds
+    first, second = made.models
+    assert (first.name, first.pose, first.static) == ("brick", (0, 0, 1, 0, 0, 0), False)
+    assert (second.name, second.pose, second.static) == ("second", (1, 0, 0, 0, 0, 0), True)
+    assert second.plugins[0].filename == "libp.so"
+    assert second.links[0].collisions[0].geometry.size == (1, 2, 3)
+
+
+def test_a_model_may_hold_another(brick):
+    (made,) = load(model("<include><uri>model://brick</uri><pose>2 0 0 0 0 0</pose></include>")).models
+    assert made.models[0].pose == (2, 0, 0, 0, 0, 0)
+
+
+def test_the_ground_and_the_sun_are_known():
+    found = load(
+        world("<include><uri>model://ground_plane</uri></include><include><uri>model://sun</uri></include>")
+    )
+    assert [each.name for each in found.worlds[0].models] == ["ground_plane"]
+
+
+def test_packages_may_bring_models(tmp_path, monkeypatch, brick):
+    package = tmp_path / "ws" / "bricks"
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text(
+        "<package><name>bricks</name><version>0.1.0</version><description>d</description><maintainer email='a@b.invalid'>m</maintainer>"
+        "<license>l</license><export><gazebo_ros gazebo_model_path='${prefix}/../../models'/></export></package>"
+    )
+    monkeypatch.delenv("GAZEBO_MODEL_PATH")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ws"))
+    assert load(world("<include><uri>model://brick</uri></include>")).worlds[0].models[0].name == "brick"
+    (package / "a.sdf").write_text(model("<link name='l'/>", "a"))
+    assert load("package://bricks/a.sdf").models[0].name == "a"
+
+
+def test_a_model_that_includes_itself_is_an_error(brick):
+    (brick / "new.sdf").write_text(model("<include><uri>model://brick</uri></include>", "brick"))
+    with pytest.raises(SdfError, match="include"):
+        load(world("<include><uri>model://brick</uri></include>"))
+
+
+# ---- what is left out ----
+
+
+def test_what_is_left_out_is_noted_with_its_line():
+    found = load(
+        world(
+            "<light name='lamp' type='point'/>\n<modle name='x'/>\n<mine:own/>\n<model name='m'><static>1</static><link name='l'>"
+            "<collision name='c'><geometry><heightmap/></geometry></collision></link></model>"
+        )
+    )
+    assert [(note.line, note.text.split(":")[0]) for note in found.notes] == [
+        (4, "<modle> is nothing that <world> has; did you mean model?"),
+        (3, "a light"),
+        (
+            6,
+            "the shape <heightmap> is left out; rosmini has box, cylinder, sphere, plane, polyline, mesh, empty",
+        ),
+    ]
+    assert str(found.notes[1]).startswith("<text>:3: ")
+
+
+def test_a_mesh_that_is_only_looked_at_may_be_missing():
+    found = load(
+        model(
+            "<link name='l'><visual name='v'><geometry><mesh><uri>model://none/m.dae</uri></mesh></geometry></visual></link>"
+        )
+    )
+    assert found.models[0].links[0].visuals[0].geometry.kind == "other"
+    assert "there is no model 'none'" in found.notes[0].text
+
+
+# ---- what is wrong ----
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "part"),
+    [
+        ("<sdf version='1.7'>\n<world name='w'>", 2, "still open"),
+        ("<robot name='r'/>", 1, "URDF"),
+        ("<urdf/>", 1, "begins with <sdf"),
+        ("<sdf><world name='w'/></sdf>", 1, "version"),
+        (world("<model/>"), 3, 'name="..." is missing in <model>'),
+        (world("<model name='a'><link name='l'/></model>\n<model name='a'><link name='l'/></model>"), 4, "another model 'a' in line 3"),
+        (world("<physics type='ode'>\n<max_step_size>0</max_step_size></physics>"), 4, "more than 0 s"),
+        (world("<physics type='ode'><real_time_factor>-1</real_time_factor></physics>"), 3, "real_time_factor is 0 or more"),
+        (world("<gravity>0 0</gravity>"), 3, "3 numbers, not 2"),
+        (world("<include/>"), 3, "no <uri>"),
+        (world("<include><uri></uri></include>"), 3, "is empty"),
+        (world("<include><uri>model://grund_plane</uri></include>"), 3, "did you mean ground_plane"),
+        (world("<include><uri>https://fuel.example/x</uri></include>"), 3, "fetches nothing"),
+        (world("<include><uri>model://../x</uri></include>"), 3, "there is no model '..'|names no model"),
+        (model("<pose>0 0 0 0 0</pose><link name='l'/>"), 3, "6 numbers, not 5"),
+        (model("<link name='l'><pose>0 0 nan 0 0 0</pose></link>"), 3, "not finite"),
+        (model("<link name='l'><pose>0 0 a 0 0 0</pose></link>"), 3, "'a' .* is not a number"),
+        (model("<link name='l'><pose relative_to='bse'>0 0 0 0 0 0</pose></link><link name='base'/>"), 3, "did you mean base"),
+        (model("<link name='a'><pose relative_to='b'/></link>\n<link name='b'><pose relative_to='a'/></link>"), 4, "circle: a -> b -> a"),
+        (model("<link name='l'/><link name='l'/>"), 3, "another link 'l'"),
+        (model("<link name='l'><collision name='c'/></link>"), 3, "no <geometry>"),
+        (model("<link name='l'><collision name='c'><geometry><boxx/></geometry></collision></link>"), 3, "did you mean box"),
+        (model("<link name='l'><collision name='c'><geometry><box><size>1 0 1</size></box></geometry></collision></link>"), 3, "more than 0"),
+        (model("<link name='l'><collision name='c'><geometry><sphere/></geometry></collision></link>"), 3, "no <radius>"),
+        (model("<link name='l'><collision name='c'><geometry><sphere><radius>-1</radius></sphere></geometry></collision></link>"), 3, "more than 0 m"),
+        (model("<link name='l'><collision name='c'><geometry><mesh><uri>file://no.dae</uri></mesh></geometry></collision></link>"), 3, "not there"),
+        (model("<link name='l'><visual name='c'><geometry><polyline><point>0 0</point><point>1 1</point></polyline></geometry></visual></link>"), 3, "3 points"),
+        (model(f"<link name='l'><visual name='c'>{BOX}<material><diffuse>2 0 0 1</diffuse></material></visual></link>"), 3, "between 0 and 1"),
+        (model("<link name='l'><inertial><mass>0</mass></inertial></link>"), 3, "a mass is more than 0"),
+        (model("<link name='l'><inertial><inertia><ixx>-1</ixx></inertia></inertial></link>"), 3, "ixx is more than 0"),
+        (model("<link name='l'><sensor name='s'/></link>"), 3, "type"),
+        (model("<link name='l'><sensor name='s' type='ray'><update_rate>-1</update_rate></sensor></link>"), 3, "0 .always. or more"),
+        (model("<link name='l'/><joint name='j' type='fixed'><parent>k</parent><child>l</child></joint>"), 3, "no frame 'k'"),
+        (model("<link name='l'/><plugin name='p'/>"), 3, "filename"),
+        (model("<static>perhaps</static><link name='l'/>"), 3, "true or false"),
+        (world("<actor name='a'><script><trajectory id='0' type='w'><waypoint><time>-1</time></waypoint></trajectory></script></actor>"), 3, "0 s or more"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_said_with_its_line(text, line, part):
+    with pytest.raises(SdfError, match=part) as caught:
+        load(text)
+    assert caught.value.line == line
+    assert isinstance(caught.value, RosminiError)
+
+
+def test_a_file_that_is_not_there_is_an_error(tmp_path):
+    with pytest.raises(SdfError, match=r"no\.world"):
+        load(tmp_path / "no.world")
+    (tmp_path / "w.world").write_text(world("<model/>"))
+    with pytest.raises(SdfError, match=r"w\.world:3: "):
+        load(tmp_path / "w.world")
+
+
+@given(st.text(alphabet="<>/ame'=sdfworl \n0123", max_size=60), st.integers(0, 200))
+def test_a_broken_file_is_an_sdf_error_and_nothing_else(garbage, where):
+    text = world(f"<model name='a'><link name='l'><collision name='c'>{BOX}</collision></link></model>")
+    broken = text[:where] + garbage + text[where:]
+    try:
+        found = load("<" + broken.lstrip().lstrip("<"))
+    except SdfError:
+        return
+    assert found.version
