@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.errors import RosminiError, nearest
-from rosmini.geometry.poses import Pose, compose
+from rosmini.geometry.poses import Pose
 
 from .clockwork import EPSILON, STEP, Clockwork
 from .lidar import scan as measure
@@ -34,7 +34,7 @@ from .movers import Mover
 from .odometry import RealWheels
 from .robot import Robot, Thing, make_robot
 from .shapes import Part, Polygon
-from .sights import Sights, parts_of, stacked
+from .sights import Sights, parts_of, parts_of_robot
 from .state import EngineState, RobotState
 from .world import Obstacle, World, WorldError
 
@@ -238,7 +238,7 @@ class Engine:
         hindrance = self._hindrance(model, pose, name)
         if hindrance is not None:
             x, y, theta = pose
-            free = self.world.free_place(pose, model.footprint, model.height)
+            free = self.world.free_place(pose, model.footprint, model.height, self._taken(model, name))
             hint = "" if free is None else f". There is room at ({free[0]:.2f}, {free[1]:.2f})"
             msg = (
                 f"no robot can be placed at ({x:.2f}, {y:.2f}) with heading {theta:.2f} in the world {self.world.name!r}: "
@@ -246,6 +246,9 @@ class Engine:
             )
             raise WorldError(msg)
         return (float(pose[0]), float(pose[1]), float(pose[2]))
+
+    def _taken(self, model: RobotModel, name: str) -> Callable[[Pose], str | None]:
+        return lambda place: self.contacts.hindrance(model, place, name)
 
     def _hindrance(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
         """Return what stands at `pose`, in words; None if a robot has room there."""
@@ -418,14 +421,8 @@ class Engine:
             slips=self._clockwork.slips,
             moving=self._clockwork.moving,
             robots=tuple(RobotState(each.name, each.model, each.state()) for each in self.robots.values()),
-            things={
-                crate.obstacle.name: (crate.obstacle, crate.pose, crate.velocity)
-                for crate in self.contacts.crates
-            },
-            movers={
-                name: (mover.clock, mover.pose, mover.room, mover.waiting)
-                for name, mover in self.movers.items()
-            },
+            things={each.obstacle.name: (each.pose, each.velocity) for each in self.contacts.crates},
+            movers={name: mover.state() for name, mover in self.movers.items()},
             bodies=self.contacts.memory(),
         )
 
@@ -447,17 +444,16 @@ class Engine:
         if not same:
             self._rebuild()
         self._tune(**asdict(state.surface))
-        for name, (_, pose, velocity) in state.things.items():
+        for name, (pose, velocity) in state.things.items():
             self.contacts.place(name, pose, velocity)
-        for name, (clock, pose, _, waiting) in state.movers.items():
-            mover = self.movers[name]
-            mover.clock, mover.pose, mover.waiting = clock, pose, waiting
-            self.contacts.place(name, pose)
+        for name, kept_mover in state.movers.items():
+            self.movers[name].restore(kept_mover)
+            self.contacts.place(name, self.movers[name].pose)
         self._renew(state.bodies)
         for each in state.robots:
             self.robots[each.name].room = each.state["room"]
-        for name, (_, _, room, _) in state.movers.items():
-            self.movers[name].room = room
+        for name, kept_mover in state.movers.items():
+            self.movers[name].restore(kept_mover)
         self._clockwork.slips, self._clockwork.moving = state.slips, state.moving
         self._clockwork.plan()
         self._sights.forget(self.world)
@@ -488,24 +484,14 @@ class Engine:
         """What the laser of this robot can see: segments (n, 4) and discs (m, 3), other robots among them, in the frame map."""
         viewer = self.robot(name)
         laser = viewer.model.laser if lidar is None else lidar
-        x, y, theta = viewer.pose
-        c, s = math.cos(theta), math.sin(theta)
-        mx, my, height = laser.mount
-        x, y = x + c * mx - s * my, y + s * mx + c * my
-        radius = laser.range_max + 6 * laser.noise
-        found = [self._sights.fixed_around(name, x, y, height, radius)]
-        shown = (crate for crate in self.contacts.crates if crate.shown)
-        found += [self._sights.thing(crate.obstacle, height, crate.pose) for crate in shown]
-        found += [self._sights.thing(mover.obstacle, height, mover.pose) for mover in self.movers.values()]
-        if len(self.robots) > 1:
-            every = list(self.robots.values())
-            own = next(i for i, each in enumerate(every) if each is viewer)
-            moment = (self.now, self.changed, len(every))
-            crowd = self._sights.crowd(
-                moment, height, [each.model for each in every], [each.pose for each in every]
-            )
-            found.append(crowd.around(x, y, radius, own))
-        return stacked(found)
+        return self._sights.of(
+            laser,
+            viewer,
+            list(self.robots.values()),
+            [crate for crate in self.contacts.crates if crate.shown],
+            self.movers.values(),
+            (self.now, self.changed),
+        )
 
     def scan(self, name: str, noise: Floats | None = None, lidar: LidarModel | None = None) -> Floats:
         """The ranges (beams,) [m] that a laser on a robot measures now: its own, or another; see `rosmini.sim.lidar.scan`.
@@ -524,16 +510,6 @@ class Engine:
         found = [parts_of(o) for o in self.world.obstacles if o.fixed]
         found += [parts_of(crate.obstacle, crate.pose) for crate in self.contacts.crates if crate.shown]
         found += [parts_of(mover.obstacle, mover.pose) for mover in self.movers.values()]
-        for each in self.robots.values():
-            if each.name != name:
-                height = each.model.height
-                found += [
-                    replace(
-                        part,
-                        pose=compose(each.pose, part.pose),
-                        top=part.top if math.isfinite(part.top) else height,
-                        name=each.name,
-                    )
-                    for part in each.model.solid
-                ]
-        return found
+        return found + [
+            part for each in self.robots.values() if each.name != name for part in parts_of_robot(each)
+        ]

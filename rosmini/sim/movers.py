@@ -59,6 +59,14 @@ class Mover:
             self.pose = pose
             contacts.place(name, pose)
 
+    def state(self) -> tuple[float, Pose, float, bool]:
+        """Its clock, its place, its room, and whether it waits."""
+        return (self.clock, self.pose, self.room, self.waiting)
+
+    def restore(self, state: tuple[float, Pose, float, bool]) -> None:
+        """Be as it was then."""
+        self.clock, self.pose, self.room, self.waiting = state
+
     def start(self) -> None:
         """Be where it began."""
         self.clock, self.room, self.waiting = 0.0, 0.0, False

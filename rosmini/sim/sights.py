@@ -8,15 +8,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Iterable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.poses import Pose
+from rosmini.geometry.poses import Pose, compose
 
-from .models import RobotModel
+from .models import LidarModel, RobotModel
 from .shapes import Part, Simple, Sphere, simple_parts
 from .world import Box, Obstacle, Polygon, World, edges
+
+if TYPE_CHECKING:
+    from .bodies import Crate
+    from .movers import Mover
+    from .robot import Robot
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -211,8 +218,47 @@ class Sights:
             self._crowd = (key, Crowd(models, places, lambda model: self.template(model, height)))
         return self._crowd[1]
 
+    def of(
+        self,
+        laser: LidarModel,
+        viewer: Robot,
+        robots: Sequence[Robot],
+        crates: Iterable[Crate],
+        movers: Iterable[Mover],
+        moment: Hashable,
+    ) -> Cut:
+        """What a laser on one of the robots can see: all that may be within its reach, other robots among them, in the frame map."""
+        x, y, theta = viewer.pose
+        c, s = math.cos(theta), math.sin(theta)
+        mx, my, height = laser.mount
+        x, y = x + c * mx - s * my, y + s * mx + c * my
+        radius = laser.range_max + 6 * laser.noise
+        found = [self.fixed_around(viewer.name, x, y, height, radius)]
+        found += [self.thing(crate.obstacle, height, crate.pose) for crate in crates]
+        found += [self.thing(mover.obstacle, height, mover.pose) for mover in movers]
+        if len(robots) > 1:
+            poses = [each.pose for each in robots]
+            crowd = self.crowd(moment, height, [each.model for each in robots], poses)
+            own = next(i for i, each in enumerate(robots) if each is viewer)
+            found.append(crowd.around(x, y, radius, own))
+        return stacked(found)
+
 
 def parts_of(obstacle: Obstacle, pose: Pose | None = None) -> Part:
     """An obstacle as a part of the world, where it is or at `pose`."""
     where = obstacle.pose if pose is None else pose
     return Part(obstacle.shape, where, obstacle.bottom, obstacle.height, obstacle.colour, obstacle.name)
+
+
+def parts_of_robot(robot: Robot) -> list[Part]:
+    """The parts of a robot where it is now."""
+    height = robot.model.height
+    return [
+        replace(
+            part,
+            pose=compose(robot.pose, part.pose),
+            top=part.top if math.isfinite(part.top) else height,
+            name=robot.name,
+        )
+        for part in robot.model.solid
+    ]

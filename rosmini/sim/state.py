@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.geometry.poses import Pose
 
 from .models import RobotModel
-from .world import Obstacle, World
+from .world import World
 
 if TYPE_CHECKING:
     from .physics import RoverMemory, Surface
@@ -37,8 +37,8 @@ class EngineState:
     moving: bool
     """Whether something that was pushed still moves."""
     robots: tuple[RobotState, ...]
-    things: dict[str, tuple[Obstacle, Pose, tuple[float, float, float]]]
-    """What can be pushed, where it is, and how fast it moves."""
+    things: dict[str, tuple[Pose, tuple[float, float, float]]]
+    """What can be pushed: where it is, and how fast it moves."""
     movers: dict[str, tuple[float, Pose, float, bool]]
     """What moves by itself: its clock, its place, its room, and whether it waits."""
     bodies: dict[str, RoverMemory]

@@ -1,0 +1,217 @@
+"""Walkers and doors: where they would be, and how they wait for what is in their way."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rosmini.sim.engine import Engine
+from rosmini.sim.models import BURGER
+from rosmini.sim.motion import Door, Walk
+from rosmini.sim.world import Box, Cylinder, Obstacle, World, WorldError
+
+SQUARE = Walk(((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)), speed=0.5, wait=1.0)
+
+
+def make(*obstacles: Obstacle) -> Engine:
+    return Engine(World("test", obstacles), lambda name: np.random.default_rng(sum(name.encode())), noise=0.0)
+
+
+# -- walks -----------------------------------------------------------------------------------------------------------
+
+
+def test_a_round_takes_the_way_the_waits_and_the_turns():
+    # 8 m at 0.5 m/s, four waits of 1 s, four quarter turns at pi rad/s
+    assert SQUARE.period == pytest.approx(16 + 4 + 4 * 0.5)
+    assert SQUARE.pose_at(1.0) == pytest.approx((0.5, 0.0, 0.0))
+    assert SQUARE.pose_at(4.5) == pytest.approx((2.0, 0.0, 0.0))  # it waits
+    assert SQUARE.pose_at(5.25) == pytest.approx((2.0, 0.0, math.pi / 4))  # it turns
+    assert SQUARE.pose_at(6.5) == pytest.approx((2.0, 0.5, math.pi / 2))
+
+
+@given(st.floats(0.0, 500.0))
+def test_a_round_begins_again(t):
+    first, later = SQUARE.pose_at(t), SQUARE.pose_at(t + SQUARE.period)
+    assert later[:2] == pytest.approx(first[:2], abs=1e-6)
+
+
+@given(st.floats(0.0, 50.0), st.floats(1e-4, 0.1))
+def test_nobody_walks_faster_than_his_speed(t, dt):
+    before, after = SQUARE.pose_at(t), SQUARE.pose_at(t + dt)
+    assert math.dist(before[:2], after[:2]) <= 0.5 * dt + 1e-9
+    turn = math.remainder(after[2] - before[2], 2 * math.pi)
+    assert abs(turn) <= math.pi * dt + 1e-9
+
+
+def test_a_walk_without_a_loop_ends_at_its_last_waypoint():
+    walk = Walk(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0)), speed=1.0, loop=False)
+    assert walk.pose_at(walk.period) == walk.pose_at(1e6) == pytest.approx((1.0, 1.0, math.pi / 2))
+    assert walk.pose_at(-5.0) == (0.0, 0.0, 0.0)
+
+
+def test_waypoints_that_come_twice_in_a_row_count_once():
+    walk = Walk(((0, 0), (0, 0), (1, 0), (0, 0)), speed=1.0)
+    assert walk.pose_at(0.5) == (0.5, 0.0, 0.0)
+    assert walk.period == pytest.approx(2.0 + 2 * 1.0)  # two half turns
+
+
+@pytest.mark.parametrize(
+    ("arguments", "what"),
+    [
+        ({"waypoints": ((0, 0),)}, "two finite waypoints"),
+        ({"waypoints": ((0, 0), (0, 0))}, "all the same"),
+        ({"waypoints": ((0, 0), (math.nan, 0))}, "two finite waypoints"),
+        ({"waypoints": (1.0, 2.0)}, "pairs of x and y"),
+        ({"waypoints": ((0, 0), (1, 0)), "speed": 0.0}, "speed of a walk is 0.0"),
+        ({"waypoints": ((0, 0), (1, 0)), "wait": -1.0}, "wait of a walk is -1.0"),
+    ],
+)
+def test_an_impossible_walk_says_why(arguments, what):
+    with pytest.raises(WorldError, match=what):
+        Walk(**arguments)
+
+
+# -- doors -----------------------------------------------------------------------------------------------------------
+
+
+def test_a_leaf_turns_about_its_hinge():
+    door = Door(hinge=(-0.45, 0.0), closed=1.0, moving=2.0, open=3.0)
+    assert door.period == 8.0
+    start = (1.0, 2.0, 0.0)
+    assert door.pose_at(0.5, start) == pytest.approx(start)
+    assert door.pose_at(4.0, start) == pytest.approx((1.0 - 0.45, 2.0 + 0.45, math.pi / 2))
+    x, y, theta = door.pose_at(2.0, start)
+    assert theta == pytest.approx(math.pi / 4)
+    assert math.hypot(x - 0.55, y - 2.0) == pytest.approx(0.45)  # as far from the hinge as ever
+
+
+def test_a_sliding_door_goes_to_its_side():
+    door = Door(opening=0.8, slide=math.pi, closed=0.0, moving=1.0, open=1.0)
+    assert door.pose_at(1.5, (1.0, 0.0, math.pi / 2)) == pytest.approx((1.0, -0.8, math.pi / 2))
+
+
+@given(st.floats(0.0, 100.0), st.floats(1e-5, 1e-2))
+def test_a_door_moves_no_faster_than_it_says(t, dt):
+    door = Door(hinge=(0.3, 0.1), opening=-1.2, moving=0.7, open=0.5, closed=0.2)
+    before, after = door.pose_at(t), door.pose_at(t + dt)
+    assert math.dist(before[:2], after[:2]) <= door.max_speed * dt + 1e-9
+    assert abs(after[2] - before[2]) <= door.max_turn * dt + 1e-9
+
+
+@pytest.mark.parametrize("change", [{"moving": 0.0}, {"open": -1.0}, {"opening": math.inf}, {"hinge": 3.0}])
+def test_an_impossible_door_says_why(change):
+    with pytest.raises(WorldError, match=f"{next(iter(change))} of a door"):
+        Door(**change)
+
+
+def test_a_thing_is_pushed_or_moves_by_itself_but_not_both():
+    with pytest.raises(WorldError, match=r"'both' is not possible: it has a mass.*and a motion"):
+        Obstacle("both", Cylinder(0.2), mass=1.0, motion=SQUARE)
+
+
+# -- in an engine ----------------------------------------------------------------------------------------------------
+
+
+WALKER = Obstacle("walker", Cylinder(0.2), height=1.7, motion=Walk(((0.0, 0.0), (6.0, 0.0)), speed=0.5))
+
+
+def test_a_walker_in_an_empty_world_is_where_its_motion_says():
+    engine = make(WALKER)
+    engine.add("burger", BURGER, (0.0, 3.0, 0.0))
+    for t in (1.0, 3.3, 11.0, 40.0):
+        engine.advance(t)
+        assert engine.pose("walker") == pytest.approx(WALKER.motion.pose_at(t), abs=1e-9)
+    engine.advance(50.0)
+    assert engine.velocity("walker")[:2] == pytest.approx((-0.5, 0.0), abs=1e-6)  # on its way back
+
+
+def test_a_walker_waits_for_a_robot_in_its_way_and_then_goes_on():
+    engine = make(WALKER)
+    robot = engine.add("burger", BURGER, (3.0, 0.0, math.pi / 2))
+    engine.advance(20.0)
+    assert engine.movers["walker"].waiting
+    assert robot.pose == (3.0, 0.0, math.pi / 2)
+    # 0.105 m to the robot's side, the walker's radius, and the 0.1 m that it keeps
+    assert engine.pose("walker")[0] == pytest.approx(3.0 - 0.105 - 0.2 - 0.1, abs=0.005)
+    assert engine.velocity("walker") == (0.0, 0.0, 0.0)
+    waited = 20.0 - engine.movers["walker"].clock
+    engine.command("burger", 0.22, 0.0)
+    engine.advance(24.0)
+    assert not engine.movers["walker"].waiting
+    engine.advance(25.0)
+    assert engine.pose("walker")[0] > 3.0
+    assert 25.0 - engine.movers["walker"].clock > waited
+
+
+def test_a_robot_that_drives_into_a_walker_stops_there_and_moves_it_nowhere():
+    engine = make(replace(WALKER, motion=Walk(((0.0, 0.0), (0.0, 6.0)), speed=0.01)))
+    robot = engine.add("burger", BURGER, (-1.0, 0.1, 0.0))
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(10.0)
+    assert robot.touching
+    assert robot.pose[0] + 0.041 <= -0.19 + 1e-3
+    assert engine.pose("walker")[0] == 0.0
+
+
+def test_a_walker_whose_way_is_free_is_not_held_by_who_pushes_it_from_behind():
+    engine = make(replace(WALKER, motion=Walk(((0.0, 0.0), (6.0, 0.0)), speed=0.1)))
+    engine.add("burger", BURGER, (-0.3, 0.0, 0.0))
+    engine.command("burger", 0.22, 0.0)
+    engine.advance(20.0)
+    assert engine.pose("walker")[0] == pytest.approx(2.0, abs=0.05)
+    assert engine.robots["burger"].pose[0] == pytest.approx(2.0 - 0.2 - 0.041, abs=0.05)
+
+
+def test_a_door_does_not_close_on_a_robot():
+    leaf = Obstacle(
+        "door", Box(0.9, 0.05), motion=Door(hinge=(-0.45, 0.0), closed=1.0, moving=2.0, open=2.0), height=2.0
+    )
+    engine = make(leaf)
+    robot = engine.add("burger", BURGER, (0.2, 0.0 - 1.0, math.pi / 2))
+    engine.advance(3.5)  # it is open
+    engine.place("burger", (0.2, 0.0, math.pi / 2))
+    engine.advance(60.0)
+    assert engine.movers["door"].waiting
+    assert robot.pose == (0.2, 0.0, math.pi / 2)
+    assert engine.pose("door")[2] > 0.1
+    engine.place("burger", (0.2, -1.0, math.pi / 2))
+    engine.advance(engine.now + leaf.motion.period)
+    assert not engine.movers["door"].waiting
+
+
+def test_two_walkers_do_not_walk_into_each_other():
+    other = Obstacle("other", Cylinder(0.2), motion=Walk(((6.0, 0.0), (0.0, 0.0)), speed=0.5))
+    engine = make(WALKER, other)
+    for t in np.arange(0.5, 15.0, 0.5):
+        engine.advance(float(t))
+        gap = math.dist(engine.pose("walker")[:2], engine.pose("other")[:2])
+        assert gap > 0.4 - 1e-3
+
+
+def test_a_laser_sees_a_walker_where_it_is():
+    engine = make(replace(WALKER, motion=Walk(((1.0, -1.0), (1.0, 1.0)), speed=0.5, loop=False)))
+    engine.add("burger", BURGER, (0.0, 0.0, 0.0))
+    assert engine.scan("burger")[0] == math.inf
+    engine.advance(2.0)
+    assert engine.scan("burger")[0] == pytest.approx(0.8 + 0.032)
+    assert [part.pose[:2] for part in engine.visible("burger")] == [pytest.approx((1.0, 0.0))]
+
+
+def test_a_walker_cannot_be_put_but_taken_away_and_inserted():
+    engine = make(WALKER)
+    engine.add("burger", BURGER, (0.0, 3.0, 0.0))
+    engine.advance(2.0)
+    with pytest.raises(WorldError, match="'walker' cannot be put anywhere: it moves by itself"):
+        engine.put("walker", (5.0, 5.0, 0.0))
+    engine.take_away("walker")
+    assert engine.movers == {}
+    engine.insert(WALKER)
+    engine.advance(4.0)
+    assert engine.pose("walker")[0] == pytest.approx(1.0)  # by its own clock it began anew
+    engine.reset()
+    assert engine.pose("walker") == (0.0, 0.0, 0.0)
