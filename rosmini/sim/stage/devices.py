@@ -28,6 +28,9 @@ Floats = NDArray[np.float64]
 
 NO_COVARIANCE = (0.0,) * 6
 
+LATE = 1e-9
+"""Times that differ by less [s] are the same."""
+
 
 class StageBase(DifferentialDrive):
     """A position: `cmd_vel` in, `odom` out.
@@ -272,15 +275,48 @@ def _fixed(
     return told
 
 
-class Steps(Device):
-    """Calls something at each step, before anything else happens: the watchdog."""
+class Watchdog(Device):
+    """Stops all robots when none was told anything for `timeout` [s]; 0: never. One for all, as in stageros, and looked at once a step."""
 
     order = -1
 
-    def __init__(self, host: Host, rate: float, step: Callable[[], None]) -> None:
-        super().__init__(host, "steps", rate)
-        self._step = step
+    def __init__(self, host: Host, rate: float, timeout: float) -> None:
+        super().__init__(host, "watchdog", rate)
+        self.timeout = timeout
+        self.bases: list[StageBase] = []
+        self._fed = 0.0
+
+    def feed(self) -> None:
+        """A robot was told something."""
+        self._fed = self.host.engine_now
 
     def due(self, _stamp: Stamp, _: int, /) -> None:
-        """Do what is to be done at this step."""
-        self._step()
+        """Look whether it is time."""
+        if self.timeout > 0 and self.host.engine.now - self._fed >= self.timeout - LATE:
+            for base in self.bases:
+                if base.reckoning.velocity != STILL:
+                    base.go(base.velocity(0.0, 0.0, 0.0))
+
+    def state(self) -> Any:
+        """When it was told something."""
+        return self._fed
+
+    def restore(self, state: Any) -> None:
+        """Remember when that was."""
+        self._fed = state
+
+
+class End(Device):
+    """Calls something once, when it is `when` [s]."""
+
+    order = 100
+
+    def __init__(self, host: Host, rate: float, when: float, call: Callable[[], object]) -> None:
+        super().__init__(host, "end", rate)
+        self._when = when
+        self._call = call
+
+    def due(self, _stamp: Stamp, _: int, /) -> None:
+        """Look whether it is time."""
+        if self.host.engine.now >= self._when - LATE:
+            self._call()

@@ -29,14 +29,14 @@ from rosmini.graph.show import show
 from rosmini.msgs import service_class
 from rosmini.sim.devices.clock import ClockDevice
 from rosmini.sim.engine import Engine, RobotGone
-from rosmini.sim.host import Host
+from rosmini.sim.host import Host, HostState
 from rosmini.sim.models import RobotModel
 from rosmini.sim.parameters import Parameters, parameter
 from rosmini.sim.world import WorldError
 
 from .bases import laser_model, robot_model
 from .camera import StageCameraDevice
-from .devices import StageBase, StageLaserDevice, StageTransforms, StageTruth, Steps
+from .devices import End, StageBase, StageLaserDevice, StageTransforms, StageTruth, Watchdog
 from .errors import StageError
 from .file import StageWorld, load
 from .names import Names
@@ -45,8 +45,6 @@ from .robots import StageRobot
 
 USAGE = "Usage: stageros [-g] [-u] <worldfile>   (-g: no window; -u: topics by the names of the models)"
 WATCHDOG = 0.2
-LATE = 1e-9
-"""Times that differ by less [s] are the same."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +69,8 @@ class OneRobot:
         """What the engine calls it: robot_0, or its own name with -u."""
         self.names = names
         host, interval = stage.host, stage.file.interval
-        self.base = host.add(StageBase(host, name, robot, names, stage.commanded))
+        self.base = host.add(StageBase(host, name, robot, names, stage.watchdog.feed))
+        stage.watchdog.bases.append(self.base)
         stage.transforms.base(self.base, names)
         host.add(StageTruth(host, name, names))
         self.lasers: list[StageLaserDevice] = []
@@ -138,15 +137,16 @@ class Stageros:
         self.engine = Engine(self.world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=0.0)
         self.host = Host(node, self.engine, from_zero=True, speed=self.file.speedup, paused=self.file.paused)
         rate = 1 / self.file.interval
-        self._last_command = 0.0
         self._ended = False
         node.set_param("/use_sim_time", True)
-        self.host.add(Steps(self.host, rate, self._step))
+        self.watchdog = self.host.add(Watchdog(self.host, rate, self.parameters.base_watchdog_timeout))
         self.transforms = self.host.add(StageTransforms(self.host, rate))
         self.robots: dict[str, OneRobot] = {}
         """By the names that the engine has for them: robot_0, robot_1 ..., in the sequence of the file."""
         self._bring(by_model=by_model)
         self.clock = self.host.add(ClockDevice(self.host, rate=rate))
+        if self.file.quit_time:
+            self.host.add(End(self.host, rate, self.file.quit_time, self._quit))
         self._service = node.service(
             "reset_positions", service_class("std_srvs/Empty"), self._reset_positions
         )
@@ -176,23 +176,12 @@ class Stageros:
 
     # -- what happens --------------------------------------------------------------------------------------------
 
-    def commanded(self) -> None:
-        """Remember that a robot was told something."""
-        self._last_command = self.host.engine_now
-
-    def _step(self) -> None:
-        """At each step: stop all if nobody has said anything, and end when it is time."""
-        now, timeout = self.engine.now, self.parameters.base_watchdog_timeout
-        if timeout > 0 and now - self._last_command >= timeout - LATE:
-            for robot in self.robots.values():
-                if robot.base.reckoning.velocity != STILL:
-                    robot.base.go(robot.base.velocity(0.0, 0.0, 0.0))
-        if self.file.quit_time and now >= self.file.quit_time - LATE:
-            self.node.scheduler.call_soon(lambda: self.node.shutdown("quit_time of the world file"))
-
     def _reset_positions(self, _: Any) -> dict[str, Any]:
         self.reset()
         return {}
+
+    def _quit(self) -> None:
+        self.node.scheduler.call_soon(lambda: self.node.shutdown("quit_time of the world file"))
 
     def _end(self) -> None:
         self._ended = True
@@ -271,6 +260,14 @@ class Stageros:
         """Let the world's time go on."""
         self.node.scheduler.on_hub(self.host.unpause)
 
+    def save(self) -> HostState:
+        """All that goes on from here: poses, velocities, odometry, noise that is to come, and the time. It can be pickled."""
+        return self.node.scheduler.on_hub(self.host.save)
+
+    def restore(self, state: HostState) -> None:
+        """Go on as it went on after `save`."""
+        self.node.scheduler.on_hub(lambda: self.host.restore(state))
+
     @property
     def speedup(self) -> float:
         """How many seconds of the world pass in one."""
@@ -294,6 +291,10 @@ class Stageros:
         """Where the first robot was when its laser measured last."""
         robot = self.robot()
         return robot.lasers[0].pose if robot.lasers else robot.base.robot.pose
+
+    def show3d(self, **options: Any) -> Any:
+        """The world with its robots, to be turned; the options are those of the renderer "simulation_3d" in `rosmini.viz`."""
+        return show("simulation_3d", self, **options)
 
     def show(self, **options: Any) -> Any:
         """A picture of the world with its robots; the options are those of the renderer "simulation" in `rosmini.viz`."""

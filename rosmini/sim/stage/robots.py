@@ -180,7 +180,11 @@ def _on(thing: Thing, base: Thing) -> Pose4:
     x, y, _, a = base.at
     c, s = math.cos(a), math.sin(a)
     dx, dy = thing.at[0] - x, thing.at[1] - y
-    return (c * dx + s * dy, c * dy - s * dx, thing.at[2] - base.at[2], thing.at[3] - a)
+    seen = (c * dx + s * dy, c * dy - s * dx, thing.at[2] - base.at[2], thing.at[3] - a)
+    on_x, on_y, on_z, heading = (
+        round(part, 12) + 0.0 for part in seen
+    )  # without the last digits of turning there and back
+    return (on_x, on_y, on_z, heading)
 
 
 def _laser(thing: Thing, base: Thing, units: Units) -> StageLaser:

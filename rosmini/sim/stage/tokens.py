@@ -1,6 +1,6 @@
 """The words of a Stage world file: names, numbers, strings, brackets and parentheses, each with its file and line.
 
-Stage's rules: `#` begins a comment, names begin with a letter (and may end with an index, `point[0]`), numbers have a sign and a decimal point but no
+Stage's rules: `#` begins a comment, names begin with a letter (and may have indices, `point[0]`), numbers have a sign and a decimal point but no
 exponent, strings are in double quotes on one line, `include "file"` puts the words of another file in its place. An included file is sought beside
 the world file (as Stage does), beside the file that includes it, and in the folders of the environment variable STAGEPATH.
 """
@@ -23,7 +23,7 @@ VARIABLE = "STAGEPATH"
 _TOKEN = re.compile(
     r"""(?P<space>[ \t\r\f\v]+|\#[^\n]*)
       | (?P<line>\n)
-      | (?P<word>[A-Za-z][\w.\-]*(\[\d+\])?)
+      | (?P<word>[A-Za-z](?:[\w.\-]|\[\d+\])*)
       | (?P<number>[-+]?(\d+\.?\d*|\.\d+)(?![\w.+\-]))
       | (?P<string>"[^"\n]*")
       | (?P<mark>[()\[\]])""",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import pickle
 import subprocess
 import sys
 from collections import defaultdict
@@ -474,6 +475,31 @@ def test_depth_in_millimetres(bench):
 
 
 # ---- by hand, and what is wrong ----
+
+
+def test_it_goes_on_from_what_was_saved(bench):
+    noisy = ROBOT.replace("samples 541", "samples 541 noise [0.05 0 0]")
+    ours = bench(
+        noisy % 'drive "omni" localization "odom"' + ROBOT % "pose [1 0.1 0 0]" + "model( pose [3 0 0 0] )"
+    )
+    ours.listen("/robot_0/base_scan", "/robot_0/odom", "/robot_1/base_pose_ground_truth")
+
+    def drive() -> list[str]:
+        ours.graph.run(0.05)  # what was under way arrives
+        for heard in ours.heard.values():
+            heard.clear()
+        ours.go(1.5, v=0.6, w=0.1, vy=0.1, topic="/robot_0/cmd_vel")
+        ours.graph.run(0.5)
+        everything = [message for heard in ours.heard.values() for message in heard]
+        for message in everything:
+            message.header.seq = 0
+        return [str(message) for message in everything]
+
+    ours.go(1.0, v=0.5, topic="/robot_0/cmd_vel")
+    state = pickle.loads(pickle.dumps(ours.stage.save()))
+    first = drive()
+    ours.stage.restore(state)
+    assert drive() == first
 
 
 def test_dragging(bench):
