@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.sim.world import Pose, World
-from rosmini.viz.replay.scene import scene_data
+from rosmini.sim.world import Obstacle, Pose
+from rosmini.viz.replay.scene import scene_data, shapes_of
 
 if TYPE_CHECKING:
     from rosmini.sim.simulator import Simulator
@@ -46,15 +46,24 @@ class Sight:
         """The world as it is now, with the robot, for the scripts in a page: what can be pushed comes last among the shapes."""
         simulator = self.simulator
         world, height = simulator.world, simulator.model.laser.mount[2]
-        fixed = [obstacle for obstacle in world.obstacles if not obstacle.movable]
+        fixed = [obstacle for obstacle in world.obstacles if obstacle.fixed]
         obstacles = (*fixed, *simulator.engine.obstacles())
         scene = scene_data(replace(world, obstacles=obstacles), simulator.model)
-        for obstacle, shape in zip(obstacles, scene["shapes"], strict=True):
-            if obstacle.height < height:
-                shape["low"] = True  # the laser looks over it
+        scene["shapes"] = [
+            self._flagged(obstacle, shape) for obstacle in obstacles for shape in shapes_of(obstacle)
+        ]
         if world.wall_height < height:
             scene["low_walls"] = True
         return scene
+
+    def _flagged(self, obstacle: Obstacle, shape: dict[str, Any]) -> dict[str, Any]:
+        """A shape, and what the robot has to do with it: `low` if its laser looks over it or under it, `over` if it drives under it."""
+        model = self.simulator.model
+        if not obstacle.bottom <= model.laser.mount[2] <= obstacle.height:
+            shape["low"] = True
+        if obstacle.bottom >= model.height:
+            shape["over"] = True
+        return shape
 
     def pushed(self) -> list[dict[str, Any]] | None:
         """The shapes of what can be pushed, if it has moved since this was asked last; else None."""
@@ -63,8 +72,7 @@ class Sight:
         if poses == self._poses:
             return None
         self._poses = poses
-        shapes: list[dict[str, Any]] = scene_data(World("pushed", obstacles))["shapes"]
-        return shapes
+        return [self._flagged(obstacle, shape) for obstacle in obstacles for shape in shapes_of(obstacle)]
 
     def look(self) -> Pose:
         """Where the robot is, noted for the trail. Raises what the simulator raises when it has been removed."""

@@ -8,14 +8,16 @@ about 170 kB so. It could be compressed further, but another zlib writes other b
 from __future__ import annotations
 
 import base64
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.sim.recording import Recording
-from rosmini.viz.replay.scene import scene_data
+from rosmini.viz.replay.scene import robot_data, scene_data, shapes_of
 from rosmini.viz.rounding import snap
+from rosmini.viz.world import colour_of
 
 LENGTH = 1e-3
 """[m], also [m/s]"""
@@ -42,6 +44,8 @@ def replay_data(recording: Recording) -> dict[str, Any]:
     | `commands` | times [ms], then linear [mm/s], then angular velocities [0.1 mrad/s]: those that differ from the one before |
     | `scan_times` | [ms] |
     | `scans` | ranges [mm], scan by scan; 0 where a beam hit nothing |
+    | `things` | of each thing that moved its name, its shapes in its own frame, and its `track`, as `truth` |
+    | `others` | of each other robot its name, colour and numbers, and its `track`; `name` is the first one's |
 
     All but the first two are packed. Both tracks are in the frame `map`: odometry is laid so that it starts with the robot's true pose. Poses are
     sampled anew, at even times; between them the player goes in straight lines.
@@ -52,8 +56,12 @@ def replay_data(recording: Recording) -> dict[str, Any]:
     every = -(-len(recording.scans) // MOST_SCANS) or 1
     commands = _changes(recording.commands)
     scans = recording.scans[::every]
-    return {
-        "scene": scene_data(recording.world, recording.model),
+    moved = {thing.obstacle.name for thing in recording.things}
+    world = recording.world
+    if moved:
+        world = replace(world, obstacles=tuple(o for o in world.obstacles if o.name not in moved))
+    data: dict[str, Any] = {
+        "scene": scene_data(world, recording.model),
         "start": whole(start, TIME).item(),
         "duration": whole(duration, TIME).item(),
         "truth": pack(_track(recording.times, recording.truth, even)),
@@ -70,6 +78,28 @@ def replay_data(recording: Recording) -> dict[str, Any]:
         "scan_times": pack(whole(recording.scan_times[::every], TIME)),
         "scans": pack(whole(np.where(np.isfinite(scans), scans, 0.0), LENGTH).ravel()),
     }
+    if moved:
+        data["scene"]["bounds"] = scene_data(recording.world)["bounds"]
+        data["things"] = [
+            {
+                "name": thing.obstacle.name,
+                "shapes": shapes_of(thing.obstacle, (0.0, 0.0, 0.0)),
+                "track": pack(_track(thing.times, thing.poses, even)),
+            }
+            for thing in recording.things
+        ]
+    if recording.others:
+        data["name"] = recording.name
+        data["others"] = [
+            {
+                "name": run.name,
+                "colour": colour_of(i),
+                "robot": robot_data(run.model),
+                "track": pack(_track(run.times, run.truth, even)),
+            }
+            for i, run in enumerate(recording.others)
+        ]
+    return data
 
 
 def whole(values: Any, quantum: float) -> NDArray[np.int64]:

@@ -35,7 +35,7 @@ class ReplayView(View):
         return (
             f"Player of a run of {run.model.name} in the world {run.world.name}, {fixed(run.duration, 1)} seconds long. "
             f"The robot drives {fixed(run.distance, 2)} m; at the end its odometry is off by "
-            f"{fixed(float(run.drift().position[-1]), 2)} m."
+            f"{fixed(float(run.drift().position[-1]), 2)} m.{_beside(run)}"
         )
 
     @cached_property
@@ -74,11 +74,17 @@ class ReplayView(View):
         return self.title or f"Replay of {self.recording.model.name} in {self.recording.world.name}"
 
 
+def _beside(run: Recording) -> str:
+    others = ", ".join(each.name for each in run.others[:6])
+    more = f" and {len(run.others) - 6} more" if len(run.others) > 6 else ""
+    return f" Beside it drive {others}{more}." if others else ""
+
+
 def replay(recording: Recording, *, title: str | None = None) -> ReplayView:
     """A player for a recorded run: play, pause, scrub, speeds from a quarter to eight times, and keys for all of it.
 
     Args:
-        recording: of one robot.
+        recording: of a robot, and of others beside it if there were any.
         title: a caption, and the first words of the text form.
 
     Raises:

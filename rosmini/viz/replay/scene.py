@@ -8,9 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rosmini.geometry.poses import Pose
 from rosmini.sim.models import RobotModel
-from rosmini.sim.world import Cylinder, Obstacle, World
+from rosmini.sim.shapes import ROUND, outline_at, simple_parts
+from rosmini.sim.world import Obstacle, World
 from rosmini.viz.rounding import MILLIMETRE, snap
+from rosmini.viz.style import dark_of
 from rosmini.viz.view import ViewError
 
 
@@ -25,7 +28,7 @@ def scene_data(world: World, model: RobotModel | None = None) -> dict[str, Any]:
         ViewError: a wall, an obstacle or the robot has a number that is not finite; the message names it.
 
     """
-    shapes = [_shape(obstacle) for obstacle in world.obstacles]
+    shapes = [shape for obstacle in world.obstacles for shape in shapes_of(obstacle)]
     walls = _metres(world.walls.reshape(-1, 4), f"a wall of the world {world.name!r}")
     data: dict[str, Any] = {
         "name": world.name,
@@ -46,11 +49,13 @@ def robot_data(model: RobotModel) -> dict[str, Any]:
 
     """
     what = f"the robot {model.name!r}"
-    lidar = model.laser
+    lidar = model.lidar
     return {
         "name": model.name,
         "footprint": _metres(_counter_clockwise(model.footprint), what),
-        "lidar": {
+        "lidar": None
+        if lidar is None
+        else {
             "x": _metres(lidar.mount[0], what),
             "beams": lidar.beams,
             "min": _metres(lidar.range_min, what),
@@ -64,14 +69,26 @@ def robot_data(model: RobotModel) -> dict[str, Any]:
     }
 
 
-def _shape(obstacle: Obstacle) -> dict[str, Any]:
+def shapes_of(obstacle: Obstacle, pose: Pose | None = None) -> list[dict[str, Any]]:
+    """The simple shapes that a thing is made of, where it stands, or where it would at `pose`.
+
+    What a robot may pass under has its `bottom` [m]; a colour beside the palette has its twin for dark pages, `dark`.
+    """
     what = f"the obstacle {obstacle.name!r}"
-    if isinstance(obstacle.shape, Cylinder):
-        x, y, _ = obstacle.pose
-        x, y, r = _metres((x, y, obstacle.shape.radius), what)
-        return {"kind": "disc", "x": x, "y": y, "r": r, "colour": obstacle.colour}
-    points = _metres(_counter_clockwise(obstacle.outline()), what)
-    return {"kind": "polygon", "points": points, "colour": obstacle.colour}
+    more: dict[str, Any] = {"colour": obstacle.colour}
+    if obstacle.bottom > 0:
+        more["bottom"] = _metres(obstacle.bottom, what)
+    if obstacle.colour.startswith("#"):
+        more["dark"] = dark_of(obstacle.colour)
+    found = []
+    for shape, place in simple_parts(obstacle.shape, obstacle.pose if pose is None else pose):
+        if isinstance(shape, ROUND):
+            x, y, r = _metres((*place[:2], shape.radius), what)
+            found.append({"kind": "disc", "x": x, "y": y, "r": r, **more})
+        else:
+            points = _metres(_counter_clockwise(outline_at(shape, place)), what)
+            found.append({"kind": "polygon", "points": points, **more})
+    return found
 
 
 def _counter_clockwise(corners: ArrayLike) -> ArrayLike:

@@ -15,7 +15,9 @@
                                                that hit nothing is Infinity, null or 0; one that hit what is too near to
                                                be measured is -Infinity (REP 117).
      trail(view, points, {colour, dashed, count})   a line through [x, y, ...] points, the first `count` of them.
-     robot(view, robot, pose, {ghost})         the robot from above; a ghost is an outline: where odometry puts it.
+     robot(view, robot, pose, {ghost, colour}) the robot from above; a ghost is an outline: where odometry puts it.
+     thing(view, shapes, pose)                 something that moves: shapes in its own frame, at `pose`.
+     label(view, pose, text, {colour, below})  a word under a place, `below` metres under it.
      scaleBar(view)                            how long a metre is.
 
    A view has: context, width, height (CSS pixels), scale (pixels a metre), theme, x(metres), y(metres) to pixels, and
@@ -40,6 +42,7 @@
   const TURN = 2 * Math.PI;
   const LEAST_ROBOT = 16; // pixels
   const WHEEL_WIDTH = 0.55; // how wide a wheel is, in its radius
+  const LASER_BY = 0.2; // metres: a laser is drawn by its robot's length, but no larger than one of so long a robot
   const FOOT = 26; // pixels under the world, for the scale bar
 
   let printing = false; // what a page looks like in print cannot be asked before it is printed
@@ -136,7 +139,8 @@
   function drawShape(view, shape) {
     const { context, theme: colours } = view;
     const solid = shape.colour === "wall";
-    const colour = solid ? colours.muted : (colours[shape.colour] ?? colours.line);
+    const own = shape.dark && isDark(colours.page) ? shape.dark : shape.colour;
+    const colour = solid ? colours.muted : own[0] === "#" ? own : (colours[own] ?? colours.line);
     if (shape.kind === "disc") {
       context.beginPath();
       context.arc(view.x(shape.x), view.y(shape.y), shape.r * view.scale, 0, TURN);
@@ -145,11 +149,37 @@
       context.closePath();
     }
     context.fillStyle = context.strokeStyle = colour;
-    context.globalAlpha = solid ? 1 : 0.32;
+    context.globalAlpha = solid ? 1 : shape.bottom ? 0.16 : 0.32; // what one passes under is fainter
     context.fill();
     context.globalAlpha = 1;
-    context.lineWidth = 1.4;
+    context.lineWidth = shape.bottom ? 0.7 : 1.4;
     context.stroke();
+  }
+
+  const isDark = (page) => /^#[0-7]/.test(page);
+
+  function thing(view, shapes, [x, y, theta]) {
+    const [c, s] = [Math.cos(theta), Math.sin(theta)];
+    const put = ([px, py]) => [x + c * px - s * py, y + s * px + c * py];
+    for (const shape of shapes) {
+      const [cx, cy] = shape.kind === "disc" ? put([shape.x, shape.y]) : [0, 0];
+      drawShape(view, shape.kind === "disc" ? { ...shape, x: cx, y: cy } : { ...shape, points: shape.points.map(put) });
+    }
+  }
+
+  function label(view, [x, y], text, { colour = "ink", below = 0 } = {}) {
+    const { context, theme: colours } = view;
+    const [px, py] = [view.x(x), view.y(y) + Math.max(below * view.scale, LEAST_ROBOT) + 2];
+    context.font = `12px ${FONT}`;
+    context.textAlign = "center";
+    context.textBaseline = "top";
+    context.lineWidth = 3;
+    context.lineJoin = "round";
+    context.strokeStyle = colours.page;
+    context.fillStyle = colours[colour] ?? colours.ink;
+    context.strokeText(text, px, py);
+    context.fillText(text, px, py);
+    context.textAlign = "start";
   }
 
   function world(view, scene) {
@@ -217,7 +247,7 @@
   }
 
   /* Plate, wheels, laser and a nose, to scale but never under 16 pixels long, where none of them could be seen. */
-  function robot(view, model, pose, { ghost = false } = {}) {
+  function robot(view, model, pose, { ghost = false, colour = "blue" } = {}) {
     const { context, theme: colours } = view;
     const xs = model.footprint.map((corner) => corner[0]);
     const [back, front] = [Math.min(...xs), Math.max(...xs)];
@@ -249,7 +279,7 @@
     for (const part of [plate, nose]) {
       context.lineWidth = (ghost ? 1.6 : 1.2) * pixel;
       context.setLineDash(ghost ? [3 * pixel, 2 * pixel] : []);
-      context.fillStyle = colours.blue;
+      context.fillStyle = colours[colour] ?? colours.blue;
       context.strokeStyle = ghost ? colours.orange : colours.page;
       if (!ghost) context.fill(part);
       context.stroke(part);
@@ -260,10 +290,10 @@
       for (const side of [-separation / 2, separation / 2]) {
         context.fillRect(-radius, side - WHEEL_WIDTH * radius / 2, 2 * radius, WHEEL_WIDTH * radius);
       }
-      for (const [colour, size] of [[colours.page, 0.26], [colours.vermilion, 0.11]]) {
+      for (const [fill, size] of lidar ? [[colours.page, 0.26], [colours.vermilion, 0.11]] : []) {
         context.beginPath();
-        context.arc(lidar.x, 0, size * length, 0, TURN);
-        context.fillStyle = colour;
+        context.arc(lidar.x, 0, size * Math.min(length, LASER_BY), 0, TURN);
+        context.fillStyle = fill;
         context.fill();
       }
     }
@@ -289,5 +319,5 @@
     context.fillText(label, x + 5, y - 2);
   }
 
-  globalThis.rosminiCanvas = { fit, watch, theme, clear, world, scan, trail, robot, scaleBar };
+  globalThis.rosminiCanvas = { fit, watch, theme, clear, world, scan, trail, robot, thing, label, scaleBar };
 })();

@@ -108,7 +108,8 @@ margin:0;padding:.2rem .7rem .6rem}
 
   function decode(data) {
     const ranges = unpack(data.scans, LENGTH);
-    const { beams } = data.scene.robot.lidar;
+    const beams = data.scene.robot.lidar?.beams ?? 1;
+    const tracked = (items) => (items ?? []).map((item) => ({ ...item, track: rows(item.track, LENGTH, LENGTH, ANGLE) }));
     return {
       scene: data.scene,
       start: data.start * TIME,
@@ -116,6 +117,9 @@ margin:0;padding:.2rem .7rem .6rem}
       truth: rows(data.truth, LENGTH, LENGTH, ANGLE),
       odom: rows(data.odom, LENGTH, LENGTH, ANGLE),
       commands: rows(data.commands, TIME, LENGTH, ANGLE),
+      name: data.name ?? "",
+      others: tracked(data.others),
+      things: tracked(data.things),
       scans: unpack(data.scan_times, TIME).map((time, i) => [time, ranges.slice(i * beams, (i + 1) * beams)]),
     };
   }
@@ -133,12 +137,12 @@ margin:0;padding:.2rem .7rem .6rem}
 
   /* The part of the world that the run is about: all that its laser may have seen, and where it drove. */
   function bounds(run) {
-    const points = run.truth.concat(run.odom);
+    const points = run.truth.concat(run.odom, ...run.others.map((other) => other.track));
     const [xs, ys] = [0, 1].map((axis) => points.map((point) => point[axis]));
     const least = (values) => values.reduce((a, b) => Math.min(a, b));
     const most = (values) => values.reduce((a, b) => Math.max(a, b));
     const [left, bottom, right, top] = run.scene.bounds;
-    const sight = run.scene.robot.lidar.max;
+    const sight = run.scene.robot.lidar?.max ?? 3.5;
     const [x0, y0, x1, y1] = [least(xs), least(ys), most(xs), most(ys)];
     return [
       Math.max(Math.min(left, x0), x0 - sight), Math.max(Math.min(bottom, y0), y0 - sight),
@@ -146,6 +150,7 @@ margin:0;padding:.2rem .7rem .6rem}
     ];
   }
 
+  const reach = (robot) => Math.max(...robot.footprint.map(([x, y]) => Math.hypot(x, y)));
   const number = (value, digits) => {
     const text = Math.abs(value).toFixed(digits);
     return value < 0 && Number(text) !== 0 ? `\u2212${text}` : text;
@@ -337,15 +342,24 @@ margin:0;padding:.2rem .7rem .6rem}
       const dashed = { colour: "orange", dashed: true };
       const scan = layers.scan && latest(run.scans, time);
       draw.world(view, run.scene);
+      for (const thing of run.things) draw.thing(view, thing.shapes, poseAt(run, thing.track, time));
       if (scan) draw.scan(view, robot, poseAt(run, run.truth, Math.max(run.start, scan[0])), scan[1]);
       view.context.globalAlpha = 0.3; // the whole way, faintly
       if (layers.truth) draw.trail(view, run.truth);
       if (layers.odom) draw.trail(view, run.odom, dashed);
+      if (layers.truth) for (const { track, colour } of run.others) draw.trail(view, track, { colour });
       view.context.globalAlpha = 1;
+      if (layers.truth) for (const { track, colour } of run.others) draw.trail(view, track, { colour, count });
       if (layers.truth) draw.trail(view, run.truth, { count });
       if (layers.odom) draw.trail(view, run.odom, { ...dashed, count });
       if (layers.odom) draw.robot(view, robot, poseAt(run, run.odom, time), { ghost: true });
+      for (const other of run.others) {
+        const pose = poseAt(run, other.track, time);
+        draw.robot(view, other.robot, pose, other);
+        draw.label(view, pose, other.name, { colour: other.colour, below: reach(other.robot) });
+      }
       draw.robot(view, robot, poseAt(run, run.truth, time));
+      if (run.others.length) draw.label(view, poseAt(run, run.truth, time), run.name, { colour: "blue", below: reach(robot) });
       draw.scaleBar(view);
       const words = readings(run, time);
       for (const [name, text] of Object.entries(words)) this.find(`[data-read=${name}]`).textContent = text;

@@ -72,7 +72,7 @@
     const sides = seen && scene.low_walls ? [] : [...scene.segments];
     const discs = [];
     for (const shape of scene.shapes) {
-      if (seen && shape.low) continue;
+      if ((seen && shape.low) || shape.over) continue;
       if (shape.kind === "disc") discs.push([shape.x, shape.y, shape.r]);
       else shape.points.forEach((point, i) => sides.push([...point, ...shape.points[(i + 1) % shape.points.length]]));
     }
