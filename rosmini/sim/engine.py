@@ -238,7 +238,9 @@ class Engine:
         hindrance = self._hindrance(model, pose, name)
         if hindrance is not None:
             x, y, theta = pose
-            free = self.world.free_place(pose, model.footprint, model.height, self._taken(model, name))
+            free = self.world.free_place(
+                pose, model.footprint, model.height, lambda place: self.contacts.hindrance(model, place, name)
+            )
             hint = "" if free is None else f". There is room at ({free[0]:.2f}, {free[1]:.2f})"
             msg = (
                 f"no robot can be placed at ({x:.2f}, {y:.2f}) with heading {theta:.2f} in the world {self.world.name!r}: "
@@ -246,9 +248,6 @@ class Engine:
             )
             raise WorldError(msg)
         return (float(pose[0]), float(pose[1]), float(pose[2]))
-
-    def _taken(self, model: RobotModel, name: str) -> Callable[[Pose], str | None]:
-        return lambda place: self.contacts.hindrance(model, place, name)
 
     def _hindrance(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
         """Return what stands at `pose`, in words; None if a robot has room there."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -289,13 +289,23 @@ class World:
                 return f"the obstacle {obstacle.name!r}"
         return place.wall(self.walls, solid=self.solid)
 
-    def free_place(self, pose: Pose, footprint: Footprint, height: float = 0.0) -> Pose | None:
+    def free_place(
+        self,
+        pose: Pose,
+        footprint: Footprint,
+        height: float = 0.0,
+        taken: Callable[[Pose], object] = lambda _: None,
+    ) -> Pose | None:
         """The nearest place to `pose` that is free for a footprint, with the same heading; None if there seems to be none.
 
-        It is looked for within a metre, in steps of 5 cm, inside the bounds of the world; after that among the world's starts. Raises
-        `WorldError` for a pose that is not finite.
+        It is looked for within a metre, in steps of 5 cm, inside the bounds of the world; after that among the world's starts. `taken(pose)` is
+        true, or words, where something stands that is no part of the world: a robot. Raises `WorldError` for a pose that is not finite.
         """
-        if self.blocked(pose, footprint, height) is None:
+
+        def free(place: Pose) -> bool:
+            return self.blocked(place, footprint, height) is None and not taken(place)
+
+        if free(pose):
             return pose
         x0, y0, x1, y1 = self.bounds
         steps = np.arange(-20, 21) * 0.05
@@ -304,14 +314,9 @@ class World:
         x, y, theta = pose
         for i in np.argsort(away, kind="stable")[: np.count_nonzero(away <= 1.0)]:
             place = (x + float(across[i]), y + float(up[i]), theta)
-            if (
-                x0 <= place[0] <= x1
-                and y0 <= place[1] <= y1
-                and self.blocked(place, footprint, height) is None
-            ):
+            if x0 <= place[0] <= x1 and y0 <= place[1] <= y1 and free(place):
                 return place
-        free = [start for start in self.starts if self.blocked(start, footprint, height) is None]
-        return min(free, key=lambda start: math.dist(start[:2], (x, y)), default=None)
+        return min(filter(free, self.starts), key=lambda start: math.dist(start[:2], (x, y)), default=None)
 
     def with_obstacles(self, obstacles: Iterable[Obstacle]) -> World:
         """The same world with more obstacles in it."""

@@ -252,8 +252,12 @@ def test_errors_of_spawning_say_what_to_do_and_change_nothing(graph):
         simulator.spawn("burger", pose=(1.0, 0.0, 0.0))
     with pytest.raises(UnknownModel, match="did you mean waffle"):
         simulator.spawn("other", "wafle")
-    with pytest.raises(WorldError, match=r"'burger' is in its way.*room at \("):
+    with pytest.raises(WorldError, match=r"'burger' is in its way.*room at \(") as told:
         simulator.spawn("other", pose=(0.05, 0.0, 0.0))
+    x, y = (float(part) for part in str(told.value).rpartition("(")[2].rstrip(").").split(","))
+    assert 0.1 < math.hypot(x, y) < 0.35
+    simulator.spawn("other", pose=(x, y, 0.0))
+    simulator.delete("other")
     with pytest.raises(WorldError, match=r"'east wall' is in its way.*room at \("):
         simulator.spawn("other", pose=(1.99, 0.0, 0.0))
     with pytest.raises(WorldError, match="finite"):
