@@ -95,6 +95,10 @@ class EventQueue:
         due = self._timed.next_ns()
         return not self.ready and self._inbox.empty() and (due is None or due > self.now_ns())
 
+    def pending(self) -> int:
+        """Return how many events there are, due now and later."""
+        return len(self.ready) + len(self._timed)
+
     # -- for the scheduler's loop --------------------------------------------------------------------------------
 
     def _empty_inbox(self) -> None:

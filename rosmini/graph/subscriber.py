@@ -164,6 +164,11 @@ class Connection:
             self._scheduled = True
             self._lane.post(self._drain_ref)
 
+    @property
+    def waiting(self) -> int:
+        """How many messages wait for the callbacks."""
+        return len(self._incoming)
+
     def _drain(self) -> None:
         """Call the callbacks for what is queued. In the connection's lane."""
         incoming = self._incoming

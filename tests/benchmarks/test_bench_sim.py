@@ -10,7 +10,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from rosmini.cli.bench import sim, sim_checks, sim_peer, sim_room
+from rosmini.cli.bench import (
+    sim,
+    sim_checks,
+    sim_growth,
+    sim_mujoco,
+    sim_peer,
+    sim_physics,
+    sim_room,
+    sim_run,
+)
 from rosmini.cli.main import main
 from rosmini.errors import RosminiError
 from rosmini.sim.models import BURGER
@@ -20,6 +29,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 Heard = dict[str, list[tuple[Any, ...]]]
+Robots = dict[str, Heard]
 
 
 def test_the_simulator_is_measured_beside_the_others(
@@ -29,16 +39,32 @@ def test_the_simulator_is_measured_beside_the_others(
     assert main(["bench", "sim", "--rounds", "1", "--scale", "0.01", "--json", str(file)]) == 0
     shown = capsys.readouterr().out
     rows = json.loads(file.read_text())["figures"]
-    irsim = sim_peer.find_irsim()
-    assert len(rows) == len(list(sim.measures(irsim, 1)))
-    assert all(row["ours"] > 0 and row["name"] in shown for row in rows)
+    irsim, mujoco = sim_peer.find_irsim(), sim_mujoco.find_mujoco()
+    measures = list(sim.measures(irsim, mujoco, 0.01))
+    assert [row["name"] for row in rows] == [measure.name for measure in measures]
+    assert all(row["name"] in shown for row in rows)
+    assert all(row["ours"] > 0 for row in rows if row["unit"].endswith("s/s"))
     if irsim is None:
         assert os.environ.get("ROSMINI_REQUIRE_BENCH") != "1", "ir-sim is required here"
         assert "ir-sim is not installed" in shown
         assert rows[0]["peer"] is None
     else:
         assert rows[0]["peer_name"] == irsim.name
-    assert all(row["peer"] > 0 for row in rows[1:])
+        assert all(row["peer"] > 0 for row in rows[:3])
+    assert ("MuJoCo is not installed" in shown) == (mujoco is None)
+    assert all(row["peer"] > 0 for row in rows if row["peer_name"].startswith("pymunk"))
+
+
+def test_robots_have_room_for_their_circles_and_no_more_come_than_that() -> None:
+    starts = sim_room.starts(100)
+    middles = [
+        (x - sim_room.RADIUS * math.sin(heading), y + sim_room.RADIUS * math.cos(heading))
+        for x, y, heading in starts
+    ]
+    apart = [math.dist(one, other) for i, one in enumerate(middles) for other in middles[:i]]
+    assert min(apart) > 2 * (sim_room.RADIUS + BURGER.reach)
+    with pytest.raises(RosminiError, match="1000 robots do not fit"):
+        sim_room.starts(1000)
 
 
 def test_the_room_is_as_large_as_it_says() -> None:
@@ -49,29 +75,53 @@ def test_the_room_is_as_large_as_it_says() -> None:
 
 
 @pytest.fixture(scope="module")
-def run() -> tuple[Heard, float]:
-    """What is heard in one piece of a run, and how far the robot was told to go."""
-    taken: list[tuple[Heard, float]] = []
+def run() -> tuple[Robots, float]:
+    """What is heard of two robots in one piece of a run, and how far they were told to go."""
+    taken: list[tuple[Robots, float]] = []
 
-    def take(heard: Heard, _world: Any, _model: Any, _seconds: float, way: float) -> None:
-        taken.append(({topic: list(rows) for topic, rows in heard.items()}, way))
+    def take(heard: Robots, _world: Any, _model: Any, _seconds: float, way: float) -> None:
+        taken.append(
+            (
+                {
+                    name: {topic: list(rows) for topic, rows in topics.items()}
+                    for name, topics in heard.items()
+                },
+                way,
+            )
+        )
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sim, "check_run", take)
-        assert sim.real_time_factor(sim.PIECE) > 0
+        patch.setattr(sim_run, "check_run", take)
+        assert sim_run.real_time_factor(sim_run.PIECE, 2) > 0
     return taken[0]
 
 
-def check(run: tuple[Heard, float], **changes: Callable[[list[tuple[Any, ...]]], Any]) -> None:
-    heard, way = dict(run[0]), run[1]
+def check(run: tuple[Robots, float], **changes: Callable[[list[tuple[Any, ...]]], Any]) -> None:
+    """Check what was heard, with changes to what the first robot told."""
+    heard, way = {name: dict(topics) for name, topics in run[0].items()}, run[1]
     for topic, change in changes.items():
-        heard[topic] = change(heard[topic])
-    sim_checks.check_run(heard, sim_room.room(), BURGER, sim.PIECE, way)
+        heard[""][topic] = change(heard[""][topic])
+    sim_checks.check_run(heard, sim_room.room(), BURGER, sim_run.PIECE, way)
 
 
-def test_a_run_that_is_right_passes(run: tuple[Heard, float]) -> None:
+def test_a_run_that_is_right_passes(run: tuple[Robots, float]) -> None:
     check(run)
-    assert set(run[0]) == set(sim_checks.READERS)
+    assert set(run[0]) == {"", "robot_1"}
+    assert all(set(topics) == set(sim_checks.READERS) for topics in run[0].values())
+
+
+def test_a_robot_where_none_was_gives_no_figure(run: tuple[Robots, float]) -> None:
+    """The other robot's place as it is told has to be where the laser sees it."""
+    _, _, _, pose, *_ = run[0][""]["base_pose_ground_truth"][0]
+    other = run[0]["robot_1"]["base_pose_ground_truth"][0][3]
+    shift = (pose[0] + 0.9 - other[0], pose[1] - other[1])
+    heard = {name: dict(topics) for name, topics in run[0].items()}
+    heard["robot_1"]["base_pose_ground_truth"] = [
+        (*row[:3], (row[3][0] + shift[0], row[3][1] + shift[1], *row[3][2:]), *row[4:])
+        for row in heard["robot_1"]["base_pose_ground_truth"]
+    ]
+    with pytest.raises(RosminiError, match=r"from the exact one|inf"):
+        sim_checks.check_run(heard, sim_room.room(), BURGER, sim_run.PIECE, run[1])
 
 
 def changed(index: int, change: Callable[[Any], Any]) -> Callable[[list[tuple[Any, ...]]], Any]:
@@ -104,29 +154,29 @@ def moved(place: tuple[float, ...]) -> tuple[float, ...]:
     ],
 )
 def test_a_run_that_is_not_right_gives_no_figure(
-    run: tuple[Heard, float], changes: dict[str, Any], words: str
+    run: tuple[Robots, float], changes: dict[str, Any], words: str
 ) -> None:
     with pytest.raises(RosminiError, match=words):
         check(run, **changes)
 
 
-def test_odometry_that_is_the_truth_gives_no_figure(run: tuple[Heard, float]) -> None:
-    truth = [(*row[:1], "odom", *row[2:]) for row in run[0]["base_pose_ground_truth"]]
+def test_odometry_that_is_the_truth_gives_no_figure(run: tuple[Robots, float]) -> None:
+    truth = [(*row[:1], "odom", *row[2:]) for row in run[0][""]["base_pose_ground_truth"]]
     with pytest.raises(RosminiError, match=r"0\.0000 m off"):
         check(run, odom=lambda _: truth, tf=lambda _: [row[:4] for row in truth])
 
 
 def test_ranges_without_noise_give_no_figure(
-    run: tuple[Heard, float], monkeypatch: pytest.MonkeyPatch
+    run: tuple[Robots, float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    class Quiet(sim.Simulator):
+    class Quiet(sim_run.Simulator):
         def __init__(self, node: Any, **options: Any) -> None:
             node.set_param("~noise", 1e-6)
             super().__init__(node, **options)
 
-    monkeypatch.setattr(sim, "Simulator", Quiet)
+    monkeypatch.setattr(sim_run, "Simulator", Quiet)
     with pytest.raises(RosminiError, match=r"scatter by 0\.000"):
-        sim.real_time_factor(sim.PIECE)
+        sim_run.real_time_factor(sim_run.PIECE)
 
 
 def test_wrong_ranges_give_no_figure() -> None:
@@ -137,7 +187,13 @@ def test_wrong_ranges_give_no_figure() -> None:
 
 def peers_run(**changes: Any) -> dict[str, Any]:
     x, y, theta = sim_room.START
-    found = {"pose": [x, y, theta], "length": 1.0, "expected": 1.0, "angle_min": -math.pi}
+    found = {
+        "poses": [[x, y, theta]],
+        "lengths": [1.0],
+        "expected": 1.0,
+        "angle_min": -math.pi,
+        "radius": 0.1,
+    }
     found["angle_increment"] = 2 * math.pi / 359
     world = sim_room.room()
     exact = sim.raycast(
@@ -150,6 +206,54 @@ def peers_run(**changes: Any) -> dict[str, Any]:
 def test_the_peer_has_to_drive_and_to_see_the_same_room() -> None:
     sim_peer.check(peers_run())
     with pytest.raises(RosminiError, match=r"went 0.20 m, not 1.00 m"):
-        sim_peer.check(peers_run(length=0.2))
+        sim_peer.check(peers_run(lengths=[0.2]))
     with pytest.raises(RosminiError, match="not that of the room"):
         sim_peer.check(peers_run(ranges=[1.0] * 360))
+
+
+def test_mujocos_room_is_the_same_room() -> None:
+    """36 walls are 8 partitions of four sides and the four outside; a body for each robot."""
+    text = sim_mujoco.model_text(3)
+    assert (text.count('type="box"'), text.count("<body ")) == (8 + 4, 3)
+    assert text.count('type="cylinder"') == 9 + 3
+
+
+def test_mujoco_drives_and_sees_the_room() -> None:
+    pytest.importorskip("mujoco")
+    sim_peer.check(sim_mujoco.simulate(1.0, 2), "MuJoCo")
+
+
+# -- what it is right about --------------------------------------------------------------------------------------
+
+
+def test_a_sample_of_another_distribution_is_found_out() -> None:
+    rng = np.random.default_rng(1)
+    assert sim_physics.likelihood(rng.standard_normal(2000)) > 0.01
+    assert sim_physics.likelihood(1.3 * rng.standard_normal(2000)) < 1e-4
+    assert sim_physics.likelihood(0.2 + rng.standard_normal(2000)) < 1e-4
+    assert sim_physics.likelihood(rng.uniform(-1.7, 1.7, 2000)) < 1e-4
+
+
+def test_the_test_of_kolmogorov_and_smirnov_is_as_likely_as_it_says() -> None:
+    rng = np.random.default_rng(2)
+    found = np.sort([sim_physics.likelihood(rng.standard_normal(50)) for _ in range(400)])
+    assert np.abs(found - (np.arange(400) + 0.5) / 400).max() < 0.08  # p is uniform itself
+
+
+def test_cost_that_grows_with_a_power_has_that_exponent() -> None:
+    assert sim_growth.exponent([1, 10, 100], [3.0, 30.0, 300.0]) == pytest.approx(1.0)
+    assert sim_growth.exponent([1, 10, 100], [5.0, 5.0, 5.0]) == pytest.approx(0.0)
+
+
+def test_a_run_that_leaves_something_behind_gives_no_figure(monkeypatch: pytest.MonkeyPatch) -> None:
+    kept: list[Any] = []
+
+    class Hoarder(sim_growth.Run):
+        def forget(self) -> None:
+            kept.extend(dict(enumerate(range(3000))) for _ in range(2))
+            super().forget()
+
+    monkeypatch.setattr(sim_growth, "WARM_UP", 1.0)
+    monkeypatch.setattr(sim_growth, "Run", Hoarder)
+    with pytest.raises(RosminiError, match="blocks of memory"):
+        sim_growth.hour(4.0)

@@ -51,11 +51,14 @@ class Measure:
     peer: Callable[[], float] | None = None
     peer_name: str = "rospy"
     more_is_better: bool = True
+    once: bool = False
+    """Measured once only: what it gives does not depend on how busy the machine is, or much less than on its argument."""
 
     def run(self, rounds: int) -> Figure:
         """Measure ``rounds`` times, taking turns."""
         ours: list[float] = []
         peer: list[float] = []
+        rounds = 1 if self.once else rounds
         for _ in range(rounds):
             ours.append(self.ours())
             if self.peer is not None:
@@ -174,9 +177,13 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         yield from bags.measures(folder.path, rosbag, args.scale)
     if args.subject in (None, "sim"):
         from . import sim
+        from .sim_mujoco import find_mujoco
         from .sim_peer import find_irsim
 
         irsim = None if args.no_peer else find_irsim()
         if irsim is None and not args.no_peer:
             print("ir-sim is not installed here: no peer (pip install ir-sim)")
-        yield from sim.measures(irsim, args.scale)
+        mujoco = None if args.no_peer else find_mujoco()
+        if mujoco is None and not args.no_peer:
+            print("MuJoCo is not installed here: no peer (pip install mujoco; it takes 80 MB)")
+        yield from sim.measures(irsim, mujoco, args.scale)

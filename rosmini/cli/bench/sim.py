@@ -1,4 +1,4 @@
-"""What is measured of the simulator: how much faster than real time it is, beside ir-sim, and how fast rays are cast."""
+"""What is measured of the simulator: how much faster than real time it is, beside ir-sim and MuJoCo, how fast rays are cast, and what it is right about."""
 
 from __future__ import annotations
 
@@ -7,85 +7,23 @@ import math
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.errors import RosminiError
 from rosmini.geometry.raycast import raycast
-from rosmini.graph import Graph
-from rosmini.msgs import message_class
 from rosmini.sim.models import BURGER
-from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import World
 
-from . import Measure, sim_room
-from .sim_checks import READERS, Heard, Row, check_run
+from . import Measure, sim_growth, sim_physics, sim_room
+from .sim_checks import first_hit
+from .sim_engine import engine_factor
+from .sim_run import PIECE, real_time_factor
 
 if TYPE_CHECKING:
-    from .sim_peer import IrSim
-
-COMMAND_RATE = 10
-"""So often the robot is told what to do [Hz]."""
-
-PIECE = 2.0
-"""So much is simulated at a time [s]; the first piece is not counted."""
-
-
-def real_time_factor(seconds: float) -> float:
-    """Return how many seconds are simulated in a second of processor time.
-
-    One node drives; one holds a subscriber on each topic of the robot, and reads every message. After each `PIECE` the clock stops, and
-    what was read is checked.
-    """
-    world = sim_room.room()
-    spent = 0.0
-    with Graph() as graph:
-        simulator = Simulator(graph.node("simulator"), world=world, model=BURGER)
-        heard, way = _listen(graph), _drive(graph)
-        graph.run(PIECE)
-        pieces = max(round(seconds / PIECE), 1)
-        for _ in range(pieces):
-            for messages in heard.values():
-                messages.clear()
-            way.clear()
-            begin = time.process_time()
-            graph.run(PIECE)
-            spent += time.process_time() - begin
-            check_run(heard, world, simulator.model, PIECE, sum(way))
-    return pieces * PIECE / spent
-
-
-def _listen(graph: Graph) -> Heard:
-    listener = graph.node("listener")
-    heard: Heard = {topic: [] for topic in READERS}
-    for topic, (kind, read) in READERS.items():
-        listener.subscriber(topic, message_class(kind), partial(_hear, read, heard[topic].append))
-    return heard
-
-
-def _hear(read: Callable[[Any], Row], keep: Callable[[Row], None], message: Any) -> None:
-    keep(read(message))
-
-
-def _drive(graph: Graph) -> list[float]:
-    """Start to drive; return how far the robot is told to go, command by command [m]."""
-    driver = graph.node("driver")
-    twist = message_class("geometry_msgs/Twist")
-    publisher = driver.publisher("cmd_vel", twist, queue_size=None)
-    begin = graph.now()
-    way: list[float] = []
-
-    def drive(_: Any) -> None:
-        message = twist()
-        message.linear.x, message.angular.z = sim_room.command((graph.now() - begin).to_sec())
-        publisher.publish(message)
-        way.append(message.linear.x / COMMAND_RATE)
-
-    driver.timer(1 / COMMAND_RATE, drive)
-    return way
-
+    from .sim_peer import Peer
 
 Cast = Callable[[World, float, float], NDArray[np.float64]]
 
@@ -145,7 +83,7 @@ def pymunk_scan() -> Cast:
 def _check_scan(found: NDArray[np.float64], world: World, x: float, y: float) -> None:
     """Raise unless the ranges are those of a loop over all pairs, but for rays that just pass a corner."""
     lidar = BURGER.laser
-    exact = np.array([_first_hit(world, x, y, 2 * math.pi * i / lidar.beams) for i in range(lidar.beams)])
+    exact = np.array([first_hit(world, x, y, 2 * math.pi * i / lidar.beams) for i in range(lidar.beams)])
     exact[exact > lidar.range_max] = np.inf
     wrong = ~np.isclose(found, exact, rtol=0, atol=1e-9)
     if wrong.sum() > 2 or not np.isfinite(found).any():
@@ -153,34 +91,28 @@ def _check_scan(found: NDArray[np.float64], world: World, x: float, y: float) ->
         raise RosminiError(msg)
 
 
-def _first_hit(world: World, x: float, y: float, angle: float) -> float:
-    c, s = math.cos(angle), math.sin(angle)
-    nearest = math.inf
-    for x1, y1, x2, y2 in (world.segments - (x, y, x, y)).tolist():
-        cross = c * (y2 - y1) - s * (x2 - x1)
-        along = (x1 * (y2 - y1) - y1 * (x2 - x1)) / cross if cross else -1.0
-        part = (x1 * s - y1 * c) / cross if cross else -1.0
-        if along >= 0 and 0 <= part <= 1:
-            nearest = min(nearest, along)
-    for px, py, radius in (world.discs - (x, y, 0)).tolist():
-        ahead = c * px + s * py
-        chord = radius * radius - (c * py - s * px) ** 2
-        if chord >= 0 and ahead > 0:
-            nearest = min(nearest, ahead - math.sqrt(chord))
-    return nearest
+ROBOTS = (1, 2, 10, 100)
 
 
-def measures(irsim: IrSim | None, scale: float) -> Iterator[Measure]:
+def measures(irsim: Peer | None, mujoco: Peer | None, scale: float) -> Iterator[Measure]:
     """Yield everything that is measured."""
-    seconds = max(60 * scale, PIECE)
+    for count in ROBOTS:
+        several = f"{count} TurtleBot3" if count > 1 else "one TurtleBot3"
+        yield Measure(
+            f"{several}, every topic heard and checked",
+            "simulated s/s",
+            partial(real_time_factor, max(60 * scale / count, PIECE), count),
+            *_beside(irsim, 60 * scale / count**1.5, count, scale),
+        )
+    for count in ROBOTS:
+        several = f"{count} robots" if count > 1 else "one robot"
+        yield Measure(
+            f"{several}, engine alone, poses at 100 Hz, scans at 5 Hz",
+            "simulated s/s",
+            partial(engine_factor, max(200 * scale / count, 1.0), count),
+            *_beside(mujoco, 60 * scale / count, count, scale),
+        )
     fast, slow = max(int(10_000 * scale), 20), max(int(1_000 * scale), 10)
-    yield Measure(
-        "one TurtleBot3, every topic heard and checked",
-        "simulated s/s",
-        lambda: real_time_factor(seconds),
-        None if irsim is None else lambda: irsim.real_time_factor(seconds),
-        "ir-sim" if irsim is None else irsim.name,
-    )
     pymunk_rays = pymunk_scan()
     for backend, count in (("numba", fast), ("numpy", slow)):
         if backend == "numpy" or importlib.util.find_spec("numba"):
@@ -191,3 +123,14 @@ def measures(irsim: IrSim | None, scale: float) -> Iterator[Measure]:
                 partial(scans, pymunk_rays, slow),
                 "pymunk",
             )
+    yield from sim_growth.measures(scale)
+    yield from sim_physics.measures(scale)
+
+
+def _beside(
+    peer: Peer | None, seconds: float, count: int, scale: float
+) -> tuple[Callable[[], float] | None, str]:
+    """What a peer does beside us, and its name. A hundred robots take ir-sim too long to be only tried out."""
+    if peer is None or (count >= 100 and scale < 0.2):
+        return None, "" if peer is None else peer.name
+    return partial(peer.real_time_factor, max(seconds, 0.3), count), peer.name

@@ -6,6 +6,8 @@ one of them has no figure.
 
 from __future__ import annotations
 
+import bisect
+import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any
@@ -18,7 +20,7 @@ from rosmini.geometry.angles import yaw_from_quaternion
 from rosmini.geometry.poses import Pose, compose, inverse
 from rosmini.geometry.raycast import raycast
 from rosmini.sim.models import RobotModel
-from rosmini.sim.world import World
+from rosmini.sim.world import Cylinder, World
 
 Floats = NDArray[np.float64]
 Row = tuple[Any, ...]
@@ -29,14 +31,12 @@ SIGMAS = 6.5
 """No error in a run is so many standard deviations large."""
 
 
-def _stamped(header: Any) -> tuple[int, str]:
-    return (header.stamp.secs * 1_000_000_000 + header.stamp.nsecs, header.frame_id)
-
-
 def _read_odometry(message: Any) -> Row:
-    place, turn, speed = message.pose.pose.position, message.pose.pose.orientation, message.twist.twist
+    header, pose, speed = message.header, message.pose.pose, message.twist.twist
+    stamp, place, turn = header.stamp, pose.position, pose.orientation
     return (
-        *_stamped(message.header),
+        stamp.secs * 1_000_000_000 + stamp.nsecs,
+        header.frame_id,
         message.child_frame_id,
         (place.x, place.y, turn.x, turn.y, turn.z, turn.w),
         speed.linear.x,
@@ -44,59 +44,89 @@ def _read_odometry(message: Any) -> Row:
     )
 
 
-def _read_tf(message: Any) -> Row:
-    (transform,) = message.transforms
-    shift, turn = transform.transform.translation, transform.transform.rotation
-    return (
-        *_stamped(transform.header),
-        transform.child_frame_id,
-        (shift.x, shift.y, turn.x, turn.y, turn.z, turn.w),
-    )
-
-
 def _read_joints(message: Any) -> Row:
-    return (*_stamped(message.header), tuple(message.name), *message.position)
+    header = message.header
+    stamp = header.stamp
+    left, right = message.position
+    return (stamp.secs * 1_000_000_000 + stamp.nsecs, header.frame_id, tuple(message.name), left, right)
 
 
 def _read_imu(message: Any) -> Row:
-    return (*_stamped(message.header), message.angular_velocity.z, message.linear_acceleration.z)
+    header = message.header
+    stamp = header.stamp
+    return (
+        stamp.secs * 1_000_000_000 + stamp.nsecs,
+        header.frame_id,
+        message.angular_velocity.z,
+        message.linear_acceleration.z,
+    )
 
 
 def _read_scan(message: Any) -> Row:
-    return (*_stamped(message.header), message.angle_min, message.angle_increment, message.ranges)
+    header = message.header
+    stamp = header.stamp
+    return (
+        stamp.secs * 1_000_000_000 + stamp.nsecs,
+        header.frame_id,
+        message.angle_min,
+        message.angle_increment,
+        message.ranges,
+    )
 
 
-READERS: Mapping[str, tuple[str, Callable[[Any], Row]]] = MappingProxyType(
+def transforms(message: Any) -> list[tuple[str, Row]]:
+    """What a subscriber reads of a message on /tf: the prefix of each transform's frame, which is the robot's name, and a row."""
+    rows = []
+    for transform in message.transforms:
+        header, child = transform.header, transform.child_frame_id
+        stamp, shift, turn = header.stamp, transform.transform.translation, transform.transform.rotation
+        row = (
+            stamp.secs * 1_000_000_000 + stamp.nsecs,
+            header.frame_id,
+            child,
+            (shift.x, shift.y, turn.x, turn.y, turn.z, turn.w),
+        )
+        rows.append((child.rpartition("/")[0], row))
+    return rows
+
+
+READERS: Mapping[str, tuple[str, Callable[[Any], Row] | None]] = MappingProxyType(
     {
         "scan": ("sensor_msgs/LaserScan", _read_scan),
         "odom": ("nav_msgs/Odometry", _read_odometry),
-        "tf": ("tf2_msgs/TFMessage", _read_tf),
+        "tf": ("tf2_msgs/TFMessage", None),
         "joint_states": ("sensor_msgs/JointState", _read_joints),
         "imu": ("sensor_msgs/Imu", _read_imu),
         "base_pose_ground_truth": ("nav_msgs/Odometry", _read_odometry),
     }
 )
-"""For each topic of the robot its type, and what a subscriber reads of a message."""
+"""For each topic of a robot its type, and what a subscriber reads of a message; for `transforms` of all robots in one, None."""
 
 
-def check_run(heard: Heard, world: World, model: RobotModel, seconds: float, way: float) -> None:
-    """Raise `RosminiError` unless the messages are those of a robot that was told to go `way` metres in `seconds`."""
+def check_run(
+    heard: Mapping[str, Heard], world: World, model: RobotModel, seconds: float, way: float
+) -> None:
+    """Raise `RosminiError` unless the messages, by the names of robots, are those of robots that were told to go `way` metres in `seconds`."""
     rates = {"scan": model.laser.rate, "imu": model.unit.rate}
-    for topic in READERS:
-        check_rate(topic, heard[topic], rates.get(topic, model.rate), seconds)
-    check_frames(heard, model)
-    truth = poses(heard["base_pose_ground_truth"])
-    length = _way(truth)
-    expect(abs(length - way) < 0.1 * way, f"the robot went {length:.3f} m, and was told to go {way:.3f} m")
-    check_odometry(heard, truth, model)
-    check_scans(heard, truth, world, model)
-    check_imu(heard, truth, model)
+    tracks = {}
+    for name, rows in heard.items():
+        for topic in READERS:
+            check_rate(topic, rows[topic], rates.get(topic, model.rate), seconds)
+        check_frames(rows, model, name)
+        truth = tracks[name] = poses(rows["base_pose_ground_truth"])
+        length = _way(truth)
+        expect(abs(length - way) < 0.1 * way, f"a robot went {length:.3f} m, and was told to go {way:.3f} m")
+        check_odometry(rows, truth, model)
+        check_imu(rows, truth, model)
+    for name, rows in heard.items():
+        others = [track for other, track in tracks.items() if other != name]
+        check_scans(rows, tracks[name], others, world, model)
 
 
 def expect(condition: bool, what: str) -> None:
     """Raise `RosminiError` that says `what` is wrong unless `condition` holds."""
     if not condition:
-        msg = f"the benchmark's robot is not right, so there is no figure: {what}"
+        msg = f"a robot of the benchmark is not right, so there is no figure: {what}"
         raise RosminiError(msg)
 
 
@@ -110,20 +140,21 @@ def check_rate(topic: str, rows: list[Row], rate: float, seconds: float) -> None
     )
 
 
-def check_frames(heard: Heard, model: RobotModel) -> None:
+def check_frames(heard: Heard, model: RobotModel, name: str) -> None:
     """Everything says in which frame it is (REP 105), and of what it speaks."""
+    prefix = f"{name}/" if name else ""
     frames = {
-        "scan": model.laser.frame,
-        "imu": model.unit.frame,
-        "odom": "odom",
-        "tf": "odom",
+        "scan": prefix + model.laser.frame,
+        "imu": prefix + model.unit.frame,
+        "odom": f"{prefix}odom",
+        "tf": f"{prefix}odom",
         "base_pose_ground_truth": "map",
     }
     for topic, frame in frames.items():
         found = {row[1] for row in heard[topic]}
         expect(found == {frame}, f"the frame of {topic} is {', '.join(sorted(found))}, not {frame}")
     children = {row[2] for topic in ("odom", "tf") for row in heard[topic]}
-    expect(children == {"base_footprint"}, f"odom leads to {', '.join(sorted(children))}")
+    expect(children == {f"{prefix}base_footprint"}, f"odom leads to {', '.join(sorted(children))}")
     names = {row[2] for row in heard["joint_states"]}
     expect(names == {("wheel_left_joint", "wheel_right_joint")}, f"the joints are {names}")
 
@@ -150,8 +181,8 @@ def check_odometry(heard: Heard, truth: Floats, model: RobotModel) -> None:
     )
 
 
-def check_scans(heard: Heard, truth: Floats, world: World, model: RobotModel) -> None:
-    """Each range is the exact one plus noise, and the noise is as large as it says."""
+def check_scans(heard: Heard, truth: Floats, others: list[Floats], world: World, model: RobotModel) -> None:
+    """Each range is the exact one plus noise, and the noise is as large as it says. `others` are where the other robots were."""
     lidar = model.laser
     stamps = [row[0] for row in heard["base_pose_ground_truth"]]
     residuals = []
@@ -159,9 +190,10 @@ def check_scans(heard: Heard, truth: Floats, world: World, model: RobotModel) ->
         if not stamps[0] <= when <= stamps[-1]:
             continue
         expect(len(ranges) == lidar.beams, f"a scan has {len(ranges)} ranges, not {lidar.beams}")
-        robot = np.array([np.interp(when, stamps, column) for column in truth.T])
-        x, y, heading = compose(robot, (lidar.mount[0], lidar.mount[1], start))
-        exact = raycast(world.segments, world.discs, x, y, heading, step, lidar.beams, lidar.range_max + 1)
+        x, y, heading = compose(_at(truth, stamps, when), (lidar.mount[0], lidar.mount[1], start))
+        discs = np.array([*world.discs, *(_disc(model, _at(other, stamps, when)) for other in others)])
+        near = discs[np.hypot(discs[:, 0] - x, discs[:, 1] - y) < lidar.range_max + 2]
+        exact = raycast(world.segments, near, x, y, heading, step, lidar.beams, lidar.range_max + 1)
         steady = _steady(exact)
         inside, outside = steady & (exact < lidar.range_max - 0.1), steady & (exact > lidar.range_max + 0.1)
         expect(bool(np.isposinf(ranges[outside]).all()), "a range is not inf where nothing is within reach")
@@ -194,6 +226,24 @@ def check_imu(heard: Heard, truth: Floats, model: RobotModel) -> None:
     expect(abs(felt - 9.80665) < SIGMAS * model.unit.accel_bias, f"the imu feels {felt:.2f} m/s2 upwards")
 
 
+def first_hit(world: World, x: float, y: float, angle: float) -> float:
+    """The distance [m] from (x, y) to the first wall or pillar in this direction, by a loop over all of them."""
+    c, s = math.cos(angle), math.sin(angle)
+    nearest = math.inf
+    for x1, y1, x2, y2 in (world.segments - (x, y, x, y)).tolist():
+        cross = c * (y2 - y1) - s * (x2 - x1)
+        along = (x1 * (y2 - y1) - y1 * (x2 - x1)) / cross if cross else -1.0
+        part = (x1 * s - y1 * c) / cross if cross else -1.0
+        if along >= 0 and 0 <= part <= 1:
+            nearest = min(nearest, along)
+    for px, py, radius in (world.discs - (x, y, 0)).tolist():
+        ahead = c * px + s * py
+        chord = radius * radius - (c * py - s * px) ** 2
+        if chord >= 0 and ahead > 0:
+            nearest = min(nearest, ahead - math.sqrt(chord))
+    return nearest
+
+
 def poses(rows: list[Row]) -> Floats:
     """The poses (n, 3) that rows of `nav_msgs/Odometry` tell; headings are not wrapped."""
     found = np.array([(row[3][0], row[3][1], yaw_from_quaternion(*row[3][2:])) for row in rows])
@@ -207,6 +257,25 @@ def _steady(exact: Floats) -> NDArray[np.bool_]:
     steps = np.abs(np.diff(bounded, append=bounded[0]))
     steady: NDArray[np.bool_] = (steps < 0.1) & (np.roll(steps, 1) < 0.1)
     return steady
+
+
+def _at(track: Floats, stamps: list[int], when: int) -> Floats:
+    """The pose in between two that were heard, as if the path were straight."""
+    after = min(max(bisect.bisect_right(stamps, when), 1), len(stamps) - 1)
+    part = (when - stamps[after - 1]) / (stamps[after] - stamps[after - 1])
+    pose: Floats = track[after - 1] + part * (track[after] - track[after - 1])
+    return pose
+
+
+def _disc(model: RobotModel, pose: Floats) -> tuple[float, float, float]:
+    """What a laser of the same model sees of a robot: the round laser on top."""
+    height = model.laser.mount[2]
+    (part,) = (part for part in model.solid if part.bottom <= height <= part.top)
+    if not isinstance(part.shape, Cylinder):
+        msg = f"the benchmark does not know what a laser sees of {part.shape}"
+        raise RosminiError(msg)
+    x, y, _ = compose(_pose(pose), part.pose)
+    return (float(x), float(y), part.shape.radius)
 
 
 def _pose(row: Floats) -> Pose:

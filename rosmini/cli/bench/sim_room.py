@@ -1,11 +1,15 @@
-"""What both simulators simulate: a room, a robot in it, and what the robot is told."""
+"""What all simulators simulate: a room, robots in it, and what these are told."""
 
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 
+from rosmini.errors import RosminiError
+from rosmini.geometry.poses import Pose
+from rosmini.sim.models import BURGER
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, edges
 
 SIZE = 10.0
@@ -27,12 +31,17 @@ PILLARS = [(x, y) for x in (-3.0, 0.0, 3.0) for y in (-3.0, 0.0, 3.0)]
 PARTITION = Box(2.4, 0.1)
 PILLAR = Cylinder(0.15)
 
-START = (2.0, 1.6, math.pi / 2)
-
-SPEED = 0.2
+SPEED = 0.1
 """[m/s]"""
 TURN_RATE = 0.4
 """[rad/s]"""
+RADIUS = SPEED / TURN_RATE
+"""Of the circles in which the robots go, to the left [m]."""
+
+CLEAR = RADIUS + BURGER.reach
+"""So far from the middle of its circle a robot may reach [m]."""
+
+START = (2.0 + RADIUS, 1.6, UPRIGHT)
 
 
 def room() -> World:
@@ -53,7 +62,35 @@ def crowded_room() -> World:
     return room().with_obstacles([*boxes, Obstacle("pillar 10", PILLAR, clear[16])])
 
 
-def command(seconds: float) -> tuple[float, float]:
-    """What the robot is told then, v [m/s] and w [rad/s]: circles to the left and to the right in turn, an eight."""
-    left = seconds * TURN_RATE // (2 * math.pi) % 2 == 0
-    return SPEED, TURN_RATE if left else -TURN_RATE
+@cache
+def middles() -> tuple[tuple[float, float], ...]:
+    """Where circles can be in the room that no robot leaves: none reaches what stands there, or another one. The first is that of `START`."""
+    world = room()
+    begin, end = world.segments[:, :2], world.segments[:, 2:]
+    along = end - begin
+    found = [(START[0] - RADIUS, START[1])]
+    lines = np.arange(-SIZE / 2 + CLEAR, SIZE / 2 - CLEAR, 0.05)
+    for x, y in ((float(x), float(y)) for y in lines for x in lines):
+        part = ((((x, y) - begin) * along).sum(axis=1) / (along * along).sum(axis=1)).clip(0, 1)
+        nearest = np.hypot(*(begin + part[:, None] * along - (x, y)).T).min()
+        pillar = (np.hypot(*(world.discs[:, :2] - (x, y)).T) - world.discs[:, 2]).min()
+        if min(nearest, pillar) > CLEAR and all(math.dist((x, y), other) > 2 * CLEAR for other in found):
+            found.append((x, y))
+    return tuple(found)
+
+
+def starts(count: int) -> list[Pose]:
+    """Where so many robots begin, all over the room, each with a circle of its own.
+
+    Raises `RosminiError` for more than there is room for.
+    """
+    places = middles()
+    if count > len(places):
+        msg = f"{count} robots do not fit into the room: {len(places)} do"
+        raise RosminiError(msg)
+    found = [START]
+    for i in range(1, count):
+        x, y = places[1 + (i - 1) * (len(places) - 1) // max(count - 1, 1)]
+        heading = math.remainder(2.4 * i, 2 * math.pi)
+        found.append((x + RADIUS * math.sin(heading), y - RADIUS * math.cos(heading), heading))
+    return found

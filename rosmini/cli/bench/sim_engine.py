@@ -1,0 +1,70 @@
+"""What the engine costs without a graph around it: no messages, only poses and scans, as the other simulators are measured."""
+
+from __future__ import annotations
+
+import math
+import time
+import zlib
+from itertools import pairwise
+
+import numpy as np
+
+from rosmini.geometry.poses import Pose
+from rosmini.sim.engine import Engine
+from rosmini.sim.models import BURGER
+from rosmini.sim.world import World
+
+from . import sim_room
+from .sim_checks import expect
+
+RATE = 100
+"""So often it is asked where the robots are [Hz]."""
+
+COMMANDS = 10
+"""So often they are told what to do [Hz]."""
+
+
+def rng(name: str) -> np.random.Generator:
+    """The generator for what is called so."""
+    return np.random.default_rng(zlib.crc32(name.encode()))
+
+
+def make_engine(
+    count: int, world: World | None = None, starts: list[Pose] | None = None
+) -> tuple[Engine, list[str]]:
+    """An engine with so many TurtleBot3 in it, and their names."""
+    engine = Engine(world or sim_room.room(), rng)
+    names = [f"robot_{i}" for i in range(count)]
+    for name, start in zip(names, starts or sim_room.starts(count), strict=True):
+        engine.add(name, BURGER, start)
+    return engine, names
+
+
+def engine_factor(seconds: float, count: int) -> float:
+    """Return how many seconds the engine simulates in a second of processor time: poses a hundred times, a scan of each robot five times a second."""
+    engine, names = make_engine(count)
+    lidar, noise = BURGER.laser, rng("lidar")
+    tracks: dict[str, list[Pose]] = {name: [] for name in names}
+    begin = 0.0
+    for number in range(-RATE, max(round(seconds * RATE), RATE) + 1):  # in the first second the clock stands
+        if number == 0:
+            begin = time.process_time()
+        if number % (RATE // COMMANDS) == 0:
+            for name in names:
+                engine.command(name, sim_room.SPEED, sim_room.TURN_RATE, 0.5)
+        engine.advance((number + RATE) / RATE)
+        for name in names:
+            tracks[name].append(engine.robots[name].pose)
+        if number % round(RATE / lidar.rate) == 0:
+            for name in names:
+                engine.scan(name, noise.standard_normal(lidar.beams) * lidar.noise)
+    spent = time.process_time() - begin
+    for track in tracks.values():
+        driven = track[RATE:]
+        length = sum(math.dist(one[:2], other[:2]) for one, other in pairwise(driven))
+        expected = (len(driven) - 1) / RATE * sim_room.SPEED
+        expect(
+            abs(length / expected - 1) < 0.1,
+            f"a robot went {length:.3f} m, and was told to go {expected:.3f} m",
+        )
+    return (number / RATE) / spent
