@@ -96,6 +96,11 @@ class OneRobot:
         """What the engine knows of it."""
         return self.base.model
 
+    @property
+    def namespace(self) -> str:
+        """What its topics begin with: robot_0; empty for a robot that is alone."""
+        return self.names.prefix
+
     def _camera(self, stage: Stageros, i: int) -> StageCameraDevice:
         robot, names = self.file, self.names
         number = i if len(robot.cameras) > 1 else None
