@@ -51,7 +51,7 @@ def test_every_start_is_free_and_apart_from_the_others(name):
 
 
 def test_the_names_are_sorted_and_each_call_makes_a_new_world():
-    assert names() == ["arena", "empty", "floor", "room"]
+    assert names() == ["arena", "empty", "floor", "house", "maze", "office", "pillars", "room"]
     assert world("room") is not world("room")
 
 
@@ -116,7 +116,7 @@ def test_the_room_can_be_driven_as_its_docstring_says():
     ("name", "part"),
     [
         ("rooom", "did you mean room"),
-        ("", "there are arena, empty, floor, room"),
+        ("", "there are arena, empty, floor, house, maze, office, pillars, room"),
         (None, "neither"),
         (7, "neither"),
     ],

@@ -28,8 +28,8 @@ def to_map(world: World, resolution: float = 0.05, *, height: float = 0.15) -> G
     """The map of a world that a perfect mapper with a laser at a height [m] would make, with cells of `resolution` [m].
 
     A cell is occupied if it overlaps with something fixed at that height, exactly if `World.blocked` says so of a square as large; free if a way
-    over free cells, side by side, leads there from a start; else unknown. Thin walls occupy the cells they pass through, and the insides of
-    solid ones. Raises `WorldError` for a resolution that is not positive, or so fine that there would be more than 100 million cells.
+    over free cells, side by side, leads there from a start; else unknown. Thin walls occupy the cells they touch too, so that none leaks; of solid
+    ones the insides are occupied. Raises `WorldError` for a resolution that is not positive, or so fine that there would be more than 100 million cells.
     """
     if not (np.isfinite(resolution) and resolution > 0):
         raise WorldError(f"the resolution of a map is {resolution!r}; it has to be a finite number above 0")
@@ -117,10 +117,11 @@ class _Grid:
 
     def walls(self, walls: Floats, *, solid: bool) -> None:
         """Take the cells that walls pass through, and those inside of solid ones."""
+        half = self.resolution / 2 + (-polygons.TOUCH if solid else polygons.TOUCH)
         for wall in walls:
             ends = wall.reshape(2, 2)
             rows, columns, cells = self._window(ends.min(axis=0), ends.max(axis=0))
-            self._take(rows, columns, within(cells, self._half, wall[None]))
+            self._take(rows, columns, within(cells, half, wall[None]))
         if solid and len(walls):
             rows, columns, cells = self._window(
                 walls.reshape(-1, 2).min(axis=0), walls.reshape(-1, 2).max(axis=0)

@@ -1,0 +1,151 @@
+"""The worlds that rosmini brings as SDF files: fresh, free where robots start, and wide enough for them everywhere."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from rosmini.geometry import polygons
+from rosmini.navigation.map_server import load_map
+from rosmini.sim.sdf import load
+from rosmini.sim.shapes import ROUND, outline_at
+from rosmini.sim.world import Door, Walk
+from rosmini.sim.worlds import floor, kind_of, names, source, title, to_map, world
+from rosmini.sim.worlds.__main__ import texts
+
+FILES = [name for name in names() if (path := source(name)) is not None and path.suffix == ".world"]
+WIDTH = 0.34
+"""Of a robot, with a little room to each side: a Waffle is 0.306 m wide [m]."""
+
+
+@pytest.mark.parametrize("path", texts(), ids=lambda path: path.name)
+def test_the_files_are_as_they_are_written(path):
+    assert path.read_text(encoding="utf-8") == texts()[path]
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_files_are_worlds_with_ground_and_sun(name):
+    (made,) = load(source(name)).worlds
+    assert made.name == "default"
+    assert "ground_plane" in [model.name for model in made.models]
+    assert kind_of(source(name)) == "sdf"
+    assert world(name).title == title(name)
+
+
+def grown(occupied, cells):
+    """Everything nearer than so many cells."""
+    rows, columns = occupied.shape
+    found = np.zeros_like(occupied)
+    for up in range(-cells, cells + 1):
+        reach = int(math.sqrt(cells * cells - up * up))
+        for along in range(-reach, reach + 1):
+            rows_to, rows_from = slice(max(up, 0), rows + min(up, 0)), slice(max(-up, 0), rows + min(-up, 0))
+            to, start = (
+                slice(max(along, 0), columns + min(along, 0)),
+                slice(max(-along, 0), columns + min(-along, 0)),
+            )
+            found[rows_to, to] |= occupied[rows_from, start]
+    return found
+
+
+def reachable(free, start):
+    """Which free cells a way leads to."""
+    seen = np.zeros_like(free)
+    todo = [start]
+    while todo:
+        row, column = todo.pop()
+        if free[row, column] and not seen[row, column]:
+            seen[row, column] = True
+            todo += [(row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1)]
+    return seen
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_robot_can_drive_from_every_start_to_every_other(name):
+    here = world(name)
+    resolution = 0.05
+    grid = to_map(here, resolution)
+    free = ~grown(grid.occupied, round(WIDTH / 2 / resolution))
+    cells = [
+        (int((y - grid.origin[1]) / resolution), int((x - grid.origin[0]) / resolution))
+        for x, y, _ in here.starts
+    ]
+    seen = reachable(free, cells[0])
+    assert all(seen[cell] for cell in cells)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_fixed_things_do_not_stand_in_one_another(name):
+    """But for walls, which meet in corners; what is above something else is apart from it."""
+    parts = [
+        (each.name, shape, pose, each.bottom, each.height)
+        for each in world(name).obstacles
+        if each.fixed and each.colour != "wall" and not each.name.startswith("turtlebot3_world")
+        for shape, pose in each.parts()
+    ]
+    for i, (one, shape, pose, bottom, top) in enumerate(parts):
+        for other, other_shape, other_pose, other_bottom, other_top in parts[:i]:
+            if (
+                one.partition("::")[0] == other.partition("::")[0]
+                or bottom >= other_top
+                or other_bottom >= top
+            ):
+                continue
+            assert not overlap(shape, pose, other_shape, other_pose), (one, other)
+
+
+def overlap(shape, pose, other, place):
+    if isinstance(shape, ROUND) and isinstance(other, ROUND):
+        return math.dist(pose[:2], place[:2]) < shape.radius + other.radius - 1e-6
+    if isinstance(shape, ROUND):
+        shape, pose, other, place = other, place, shape, pose
+    if isinstance(other, ROUND):
+        return polygons.overlaps_disc(outline_at(shape, pose), *place[:2], other.radius)
+    return polygons.overlap(outline_at(shape, pose), outline_at(other, place))
+
+
+def test_what_moves_in_the_office_meets_nothing_that_stands():
+    office = world("office")
+    moving = [each for each in office.obstacles if each.motion is not None]
+    assert sum(isinstance(each.motion, Walk) for each in moving) == 2
+    assert sum(isinstance(each.motion, Door) for each in moving) == 3
+    for each in moving:
+        for t in np.arange(0.0, each.motion.period, 0.25):
+            at = each.at(float(t))
+            if isinstance(each.motion, Walk):
+                assert office.blocked(at, each.shape.radius, 1.0) is None, (each.name, t)
+            else:
+                assert office.blocked(at, each.shape.outline, 1.0) is None, (each.name, t)
+    walkers = [each.motion for each in moving if isinstance(each.motion, Walk)]
+    for start in office.starts:
+        for walk in walkers:
+            way = [*walk.waypoints, walk.waypoints[0]]
+            sides = np.array([[*a, *b] for a, b in pairwise(way)])
+            assert polygons.distances(np.array([start[:2]]), sides)[0] > 0.5
+
+
+def test_the_pillars_stand_as_in_turtlebot3_world():
+    stage = world("pillars")
+    assert sorted(map(tuple, stage.discs.round(6).tolist())) == [
+        (x, y, 0.15) for x in (-1.1, 0.0, 1.1) for y in (-1.1, 0.0, 1.1)
+    ]
+    assert stage.starts[0] == (-2.0, -0.5, 0.0)
+
+
+def test_the_house_is_free_where_the_launch_files_put_robots():
+    house = world("house")
+    for place in ((-3.0, 1.0), (-7.0, -1.0), (7.0, -1.0), (0.5, 3.0)):
+        assert house.blocked((*place, 0.0), 0.25, 0.4) is None
+    assert house.blocked((-1.3, 3.6, 0.0), 0.2, 0.3) is None, "there is room under the table"
+    assert house.blocked((-1.3, 3.6, 0.0), 0.2, 0.8) is not None, "but not for all"
+    assert sum(each.movable for each in house.obstacles) == 4
+
+
+@pytest.mark.parametrize("name", ["house", "office"])
+def test_the_maps_are_those_of_the_worlds(name):
+    grid, stored = to_map(world(name)), load_map(floor.maps_dir() / f"{name}.yaml")
+    assert (grid.occupancy == stored.occupancy).all()
+    assert stored.origin == pytest.approx(grid.origin)

@@ -1,0 +1,91 @@
+"""`rosmini world`: what it lists, what it says about files, how it ends."""
+
+from __future__ import annotations
+
+import pytest
+
+import rosmini.cli.main as cli
+from rosmini.packages import assets_dir
+from rosmini.sim.worlds import names
+
+BAD = "<sdf version='1.7'>\n<world name='w'>\n<model name='m'>\n<link name='l'><collision name='c'><geometry><boxx/></geometry></collision></link></model></world></sdf>"
+
+
+def run(capsys, *arguments):
+    status = cli.main(["world", *(str(each) for each in arguments)])
+    done = capsys.readouterr()
+    return status, done.out, done.err
+
+
+def test_list_names_every_world_and_what_it_is(capsys):
+    status, out, _ = run(capsys, "list")
+    assert status == 0
+    assert [line.split()[0] for line in out.splitlines()] == names()
+    assert "A house of seven rooms" in out
+
+
+def test_check_says_what_a_sound_file_is(capsys):
+    package = assets_dir() / "ros"
+    status, out, err = run(
+        capsys, "check", "house", "arena", "floor", package / "turtlebot3_gazebo/models/sun/model.sdf"
+    )
+    assert (status, err) == (0, "")
+    lines = out.splitlines()
+    assert (
+        "turtlebot3_house.world: sound: SDF 1.7: the world 'default': 152 obstacles, 7 starts, 16.4 m by 10.4 m"
+        in lines[0]
+    )
+    assert lines[1] == "arena: sound: made in Python: 4 obstacles, 4 starts, 4.2 m by 4.2 m"
+    assert "250 x 170 cells of 0.05 m" in lines[2]
+    assert lines[-1].startswith("  ")
+    assert lines[-1].endswith("model.sdf:3: a light: left out, all is lit alike")
+
+
+def test_check_knows_stage_worlds_and_robots(capsys, tmp_path):
+    (tmp_path / "r.urdf").write_text("<robot name='r'><link name='a'/></robot>")
+    (tmp_path / "m.sdf").write_text(
+        "<!-- <world> --><sdf version='1.7'><model name='m'><static>1</static><link name='l'/></model></sdf>"
+    )
+    (tmp_path / "s.world").write_text(
+        'define floorplan model ( boundary 1 )\nfloorplan ( name "f" size [4 4 1] )\n'
+    )
+    status, out, _ = run(capsys, "check", tmp_path / "r.urdf", tmp_path / "m.sdf", tmp_path / "s.world")
+    assert status == 0
+    lines = [line for line in out.splitlines() if not line.startswith(" ")]
+    assert "URDF: the robot 'r': 1 link, 0 joints" in lines[0]
+    assert "SDF 1.7: the model 'm': 1 link, 0 obstacles" in lines[1]
+    assert "Stage: " in lines[2]
+
+
+def test_check_names_file_and_line_of_what_is_wrong(capsys, tmp_path):
+    (tmp_path / "bad.world").write_text(BAD)
+    (tmp_path / "bad.yaml").write_text("image: a.png\nresolution: x\n")
+    (tmp_path / "bad.urdf").write_text("<robot name='r'>\n<link/></robot>")
+    (tmp_path / "stage.world").write_text("window ( size [ 1 2 )")
+    files = ["bad.world", "bad.yaml", "bad.urdf", "stage.world", "none.world"]
+    status, out, err = run(capsys, "check", "pillars", *(tmp_path / file for file in files))
+    assert status == 1
+    assert "turtlebot3_world.world: sound" in out
+    lines = err.splitlines()
+    assert lines[0].startswith(f"error: {tmp_path / 'bad.world'}:4: ")
+    assert "did you mean box?" in lines[0]
+    for file, line in zip(files, lines, strict=True):
+        assert file in line
+
+
+def test_check_warns_of_a_start_that_is_not_free(capsys, tmp_path):
+    (tmp_path / "w.world").write_text(
+        "<sdf version='1.7'><world name='w'><model name='rock'><static>1</static><link name='l'><collision name='c'><geometry>"
+        "<sphere><radius>1</radius></sphere></geometry></collision></link></model></world></sdf>"
+    )
+    status, out, _ = run(capsys, "check", tmp_path / "w.world")
+    assert status == 0
+    assert "w.world:1: start 1 at (0.00, 0.00) is not free: the obstacle 'rock' is there" in out
+
+
+@pytest.mark.parametrize("arguments", [(), ("check",), ("nonsense",)])
+def test_without_a_verb_or_a_file_it_says_how_it_is_used(arguments, capsys):
+    with pytest.raises(SystemExit) as end:
+        cli.main(["world", *arguments])
+    assert end.value.code == 2
+    assert "usage: rosmini world" in capsys.readouterr().err
