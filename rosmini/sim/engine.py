@@ -235,7 +235,7 @@ class Engine:
         if not all(math.isfinite(part) for part in pose):
             msg = f"a robot cannot be placed at {pose}: x, y and heading have to be finite numbers"
             raise WorldError(msg)
-        hindrance = self._hindrance(model, pose, name)
+        hindrance = self.hindrance(model, pose, name)
         if hindrance is not None:
             x, y, theta = pose
             free = self.world.free_place(
@@ -249,7 +249,7 @@ class Engine:
             raise WorldError(msg)
         return (float(pose[0]), float(pose[1]), float(pose[2]))
 
-    def _hindrance(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
+    def hindrance(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
         """Return what stands at `pose`, in words; None if a robot has room there."""
         self._clockwork.tell_places()
         corners = np.array(model.footprint)
@@ -259,7 +259,7 @@ class Engine:
 
     def _start(self, model: RobotModel) -> Pose:
         for start in self.world.starts:
-            if self._hindrance(model, start) is None:
+            if self.hindrance(model, start) is None:
                 return start
         return self._free(model, self.world.starts[0])
 

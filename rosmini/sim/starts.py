@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import islice
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ParameterError, RosminiError, nearest
@@ -13,7 +13,7 @@ from rosmini.geometry.poses import Pose
 
 from .models import RobotModel
 from .models import model as model_called
-from .world import World, WorldError
+from .world import World
 
 if TYPE_CHECKING:
     from rosmini.graph import Node
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 KEYS = ("name", "model", "x", "y", "yaw", "namespace", "tf_prefix")
 """What an entry of the parameter `~robots` may say."""
 
-SPACING, RINGS = 0.5, 60
-"""A robot without a place looks for one on squares around the first start, so far apart [m] and so many."""
+GAP, RINGS = 0.05, 60
+"""A robot without a place looks for one on squares around the first start, so far from one another [m] and so many to each side."""
 
 
 @dataclass(frozen=True)
@@ -109,17 +109,12 @@ def add(engine: Engine, start: Start) -> Robot:
     Raises `WorldError`, with the nearest free place, and `RosminiError` for a name that is used.
     """
     _check(start.name)
-    try:
-        return engine.add(start.name, start.model, start.pose)
-    except WorldError:
-        if start.pose is not None:
-            raise
-        for pose in islice(_around(engine.world), 1, None):
-            try:
-                return engine.add(start.name, start.model, pose)
-            except WorldError:
-                continue
-        raise
+    model = start.model
+    if start.pose is None and start.name not in engine.robots:
+        for pose in chain(engine.world.starts, _around(engine.world, 2 * model.reach + GAP)):
+            if engine.hindrance(model, pose) is None:
+                return engine.add(start.name, model, pose)
+    return engine.add(start.name, model, start.pose)
 
 
 def _check(name: str) -> None:
@@ -128,12 +123,12 @@ def _check(name: str) -> None:
         raise RosminiError(msg)
 
 
-def _around(world: World) -> Iterator[Pose]:
-    """Places around the first start, nearer ones first, that are within the bounds of the world."""
+def _around(world: World, spacing: float) -> Iterator[Pose]:
+    """Places around the first start, `spacing` [m] apart, nearer ones first, that are within the bounds of the world."""
     x, y, theta = world.starts[0]
     x0, y0, x1, y1 = world.bounds
     cells = [(i, j) for i in range(-RINGS, RINGS + 1) for j in range(-RINGS, RINGS + 1)]
     for i, j in sorted(cells, key=lambda cell: math.hypot(*cell)):
-        px, py = x + i * SPACING, y + j * SPACING
+        px, py = x + i * spacing, y + j * spacing
         if (x0 <= px <= x1 and y0 <= py <= y1) or x0 == x1:
             yield (px, py, theta)
