@@ -18,6 +18,7 @@ from rosmini.sim.sdf import ORIGIN, Pose6, SdfJoint, SdfLink, SdfModel, to_obsta
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.sdf.poses import matrix
 from rosmini.sim.shapes import Box, Cylinder, Part, Polygon, Sphere, outline_at, simple_parts
+from rosmini.sim.world import Obstacle
 
 from .errors import SpawnError
 
@@ -143,6 +144,12 @@ def lowest(model: SdfModel, pose: Pose6) -> float | None:
     up = (0.0, 0.0, high, pose[3], pose[4], 0.0)
     found = to_obstacles(replace(model, static=True, name="body"), up)
     return min((each.bottom for each in found), default=high) - high if found else None
+
+
+def outline_of(obstacle: Obstacle) -> tuple[tuple[float, float], ...]:
+    """The corners of the smallest convex polygon around an obstacle, seen from its pose."""
+    still = replace(obstacle, pose=(0.0, 0.0, 0.0))
+    return _footprint(tuple(Part(shape, pose, 0.0, 1.0) for shape, pose in still.parts()))
 
 
 def _footprint(parts: tuple[Part, ...]) -> tuple[tuple[float, float], ...]:

@@ -11,15 +11,15 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError, nearest
-from rosmini.geometry.poses import compose
+from rosmini.geometry.poses import Pose, compose
 from rosmini.markup import Element
 from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfLink, SdfModel, SdfPlugin, SdfWorld, converted, to_obstacles
 from rosmini.sim.sdf.poses import compose as compose6
-from rosmini.sim.world import Obstacle, World
+from rosmini.sim.world import Obstacle, World, WorldError
 
-from .body import Body, lowest, placed_links
+from .body import Body, lowest, outline_of, placed_links
 from .errors import GazeboError, SpawnError, UnknownEntity, UnknownPlugin
 from .model import STILL, Model, Sensor, Velocity
 from .physics import PhysicsProperties
@@ -334,6 +334,10 @@ class GazeboWorld:
             if model.body is not None:
                 self.engine.put(model.name, compose(at, model.body.axle), velocity)
             else:
+                if at != model.flat:
+                    self._check_room(
+                        next(each for each in self.engine.obstacles() if each.name == model.obstacles[0]), at
+                    )
                 self.engine.put(model.obstacles[0], at, velocity)
         self._tell("move", model)
 
@@ -350,11 +354,20 @@ class GazeboWorld:
             raise
         model.fixed = pose
 
+    def _check_room(self, obstacle: Obstacle, pose: Pose) -> None:
+        """Raise `WorldError` if something fixed is where a thing is to be."""
+        hindrance = self.engine.world.blocked(pose, outline_of(obstacle), obstacle.height)
+        if hindrance is not None:
+            msg = f"{obstacle.name!r} cannot be placed at ({pose[0]:.2f}, {pose[1]:.2f}): {hindrance} is in its way"
+            raise WorldError(msg)
+
     def _insert_all(self, obstacles: Iterable[Obstacle]) -> tuple[str, ...]:
         """Put obstacles into the world, all or none; return their names."""
         added: list[str] = []
         try:
             for obstacle in obstacles:
+                if obstacle.movable:
+                    self._check_room(obstacle, obstacle.pose)
                 self.engine.insert(obstacle)
                 added.append(obstacle.name)
         except RosminiError:

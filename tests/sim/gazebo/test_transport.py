@@ -69,9 +69,9 @@ def test_types_have_to_agree() -> None:
     master = Master()
     node = TransportNode(master, "a")
     publisher = node.advertise("~/time", Time)
-    with pytest.raises(GazeboError, match="is a topic of gazebo.msgs.Time"):
+    with pytest.raises(GazeboError, match=r"is a topic of gazebo\.msgs\.Time"):
         publisher.publish(stats(0.0))
-    with pytest.raises(GazeboError, match="a publishes /gazebo/default/time as gazebo.msgs.Time"):
+    with pytest.raises(GazeboError, match=r"a publishes /gazebo/default/time as gazebo\.msgs\.Time"):
         TransportNode(master, "b").advertise("~/time", WorldStatistics)
 
 
