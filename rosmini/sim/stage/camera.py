@@ -101,7 +101,7 @@ class StageCameraDevice(CameraDevice):
                 told.message.data = data.tobytes()
                 told.stamp(*stamp)
                 to.publish(told.message)
-        if self._to_info is not None:
+        if self._to_info is not None and heard(self._to_info):
             self._info.stamp(*stamp)
             self._to_info.publish(self._info.message)
 

@@ -462,6 +462,16 @@ def test_a_camera_sees_the_walls_of_a_floor_plan(graph: Graph, tmp_path: Path):
     assert depths[4] == pytest.approx(1.9, abs=0.01)
 
 
+def test_robots_with_many_sensors(graph: Graph, capsys):
+    ours = Bench(graph, "package://stage_ros/world/willow-four-erratics-multisensor.world")
+    assert len(ours.topics) == 4 * 10 + 2
+    ours.listen("/robot_3/base_scan_1", "/robot_0/image_0")
+    graph.run(0.35)
+    assert len(ours.heard["/robot_3/base_scan_1"]) == len(ours.heard["/robot_0/image_0"]) == 3
+    assert ours.heard["/robot_3/base_scan_1"][0].header.frame_id == "robot_3/base_laser_link_1"
+    assert capsys.readouterr().err == ""
+
+
 def test_depth_in_millimetres(bench):
     ours = bench(
         "position( camera( resolution [3 3] ) )\nmodel( size [1 9 3] pose [3.5 0 0 0] )",
