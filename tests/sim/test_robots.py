@@ -8,10 +8,13 @@ from collections import defaultdict
 from typing import Any
 
 import pytest
+import yaml
+from defusedxml import ElementTree
 
 from rosmini.errors import ParameterError, RosminiError
 from rosmini.graph import Graph
 from rosmini.msgs import message_class
+from rosmini.packages import assets_dir
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.models import BURGER, WAFFLE, UnknownModel
 from rosmini.sim.simulator import Simulator
@@ -555,3 +558,22 @@ def test_models_and_poses_of_spawned_robots_stay(graph):
     robot = simulator.robot("w")
     assert (robot.topic("scan"), robot.frame("base_scan")) == ("/other/ns/scan", "base_scan")
     assert simulator.robot().model is BURGER
+
+
+# -- launch files ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["simulator", "robots"])
+def test_the_launch_files_say_what_the_simulator_understands(graph, name):
+    path = assets_dir() / "ros" / "rosmini_sim" / "launch" / f"{name}.launch"
+    (tree,) = (each for each in ElementTree.parse(path).getroot() if each.tag == "node")
+    defaults = {arg.get("name"): arg.get("default") for arg in ElementTree.parse(path).getroot().iter("arg")}
+    node = graph.node("simulator")
+    for element in tree:
+        key = element.get("name") or element.get("param")
+        text = element.text if element.tag == "rosparam" else defaults[key]
+        if text is not None and not text.startswith("$"):
+            node.set_param(f"~{key}", yaml.safe_load(text))
+    simulator = Simulator(node)
+    assert simulator.world.name == "room"
+    assert len(simulator.robots) == {"simulator": 1, "robots": 3}[name]
