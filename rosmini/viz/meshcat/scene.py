@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.sim.models import Part as SimplePart
 from rosmini.sim.models import RobotModel
 from rosmini.sim.shapes import ROUND, outline_at, simple_parts
 from rosmini.sim.world import Obstacle, Pose, World
@@ -21,6 +22,7 @@ from rosmini.viz import style
 from rosmini.viz.rounding import snap
 
 from . import burger
+from .links import link_parts, link_surfaces, turtlebot3
 from .recorder import Recorder, meshcat
 from .solids import Facets, Part, Prism, Rod, mesh, rounded
 from .surfaces import LinkPart
@@ -28,6 +30,10 @@ from .surfaces import LinkPart
 Floats = NDArray[np.float64]
 Colour = tuple[float, float, float]
 
+DESCRIBED = ("waffle", "waffle_pi")
+"""Models that are drawn from their URDF. The Burger has a drawing of its own, a tenth as large."""
+SIDES = (("left", 1), ("right", -1))
+"""The wheels, and where they look."""
 ROBOT = "robots/robot"
 """The path of the first robot."""
 WALL_THICKNESS = 0.03
@@ -227,15 +233,50 @@ class Scene3D:
     def add_robot(self, model: RobotModel, pose: Pose, name: str = ROBOT) -> None:
         """Add a robot with its frame base_footprint at `pose`; its wheels are nodes below it."""
         self.place(name, planar(pose))
-        for part in burger.body(model, name):
-            self.add(part)
-        for side, outwards in (("left", 1), ("right", -1)):
-            node = f"{name}/wheel_{side}"
-            hub = np.eye(4)
-            hub[:3, 3] = (0.0, outwards * model.wheel_separation / 2, model.wheel_radius)
-            self.place(node, hub)
-            for part in burger.wheel(model, node, outwards):
+        if model.name in DESCRIBED:
+            self._add_described(model, name)
+        elif model.name == "burger":
+            for part in burger.body(model, name):
                 self.add(part)
+            for side, outwards in SIDES:
+                node = self._place_hub(model, name, side, outwards)
+                for part in burger.wheel(model, node, outwards):
+                    self.add(part)
+        else:
+            for i, seen in enumerate(model.solid):
+                self.add(self._solid(seen, name, f"part{i}", model.height))
+
+    def _place_hub(self, model: RobotModel, name: str, side: str, outwards: int) -> str:
+        """Place the node of a wheel, which turns about its y, and return it."""
+        hub = np.eye(4)
+        hub[:3, 3] = (0.0, outwards * model.wheel_separation / 2, model.wheel_radius)
+        self.place(f"{name}/wheel_{side}", hub)
+        return f"{name}/wheel_{side}"
+
+    def _add_described(self, model: RobotModel, name: str) -> None:
+        """Add a TurtleBot3 as its URDF describes it; what turns is below the nodes of its wheels."""
+        robot = turtlebot3(model.name)
+        for side, outwards in SIDES:
+            self._place_hub(model, name, side, outwards)
+        for link, at in robot.transforms().items():
+            surfaces = link_surfaces(robot, link)
+            if not surfaces:
+                continue
+            above = f"{name}/{link.removesuffix('_link')}" if link.startswith("wheel_") else name
+            self.place(f"{above}/{link}", np.linalg.inv(self.nodes[above]) @ at if above != name else at)
+            for part in link_parts(f"{above}/{link}", surfaces):
+                self.add_surface(part)
+
+    def _solid(self, part: SimplePart, node: str, name: str, height: float) -> Part:
+        """A part of a robot of which only the outlines are known."""
+        bottom, top = part.bottom, min(part.top, height)
+        solids = tuple(
+            Rod((x, y, (bottom + top) / 2), shape.radius, top - bottom)
+            if isinstance(shape, ROUND)
+            else Prism(outline_at(shape, (x, y, theta)), bottom, top)
+            for shape, (x, y, theta) in simple_parts(part.shape, part.pose)
+        )
+        return Part(node, name, colour_of(part.colour), solids, shine=0.2)
 
     def add_scan(
         self, model: RobotModel, ranges: Floats, pose: Pose | None = None, name: str = ROBOT
@@ -320,7 +361,7 @@ def planar(pose: Pose) -> Floats:
 
 def colour_of(name: str) -> str:
     """The colour of an obstacle."""
-    return {"wall": WALL, "grey": GREY}.get(name) or style.LIGHT[name]
+    return name if name.startswith("#") else {"wall": WALL, "grey": GREY}.get(name) or style.LIGHT[name]
 
 
 def scan_points(ranges: Floats) -> Floats:

@@ -1,0 +1,170 @@
+"""Robots in three dimensions as their URDF describes them."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+pytest.importorskip("meshcat")
+
+from rosmini.sim.models import Part, RobotModel, model
+from rosmini.sim.shapes import Box, Cylinder
+from rosmini.sim.worlds import world
+from rosmini.urdf import UnknownJoint, load
+from rosmini.viz.meshcat import robot_3d, urdf_3d
+from rosmini.viz.meshcat.hidden import painting_order
+from rosmini.viz.meshcat.links import link_surfaces
+from rosmini.viz.view import ViewError
+
+LAMP = """<robot name="lamp"><link name="foot">
+<visual><geometry><cylinder radius="0.1" length="0.02"/></geometry><material name="red"><color rgba="1 0 0 1"/></material></visual>
+<visual><geometry><box size="0.02 0.02 0.4"/></geometry><origin xyz="0 0 0.2"/></visual>
+<collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+<link name="head"><visual><geometry><sphere radius="0.05"/></geometry><material name="y"><color rgba="1 1 0 1"/></material></visual></link>
+<link name="nothing"/>
+<joint name="neck" type="continuous"><parent link="foot"/><child link="head"/><origin xyz="0 0 .4"/><axis xyz="0 1 0"/></joint>
+<joint name="j" type="fixed"><parent link="foot"/><child link="nothing"/></joint></robot>"""
+
+
+def turtlebot3(name):
+    return load(f"package://turtlebot3_description/urdf/turtlebot3_{name}.urdf.xacro")
+
+
+def test_any_robot():
+    lamp = load(LAMP)
+    view = urdf_3d(lamp, joints={"neck": 0.5}, title="A lamp")
+    assert view.text == "A lamp\n3D: lamp, 0.200 x 0.200 x 0.460 m, 2 links to see of 3; neck at 0.50"
+    assert "foot, head; neck at 0.50." in view.alt
+    assert {part.node.rpartition("/")[2] for part in view.scene.surfaces} == {"foot", "head"}
+    assert {part.colour for part in view.scene.surfaces} == {"#ff0000", "#98a3ad", "#ffff00"}
+    low = min(
+        (
+            part.surface.vertices @ view.scene.transform(part.node)[:3, :3].T
+            + view.scene.transform(part.node)[:3, 3]
+        )[:, 2].min()
+        for part in view.scene.surfaces
+    )
+    assert low == pytest.approx(0, abs=2e-3)  # it stands on the ground
+    assert view._html(book=True) == urdf_3d(lamp, joints={"neck": 0.5}, title="A lamp")._html(book=True)
+
+
+def test_shapes_that_touch_others():
+    view = urdf_3d(load(LAMP), collisions=True)
+    assert view.text == "3D: collision shapes of lamp, 0.200 x 0.200 x 0.200 m, 1 link to see of 3"
+    assert {part.colour for part in view.scene.surfaces} == {"#e69e00"}
+
+
+@pytest.mark.parametrize(
+    ("make", "error", "message"),
+    [
+        (lambda: urdf_3d(load('<robot name="r"><link name="a"/></robot>')), ViewError, "the robot 'r' has no visual shapes"),
+        (lambda: urdf_3d(load(LAMP), distance=0), ViewError, "above 0, not 0"),
+        (lambda: urdf_3d(load(LAMP), joints={"nek": 1}), UnknownJoint, "did you mean neck?"),
+        (lambda: urdf_3d(load("package://turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro", meshes=False)), ViewError, "load the robot with meshes=True"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_shown(make, error, message):
+    with pytest.raises(error) as caught:
+        make()
+    assert message in str(caught.value)
+
+
+@pytest.mark.parametrize(("name", "size"), [("burger", "0.138 x 0.179 x 0.192"), ("waffle", "0.270 x 0.307 x 0.142"), ("waffle_pi", "0.282 x 0.307 x 0.142")])  # fmt: skip
+def test_turtlebot3(name, size):
+    view = turtlebot3(name).show3d()
+    # e-manual: 138 x 178 x 192 mm, 281 x 306 x 141 mm
+    assert f"turtlebot3_{name}, {size} m" in view.text
+    assert view.svg.count("<path") > 100
+    assert len(view.svg) < 100_000
+    assert sum(map(len, view.scene.commands)) < 200_000
+
+
+@pytest.mark.parametrize("name", ["waffle", "waffle_pi"])
+def test_waffles_in_a_world_are_drawn_from_their_description(name):
+    known = model(name)
+    view = robot_3d(world("room"), known, (0.3, 0.2, 0.4), np.full(known.laser.beams, 0.6))
+    scene = view.scene
+    nodes = {part.node for part in scene.surfaces}
+    assert {
+        "robots/robot/base_link",
+        "robots/robot/wheel_left/wheel_left_link",
+        "robots/robot/base_scan",
+    } <= nodes
+    place = scene.transform("robots/robot/base_scan")
+    c, s = math.cos(0.4), math.sin(0.4)
+    assert place[:3, 3] == pytest.approx([0.3 - 0.064 * c, 0.2 - 0.064 * s, 0.132])
+    # The wheel's own frame has its axle along z; it turns about the y of the node above it.
+    hub = scene.transform("robots/robot/wheel_left")
+    wheel = scene.transform("robots/robot/wheel_left/wheel_left_link")
+    assert wheel[:3, 2] == pytest.approx(hub[:3, 1])
+    assert wheel[:3, 3] == pytest.approx(hub[:3, 3], abs=1e-3)
+    assert "<svg" in view.svg
+
+
+def test_robots_of_which_only_outlines_are_known():
+    cart = RobotModel(
+        name="cart", mass=1.0, inertia=0.1, footprint=((-0.2, -0.1), (0.2, -0.1), (0.2, 0.1), (-0.2, 0.1)), height=0.3,
+        drive="holonomic", parts=(Part(Box(0.4, 0.2), (0.0, 0.0, 0.0), 0.05, 0.2, "#336699"), Part(Cylinder(0.05), (0.1, 0.0, 0.0), 0.2, math.inf, "blue")),
+    )  # fmt: skip
+    view = robot_3d(world("room"), cart, (0.0, 0.0, 0.0))
+    parts = [part for part in view.scene.parts if part.node == "robots/robot"]
+    assert parts[0].colour == "#336699"
+    assert parts[1].solids[0].length == pytest.approx(0.1)  # no higher than the robot
+    assert "<svg" in view.svg
+
+
+def square(x, y, size, depth):
+    a, b, c, d = (x, y, depth), (x + size, y, depth), (x + size, y + size, depth), (x, y + size, depth)
+    return [[a, b, c], [a, c, d]]
+
+
+def test_what_is_hidden_is_left_out_and_the_farther_is_painted_first():
+    near, far, behind = square(10, 10, 20, 1.0), square(20, 20, 40, 2.0), square(12, 12, 5, 3.0)
+    assert painting_order(np.array(near + far + behind), 100, 100) in (
+        [2, 3, 0, 1],
+        [3, 2, 0, 1],
+        [2, 3, 1, 0],
+        [3, 2, 1, 0],
+    )
+    assert painting_order(np.array(square(200, 200, 5, 1.0)), 100, 100) == []
+
+
+def test_a_large_floor_is_painted_before_what_stands_on_its_far_end():
+    # By the distance of its middle the floor would cover the small thing.
+    floor = [[(0, 99, 1.0), (99, 99, 1.0), (50, 0, 10.0)]]
+    thing = [[(48, 5, 4.1), (52, 5, 4.1), (50, 12, 4.1)]]
+    assert painting_order(np.array(floor + thing), 100, 100) == [0, 1]
+
+
+@settings(max_examples=40)
+@given(
+    st.lists(st.tuples(*[st.floats(1, 39)] * 2, st.floats(2, 25), st.floats(1, 9)), min_size=1, max_size=8)
+)
+def test_painting_in_this_order_shows_what_is_nearest_everywhere(squares):
+    corners = np.array([triangle for each in squares for triangle in square(*each)])
+    order = painting_order(corners, 64, 64)
+    assert len(order) == len(set(order))
+    painted = np.full((64, 64), np.inf)
+    depth = np.full((64, 64), np.inf)
+    for i in range(len(corners)):
+        depth = np.minimum(depth, cover(corners[i]))
+    for i in order:
+        own = cover(corners[i])
+        painted[np.isfinite(own)] = own[np.isfinite(own)]
+    assert np.array_equal(painted, depth)
+
+
+def cover(triangle):
+    """Its depth at the pixels that it covers, elsewhere infinity; it faces the camera."""
+    x, y = np.meshgrid(np.arange(64) + 0.5, np.arange(64) + 0.5)
+    a, b, c = np.round(triangle[:, :2], 2)
+    sides = [(q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]) for p, q in ((a, b), (b, c), (c, a))]
+    inside = np.all([side > 1e-6 for side in sides], axis=0)
+    return np.where(inside, round(float(triangle[0, 2]), 6), np.inf)
+
+
+def test_a_link_has_one_surface_for_each_colour():
+    surfaces = link_surfaces(turtlebot3("burger"), "base_scan")
+    assert len(surfaces) == len({surface.colour for surface in surfaces}) == 4
