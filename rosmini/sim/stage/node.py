@@ -21,7 +21,7 @@ import os
 from dataclasses import dataclass
 from typing import Any
 
-from rosmini.errors import ScriptError, nearest
+from rosmini.errors import IllegalName, RosminiError, ScriptError, nearest
 from rosmini.geometry.angles import quaternion_from_yaw
 from rosmini.geometry.poses import Pose
 from rosmini.graph import Node
@@ -32,7 +32,6 @@ from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.host import Host, HostState
 from rosmini.sim.models import RobotModel
 from rosmini.sim.parameters import Parameters, parameter
-from rosmini.sim.world import WorldError
 
 from .bases import laser_model, robot_model
 from .camera import StageCameraDevice
@@ -169,11 +168,15 @@ class Stageros:
             model = robot_model(robot, self.file.interval)
             try:
                 self.engine.add(name, model, robot.pose)
-            except WorldError as error:
+            except RosminiError as error:
                 raise StageError(robot.place, str(error)) from error
             found.append((robot, name, names))
         for robot, name, names in found:
-            self.robots[name] = OneRobot(self, robot, name, names)
+            try:
+                self.robots[name] = OneRobot(self, robot, name, names)
+            except IllegalName as error:
+                what = f"with -u the name of {robot.name!r} is that of its topics, and that it cannot be: {error}"
+                raise StageError(robot.place, what) from error
             if robot.lasers:
                 self.engine.scan(name)  # where numba has to compile, it does so now
             devices = f"{_count(len(robot.lasers), 'laser')} and {_count(len(robot.cameras), 'camera')}"

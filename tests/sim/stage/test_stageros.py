@@ -535,6 +535,14 @@ def test_a_robot_that_has_no_room_names_its_line(bench):
         bench("model( )\nposition( )")
 
 
+@pytest.mark.parametrize(
+    ("second", "words"), [("a", "there is a robot 'a' in the world"), ("b c", "a space is not allowed")]
+)
+def test_names_that_cannot_be_namespaces_are_told(bench, second: str, words: str):
+    with pytest.raises(StageError, match=rf"a\.world:2: (.|\n)*{words}"):
+        bench(f'position( name "a" )\nposition( name "{second}" pose [2 0 0 0] )', "-u")
+
+
 @pytest.mark.parametrize(("arguments", "words"), [((), "needs one world file, not 0"), (("a", "b"), "not 2"), (("-x", "a"), "knows no option -x")])  # fmt: skip
 def test_wrong_arguments_are_answered_with_the_usage(graph: Graph, arguments, words: str):
     with pytest.raises(ScriptError, match=words) as caught:
