@@ -12,6 +12,7 @@ from rosmini.viz.rqt import GraphState, rqt_console, rqt_graph
 from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 
 if TYPE_CHECKING:
+    from rosmini.viz.images import image_picture
     from rosmini.viz.parameters import parameter_tree
     from rosmini.viz.plots import plot
     from rosmini.viz.recording import recording_picture, recording_plots
@@ -28,6 +29,7 @@ __all__ = [
     "View",
     "ViewError",
     "action_states",
+    "image_picture",
     "matplotlib_picture",
     "parameter_tree",
     "plot",
@@ -44,6 +46,7 @@ __all__ = [
 
 _LATER = {
     "action_states": "rosmini.viz.states",
+    "image_picture": "rosmini.viz.images",
     "parameter_tree": "rosmini.viz.parameters",
     "plot": "rosmini.viz.plots",
     "recording_picture": "rosmini.viz.recording",
