@@ -111,12 +111,17 @@ class _Group:
         self.number = number
         self.due_ns = self.start_ns + round(number * self.period)
 
+    def after(self, now_ns: int) -> int:
+        """The number of the first that is after this time, or of the next one, if that is later."""
+        if self.due_ns > now_ns:
+            return self.number
+        number = int((now_ns - self.start_ns) / self.period) + 1
+        return number + (self.start_ns + round(number * self.period) <= now_ns)
+
     def skip(self, now_ns: int) -> None:
         """Go on to the first that is after this time."""
         if self.due_ns <= now_ns:
-            self.to(int((now_ns - self.start_ns) / self.period) + 1)
-            if self.due_ns <= now_ns:
-                self.to(self.number + 1)
+            self.to(self.after(now_ns))
 
     def sort(self) -> None:
         """Put the devices into their sequence."""
@@ -170,6 +175,7 @@ class Host:
         self._due_ns = 0
         self._cancel: Callable[[], None] | None = None
         self._ended = False
+        self._serving = False
         node.on_shutdown(self.end)
 
     def __repr__(self) -> str:
@@ -305,10 +311,9 @@ class Host:
         group = self._groups.get(device.rate)
         if group is None:
             group = self._groups[device.rate] = _Group(device.rate, self._zero_ns, now)
-        group.skip(now)
         self._devices[device.name] = device
         group.devices.append(device)
-        group.before[device.name] = group.number - 1
+        group.before[device.name] = group.after(now) - 1
         group.sort()
         self._arrange()
         return device
@@ -363,13 +368,15 @@ class Host:
             self._cancel()
             self._cancel = None
 
-    def _plan(self) -> None:
-        """Ask to be called when the first device is due, wanted or not."""
+    def _plan(self, since_ns: int | None = None) -> None:
+        """Ask to be called when the first device is due after now, or after `since_ns`, wanted or not."""
+        if self._serving:  # `_tick` does it when all have been served
+            return
         self._forget()
         if self._order and not self._paused and not self._ended:
-            now = self._at()
+            since = self._at() if since_ns is None else since_ns
             for group in self._order:
-                group.skip(now)
+                group.skip(since)
             self._call(min(group.due_ns for group in self._order))
 
     def _call(self, due_ns: int) -> None:
@@ -384,17 +391,18 @@ class Host:
             self.node.guarded(self._tick, what="physics")
         finally:
             if self._cancel is None and not self._paused and not self._ended:  # an error, or Ctrl-C
-                for group in self._order:
-                    group.skip(due)
-                self._plan()
+                self._plan(due)
 
     def _tick(self) -> None:
         due = self._due_ns
         behind = self.clock.now_ns() - self._on_clock(due)
         if abs(behind) > self._lag_ns:  # the computer is too slow, or the clock was set
             self._clock_ns += behind
+        order = self._order
         following = self._serve(due)
-        if self._cancel is None and not self._paused and not self._ended:
+        if self._order is not order:
+            self._plan(due)
+        elif not self._paused and not self._ended:
             self._call(following)
 
     def _serve(self, due: int) -> int:
@@ -402,14 +410,18 @@ class Host:
         self.engine.advance(due * 1e-9)
         stamp = self._stamp(due)
         following = due + int(IDLE_S * SECOND)
-        for group in self._order:
-            if group.always or group.wanted():
-                if group.due_ns == due:
-                    group.serve(stamp)
-                    group.to(group.number + 1)
-                elif group.due_ns < due:
-                    group.skip(due)
-                following = min(following, group.due_ns)
+        self._serving = True
+        try:
+            for group in self._order:
+                if group.always or group.wanted():
+                    if group.due_ns == due:
+                        group.serve(stamp)
+                        group.to(group.number + 1)
+                    elif group.due_ns < due:
+                        group.skip(due)
+                    following = min(following, group.due_ns)
+        finally:
+            self._serving = False
         return following
 
     # -- saving --------------------------------------------------------------------------------------------------

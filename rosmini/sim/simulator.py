@@ -1,10 +1,13 @@
-"""The node `rosmini_sim/simulator`: a TurtleBot3 in a world, with the topics of the real one.
+"""The node `rosmini_sim/simulator`: TurtleBot3s in a world, with the topics of the real ones.
 
-It subscribes to `cmd_vel` and publishes `scan`, `odom`, `/tf`, `joint_states` and `imu` at the rates of the robot's firmware, and beside them
-`base_pose_ground_truth`, where the robot really is (Stage's name; no real robot knows that). It offers `reset_positions` (Stage's name too).
+Each subscribes to `cmd_vel` and publishes `scan`, `odom`, `/tf`, `joint_states` and `imu` at the rates of the robot's firmware, a waffle also what its
+camera sees, and beside them `base_pose_ground_truth`, where the robot really is (Stage's name; no real robot knows that). With `_board:=true` there are
+`sensor_state`, `battery_state`, `motor_power` and `reset` too. It offers `reset_positions` (Stage's name too).
 
 As on the real robot (firmware 1.2.3) and in Stage, a command holds for a moment only: half a second after the last `cmd_vel` the robot stops. So
 whoever drives it repeats the command, as `rostopic pub -r 10` does. `_cmd_vel_timeout:=0` lets it go on, as in Gazebo.
+
+Without `~robots` there is one robot, whose topics are in the node's own namespace. With it there are several, see `rosmini.sim.starts.read_starts`.
 """
 
 from __future__ import annotations

@@ -229,6 +229,31 @@ def test_a_device_that_fails_is_told_and_the_others_go_on(graph, capsys):
     capsys.readouterr()
 
 
+def test_devices_may_come_and_go_while_others_are_served(graph):
+    host = make(graph)
+    first, last = host.add(Bell(host, "first", 10.0)), host.add(Bell(host, "last", 10.0))
+    changing = host.add(Bell(host, "changing", 10.0, order=1))
+    late: list[Bell] = []
+
+    def change(_: Stamp, number: int, /) -> None:
+        if number == 2:
+            host.remove(first)
+            late.append(host.add(Bell(host, "late", 10.0)))
+            late.append(host.add(Bell(host, "fast", 40.0)))
+        if number == 4:
+            host.remove(changing)
+
+    changing.due = change  # type: ignore[method-assign]
+    for group in host._order:
+        group.sort()
+    graph.run(0.65)
+    assert times(last) == [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
+    assert times(first)[:1] == [0.1]
+    assert len(first.rung) <= 2
+    assert late[0].rung == [(0.3, 1), (0.4, 2), (0.5, 3), (0.6, 4)]
+    assert times(late[1])[:3] == [0.225, 0.25, 0.275]
+
+
 def test_names_and_rates_are_checked(graph):
     host = make(graph)
     bell = host.add(Bell(host, "burger/imu", 10.0))

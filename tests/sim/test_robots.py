@@ -294,6 +294,22 @@ def test_a_company_changes_no_noise():
     assert run(company=True) == alone
 
 
+def test_two_runs_with_coming_and_going_are_equal_to_the_last_byte():
+    def run() -> dict[str, list[bytes]]:
+        with Graph(seed=7) as graph:
+            simulator = start(graph, world="room", noise=1.0, robots=3)
+            ears = Ears(graph, "tb3_0", "tb3_1", "tb3_2", "late")
+            drive(graph, ears, ("tb3_0", "tb3_1", "tb3_2"))
+            simulator.delete("tb3_1")
+            simulator.spawn("late", "waffle")
+            drive(graph, ears, ("tb3_0", "late"))
+            return ears.bytes()
+
+    first = run()
+    assert len(first["late/imu"]) > 300
+    assert run() == first
+
+
 # -- commands --------------------------------------------------------------------------------------------------------
 
 
