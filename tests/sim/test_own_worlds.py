@@ -10,7 +10,7 @@ import pytest
 
 from rosmini.geometry import polygons
 from rosmini.navigation.map_server import load_map
-from rosmini.sim.sdf import load
+from rosmini.sim.sdf import SdfError, load
 from rosmini.sim.shapes import ROUND, outline_at
 from rosmini.sim.world import Door, Walk
 from rosmini.sim.worlds import floor, kind_of, names, source, title, to_map, world
@@ -75,6 +75,28 @@ def test_a_robot_can_drive_from_every_start_to_every_other(name):
     ]
     seen = reachable(free, cells[0])
     assert all(seen[cell] for cell in cells)
+
+
+def test_what_a_file_is_hangs_on_what_stands_in_it(tmp_path):
+    sdf = source("pillars").read_text(encoding="utf-8")
+    (tmp_path / "a.txt").write_text(f"<!-- <robot> -->\n{sdf.partition('?>')[2]}")
+    assert kind_of(tmp_path / "a.txt") == "sdf"
+    pillars = world(tmp_path / "a.txt")
+    assert (pillars.name, len(pillars.obstacles)) == ("a", 21)
+    (tmp_path / "b.world").write_text("floorplan ( size [4 4 1] )\ndefine floorplan model ( boundary 1 )\n")
+    assert kind_of(tmp_path / "b.world") == "stage"
+    (tmp_path / "c").write_text(
+        source("floor").read_text().replace("floor.png", str(floor.maps_dir() / "floor.png"))
+    )
+    assert kind_of(tmp_path / "c") == "map"
+    assert world(tmp_path / "c").walls.shape == world("floor").walls.shape
+    assert world("package://rosmini_sim/worlds/maze.world").bounds == world("maze").bounds
+    (tmp_path / "m.sdf").write_text("<sdf version='1.7'><model name='m'><link name='l'/></model></sdf>")
+    with pytest.raises(SdfError, match=r"no <world> .* the model 'm'"):
+        world(tmp_path / "m.sdf")
+    (tmp_path / "r.urdf").write_text("<robot name='r'><link name='l'/></robot>")
+    with pytest.raises(SdfError, match="URDF"):
+        world(tmp_path / "r.urdf")
 
 
 @pytest.mark.parametrize("name", FILES)

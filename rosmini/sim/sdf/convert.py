@@ -2,7 +2,8 @@
 
 Collisions count, for bodies run against them and Gazebo's ray sensors see them; visuals give the colours. A static model becomes as many obstacles as
 it has solid parts: `MODEL` if there is one, else `MODEL::COLLISION` (with more links than one: `MODEL::LINK::COLLISION`). A model that is not static
-becomes one obstacle `MODEL` with the mass of its links; its joints are held. So all that is of a model is called `MODEL`, or begins with `MODEL::`.
+becomes one obstacle `MODEL` with the mass of its links, and the friction and the restitution of its surfaces (the least, as the engine has it); its
+inertia follows from its mass and its outline, and its joints are held. So all that is of a model is called `MODEL`, or begins with `MODEL::`.
 """
 
 from __future__ import annotations
@@ -167,6 +168,8 @@ def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]
                 for each in solid
             )
         )
+    surfaces = [collision for _, link in _links(model) for collision in link.collisions]
+    frictions = [each.friction for each in surfaces if each.friction is not None]
     return Obstacle(
         model.name,
         shape,
@@ -176,6 +179,8 @@ def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]
         None if motion else sum(link.inertial.mass for _, link in _links(model)),
         min(each.bottom for each in solid),
         motion,
+        drag=min(frictions) if frictions and motion is None else None,
+        restitution=min((each.restitution for each in surfaces), default=0.0) if motion is None else 0.0,
     )
 
 

@@ -81,6 +81,8 @@ class SdfCollision:
     friction: float | None = None
     """The Coulomb coefficient mu of its surface, if the file gives one."""
     line: int = 0
+    restitution: float = 0.0
+    """How much of its speed a body has after a blow, from 0 to 1."""
 
 
 @dataclass(frozen=True)

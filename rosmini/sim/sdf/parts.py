@@ -151,12 +151,17 @@ def _inertial(element: Element | None, scope: Scope, here: Pose6) -> SdfInertial
 
 def _collision(element: Element, scope: Scope, here: Pose6, reading: Reading) -> SdfCollision:
     friction = element.find("surface/friction/ode/mu")
+    bounce = element.find("surface/bounce/restitution_coefficient")
+    restitution = bounce.floats(bounce.text, 1)[0] if bounce is not None and bounce.text else 0.0
+    if bounce is not None and not 0 <= restitution <= 1:
+        raise bounce.error(f"a restitution coefficient is between 0 and 1, not {restitution:g}")
     return SdfCollision(
         name_of(element),
         scope.seen_from(here, given(element)),
         geometry(element.need("geometry"), reading),
         friction.floats(friction.text, 1)[0] if friction is not None and friction.text else None,
         element.line,
+        restitution,
     )
 
 

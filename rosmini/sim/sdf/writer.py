@@ -138,9 +138,21 @@ def _solid(name: str, shape: Simple, pose: Pose, thing: Obstacle) -> Iterator[st
     for tag in ("collision", "visual"):
         yield f"        <{tag} name={quoteattr(name)}>\n          <pose>{at}</pose>\n"
         yield f"          <geometry>{inner}</geometry>\n"
+        if tag == "collision":
+            yield from _surface(thing)
         if tag == "visual":
             yield f"          <material><ambient>{rgb} 1</ambient><diffuse>{rgb} 1</diffuse></material>\n"
         yield f"        </{tag}>\n"
+
+
+def _surface(thing: Obstacle) -> Iterator[str]:
+    bounce = (
+        f"<bounce><restitution_coefficient>{_number(thing.restitution)}</restitution_coefficient></bounce>"
+    )
+    mu = "" if thing.drag is None else _number(thing.drag)
+    friction = f"<friction><ode><mu>{mu}</mu><mu2>{mu}</mu2></ode></friction>"
+    if thing.restitution or thing.drag is not None:
+        yield f"          <surface>{bounce if thing.restitution else ''}{friction if mu else ''}</surface>\n"
 
 
 def _door(door: Door) -> Iterator[str]:

@@ -305,8 +305,13 @@ def things(draw):
             )
             found.append(Obstacle(f"thing {i}", Cylinder(0.2), (x, y, 0.0), 1.75, "purple", motion=motion))
         else:
+            surface = {
+                "drag": draw(st.sampled_from([None, 0.3])),
+                "restitution": draw(st.sampled_from([0.0, 0.5])),
+            }
+            name, at, colour = f"thing {i}", draw(planar), draw(colours)
             found.append(
-                Obstacle(f"thing {i}", shape, draw(planar), top, draw(colours), mass, bottom, motion)
+                Obstacle(name, shape, at, top, colour, mass, bottom, motion, **(surface if mass else {}))
             )
     return tuple(found)
 
@@ -322,6 +327,7 @@ def test_a_world_that_is_written_is_read_as_it_was(found, starts):
     for old in before.obstacles:
         new = by_name[old.name]
         assert (new.name, new.colour, new.mass) == (old.name, old.colour, old.mass)
+        assert (new.drag, new.restitution) == (old.drag, old.restitution)
         assert (new.bottom, new.height) == pytest.approx((old.bottom, old.height), abs=1e-5)
         assert new.pose == pytest.approx(old.pose, abs=1e-5)
         assert len(new.parts()) == len(old.parts())

@@ -305,6 +305,7 @@ def test_a_mesh_that_is_only_looked_at_may_be_missing():
         (model("<link name='l'><collision name='c'><geometry><mesh><uri>file://no.dae</uri></mesh></geometry></collision></link>"), 3, "not there"),
         (model("<link name='l'><visual name='c'><geometry><polyline><point>0 0</point><point>1 1</point></polyline></geometry></visual></link>"), 3, "3 points"),
         (model(f"<link name='l'><visual name='c'>{BOX}<material><diffuse>2 0 0 1</diffuse></material></visual></link>"), 3, "between 0 and 1"),
+        (model(f"<link name='l'><collision name='c'>{BOX}<surface><bounce><restitution_coefficient>2</restitution_coefficient></bounce></surface></collision></link>"), 3, "between 0 and 1"),
         (model("<link name='l'><inertial><mass>0</mass></inertial></link>"), 3, "a mass is more than 0"),
         (model("<link name='l'><inertial><inertia><ixx>-1</ixx></inertia></inertial></link>"), 3, "ixx is more than 0"),
         (model("<link name='l'><sensor name='s'/></link>"), 3, "type"),
