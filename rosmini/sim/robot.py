@@ -81,7 +81,8 @@ class Robot:
         if self.touching:
             return Motion(*self.seen, *self._rates)
         wheels = self.wheels
-        v, w = body_velocity(self.left * wheels.left, self.right * wheels.right, wheels.separation)
+        left, right = self.left * wheels.left, self.right * wheels.right
+        v, w = (left + right) / 2, (right - left) / wheels.separation
         if self.left == self.left_target and self.right == self.right_target:
             return Motion(v, w, 0.0, 0.0)
         if self.model.own_limits:
@@ -166,9 +167,9 @@ class Robot:
 
     def roll(self, dt: float) -> tuple[Pose, float]:
         """Turn the wheels for `dt` seconds; return where that takes the robot, and how far its farthest corner moves at most."""
+        if self.left == self.left_target and self.right == self.right_target:
+            return self._roll_on(dt)
         pose, moved = self.pose, 0.0
-        if self.standing:
-            return pose, moved
         wheels, reach = self.wheels, self.model.reach
         b, kl, kr = wheels.separation, wheels.left, wheels.right
         for h, al, ar in self._phases(dt):
@@ -184,6 +185,23 @@ class Robot:
             self.right_way += (right + self.right) / 2 * h
             moved += max(abs(v), abs(v + dv * h)) * h + reach * max(abs(w), abs(w + dw * h)) * h
         return pose, moved
+
+    def _roll_on(self, dt: float) -> tuple[Pose, float]:
+        """Do so with speeds that stay what they are: most of the time, so in as few steps as can be. The way is that of `geometry.poses.arc`."""
+        left, right = self.left, self.right
+        if left == right == 0.0:
+            return self.pose, 0.0
+        wheels = self.wheels
+        left_rim, right_rim = left * wheels.left, right * wheels.right
+        v, w = (left_rim + right_rim) / 2, (right_rim - left_rim) / wheels.separation
+        self.left_way += left * dt
+        self.right_way += right * dt
+        x, y, theta = self.pose
+        half = w * dt / 2
+        chord = v * dt * (math.sin(half) / half if half else 1.0)
+        towards = theta + half
+        pose = (x + chord * math.cos(towards), y + chord * math.sin(towards), theta + w * dt)
+        return pose, abs(v) * dt + self.model.reach * abs(w) * dt
 
     def _phases(self, dt: float) -> list[Phase]:
         if self.left == self.left_target and self.right == self.right_target:
