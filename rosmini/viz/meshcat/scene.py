@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rosmini.sim.models import Part as SimplePart
 from rosmini.sim.models import RobotModel
-from rosmini.sim.shapes import ROUND, outline_at, simple_parts
+from rosmini.sim.shapes import Cylinder, Simple, Sphere, outline_at, simple_parts
 from rosmini.sim.world import Obstacle, Pose, World
 from rosmini.viz import style
 from rosmini.viz.rounding import snap
@@ -24,7 +24,7 @@ from rosmini.viz.rounding import snap
 from . import burger
 from .links import link_parts, link_surfaces, turtlebot3
 from .recorder import Recorder, meshcat
-from .solids import Facets, Part, Prism, Rod, mesh, rounded
+from .solids import Ball, Facets, Part, Prism, Rod, Solid, mesh, rounded
 from .surfaces import LinkPart
 
 Floats = NDArray[np.float64]
@@ -217,17 +217,12 @@ class Scene3D:
 
     def add_obstacle(self, obstacle: Obstacle) -> None:
         """Add an obstacle where it is."""
-        node = "obstacles/" + obstacle.name.replace("/", " ")
+        node = obstacle_node(obstacle.name)
         while node in self.nodes:  # names may be used twice
             node += "'"
         self.place(node, planar(obstacle.pose))
         bottom, top = obstacle.bottom, obstacle.height
-        solids = tuple(
-            Rod((x, y, (bottom + top) / 2), shape.radius, top - bottom)
-            if isinstance(shape, ROUND)
-            else Prism(outline_at(shape, (x, y, theta)), bottom, top)
-            for shape, (x, y, theta) in simple_parts(obstacle.shape)
-        )
+        solids = tuple(_upright(shape, pose, bottom, top) for shape, pose in simple_parts(obstacle.shape))
         self.add(Part(node, "solid", colour_of(obstacle.colour), solids, shine=0.1))
 
     def add_robot(self, model: RobotModel, pose: Pose, name: str = ROBOT) -> None:
@@ -271,10 +266,7 @@ class Scene3D:
         """A part of a robot of which only the outlines are known."""
         bottom, top = part.bottom, min(part.top, height)
         solids = tuple(
-            Rod((x, y, (bottom + top) / 2), shape.radius, top - bottom)
-            if isinstance(shape, ROUND)
-            else Prism(outline_at(shape, (x, y, theta)), bottom, top)
-            for shape, (x, y, theta) in simple_parts(part.shape, part.pose)
+            _upright(shape, pose, bottom, top) for shape, pose in simple_parts(part.shape, part.pose)
         )
         return Part(node, name, colour_of(part.colour), solids, shine=0.2)
 
@@ -357,6 +349,20 @@ def planar(pose: Pose) -> Floats:
     x, y, theta = pose
     c, s = math.cos(theta), math.sin(theta)
     return np.array([[c, -s, 0, x], [s, c, 0, y], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+
+
+def obstacle_node(name: str) -> str:
+    """Where in the scene an obstacle is."""
+    return "obstacles/" + name.replace("/", " ")
+
+
+def _upright(shape: Simple, pose: Pose, bottom: float, top: float) -> Solid:
+    """A shape as it stands, or lies if it is a ball."""
+    if isinstance(shape, Sphere):
+        return Ball((pose[0], pose[1], bottom + shape.radius), shape.radius)
+    if isinstance(shape, Cylinder):
+        return Rod((pose[0], pose[1], (bottom + top) / 2), shape.radius, top - bottom)
+    return Prism(outline_at(shape, pose), bottom, top)
 
 
 def colour_of(name: str) -> str:

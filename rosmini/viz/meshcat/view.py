@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -18,9 +19,10 @@ from rosmini.viz import style
 from rosmini.viz.embed import MESHCAT, embed
 from rosmini.viz.rounding import degrees, fixed, snap
 from rosmini.viz.view import SVG_MIME, View, ViewError
+from rosmini.viz.world import colour_of
 
 from .drawing import draw
-from .scene import ROBOT, Camera, Scene3D
+from .scene import ROBOT, Camera, Scene3D, obstacle_node
 
 if TYPE_CHECKING:
     from rosmini.sim.simulator import Simulator
@@ -175,25 +177,32 @@ def replay_3d(
         distance = 1.5
     camera = camera_for(world, start, focus=focus, distance=distance, azimuth=azimuth, elevation=elevation)
     scene = Scene3D(camera)
-    scene.add_world(world)
+    begin = float(recording.times[0])
+    scene.add_world(recording.world_at(begin) if recording.things else world)
     believed = recording.odom_in_map()
     scene.add_trail("odometry", believed[:, :2], "orange", 0.004)
     scene.add_trail("truth", truth[:, :2], "blue", 0.006)
+    for i, other in enumerate(recording.others):
+        scene.add_trail(other.name, other.truth[:, :2], colour_of(i), 0.005)
+        scene.add_robot(other.model, other.pose_at(begin), _node(other.name))
     scene.add_robot(model, start)
     seen = _scan_track(recording) if scans and len(recording.scans) else None
     if seen is not None:
         scene.add_scan(model, np.full(seen["beams"], np.inf))
-    scene.animate(recording.times - recording.times[0], _tracks(model, truth))
+    scene.animate(recording.times - begin, _all_tracks(scene, recording))
     label = f"{model.title or model.name} in {_title(world)}: a run in 3D"
     driven = f"{fixed(recording.duration, 1)} s, {fixed(recording.distance, 2)} m"
     off = fixed(float(recording.drift().position[-1]), 2)
     text = (
         f"3D replay: {model.name} in {world.name}, {driven}\n"
         f"from {_pose(start)} to {_pose(tuple(truth[-1].tolist()))}; odometry ends {off} m off"
+        + "".join(
+            f"\n{each.name} ({each.model.name}): {fixed(each.distance, 2)} m" for each in recording.others
+        )
     )
     alt = (
         f"A player with {model.title or model.name} in {_title(world)}, in three dimensions: it drives {driven}. "
-        f"Lines on the ground show its way and, {off} m off at its end, the way that odometry believes in."
+        f"Lines on the ground show its way and, {off} m off at its end, the way that odometry believes in.{_beside(recording)}"
     )
     view = MeshcatView(
         scene, label=label, text=text, alt=alt, title=title, height=height,
@@ -215,23 +224,28 @@ def simulation_3d(
         ViewError: the focus or the distance is impossible.
 
     """
-    fixed_ones = [obstacle for obstacle in simulator.world.obstacles if not obstacle.movable]
+    fixed_ones = [obstacle for obstacle in simulator.world.obstacles if obstacle.fixed]
+    others = [
+        (name, robot.model, simulator.truth(name))
+        for name, robot in simulator.robots.items()
+        if name != simulator.name
+    ]
     world = replace(simulator.world, obstacles=(*fixed_ones, *simulator.engine.obstacles()))
     scan = simulator.last_scan()
     return robot_3d(
         world, simulator.model, simulator.truth(), None if scan is None else np.asarray(scan.ranges, dtype=float),
-        scan_from=simulator.scan_pose, focus=focus, distance=distance, azimuth=azimuth, elevation=elevation, title=title, height=height,
+        scan_from=simulator.scan_pose, others=others, focus=focus, distance=distance, azimuth=azimuth, elevation=elevation, title=title, height=height,
     )  # fmt: skip
 
 
 def robot_3d(
     world: World, model: RobotModel, pose: Pose, ranges: Floats | None = None, *, scan_from: Pose | None = None,
-    focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None, elevation: float | None = None,
+    others: Iterable[tuple[str, RobotModel, Pose]] = (), focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None, elevation: float | None = None,
     title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
     """A robot in a world at a pose, with what its laser saw: ranges (beams,) [m], not finite where nothing was hit.
 
-    It saw that from `scan_from`; by default from where the robot is.
+    It saw that from `scan_from`; by default from where the robot is. `others` are more robots: name, model and pose of each.
 
     Raises:
         ViewError: the focus or the distance is impossible, or there is a wrong number of ranges.
@@ -241,6 +255,10 @@ def robot_3d(
     scene = Scene3D(camera)
     scene.add_world(world)
     scene.add_robot(model, pose)
+    beside = []
+    for other, its_model, where in others:
+        scene.add_robot(its_model, where, _node(other))
+        beside.append(f"{other} ({its_model.name}) at {_pose(where)}")
     hits = ""
     if ranges is not None:
         if ranges.shape != (model.laser.beams,):
@@ -248,8 +266,9 @@ def robot_3d(
         scene.add_scan(model, ranges, scan_from)
         hits = f"; {int(np.isfinite(ranges).sum())} of {len(ranges)} beams hit"
     name = model.title or model.name
-    text = f"3D: {model.name} at {_pose(pose)}{hits}\n{_contents(world)}"
+    text = "\n".join([f"3D: {model.name} at {_pose(pose)}{hits}", *beside, _contents(world)])
     alt = f"{name} in {_title(world)}, in three dimensions, at {_pose(pose)}{hits}."
+    alt += f" Beside it {', '.join(beside)}." if beside else ""
     return MeshcatView(
         scene, label=f"{name} in {_title(world)}, in 3D", text=text, alt=alt, title=title, height=height
     )
@@ -268,17 +287,46 @@ def _contents(world: World) -> str:
     return f"{world.name} with " + ", ".join(f"{n} {what}{'s' * (n != 1)}" for n, what in counts)
 
 
-def _tracks(model: RobotModel, truth: Floats) -> list[tuple[str, str, Floats]]:
-    """How robot and wheels move: the wheels roll without slipping on the way that the robot really took."""
+def _node(name: str) -> str:
+    """Where in the scene another robot is."""
+    return "robots/" + name.replace("/", " ")
+
+
+def _beside(recording: Recording) -> str:
+    names = ", ".join(each.name for each in recording.others[:6])
+    more = f" and {len(recording.others) - 6} more" if len(recording.others) > 6 else ""
+    return f" Beside it drive {names}{more}." if names else ""
+
+
+def _all_tracks(scene: Scene3D, recording: Recording) -> list[tuple[str, str, Floats]]:
+    """How all that moves moves, at the recording's times."""
+    times = recording.times
+    tracks = _tracks(recording.model, recording.truth, ROBOT, wheels=f"{ROBOT}/wheel_left" in scene.nodes)
+    for other in recording.others:
+        node, poses = _node(other.name), _sampled(times, other.times, other.truth)
+        tracks += _tracks(other.model, poses, node, wheels=f"{node}/wheel_left" in scene.nodes)
+    for thing in recording.things:
+        poses = _sampled(times, thing.times, thing.poses)
+        tracks += _tracks(recording.model, poses, obstacle_node(thing.obstacle.name), wheels=False)
+    return tracks
+
+
+def _sampled(times: Floats, known: Floats, poses: Floats) -> Floats:
+    """Poses (n, 3) at `times` (n,), linear between those at the times `known`."""
+    return np.column_stack([np.interp(times, known, column) for column in poses.T])
+
+
+def _tracks(model: RobotModel, truth: Floats, node: str, *, wheels: bool) -> list[tuple[str, str, Floats]]:
+    """How a robot and, where it has some, its wheels move: they roll without slipping on the way that it really took."""
     place = np.column_stack([truth[:, :2], np.zeros(len(truth))])
     steps, turns = np.diff(truth[:, :2], axis=0), np.diff(truth[:, 2])
     towards = truth[:-1, 2] + turns / 2
     way = (steps[:, 0] * np.cos(towards) + steps[:, 1] * np.sin(towards)) / np.sinc(turns / 2 / np.pi)
-    wheels: list[tuple[str, str, Floats]] = []
-    for side, sign in (("left", -1), ("right", 1)):
+    turning: list[tuple[str, str, Floats]] = []
+    for side, sign in (("left", -1), ("right", 1)) if wheels else ():
         rolled = np.cumsum(way + sign * turns * model.wheel_separation / 2) / model.wheel_radius
-        wheels.append((f"{ROBOT}/wheel_{side}", "rotation[y]", np.concatenate([[0.0], rolled])))
-    return [(ROBOT, "position", place), (ROBOT, "rotation[z]", truth[:, 2]), *wheels]
+        turning.append((f"{node}/wheel_{side}", "rotation[y]", np.concatenate([[0.0], rolled])))
+    return [(node, "position", place), (node, "rotation[z]", truth[:, 2]), *turning]
 
 
 MOST_SCANS = 120
