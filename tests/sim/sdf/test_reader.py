@@ -220,6 +220,32 @@ def test_the_ground_and_the_sun_are_known():
     assert [each.name for each in found.worlds[0].models] == ["ground_plane"]
 
 
+def test_the_ground_and_the_sun_are_fetched_from_no_server():
+    server = "https://fuel.example/1.0/OpenRobotics/models"
+    found = load(
+        world(
+            f"<include><uri>{server}/Ground Plane</uri></include><include><uri>{server}/Sun</uri></include>"
+        )
+    )
+    assert [each.name for each in found.worlds[0].models] == ["ground_plane"]
+
+
+def test_a_model_is_put_by_one_of_its_frames(brick):
+    (brick / "new.sdf").write_text(
+        model("<link name='l'/><frame name='top'><pose>0 0 2 0 0 0</pose></frame>", "brick")
+    )
+    inside = "<include><uri>model://brick</uri><placement_frame>top</placement_frame><pose>1 0 5 0 0 0</pose></include>"
+    assert load(world(inside)).worlds[0].models[0].pose == (1, 0, 3, 0, 0, 0)
+
+
+def test_actors_are_included_and_lights_are_not_models(brick):
+    (brick / "new.sdf").write_text("<sdf version='1.7'><actor name='man'/></sdf>")
+    (made,) = load(world("<include><uri>model://brick</uri><name>her</name></include>")).worlds
+    assert [each.name for each in made.actors] == ["her"]
+    with pytest.raises(SdfError, match="cannot stand in a model"):
+        load(model("<include><uri>model://brick</uri></include>"))
+
+
 def test_packages_may_bring_models(tmp_path, monkeypatch, brick):
     package = tmp_path / "ws" / "bricks"
     package.mkdir(parents=True)
