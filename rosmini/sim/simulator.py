@@ -55,6 +55,9 @@ class SimulatorParameters(Parameters):
     board: bool = parameter(
         False, "have the topics of the robot's board too: sensor_state, battery_state, motor_power, reset"
     )
+    battery: float = parameter(
+        1.0, "with the board: how full the batteries are at first", minimum=0.0, maximum=1.0
+    )
     obstacles: bool = parameter(
         False, "publish where all that moves by itself or can be pushed is, as markers on obstacles"
     )
@@ -98,7 +101,9 @@ class Simulator:
         self.world = world if isinstance(world, World) else world_called(world)
         self.model = model if isinstance(model, RobotModel) else model_called(model)
         own = self.parameters
-        self._options = Options(own.noise, own.cmd_vel_timeout, own.tf, own.use_rep_117, own.board)
+        self._options = Options(
+            own.noise, own.cmd_vel_timeout, own.tf, own.use_rep_117, own.board, own.battery
+        )
         self.engine = Engine(self.world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=own.noise)
         pose = start_pose(self.world, own.x, own.y, own.yaw)
         starts = read_starts(node, self.model, self.world, pose, own.tf_prefix)
@@ -110,6 +115,7 @@ class Simulator:
             self.name
         )  # where numba has to compile, it does so now and not while the robot drives
         self.host = Host(node, self.engine)
+        """Its time: it can be paused, stepped and go on; and the devices of all robots."""
         if own.obstacles:
             self.host.add(ObstacleMarkers(self.host))
         self._ended = False

@@ -43,6 +43,9 @@ class Options:
     tf: bool = True
     use_rep_117: bool = True
     board: bool = False
+    """With sensor_state, battery_state, motor_power and reset."""
+    battery: float = 1.0
+    """How full the battery is at first."""
 
 
 class TurtleBot:
@@ -134,7 +137,13 @@ class TurtleBot:
         host, name = self.host, self.name
         kind = BURGER_BATTERY if self.model.name == BURGER.name else WAFFLE_BATTERY
         self.battery = self._add(
-            BatteryDevice(host, name, Battery(kind), drive=self.drive, topic=self.topic("battery_state"))
+            BatteryDevice(
+                host,
+                name,
+                Battery(kind, self.options.battery),
+                drive=self.drive,
+                topic=self.topic("battery_state"),
+            )
         )
         self._add(SensorStateDevice(host, self.drive, self.battery, topic=self.topic("sensor_state")))
         self._switches = Switches(
