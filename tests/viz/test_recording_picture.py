@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from rosmini.geometry.poses import arc, compose
-from rosmini.sim.models import BURGER
-from rosmini.sim.recording import Recording
+from rosmini.sim.models import BURGER, model
+from rosmini.sim.recording import Moved, Recording
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, recording_picture, recording_plots, style
 
@@ -135,3 +135,57 @@ def test_a_scan_that_was_not_recorded_cannot_be_drawn():
 def test_a_recording_shows_itself():
     assert run().show(title="T").text == recording_picture(run(), title="T").text
     assert run().plots().text == recording_plots(run()).text
+
+
+# ---- several robots, and things that moved ----
+
+
+def together() -> Recording:
+    """Two robots more, and a crate that was pushed by a metre."""
+    own = run()
+    crate = next(o for o in own.world.obstacles if o.movable)
+    x, y, theta = crate.pose
+    moved = Moved(
+        crate, np.array([0.0, 4.0, 6.0]), np.array([(x, y, theta), (x, y, theta), (x + 1.0, y, theta)])
+    )
+    others = [
+        replace(own, truth=own.truth + (0.0, 0.4 * i, 0.0), name=name, model=model(name))
+        for i, name in enumerate(("waffle", "waffle_pi"), 1)
+    ]
+    return replace(own, name="first", others=tuple(others), things=(moved,))
+
+
+def test_each_robot_has_its_colour_its_name_and_its_way():
+    view = recording_picture(together())
+    words = [node.text for node in ET.fromstring(view.svg).iter("{http://www.w3.org/2000/svg}text")]
+    assert {"first", "waffle", "waffle_pi"} <= set(words)
+    for name in ("green", "purple"):
+        assert f'stroke="{style.LIGHT[name]}"' in view.svg and f'fill="{style.LIGHT[name]}"' in view.svg
+    end = together().others[0].truth[-1]
+    assert (
+        f"waffle (waffle): 1.50 m, start (0.00, 0.40, 0.0 deg), end ({end[0]:.2f}, {end[1]:.2f}" in view.text
+    )
+    assert "Beside it waffle drove 1.50 m, waffle_pi drove 1.50 m." in view.alt
+
+
+def test_what_was_moved_stands_where_it_was_at_the_end_with_an_outline_where_it_began():
+    view, before = recording_picture(together()), recording_picture(run())
+    assert view.text.splitlines()[-1] == "crate: moved 1.00 m"
+    assert "a dashed outline where it stood at first: crate" in view.alt
+    assert view.svg.count("stroke-dasharray") > before.svg.count("stroke-dasharray")
+
+
+def test_a_window_before_the_push_shows_nothing_moved():
+    assert "moved" not in recording_picture(together().window(0.0, 3.0)).text
+
+
+def test_many_robots_are_counted_in_words():
+    own = run()
+    crowd = replace(own, name="r0", others=tuple(replace(own, name=f"r{i}") for i in range(1, 12)))
+    assert "and 5 more" in recording_picture(crowd).alt
+
+
+def test_plots_can_be_of_velocities_alone():
+    both, alone = recording_plots(run()), recording_plots(run(), odometry=False)
+    assert "odometry" in both.text and "odometry" not in alone.text
+    assert "odometry" not in alone.svg and alone.alt.startswith("Two plots over 10.0 s")

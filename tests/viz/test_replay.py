@@ -18,9 +18,9 @@ from hypothesis.extra.numpy import arrays
 from rosmini.book.pages import page_problems
 from rosmini.geometry.poses import arc
 from rosmini.geometry.raycast import raycast
-from rosmini.sim.models import BURGER
-from rosmini.sim.recording import Recording, RecordingError
-from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World
+from rosmini.sim.models import BURGER, model
+from rosmini.sim.recording import Moved, Recording, RecordingError
+from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, style
 from rosmini.viz.replay import replay, scene_data
@@ -264,3 +264,71 @@ def test_the_scripts_palette_is_that_of_the_house(name, palette):
     assert colours.items() <= palette.items()
     for page in style.DARK_PAGES:
         assert page in script
+
+
+# ---- several robots, and things that move ----
+
+
+def unpacked(text: str) -> list[int]:
+    """What `pack` wrote, by the rule that it states."""
+    values, value, folded, shift = [], 0, 0, 0
+    for byte in base64.b64decode(text):
+        folded |= (byte & 127) << shift
+        shift += 7
+        if byte & 128:
+            continue
+        value += -(folded + 1) // 2 if folded % 2 else folded // 2
+        values.append(value)
+        folded = shift = 0
+    return values
+
+
+def together() -> Recording:
+    own = run(4.0)
+    crate = next(o for o in own.world.obstacles if o.movable)
+    moved = Moved(crate, np.array([0.0, 4.0]), np.array([(1.0, 0.0, 0.0), (1.5, 0.0, 1.0)]))
+    other = replace(own, truth=own.truth + (0.0, 0.5, 0.0), name="tb3_1", model=model("waffle"))
+    return replace(own, name="tb3_0", others=(other,), things=(moved,))
+
+
+def test_a_run_of_one_robot_says_nothing_of_others():
+    assert not {"others", "things", "name"} & set(replay_data(run(2.0)))
+
+
+def test_other_robots_reach_the_page_with_their_own_shape_and_way():
+    data = replay_data(together())
+    [other] = data["others"]
+    assert (data["name"], other["name"], other["colour"]) == ("tb3_0", "tb3_1", "green")
+    assert other["robot"]["wheel_separation"] == 0.287
+    own, theirs = unpacked(data["truth"]), unpacked(other["track"])
+    count = len(own) // 3
+    assert [b - a for a, b in zip(own[count : 2 * count], theirs[count : 2 * count], strict=True)] == [
+        500
+    ] * count
+
+
+def test_what_moves_is_no_part_of_the_still_scene():
+    data = replay_data(together())
+    [thing] = data["things"]
+    assert len(data["scene"]["shapes"]) == len(scene_data(together().world)["shapes"]) - 1
+    track = unpacked(thing["track"])
+    count = len(track) // 3
+    assert (track[0], track[count - 1], track[-1]) == (1000, 1500, 10000)
+    assert np.abs(np.mean(thing["shapes"][0]["points"], axis=0)).max() < 1e-9
+    assert data["scene"]["bounds"] == scene_data(together().world)["bounds"]
+
+
+def test_shapes_say_what_is_high_up_and_what_colour_they_have_in_the_dark():
+    things = World("w", [
+        Obstacle("lamp", Sphere(0.2), (1.0, 0.0, 0.0), colour="#102040", bottom=1.0),
+        Obstacle("pair", Compound(((Box(1, 1), (0, 0, 0)), (Cylinder(0.5), (2, 0, 0))))),
+    ])  # fmt: skip
+    lamp, *pair = scene_data(things)["shapes"]
+    assert (lamp["kind"], lamp["r"], lamp["bottom"]) == ("disc", 0.2, 1.0)
+    assert lamp["dark"] == style.dark_of("#102040")
+    assert [shape["kind"] for shape in pair] == ["polygon", "disc"] and "bottom" not in pair[0]
+
+
+def test_the_words_name_the_others():
+    view = replay(together())
+    assert "Beside it drive tb3_1." in view.alt and "tb3_1 (waffle)" in view.text
