@@ -336,11 +336,16 @@ def contents(world: World, by: str = " x ") -> str:
     size = f"{fixed(x1 - x0, 2)}{by}{fixed(y1 - y0, 2)} m"
     walls = sum(o.colour == "wall" for o in world.obstacles)
     movable = sum(o.movable for o in world.obstacles)
+    moving = sum(o.motion is not None for o in world.obstacles)
     others = len(world.obstacles) - walls
     parts = [_count(len(world.walls), "wall segment"), _count(walls, "wall")]
     obstacles = _count(others, "obstacle")
-    if movable:
-        obstacles += f" ({movable} of them can be pushed)" if others > 1 else " (can be pushed)"
+    alone = "moves by itself" if moving == 1 else "move by themselves"
+    said = [(count, verb) for count, verb in ((movable, "can be pushed"), (moving, alone)) if count]
+    if said and others == 1:
+        obstacles += f" ({said[0][1]})"
+    elif said:
+        obstacles += f" ({', '.join(f'{count} of them {verb}' for count, verb in said)})"
     parts = [part for part in (*parts, obstacles) if part]
     if not parts:
         return f"{size}, nothing in it"

@@ -16,7 +16,7 @@ from rosmini.geometry.poses import arc
 from rosmini.geometry.raycast import raycast
 from rosmini.msgs import message_class
 from rosmini.sim.models import BURGER
-from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World
+from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, Walk, World
 from rosmini.sim.worlds import world as built_in
 from rosmini.viz import ViewError, style, world_picture
 from rosmini.viz.world_drawing import LEAST_ROBOT
@@ -59,6 +59,29 @@ def test_a_world_says_how_large_it_is_and_what_is_in_it():
     assert world_picture(built_in("empty")).text == "world empty: 10.00 x 10.00 m, nothing in it"
     assert {"orange", "green", "muted"} <= set(colours(view.svg))
     assert "blue" not in colours(view.svg)  # no robot
+
+
+def test_things_of_every_shape_and_colour_are_drawn_and_those_that_move_said():
+    things = (
+        Obstacle("ball", Sphere(0.2), (1, 1, 0), colour="#123456"),
+        Obstacle(
+            "top",
+            Compound(((Box(1, 0.5), (0, 0, 0)), (Cylinder(0.2), (0.5, 0, 0)))),
+            (2, 2, 0),
+            0.8,
+            "sky",
+            bottom=0.7,
+        ),
+        Obstacle("man", Cylinder(0.2), colour="purple", motion=Walk(((0.5, 0.5), (3.5, 0.5)))),
+    )
+    view = world_picture(World("varied", things, walls=WALLS))
+    assert "3 obstacles (1 of them moves by itself)" in view.text
+    assert {"sky", "purple"} <= set(colours(view.svg))
+    assert '"#123456"' in view.svg
+    dashed = [line for line in ET.fromstring(view.svg).iter(f"{SVG}path") if line.get("stroke-dasharray")]
+    assert len(dashed) == 1, "the way of the man"
+    alone = World("one", (things[2],))
+    assert world_picture(alone).text.endswith("1 obstacle (moves by itself)")
 
 
 def test_everything_is_in_the_text_the_alt_text_and_the_picture():
