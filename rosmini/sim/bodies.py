@@ -15,7 +15,7 @@ from rosmini.geometry.poses import Pose
 
 from .imu import GRAVITY
 from .models import RobotModel
-from .shapes import ROUND, Simple, simple_parts
+from .shapes import ROUND, Compound, Simple, simple_parts
 from .world import Obstacle
 
 GRIP = 0.7
@@ -83,8 +83,9 @@ class Crate:
     obstacle: Obstacle
     body: pymunk.Body
     shapes: list[pymunk.Shape]
-    drag: tuple[pymunk.PivotJoint, pymunk.GearJoint]
     reach: float
+    drag: tuple[pymunk.PivotJoint, pymunk.GearJoint] | tuple[()] = ()
+    """The friction of the ground."""
     shown: bool = True
     """Told among the obstacles; False: it is the body of a robot model without a drive."""
 
@@ -149,8 +150,8 @@ def put(body: pymunk.Body, pose: Pose) -> None:
     body.position = (pose[0], pose[1])
 
 
-def make_crate(obstacle: Obstacle, ground: pymunk.Body, surface: Surface) -> Crate:
-    """The body and shapes of a thing that can be pushed, and the joints that hold it as friction does."""
+def make_crate(obstacle: Obstacle) -> Crate:
+    """The body and shapes of a thing that can be pushed."""
     mass = obstacle.mass or 0.0
     body = pymunk.Body()
     shapes = shapes_of(obstacle, body, (0.0, 0.0, 0.0))
@@ -158,26 +159,23 @@ def make_crate(obstacle: Obstacle, ground: pymunk.Body, surface: Surface) -> Cra
     for shape in shapes:
         shape.density = mass / area
         shape.elasticity = obstacle.restitution
-    return Crate(obstacle, body, shapes, _hold(obstacle, body, ground, area, surface), _reach(shapes))
+    return Crate(obstacle, body, shapes, _reach(shapes))
 
 
-def _hold(
-    obstacle: Obstacle, body: pymunk.Body, ground: pymunk.Body, area: float, surface: Surface
-) -> tuple[pymunk.PivotJoint, pymunk.GearJoint]:
+def hold(crate: Crate, ground: pymunk.Body, surface: Surface) -> None:
+    """Make the joints anew that hold a thing as friction does: they remember nothing. Its body is in a space, and so has its mass."""
+    obstacle, body = crate.obstacle, crate.body
     slide = pymunk.PivotJoint(ground, body, (0, 0), body.center_of_gravity)
     turn = pymunk.GearJoint(ground, body, 0.0, 1.0)
     slide.max_bias = turn.max_bias = 0.0  # they hold what moves and pull nothing back
     drag = surface.drag if obstacle.drag is None else obstacle.drag
     slide.max_force = drag * (obstacle.mass or 0.0) * surface.gravity
     # the lever of friction that is spread over a disc of this size is two thirds of its radius
-    turn.max_force = slide.max_force * 2 / 3 * math.sqrt(area / math.pi)
-    return slide, turn
-
-
-def hold_again(crate: Crate, ground: pymunk.Body, surface: Surface) -> None:
-    """Make the joints of a thing anew: they remember nothing."""
-    area = sum(shape.area for shape in crate.shapes)
-    crate.drag = _hold(crate.obstacle, crate.body, ground, area, surface)
+    radius = math.sqrt(sum(shape.area for shape in crate.shapes) / math.pi)
+    if isinstance(obstacle.shape, Compound):  # that of the disc with the same moment of inertia, m r^2 / 2
+        radius = math.sqrt(2 * body.moment / body.mass)
+    turn.max_force = slide.max_force * 2 / 3 * radius
+    crate.drag = (slide, turn)
 
 
 def make_rover(model: RobotModel, surface: Surface) -> Rover:

@@ -410,7 +410,8 @@ class Engine:
         """
         if self.contacts.pruned:
             self._rebuild()
-        self._renew(self.contacts.memory())
+        things, bodies = self.contacts.things(), self.contacts.memory()
+        self._renew(things, bodies)
         return EngineState(
             now=self.now,
             world=self.world,
@@ -420,9 +421,9 @@ class Engine:
             slips=self._clockwork.slips,
             moving=self._clockwork.moving,
             robots=tuple(RobotState(each.name, each.model, each.state()) for each in self.robots.values()),
-            things={each.obstacle.name: (each.pose, each.velocity) for each in self.contacts.crates},
+            things=things,
             movers={name: mover.state() for name, mover in self.movers.items()},
-            bodies=self.contacts.memory(),
+            bodies=bodies,
         )
 
     def restore(self, state: EngineState) -> None:
@@ -443,12 +444,7 @@ class Engine:
         if not same:
             self._rebuild()
         self._tune(**asdict(state.surface))
-        for name, (pose, velocity) in state.things.items():
-            self.contacts.place(name, pose, velocity)
-        for name, kept_mover in state.movers.items():
-            self.movers[name].restore(kept_mover)
-            self.contacts.place(name, self.movers[name].pose)
-        self._renew(state.bodies)
+        self._renew(state.things, state.bodies)
         for each in state.robots:
             self.robots[each.name].room = each.state["room"]
         for name, kept_mover in state.movers.items():
@@ -460,7 +456,7 @@ class Engine:
 
     def _rebuild(self) -> None:
         """Make all bodies anew, the fixed ones too."""
-        things = {crate.obstacle.name: (crate.pose, crate.velocity) for crate in self.contacts.crates}
+        things = self.contacts.things()
         surface, self._contacts = self.contacts.surface, None
         self._tune(**asdict(surface))
         self.movers = {
@@ -470,12 +466,11 @@ class Engine:
         }
         for each in self.robots.values():
             self._embody(each)
-        for crate in self.contacts.crates:
-            if crate.obstacle.name in things:
-                self.contacts.place(crate.obstacle.name, *things[crate.obstacle.name])
+        for name in self.contacts.things().keys() & things.keys():
+            self.contacts.place(name, *things[name])
 
-    def _renew(self, memory: dict[str, RoverMemory]) -> None:
-        self.contacts.renew({name: each.pose for name, each in self.robots.items()}, memory)
+    def _renew(self, things: dict[str, tuple[Pose, Velocity]], memory: dict[str, RoverMemory]) -> None:
+        self.contacts.renew(things, {name: each.pose for name, each in self.robots.items()}, memory)
 
     # -- what is seen --------------------------------------------------------------------------------------------
 

@@ -30,7 +30,7 @@ from .bodies import (
     Rover,
     Surface,
     grip_again,
-    hold_again,
+    hold,
     make_crate,
     make_leaf,
     make_rover,
@@ -111,7 +111,7 @@ class Contacts:
             shape.friction = surface.friction
         for crate in self._crates:
             self.space.remove(*crate.drag)
-            hold_again(crate, self.space.static_body, surface)
+            hold(crate, self.space.static_body, surface)
             self.space.add(*crate.drag)
         for rover in self.rovers.values():
             if rover.awake:
@@ -126,7 +126,7 @@ class Contacts:
         """Put a thing where its pose is; `loose` for one that nobody pushes, but that may be put elsewhere."""
         owner = Owner("fixed", obstacle.name, obstacle.bottom, obstacle.height)
         if obstacle.movable:
-            crate = make_crate(obstacle, self.space.static_body, self.surface)
+            crate = make_crate(obstacle)
             crate.shown = shown
             self._crates.append(crate)
             self._enter(crate)
@@ -147,6 +147,7 @@ class Contacts:
         self.space.add(crate.body)
         for shape in crate.shapes:
             self._add(shape, Owner("crate", obstacle.name, obstacle.bottom, obstacle.height))
+        hold(crate, self.space.static_body, self.surface)
         self.space.add(*crate.drag)
 
     def take_away(self, name: str) -> None:
@@ -176,15 +177,16 @@ class Contacts:
         """All things that can be pushed."""
         return self._crates
 
-    def place(self, name: str, pose: Pose, velocity: Velocity = AT_REST) -> None:
-        """Put a thing that is not fixed elsewhere; only what can be pushed has a velocity there."""
+    def place(self, name: str, pose: Pose, velocity: Velocity = AT_REST, *, indexed: bool = True) -> None:
+        """Put a thing that is not fixed elsewhere; only what can be pushed has a velocity there. `indexed` if it is in the space."""
         crate = self.crate(name)
         body = self.leaves[name].body if crate is None else crate.body
         put(body, pose)
         if crate is not None:
             (vx, vy, w), lever = velocity, body.center_of_gravity.rotated(body.angle)
             body.velocity, body.angular_velocity = (vx - w * lever.y, vy + w * lever.x), w
-        self.space.reindex_shapes_for_body(body)
+        if indexed:
+            self.space.reindex_shapes_for_body(body)
 
     @property
     def moving(self) -> bool:
@@ -380,8 +382,8 @@ class Contacts:
             self.space.reindex_shapes_for_body(self.rovers[name].body)
         moved: set[str] = set()
         names = list(poses)
-        for _ in range(ROUNDS):
-            pushed = {name: self._push_out(name, poses) for name in names}
+        for number in range(ROUNDS):
+            pushed = {name: self._push_out(name, poses, fair=2 * number >= ROUNDS) for name in names}
             again = {other for others in pushed.values() for other in others}
             if not again:
                 break
@@ -391,8 +393,11 @@ class Contacts:
             put(body, pose)
         return moved
 
-    def _push_out(self, name: str, poses: dict[str, Pose]) -> list[str]:
-        """Move a robot out of the thing into which it reaches deepest, and a robot there likewise; return who was moved."""
+    def _push_out(self, name: str, poses: dict[str, Pose], *, fair: bool) -> list[str]:
+        """Move a robot out of the thing into which it reaches deepest; return who was moved.
+
+        Of two robots the one gives way whose wheels grip less, or, if both grip alike, or in any case if it is to be `fair`, both by half.
+        """
         rover = self.rovers[name]
         worst, hit = TOUCH, None
         for each in self.space.shape_query(rover.shape):
@@ -416,12 +421,19 @@ class Contacts:
             model = self.rovers[who].model
             levers = [(place.x - x) * ny - (place.y - y) * nx for place in places]
             along, turn = correction(depths, levers, model.mass, model.inertia)
-            part = 1 / (1 + len(others))
+            part = self._share(who, owner.name if who == name else name, fair=fair) if others else 1.0
+            if not part:
+                continue
             poses[who] = (x + part * along * nx, y + part * along * ny, theta + part * turn)
             body = self.rovers[who].body
             put(body, poses[who])
             self.space.reindex_shapes_for_body(body)
         return [name, *others]
+
+    def _share(self, name: str, other: str, *, fair: bool) -> float:
+        """How much of the way out of another robot is a robot's."""
+        own, others = self.rovers[name].model.mass, self.rovers[other].model.mass
+        return 0.5 if fair or own == others else float(own < others)
 
     def _slack(self, shape: pymunk.Shape | None) -> float:
         """How deep a robot may reach into a shape."""
@@ -438,8 +450,18 @@ class Contacts:
             if rover.awake
         }
 
-    def renew(self, poses: dict[str, Pose], memory: dict[str, RoverMemory]) -> None:
-        """Make all that moves anew, in the order of the names, with robots at these poses: what the solver remembers of earlier steps is forgotten."""
+    def things(self) -> dict[str, tuple[Pose, Velocity]]:
+        """Where things are that are not fixed, and how fast they move."""
+        loose = {each.obstacle.name: (each.pose, each.velocity) for each in self._crates}
+        return loose | {name: (leaf.pose, AT_REST) for name, leaf in self.leaves.items()}
+
+    def renew(
+        self, things: dict[str, tuple[Pose, Velocity]], poses: dict[str, Pose], memory: dict[str, RoverMemory]
+    ) -> None:
+        """Make all that moves anew, in the order of the names: what the solver remembers of earlier steps is forgotten.
+
+        Things get these poses and velocities, robots these poses, and those that may touch something what `memory` says.
+        """
         models = {name: rover.model for name, rover in self.rovers.items()}
         for name in models:
             self.remove(name)
@@ -448,12 +470,12 @@ class Contacts:
             drag = each.drag if isinstance(each, Crate) else ()
             self.space.remove(*drag, *each.shapes, each.body)
         for each in sorted(loose, key=lambda thing: thing.obstacle.name):
-            pose, velocity = each.pose, each.velocity
+            name = each.obstacle.name
+            self.place(name, *things[name], indexed=False)
             self.space.add(each.body, *each.shapes)
             if isinstance(each, Crate):
-                hold_again(each, self.space.static_body, self.surface)
+                hold(each, self.space.static_body, self.surface)
                 self.space.add(*each.drag)
-            self.place(each.obstacle.name, pose, velocity)
         for name in sorted(models):
             self.add(name, models[name], poses[name])
         for name, (vx, vy, w, slip) in sorted(memory.items()):

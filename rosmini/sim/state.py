@@ -38,7 +38,7 @@ class EngineState:
     """Whether something that was pushed still moves."""
     robots: tuple[RobotState, ...]
     things: dict[str, tuple[Pose, tuple[float, float, float]]]
-    """What can be pushed: where it is, and how fast it moves."""
+    """What is not fixed: where it is, and how fast it moves."""
     movers: dict[str, tuple[float, Pose, float, bool]]
     """What moves by itself: its clock, its place, its room, and whether it waits."""
     bodies: dict[str, RoverMemory]
