@@ -33,7 +33,7 @@ class Publication:
         self.handles: list[Publisher] = []
         self.senders: dict[int, Sender] = {}
         self.sent = 0
-        self._numbers = count(1)
+        self._next_number = count(1).__next__
         self._scheduler = node.scheduler
         self._list: tuple[Sender, ...] = ()
         self._only: Callable[[Any, int | None], None] | None = None
@@ -70,16 +70,14 @@ class Publication:
             header = message.header
             if header.frame_id is None:
                 header.frame_id = "0"
-            if not self._list:  # rospy numbers only what somebody gets
-                pass
-            elif header.__class__ is self._header_class:
-                self._set_number(header, next(self._numbers))
-            else:
-                header.seq = next(self._numbers)
+            if self._list:  # rospy numbers only what somebody gets
+                if header.__class__ is self._header_class:
+                    self._set_number(header, self._next_number())
+                else:
+                    header.seq = self._next_number()
         frozen = self._freeze(message)
-        scheduler = self._scheduler
-        if get_ident() != scheduler.thread:
-            scheduler.call_soon_threadsafe(lambda: self._send(frozen))
+        if get_ident() != self._scheduler.thread:
+            self._scheduler.call_soon_threadsafe(lambda: self._send(frozen))
         elif self._only is not None:
             self.sent += 1
             self._only(frozen, self.queue_size)
@@ -174,7 +172,7 @@ class Publication:
             latched = self._latched
             if self._stamp:
                 latched = self._freeze(latched)
-                latched.header.seq = next(self._numbers)
+                latched.header.seq = self._next_number()
             sender.send(self._copy(latched), None)
         for handle in self.handles:
             handle.connected(sender.destination)

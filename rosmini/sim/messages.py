@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import struct
 from collections.abc import Sequence
 from typing import Any
 
@@ -32,6 +33,9 @@ POSE_COVARIANCE = (1e-5, 1e-5, UNMEASURED, UNMEASURED, UNMEASURED, 1e-3)
 
 ORIENTATION_COVARIANCE, GYRO_COVARIANCE, ACCEL_COVARIANCE = 0.0025, 0.02, 0.04
 """As TurtleBot3's firmware states them."""
+
+
+_pair = struct.Struct("<2d").pack
 
 
 def diagonal(values: Sequence[float]) -> Floats:
@@ -106,11 +110,12 @@ class JointStateMessage(Headed):
     def __init__(self, joints: Sequence[str] = WHEELS, frame: str = BASE_LINK) -> None:
         super().__init__("sensor_msgs/JointState", frame)
         self.message.name = list(joints)
+        self.message.effort = np.frombuffer(b"")
 
     def fill(self, odometry: Odometry) -> Any:
         """Say what the encoders showed."""
-        self.message.position = [odometry.left, odometry.right]
-        self.message.velocity = [odometry.left_rate, odometry.right_rate]
+        self.message.position = np.frombuffer(_pair(odometry.left, odometry.right))
+        self.message.velocity = np.frombuffer(_pair(odometry.left_rate, odometry.right_rate))
         return self.message
 
 
@@ -152,5 +157,5 @@ class ScanMessage(Headed):
 
     def fill(self, ranges: Floats) -> Any:
         """Say what the laser measured."""
-        self.message.ranges = ranges
+        self.message.ranges = ranges.astype(np.float32)
         return self.message

@@ -84,7 +84,7 @@ class Robot:
         left, right = self.left * wheels.left, self.right * wheels.right
         v, w = (left + right) / 2, (right - left) / wheels.separation
         if self.left == self.left_target and self.right == self.right_target:
-            return Motion(v, w, 0.0, 0.0)
+            return tuple.__new__(Motion, (v, w, 0.0, 0.0))  # in half the time of Motion(...)
         if self.model.own_limits:
             _, dl, dr = self._phases(1.0)[0]
         else:
