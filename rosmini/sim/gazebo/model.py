@@ -119,8 +119,17 @@ class Model:
 
         A driven robot's wheels take that back. Raises `GazeboError` for what is not finite.
         """
+        self.world.host.catch_up()
+        vx, vy, w = velocity
+        if self.fixed is None:
+            for touch in self.world.engine.touching(
+                self.name if self.body is not None else self.obstacles[0]
+            ):
+                inwards = min(0.0, vx * touch.nx + vy * touch.ny)
+                if inwards and self.world.holds(touch.other):  # what stands fast would have to be pushed
+                    vx, vy = vx - inwards * touch.nx, vy - inwards * touch.ny
         with contextlib.suppress(WorldError):
-            self.world.move(self, self.pose, velocity)
+            self.world.move(self, self.pose, (vx, vy, w))
 
     # -- of what it consists -------------------------------------------------------------------------------------
 

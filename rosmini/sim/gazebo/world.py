@@ -200,6 +200,12 @@ class GazeboWorld:
             return model.pose, model.velocity
         return model.link_pose(link), model.link_velocity(link)
 
+    def holds(self, name: str) -> bool:
+        """Tell whether what the engine calls so stands fast: a wall, or a fixed obstacle."""
+        if name in self.engine.robots:
+            return math.isinf(self.engine.robots[name].model.mass)
+        return not any(each.name == name for each in self.engine.obstacles())
+
     def spawn(
         self,
         sdf: SdfModel,

@@ -1,0 +1,181 @@
+"""Plugins that users write, and the two that are examples."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import pytest
+
+from rosmini.markup import Element, MarkupError, parse
+from rosmini.sim.gazebo import (
+    ModelPlugin,
+    SensorPlugin,
+    Tags,
+    UnknownPlugin,
+    WorldPlugin,
+    plugin_class,
+    plugin_filenames,
+    plugins,
+    tag,
+)
+
+from .conftest import LASER, Bench, box, urdf
+
+Start = Callable[..., Bench]
+
+
+@pytest.fixture(autouse=True)
+def own_registry(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a test registers is gone after it."""
+    monkeypatch.setattr(plugins, "_CLASSES", dict(plugins._CLASSES))
+
+
+PUSH = (
+    '<plugin name="push" filename="libmodel_push.so"><velocity>{}</velocity><duration>{}</duration></plugin>'
+)
+
+
+def test_a_box_is_pushed_along(bench: Start) -> None:
+    there = bench()
+    assert there.spawn(box(extra=PUSH.format("0.5 0 0", 2)), "crate").success
+    there.graph.run(2.0)
+    x, y, _ = there.pose("crate")
+    assert x == pytest.approx(1.0, abs=0.06)
+    assert y == pytest.approx(0.0, abs=1e-6)
+    there.graph.run(3.0)
+    x = there.pose("crate")[0]
+    there.graph.run(1.0)
+    assert there.pose("crate")[0] == pytest.approx(x, abs=1e-6)  # nobody pushes any more
+
+
+def test_a_wall_stops_what_is_pushed(bench: Start) -> None:
+    there = bench()
+    there.spawn(box(static=True), "wall", 1.0)
+    there.spawn(box(extra=PUSH.format("0.5 0 0", 20)), "crate")
+    there.graph.run(5.0)
+    assert there.pose("crate")[0] == pytest.approx(0.6, abs=0.02)
+
+
+def world_with(plugin: str) -> str:
+    return f'<sdf version="1.6"><world name="w"><include><uri>model://ground_plane</uri></include>{plugin}</world></sdf>'
+
+
+def load(text: str) -> Any:
+    from rosmini.sim import sdf
+
+    return sdf.load(text).worlds[0]
+
+
+def test_crates_come_into_the_world(bench: Start) -> None:
+    text = '<plugin name="crates" filename="libspawner.so"><count>3</count><period>1.0</period><from>0 0</from><to>2 0</to></plugin>'
+    there = bench(world=load(world_with(text)))
+    there.graph.run(1.5)
+    assert [name for name in there.server.world.models if name.startswith("crate")] == ["crate_1"]
+    there.graph.run(5.0)
+    assert [there.pose(f"crate_{i}")[0] for i in (1, 2, 3)] == pytest.approx([0.0, 1.0, 2.0])
+    assert "crate_4" not in there.server.world.models
+
+
+def test_a_server_loads_a_plugin_of_its_arguments(bench: Start) -> None:
+    there = bench("empty", "-s", "libspawner.so", "-s", "libgazebo_ros_api_plugin.so")
+    there.graph.run(1.5)
+    assert "crate_1" in there.server.world.models
+
+
+def test_the_three_kinds_of_plugins_hear_what_happens(bench: Start) -> None:
+    heard: list[str] = []
+
+    class Worldly(WorldPlugin, filename="libworldly.so"):
+        def load(self, world: Any, sdf: Element) -> None:
+            heard.append(f"load {world.name} {sdf.word('say')}")
+
+        def reset(self) -> None:
+            heard.append("reset")
+
+        def close(self) -> None:
+            heard.append("close")
+            super().close()
+
+    class Modelled(ModelPlugin, filename="libmodelled.so"):
+        def load(self, model: Any, sdf: Element) -> None:
+            heard.append(f"load {model.name}")
+            self.every(2.0, lambda now: heard.append(f"{model.name} at {now:.1f}"))
+
+    class Sensing(SensorPlugin, filename="libsensing.so"):
+        def load(self, sensor: Any, sdf: Element) -> None:
+            heard.append(f"load {sensor.device_name} {sensor.type} at {sensor.mount[2]:.1f} m")
+
+    there = bench(
+        world=load(world_with('<plugin name="p" filename="libworldly.so"><say>hello</say></plugin>'))
+    )
+    laser = LASER.replace("libgazebo_ros_laser.so", "libsensing.so").replace(
+        "<topicName>scan</topicName><frameName>laser</frameName>", ""
+    )
+    there.spawn(urdf(laser + '<gazebo><plugin name="m" filename="libmodelled.so"/></gazebo>'), "r")
+    there.graph.run(1.1)
+    there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="r")
+    there.graph.run(2.0)
+    there.call("reset_world", "std_srvs/Empty")
+    there.server.node.shutdown("enough")
+    assert heard == [
+        "load w hello",
+        "load r/lidar ray at 0.2 m",
+        "load r",
+        "r at 0.5",
+        "r at 1.0",
+        "reset",
+        "close",
+    ]
+
+
+def test_what_a_plugin_raises_is_told_and_all_goes_on(
+    bench: Start, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class Broken(ModelPlugin, filename="libbroken.so"):
+        def load(self, model: Any, sdf: Element) -> None:
+            self.every(10.0, self.fail)
+
+        def fail(self, now: float) -> None:
+            raise ValueError("this plugin is broken")
+
+    there = bench()
+    there.spawn(box(extra='<plugin name="b" filename="libbroken.so"/>'), "crate")
+    with pytest.raises(Exception, match="this plugin is broken"):
+        there.graph.run(0.5)
+    now = there.server.world.now
+    there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="crate")
+    there.graph.run(0.5)
+    assert there.server.world.now > now
+
+
+def test_names_of_libraries() -> None:
+    assert plugin_class("gazebo_ros_laser") is plugin_class("/opt/ros/noetic/lib/libgazebo_ros_laser.so")
+    with pytest.raises(UnknownPlugin, match=r"did you mean libgazebo_ros_laser\.so"):
+        plugin_class("libgazebo_ros_lasr.so")
+    assert "libgazebo_ros_p3d.so" in plugin_filenames()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Some(Tags):
+    name: str = tag("name", meaning="its name")
+    size: float = tag("size", 1.5, "how large", unit="m")
+    on: bool = tag("on", False, "whether it is on")
+    count: int = tag("count", 2, "how many")
+
+
+def test_tags_are_read_and_checked() -> None:
+    complaints: list[str] = []
+    found = Some.read(
+        parse("<p><name>n</name><on>TRUE</on><count>3</count><siz>2</siz><robotNamespace/></p>"),
+        complaints.append,
+    )
+    assert found == Some(name="n", on=True, count=3)
+    assert len(complaints) == 1
+    assert "did you mean size?" in complaints[0]
+    with pytest.raises(MarkupError, match="the plugin needs a <name>"):
+        Some.read(parse("<p/>"), complaints.append)
+    with pytest.raises(MarkupError, match="is not a number"):
+        Some.read(parse("<p><name>n</name><size>big</size></p>"), complaints.append)
+    assert Some.table()[1] == ("size", "float", "1.5", "m", "how large")

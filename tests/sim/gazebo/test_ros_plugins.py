@@ -1,0 +1,296 @@
+"""Drives and sensors come from the plugins' and sensors' tags, never from a model's name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from .conftest import DIFF_DRIVE, LASER, Bench, box, urdf
+
+Start = Callable[..., Bench]
+
+PLANAR = """<gazebo><plugin name="move" filename="libgazebo_ros_planar_move.so"><commandTopic>go</commandTopic>
+  <odometryTopic>where</odometryTopic><odometryRate>10</odometryRate></plugin></gazebo>"""
+
+
+def test_a_differential_drive_goes_as_its_tags_say(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(), "r", robot_namespace="/a/")
+    odom = there.hear("/a/odom", "nav_msgs/Odometry")
+    joints = there.hear("/a/joint_states", "sensor_msgs/JointState")
+    there.drive("/a/cmd_vel", 0.2, 0.5)
+    there.graph.run(3.0)
+    assert len(odom) in (59, 60)  # updateRate 20
+    message = odom[-1]
+    assert (message.header.frame_id, message.child_frame_id) == ("a/odom", "a/base_footprint")
+    assert message.twist.twist.linear.x == pytest.approx(0.2)
+    assert message.twist.twist.angular.z == pytest.approx(0.5)
+    assert joints[-1].name == ["left_wheel", "right_wheel"]
+    # the wheels' rims go 0.2 -+ 0.5 * 0.15 m/s and have a radius of 5 cm
+    assert joints[-1].velocity == pytest.approx([2.5, 5.5], abs=0.01)
+    # on a circle of the radius v / w, but for the beginning, in which the wheels gather speed
+    x, y, theta = there.pose("r")
+    assert theta == pytest.approx(0.5 * 3.0, abs=0.1)
+    assert math.hypot(x, y - 0.4) == pytest.approx(0.4, abs=0.03)
+
+
+def test_odometry_of_the_world_and_of_the_encoders(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(), "world", 1.0, 2.0, robot_namespace="w")
+    there.spawn(urdf(DIFF_DRIVE.replace(">world<", ">encoder<")), "encoder", 1.0, 4.0, robot_namespace="e")
+    of_world, of_encoder = (
+        there.hear("/w/odom", "nav_msgs/Odometry"),
+        there.hear("/e/odom", "nav_msgs/Odometry"),
+    )
+    for name in "we":
+        there.drive(f"/{name}/cmd_vel", 0.3)
+    there.graph.run(2.0)
+    position = of_world[-1].pose.pose.position
+    assert (position.x, position.y) == pytest.approx((there.pose("world")[0], 2.0), abs=0.02)
+    position = of_encoder[-1].pose.pose.position
+    assert (position.x, position.y) == pytest.approx((there.pose("encoder")[0] - 1.0, 0.0), abs=0.02)
+
+
+def test_an_axle_that_is_not_at_the_origin(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(axle=0.2), "r", 1.0, 0.0, math.pi / 2)
+    assert there.pose("r") == pytest.approx((1.0, 0.0, math.pi / 2))
+    there.drive("/cmd_vel", 0.0, 1.0)
+    there.graph.run(2.0)
+    x, y, theta = there.pose("r")
+    # it turns about its axle, which stays at (1.0, 0.2)
+    assert (x + 0.2 * math.cos(theta), y + 0.2 * math.sin(theta)) == pytest.approx((1.0, 0.2), abs=1e-9)
+    vx, vy, w = there.server.world.model("r").velocity
+    assert w == pytest.approx(1.0)
+    assert (vx, vy) == pytest.approx((0.2 * math.sin(theta), -0.2 * math.cos(theta)), abs=1e-9)
+
+
+def test_a_planar_move_goes_aside(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(PLANAR), "r", 0.0, 0.0, math.pi / 2)
+    odom = there.hear("/where", "nav_msgs/Odometry")
+    there.drive("/go", 0.1, 0.0, 0.3)
+    there.graph.run(1.01)
+    assert there.pose("r")[:2] == pytest.approx((-0.3, 0.1), abs=0.01)
+    assert odom[-1].twist.twist.linear.y == pytest.approx(0.3)
+    assert odom[-1].pose.pose.position.x == pytest.approx(-0.3, abs=0.01)
+
+
+def test_a_laser_sees_what_is_there(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(LASER), "r")  # a laser without a drive
+    there.spawn(box(static=True), "wall", 2.2)
+    there.spawn(box(static=True, size=0.15), "low", 1.0, 1.0)  # the beam goes 5 cm above it
+    scans = there.hear("/scan", "sensor_msgs/LaserScan")
+    there.graph.run(1.0)
+    assert len(scans) in (9, 10)
+    scan = scans[-1]
+    assert scan.header.frame_id == "laser"
+    assert (scan.range_min, scan.range_max) == pytest.approx((0.1, 8.0))
+    assert (scan.angle_min, scan.angle_max) == pytest.approx((-math.pi / 2, math.pi / 2))
+    assert scan.angle_increment == pytest.approx(math.pi / 180)
+    ranges = np.array(scan.ranges)
+    assert ranges[90] == pytest.approx(2.0)
+    assert np.isinf(ranges[135])
+
+
+def test_noise_is_that_of_the_tag_and_each_robot_has_its_own(bench: Start) -> None:
+    there = bench()
+    noisy = LASER.replace(
+        "<range>", "<noise><type>gaussian</type><mean>0</mean><stddev>0.05</stddev></noise><range>"
+    )
+    there.spawn(box(static=True, size=4.0), "wall", 4.0)
+    for i in range(2):
+        there.spawn(urdf(noisy), f"r{i}", 0.0, -1.0 + 2 * i, robot_namespace=f"r{i}")
+    heard = [there.hear(f"/r{i}/scan", "sensor_msgs/LaserScan") for i in range(2)]
+    there.graph.run(20.0)
+    errors = [np.array([scan.ranges[90] - 2.0 for scan in scans]) for scans in heard]
+    for error in errors:
+        assert abs(error.mean()) < 0.02
+        assert error.std() == pytest.approx(0.05, rel=0.2)
+    assert abs(np.corrcoef(*errors)[0, 1]) < 0.3
+
+
+def test_frames_begin_with_tf_prefix_if_it_is_set(bench: Start) -> None:
+    there = bench()
+    there.node.set_param("/ns/tf_prefix", "other")
+    there.spawn(urdf(), "r", robot_namespace="/ns/")
+    scans = there.hear("/ns/scan", "sensor_msgs/LaserScan")
+    there.graph.run(0.3)
+    assert scans[-1].header.frame_id == "other/laser"
+
+
+IMU = """<gazebo><plugin name="imu" filename="libgazebo_ros_imu.so"><bodyName>laser</bodyName><topicName>imu</topicName>
+  <serviceName>imu_service</serviceName><updateRate>50</updateRate><gaussianNoise>0.0</gaussianNoise></plugin></gazebo>"""
+
+
+def test_a_unit_tells_turning_acceleration_and_the_worlds_heading(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(DIFF_DRIVE + IMU), "r", 0.0, 0.0, 1.0)
+    heard = there.hear("/imu", "sensor_msgs/Imu")
+    there.drive("/cmd_vel", 0.2, 0.5)
+    there.graph.run(2.0)
+    message = heard[-1]
+    assert len(heard) in (99, 100)
+    assert message.header.frame_id == "laser"
+    assert message.angular_velocity.z == pytest.approx(0.5)
+    assert message.linear_acceleration.y == pytest.approx(0.1)  # v w, to the middle of the circle
+    assert message.linear_acceleration.z == pytest.approx(9.8, abs=0.02)
+    heading = 2 * math.atan2(message.orientation.z, message.orientation.w)
+    assert heading == pytest.approx(there.pose("r")[2], abs=0.02)
+    there.node.service_client("/imu_service", __import__("rosmini").msgs.service_class("std_srvs/Empty"))()
+
+
+CAMERA = """<gazebo reference="laser"><sensor type="{type}" name="cam"><update_rate>5</update_rate><camera>
+  <horizontal_fov>1.0</horizontal_fov><image><width>32</width><height>24</height></image><clip><near>0.05</near><far>20</far></clip>
+  </camera><plugin name="c" filename="{plugin}"><cameraName>cam</cameraName><frameName>optical</frameName>
+  <imageTopicName>rgb/image_raw</imageTopicName><cameraInfoTopicName>rgb/camera_info</cameraInfoTopicName>
+  <depthImageTopicName>depth/image_raw</depthImageTopicName></plugin></sensor></gazebo>"""
+
+
+def test_a_camera_shows_images_and_numbers(bench: Start) -> None:
+    there = bench()
+    plugin = "libgazebo_ros_camera.so"
+    text = CAMERA.format(type="camera", plugin=plugin).replace(
+        "<depthImageTopicName>depth/image_raw</depthImageTopicName>", ""
+    )
+    there.spawn(urdf(text), "r", robot_namespace="r")
+    there.spawn(box(static=True, size=1.0), "wall", 2.0)
+    images = there.hear("/r/cam/rgb/image_raw", "sensor_msgs/Image")
+    infos = there.hear("/r/cam/rgb/camera_info", "sensor_msgs/CameraInfo")
+    there.graph.run(1.0)
+    image, info = images[-1], infos[-1]
+    assert (image.width, image.height, image.encoding, image.header.frame_id) == (32, 24, "rgb8", "r/optical")
+    assert len(images) in (4, 5)
+    assert info.K[0] == pytest.approx(32 / (2 * math.tan(0.5)))
+    pixels = np.frombuffer(bytes(image.data), np.uint8).reshape(24, 32, 3)
+    assert len({tuple(each) for each in pixels.reshape(-1, 3).tolist()}) > 2  # sky, floor, wall
+
+
+def test_a_depth_camera_measures(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(CAMERA.format(type="depth", plugin="libgazebo_ros_openni_kinect.so")), "r")
+    there.spawn(box(static=True, size=1.0), "wall", 2.0)
+    depths = there.hear("/cam/depth/image_raw", "sensor_msgs/Image")
+    there.graph.run(0.5)
+    pixels = np.frombuffer(bytes(depths[-1].data), np.float32).reshape(24, 32)
+    assert depths[-1].encoding == "32FC1"
+    assert pixels[11, 16] == pytest.approx(1.5, abs=0.01)
+
+
+BUMPER = """<gazebo reference="base_footprint"><sensor type="contact" name="bumper"><update_rate>20</update_rate>
+  <contact><collision>base_footprint_fixed_joint_lump__base_link_collision</collision></contact>
+  <plugin name="b" filename="libgazebo_ros_bumper.so"><bumperTopicName>bumper</bumperTopicName></plugin></sensor></gazebo>"""
+
+
+def test_a_bumper_feels_a_wall(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(DIFF_DRIVE + BUMPER), "r")
+    there.spawn(box(static=True), "wall", 0.6)
+    heard = there.hear("/bumper", "gazebo_msgs/ContactsState")
+    there.graph.run(0.2)
+    assert heard[-1].states == []
+    there.drive("/cmd_vel", 0.3)
+    there.graph.run(3.0)
+    (state,) = heard[-1].states
+    assert state.collision1_name == "r::base_footprint::base_footprint_fixed_joint_lump__base_link_collision"
+    assert state.collision2_name == "wall"
+    assert state.contact_positions[0].x == pytest.approx(0.4, abs=0.01)
+
+
+STATES = """<gazebo><plugin name="j" filename="libgazebo_ros_joint_state_publisher.so"><jointName>left_wheel, right_wheel</jointName>
+  <updateRate>10</updateRate></plugin>
+  <plugin name="p" filename="libgazebo_ros_p3d.so"><bodyName>laser</bodyName><topicName>truth</topicName><frameName>map</frameName>
+  <updateRate>10</updateRate></plugin></gazebo>"""
+
+
+def test_joint_states_and_ground_truth(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(DIFF_DRIVE + STATES), "r", 1.0, 0.0, math.pi / 2)
+    joints, truth = (
+        there.hear("/r/joint_states", "sensor_msgs/JointState"),
+        there.hear("/truth", "nav_msgs/Odometry"),
+    )
+    there.drive("/cmd_vel", 0.1)
+    there.graph.run(2.05)
+    assert joints[-1].velocity == pytest.approx([2.0, 2.0])
+    message = truth[-1]
+    assert (message.header.frame_id, message.child_frame_id) == ("map", "laser")
+    assert message.pose.pose.position.z == pytest.approx(0.2)
+    assert message.twist.twist.linear.y == pytest.approx(0.1)
+
+
+def test_unknown_plugins_and_tags_are_warned_of_with_the_nearest(
+    bench: Start, capsys: pytest.CaptureFixture[str]
+) -> None:
+    there = bench()
+    text = DIFF_DRIVE.replace("diff_drive.so", "dif_drive.so") + LASER.replace("topicName", "topicname")
+    assert there.spawn(urdf(text), "r").success
+    said = "".join(capsys.readouterr())
+    assert "goes on without a plugin: there is no plugin 'libgazebo_ros_dif_drive.so'" in said
+    assert "did you mean libgazebo_ros_diff_drive.so?" in said
+    assert "<topicname> means nothing to the plugin; did you mean topicName?" in said
+
+
+def test_a_plugin_in_the_wrong_place_is_left_out(bench: Start, capsys: pytest.CaptureFixture[str]) -> None:
+    there = bench()
+    text = '<gazebo><plugin name="x" filename="libgazebo_ros_laser.so"/></gazebo>'
+    assert there.spawn(urdf(text), "r").success
+    assert "is a sensor plugin, but stands in the model 'r', which takes model plugins" in "".join(
+        capsys.readouterr()
+    )
+
+
+def test_a_model_that_goes_takes_its_topics_along_even_while_it_moves(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(DIFF_DRIVE + LASER + IMU + STATES), "r", robot_namespace="r")
+    there.drive("/r/cmd_vel", 0.2)
+    there.graph.run(0.5)
+    topics = {name for name, _ in there.graph.master.getTopicTypes("/x")[2]}
+    assert {"/r/scan", "/r/odom", "/r/imu"} <= topics
+    there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="r")
+    there.graph.run(0.5)
+    published = {name for name, _ in there.graph.master.getPublishedTopics("/x", "")[2]}
+    assert not {name for name in published if name.startswith("/r/") and name != "/r/cmd_vel"}
+    assert there.spawn(urdf(DIFF_DRIVE + LASER + IMU + STATES), "r", robot_namespace="r").success
+
+
+def test_ten_robots_come_while_others_drive(bench: Start) -> None:
+    there = bench()
+    scans = []
+    low = urdf().replace(
+        '<origin xyz="0 0 0.2"/>', '<origin xyz="0 0 0.12"/>'
+    )  # no higher than the others' boxes
+    for i in range(10):
+        assert there.spawn(low, f"r{i}", 0.0, float(i), robot_namespace=f"r{i}").success
+        scans.append(there.hear(f"/r{i}/scan", "sensor_msgs/LaserScan"))
+        there.drive(f"/r{i}/cmd_vel", 0.2)
+        there.graph.run(0.2)
+    there.graph.run(1.0)
+    ways = [there.pose(f"r{i}")[0] for i in range(10)]
+    assert ways == sorted(ways, reverse=True)
+    assert ways[0] == pytest.approx(0.2 * 3.0 - 0.02, abs=0.01)
+    assert all(len(heard) > 5 for heard in scans)
+    assert np.isfinite(scans[9][-1].ranges).any()  # it sees those that are ahead of it
+
+
+def test_another_robot_changes_nobodys_noise(bench: Start) -> None:
+    from rosmini import Graph
+
+    noisy = LASER.replace("<range>", "<noise><type>gaussian</type><stddev>0.05</stddev></noise><range>")
+
+    def heard(more: bool) -> list[float]:
+        with Graph() as graph:
+            there = Bench(graph, "empty")
+            there.spawn(box(static=True), "wall", 2.2)
+            there.spawn(urdf(noisy), "first", robot_namespace="a")
+            if more:
+                there.spawn(urdf(noisy), "second", 0.0, -5.0, robot_namespace="b")
+            scans = there.hear("/a/scan", "sensor_msgs/LaserScan")
+            graph.run(1.0)
+            return [scan.ranges[90] for scan in scans]
+
+    assert heard(more=True) == heard(more=False)
