@@ -25,4 +25,6 @@ def read_description(node: Node) -> Robot:
             f'<param name="{NAME}" command="$(find xacro)/xacro FILE"/> in a launch file, or '
             f'node.set_param("/{NAME}", rosmini.urdf.xacro.expand(FILE))'
         )
-    return load(str(node.get_param(found, expect=str)).strip(), meshes=False, path=found)
+    # As bytes it is never taken for the name of a file.
+    text = str(node.get_param(found, expect=str)).strip().encode()
+    return load(text, meshes=False, path=found)

@@ -61,6 +61,8 @@ class RobotStatePublisher:
         self._told: dict[str, int] = {}
         self._unknown: set[str] = set()
         self._last_ns = 0
+        for doubt in self.robot.notes:
+            node.logwarn(doubt)
         for name in self.chain.floating:
             node.loginfo(
                 f"Floating joint {name}: joint_states cannot tell where it is, so nothing is said of it"

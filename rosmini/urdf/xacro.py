@@ -15,7 +15,6 @@ from contextlib import contextmanager
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
-from unittest import mock
 
 from rosmini.errors import RosminiError, nearest
 from rosmini.markup import parse, parse_file
@@ -106,15 +105,30 @@ def _lent(xacro: Any, substitution: Any, index: PackageIndex, known: list[str]) 
         parse_file(filename, UrdfError)
         return xml.dom.minidom.parse(filename)  # noqa: S318 (found harmless in the line above)
 
-    with (
-        mock.patch.object(substitution, "_eval_find", find),
-        mock.patch.dict(substitution._eval_dict, find=find),  # noqa: SLF001 (there is no other way in)
-        mock.patch.dict(xacro.substitution_args_context, clear=True),
-        mock.patch.object(xacro, "parse", read),
-        mock.patch.object(xacro, "filestack", None),
-        mock.patch.object(xacro, "macrostack", None),
-    ):
+    arguments, symbols = xacro.substitution_args_context, substitution._eval_dict  # noqa: SLF001 (there is no other way in)
+    kept = dict(arguments), symbols["find"]
+    with _set(substitution, _eval_find=find), _set(xacro, parse=read, filestack=None, macrostack=None):
+        try:
+            symbols["find"] = find
+            arguments.clear()
+            yield
+        finally:
+            arguments.clear()
+            arguments.update(kept[0])
+            symbols["find"] = kept[1]
+
+
+@contextmanager
+def _set(module: Any, **values: Any) -> Iterator[None]:
+    """While it lasts, names in a module stand for other things."""
+    before = {name: getattr(module, name) for name in values}
+    for name, value in values.items():
+        setattr(module, name, value)
+    try:
         yield
+    finally:
+        for name, value in before.items():
+            setattr(module, name, value)
 
 
 def _cause(error: BaseException) -> BaseException:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from rosmini.viz.simulation import simulation_picture
     from rosmini.viz.states import action_states
     from rosmini.viz.track import track_picture
+    from rosmini.viz.urdf_tree import urdf_tree
     from rosmini.viz.world import world_picture
 
 __all__ = [
@@ -41,6 +42,7 @@ __all__ = [
     "scan_picture",
     "simulation_picture",
     "track_picture",
+    "urdf_tree",
     "world_picture",
 ]
 
@@ -55,6 +57,7 @@ _LATER = {
     "scan_picture": "rosmini.viz.scan",
     "simulation_picture": "rosmini.viz.simulation",
     "track_picture": "rosmini.viz.track",
+    "urdf_tree": "rosmini.viz.urdf_tree",
     "world_picture": "rosmini.viz.world",
 }
 

@@ -15,8 +15,9 @@ pytest.importorskip("meshcat")
 from rosmini.sim.models import BURGER
 from rosmini.sim.recording import Recording
 from rosmini.sim.worlds import world
+from rosmini.urdf import load
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
-from rosmini.viz.meshcat import replay_3d, robot_3d, world_3d
+from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d, world_3d
 
 pytestmark = pytest.mark.browser
 
@@ -43,6 +44,7 @@ def site(tmp_path_factory):
         "robot": robot_3d(world("room"), BURGER, (0.3, 0.2, 0.4), np.full(360, 0.6)),
         "world": world_3d(world("room")),
         "replay": replay_3d(run()),
+        "urdf": urdf_3d(load("package://turtlebot3_description/urdf/turtlebot3_waffle.urdf.xacro")),
     }
     head = '<head><meta charset="utf-8"><title>t</title><link rel="stylesheet" href="{}_static/rosmini.css"></head>'
     for name, chosen in {**{n: [n] for n in views}, "three": ["robot", "replay", "robot"]}.items():
@@ -110,9 +112,11 @@ def test_the_viewer_draws_the_scene_in_the_colours_of_the_page(open_page, shared
     assert page.locator("iframe").get_attribute("title") == page.locator("figure").get_attribute("aria-label")
 
 
-def test_the_drawing_is_what_the_viewer_shows_first(open_page):
+@pytest.mark.parametrize("path", ["deep/er/robot.html", "deep/er/urdf.html"])
+def test_the_drawing_is_what_the_viewer_shows_first(open_page, path, shared_tmp):
     """Both have the same robot at the same place: dark pixels around it."""
-    page = open_page("deep/er/robot.html", width=776)
+    page = open_page(path, width=776)
+    page.screenshot(path=shared_tmp / f"meshcat-first-{path.replace('/', '_')}.png")
     shown = pixels(page)
     page.evaluate("(() => { document.querySelector('.rosmini-still').hidden = false; })()")
     drawn = pixels(page, ".rosmini-still svg")

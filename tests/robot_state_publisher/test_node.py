@@ -148,6 +148,27 @@ def test_without_a_description_it_says_what_to_do():
             rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
 
 
+@pytest.mark.parametrize(("text", "message"), [("", "this is empty"), ("robot.urdf", "this is not XML")])
+def test_what_is_no_description_is_not_taken_for_a_file(text, message):
+    with Graph() as graph:
+        graph.node("setter").set_param("/robot_description", text)
+        with pytest.raises(UrdfError, match=message):
+            rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+
+
+def test_what_is_doubtful_in_the_description_is_said(capsys):
+    inertial = (
+        '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    )
+    with Graph() as graph:
+        graph.node("setter").set_param(
+            "/robot_description", f'<robot name="r"><link name="a">{inertial}</link></robot>'
+        )
+        rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+        told = capsys.readouterr()
+        assert "the root link 'a' has an inertia, which KDL" in told.out + told.err
+
+
 def test_a_wrong_parameter_is_told(graph):
     with pytest.raises(ParameterError, match="did you mean ~publish_frequency"):
         rosrun("robot_state_publisher", "robot_state_publisher", "_publish_freqency:=5", graph=graph)
