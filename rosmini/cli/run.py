@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 from rosmini.errors import RosminiError
 from rosmini.packages import PackageIndex
 
+from .collector import seldom
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -148,7 +150,8 @@ def main(args: argparse.Namespace) -> int:
         # roslaunch and process managers end a node with SIGTERM; rospy shuts down on it as on Ctrl-C.
         signal.signal(signal.SIGTERM, lambda _number, _frame: signal.raise_signal(signal.SIGINT))
     simulated = not args.wall_time and (args.sim_time or args.duration is not None)
-    result = run_scripts(specs, simulated=simulated, duration=args.duration)
+    with seldom():
+        result = run_scripts(specs, simulated=simulated, duration=args.duration)
     tell(result)
     return result.status
 

@@ -14,6 +14,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rosmini.cli.collector import seldom
 from rosmini.errors import RosminiError
 
 if TYPE_CHECKING:
@@ -131,7 +132,7 @@ def main(args: argparse.Namespace) -> int:
         msg = "--rounds takes a whole number from 1 and --scale a positive one"
         raise RosminiError(msg)
     figures = []
-    with ExitStack() as peers:
+    with seldom(), ExitStack() as peers:
         for measure in _measures(args, peers):
             figures.append(measure.run(args.rounds))
             print(".", end="", flush=True)
