@@ -44,7 +44,7 @@ def random_world(
     """A walled floor of `size` [m] with its centre in the origin, split into rooms with things in them; the same for the same arguments.
 
     A robot less than 0.7 m wide can go from every start to every room and around every thing. `movable` of the things can be pushed, and `walkers`
-    people go to and fro. Where there is no room for as many rooms, things or walkers as were asked for, there are fewer; `starts` there are as many
+    people walk up and down. Where there is no room for as many rooms, things or walkers as were asked for, there are fewer; `starts` there are as many
     as asked for, or a `WorldError` is raised, as it is for a floor narrower than 2 m and for numbers that make no sense.
     """
     _check(size, rooms=rooms, obstacles=obstacles, movable=movable, walkers=walkers, starts=starts)
@@ -217,7 +217,7 @@ class _Plan:
         )
 
     def place_walker(self, number: int) -> None:
-        """Let somebody go to and fro where nothing is in the way; nobody if there is no such way."""
+        """Let somebody walk up and down where nothing is in the way; nobody if there is no such way."""
         for _ in range(TRIES):
             begin = self._place(0.5, 0.0)
             if begin is None:

@@ -272,12 +272,12 @@ def test_a_model_that_includes_itself_is_an_error(brick):
 def test_what_is_left_out_is_noted_with_its_line():
     found = load(
         world(
-            "<light name='lamp' type='point'/>\n<modle name='x'/>\n<mine:own/>\n<model name='m'><static>1</static><link name='l'>"
+            "<light name='lamp' type='point'/>\n<mode1 name='x'/>\n<mine:own/>\n<model name='m'><static>1</static><link name='l'>"
             "<collision name='c'><geometry><heightmap/></geometry></collision></link></model>"
         )
     )
     assert [(note.line, note.text.split(":")[0]) for note in found.notes] == [
-        (4, "<modle> is nothing that <world> has; did you mean model?"),
+        (4, "<mode1> is nothing that <world> has; did you mean model?"),
         (3, "a light"),
         (
             6,
