@@ -13,8 +13,11 @@ import pytest
 
 from rosmini.graph import Graph
 from rosmini.msgs import message_class
+from rosmini.sim.models import model
 from rosmini.sim.recorder import Recorder
+from rosmini.sim.recording import Moved
 from rosmini.sim.simulator import Simulator
+from rosmini.sim.world import Cylinder, Obstacle
 from rosmini.viz import style
 
 pytestmark = pytest.mark.browser
@@ -442,8 +445,11 @@ def test_in_jupyterlab_its_keys_are_its_own(start_lab, chromium, shared_tmp):
     cells = [
         """
 from rosmini.graph import Graph
+from rosmini.sim.models import model
 from rosmini.sim.recorder import Recorder
+from rosmini.sim.recording import Moved
 from rosmini.sim.simulator import Simulator
+from rosmini.sim.world import Cylinder, Obstacle
 graph = Graph()
 recorder = Recorder(graph, Simulator(graph.node("simulator")))
 graph.run(5.0)
@@ -507,3 +513,31 @@ def test_the_theme_of_the_book_does_not_disturb_its_layout(
     assert middle["play"] == pytest.approx(middle["slider"], abs=3)
     assert middle["truth"] == pytest.approx(middle["odom"], abs=3)
     assert count(page, "page", style.DARK) > 5000
+
+
+def test_other_robots_and_what_moves_are_drawn_where_they_are(recording, write, opened):
+    truth = recording.truth
+    walker = Obstacle("walker", Cylinder(0.12), (2.4, 1.6, 0.0), colour="#102040")
+    end = float(recording.times[-1])
+    moved = Moved(walker, np.array([0.0, end]), np.array([(2.4, 1.6, 0.0), (2.4, 0.4, 0.0)]))
+    other = replace(recording, truth=truth + (0.0, 0.8, 0.0), name="tb3_1", model=model("waffle"))
+    together = replace(recording, name="tb3_0", others=(other,), things=(moved,))
+    for theme, palette, tint in (
+        ("light", style.LIGHT, "#102040"),
+        ("dark", style.DARK, style.dark_of("#102040")),
+    ):
+        page = opened(write(together, theme=theme), color_scheme=theme)
+        canvas = page.locator(".rosmini-replay canvas")
+        green = colour_count(page, canvas, palette["green"])
+        edge = colour_count(page, canvas, tint)
+        assert green > 150 and edge > 20
+        before = page.evaluate(PICTURE)
+        page.locator(".rosmini-replay [type=range]").press("End")
+        page.wait_for_function(f"before => {PICTURE} !== before", arg=before)
+        assert colour_count(page, canvas, palette["green"]) > green
+
+
+def colour_count(page, canvas, colour):
+    """How many pixels of a canvas are near a colour."""
+    rgb = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
+    return page.evaluate(COUNT, [canvas.element_handle(), rgb])

@@ -22,10 +22,10 @@ import umsgpack
 
 from rosmini import Graph
 from rosmini.geometry.raycast import raycast
-from rosmini.sim.models import BURGER
-from rosmini.sim.recording import Recording
+from rosmini.sim.models import BURGER, model
+from rosmini.sim.recording import Moved, Recording
 from rosmini.sim.simulator import Simulator
-from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World
+from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, style
 from rosmini.viz.meshcat import Camera, Recorder, Scene3D, replay_3d, robot_3d, world_3d
@@ -391,6 +391,46 @@ def test_a_simulator_shows_itself_as_it_is_now():
         assert len(view.scene.scans) == 1
     finally:
         graph.shutdown()
+
+
+# Several robots, and things of other shapes and colours
+
+
+def test_shapes_and_colours_of_all_kinds_stand_where_they_are():
+    things = World("things", [
+        Obstacle("ball", Sphere(0.2), (1.0, 2.0, 0.0), colour="#123456", bottom=0.5),
+        Obstacle("pair", Compound(((Box(0.2, 0.2), (0, 0, 0)), (Cylinder(0.1), (0.5, 0, 0)))), (0.0, 0.0, 0.0), 0.4, bottom=0.1),
+    ])  # fmt: skip
+    view = world_3d(things)
+    ball = next(part for part in view.scene.parts if part.node == "obstacles/ball")
+    assert (ball.colour, ball.solids) == ("#123456", (Ball((0.0, 0.0, 0.7), 0.2),))
+    pair = next(part for part in view.scene.parts if part.node == "obstacles/pair")
+    assert [type(solid) for solid in pair.solids] == [Prism, Rod]
+    assert (pair.solids[0].bottom, pair.solids[0].top) == (0.1, 0.4)
+
+
+def test_a_replay_of_several_robots_moves_each_and_what_was_pushed():
+    own = run()
+    crate = SMALL.obstacles[0]
+    moved = Moved(crate, np.array([0.0, 12.0]), np.array([(0.0, 0.0, 0.0), (0.5, 0.0, 0.0)]))
+    other = replace(own, truth=own.truth + (0.0, 1.0, 0.0), name="robot", model=model("waffle"))
+    view = replay_3d(replace(own, name="first", others=(other,), things=(moved,)))
+    tracks, _ = keys(view)
+    ys = np.array(tracks["/meshcat/others/robot", ".position"][1])[:, 1]
+    assert ys[0] == pytest.approx(1.0) and ys[-1] == pytest.approx(other.truth[-1, 1], abs=0.01)
+    pushed = np.array(tracks[f"/meshcat/obstacles/{crate.name}", ".position"][1])
+    assert pushed[-1, 0] == pytest.approx(0.5)
+    assert [trail.name for trail in view.scene.trails] == ["odometry", "truth", "robot"]
+    assert "robot (waffle): " in view.text and "Beside it drive robot." in view.alt
+
+
+def test_a_simulator_shows_all_its_robots():
+    with Graph() as graph:
+        simulator = Simulator(graph.node("simulator"), world="empty", model="burger")
+        simulator.spawn("tb3_1", "waffle", (1.0, 0.5, 0.0))
+        view = simulator.show3d()
+        assert "tb3_1 (waffle) at (1.00, 0.50, 0.0 deg)" in view.text
+        assert view.scene.nodes["others/tb3_1"][:3, 3] == pytest.approx((1.0, 0.5, 0.0))
 
 
 # Shapes

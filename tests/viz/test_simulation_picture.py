@@ -13,6 +13,7 @@ from rosmini.msgs import message_class
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.simulator import Simulator
+from rosmini.sim.world import Cylinder, Obstacle, Walk, World
 from rosmini.viz import simulation_picture, style
 
 Twist = message_class("geometry_msgs/Twist")
@@ -101,3 +102,34 @@ def test_a_removed_robot_is_an_error_that_says_so(graph):
     simulator.remove()
     with pytest.raises(RobotGone):
         simulation_picture(simulator)
+
+
+def test_all_robots_are_drawn_with_their_names_and_ways(graph):
+    simulator = Simulator(graph.node("simulator"), model="burger")
+    simulator.spawn("tb3_1", "waffle", (2.05, 1.22, math.pi))
+    recorder = Recorder(graph, simulator)
+    drive(graph, 0.2, 0.0, 2.0)
+    view = simulation_picture(simulator, trail=recorder.recording())
+    assert "tb3_1 (waffle): pose (2.05, 1.22, 180.0 deg), 0.00 m driven" in view.text
+    assert "Beside it there is tb3_1 at x 2.05 m, y 1.22 m." in view.alt
+    assert ">tb3_1</text>" in view.svg and f'fill="{style.LIGHT["green"]}"' in view.svg
+
+
+def test_a_hundred_robots_are_drawn_and_only_counted_in_the_alt_text(graph):
+    simulator = Simulator(graph.node("simulator"), world="empty", model="burger")
+    for i in range(99):
+        simulator.spawn(f"r{i}", pose=(1.0 + i % 10, 1.0 + i // 10, 0.0))
+    view = simulation_picture(simulator)
+    assert "99 more robots" in view.alt
+    assert len(view.svg) < 400_000
+
+
+def test_a_walker_is_drawn_once_and_where_it_is(graph):
+    walker = Obstacle(
+        "walker", Cylinder(0.1), (1.0, 1.0, 0.0), colour="orange", motion=Walk(((1.0, 1.0), (1.0, -1.0)), 0.5)
+    )
+    simulator = Simulator(graph.node("simulator"), world=World("path", [walker]), model="burger")
+    graph.run(2.0)
+    view = simulation_picture(simulator, scan=False)
+    assert "1 obstacle" in view.text
+    assert len(re.findall(f'<path[^>]*stroke="{style.LIGHT["orange"]}"', view.svg)) == 1

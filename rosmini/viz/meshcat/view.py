@@ -289,7 +289,7 @@ def _contents(world: World) -> str:
 
 def _node(name: str) -> str:
     """Where in the scene another robot is."""
-    return "robots/" + name.replace("/", " ")
+    return "others/" + name.replace("/", " ")
 
 
 def _beside(recording: Recording) -> str:
