@@ -98,22 +98,21 @@ class Simulator:
         self.parameters = SimulatorParameters.read(node)
         world = self.parameters.world if world is None else world
         model = self.parameters.model if model is None else model
-        self.world = world if isinstance(world, World) else world_called(world)
+        world = world if isinstance(world, World) else world_called(world)
         self.model = model if isinstance(model, RobotModel) else model_called(model)
         own = self.parameters
         self._options = Options(
             own.noise, own.cmd_vel_timeout, own.tf, own.use_rep_117, own.board, own.battery
         )
-        self.engine = Engine(self.world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=own.noise)
-        pose = start_pose(self.world, own.x, own.y, own.yaw)
-        starts = read_starts(node, self.model, self.world, pose, own.tf_prefix)
+        self.engine = Engine(world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=own.noise)
+        pose = start_pose(world, own.x, own.y, own.yaw)
+        starts = read_starts(node, self.model, world, pose, own.tf_prefix)
         self.name = starts[0].name
         """Of the robot that is meant where none is named."""
         for start in starts:
             add(self.engine, start)
-        self.engine.scan(
-            self.name
-        )  # where numba has to compile, it does so now and not while the robot drives
+        if starts[0].model.lidar is not None:
+            self.engine.scan(self.name)  # where numba has to compile, it does so now and not on the way
         self.host = Host(node, self.engine)
         """Its time: it can be paused, stepped and go on; and the devices of all robots."""
         if own.obstacles:
@@ -127,6 +126,11 @@ class Simulator:
             "reset_positions", service_class("std_srvs/Empty"), self._reset_positions
         )
         node.on_shutdown(self._end)
+
+    @property
+    def world(self) -> World:
+        """The world, with what has been put into it, and without what has been taken away, since it began."""
+        return self.engine.world
 
     def __repr__(self) -> str:
         first = self.robots.get(self.name)

@@ -110,6 +110,9 @@ def add(engine: Engine, start: Start) -> Robot:
     """
     _check(start.name)
     model = start.model
+    if model.drive is None:
+        msg = f"{model.name!r} cannot be a robot of the simulator: its model has no drive. Let the engine have it, as a thing"
+        raise RosminiError(msg)
     if start.pose is None and start.name not in engine.robots:
         for pose in chain(engine.world.starts, _around(engine.world, 2 * model.reach + GAP)):
             if engine.hindrance(model, pose) is None:

@@ -1,4 +1,4 @@
-"""One TurtleBot3 of a simulator: which devices it has, on which topics and in which frames."""
+"""One TurtleBot3 of a simulator, or whatever other robot with a drive: which devices it has, on which topics and in which frames."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from .devices import (
     ImuDevice,
     JointStates,
     Laser,
+    PlanarMove,
     SensorStateDevice,
     Switches,
     prefixed,
@@ -89,8 +90,9 @@ class TurtleBot:
             self.imu = self._add(
                 ImuDevice(host, name, topic=self.topic("imu"), frame=frame, noise=options.noise)
             )
+        kind = PlanarMove if self.model.drive == "holonomic" else DifferentialDrive
         self.drive = self._add(
-            DifferentialDrive(
+            kind(
                 host,
                 name,
                 cmd_vel=self.topic("cmd_vel"),
@@ -107,9 +109,9 @@ class TurtleBot:
         )
         if options.tf:
             self.drive.publish_transform("/tf")
-        self.joints = self._add(
-            JointStates(host, self.drive, topic=self.topic("joint_states"), frame=self.frame(BASE_LINK))
-        )
+        if self.model.drive == "differential":
+            topic, frame = self.topic("joint_states"), self.frame(BASE_LINK)
+            self._add(JointStates(host, self.drive, topic=topic, frame=frame))
         self.cameras = tuple(self._add(self._camera(camera)) for camera in self.model.cameras)
         self.battery: BatteryDevice | None = None
         self._switches: Switches | None = None

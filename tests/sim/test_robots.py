@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import pickle
 from collections import defaultdict
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -18,7 +19,7 @@ from rosmini.packages import assets_dir
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.models import BURGER, WAFFLE, UnknownModel
 from rosmini.sim.simulator import Simulator
-from rosmini.sim.world import World, WorldError
+from rosmini.sim.world import Box, Obstacle, World, WorldError
 
 Twist = message_class("geometry_msgs/Twist")
 TOPICS = {
@@ -308,6 +309,29 @@ def test_two_runs_with_coming_and_going_are_equal_to_the_last_byte():
     first = run()
     assert len(first["late/imu"]) > 300
     assert run() == first
+
+
+def test_robots_without_sensors_or_with_other_drives(graph):
+    bare = replace(BURGER, name="bare", lidar=None, imu=None, drive="holonomic")
+    simulator = Simulator(graph.node("simulator"), world="empty", model=bare)
+    topics = {name for name, _ in graph.master.getTopicTypes("/test")[2]}
+    assert not topics & {"/scan", "/imu", "/joint_states"}
+    ears = Ears(graph, "", topics=("odom",))
+    graph.run(0.1)
+    simulator.robot().drive.command(0.0, 0.0, 0.2)
+    graph.run(0.5)
+    assert ears.heard["odom"][-1].pose.pose.position.y > 0.05
+    assert simulator.last_scan() is None
+    with pytest.raises(RosminiError, match="has no drive"):
+        simulator.spawn("rock", replace(BURGER, name="rock", drive=None), (2.0, 0.0, 0.0))
+
+
+def test_what_is_put_into_the_world_is_in_it(graph):
+    simulator = start(graph)
+    simulator.engine.insert(Obstacle("new", Box(0.2, 2.0), (1.0, 0.0, 0.0)))
+    graph.run(0.5)
+    assert simulator.last_scan().ranges[0] == pytest.approx(0.932, abs=1e-6)
+    assert [obstacle.name for obstacle in simulator.world.obstacles] == ["new"]
 
 
 # -- commands --------------------------------------------------------------------------------------------------------
