@@ -64,7 +64,7 @@ class GazeboClient:
         if master is None:
             raise ScriptError(f"the server at {address()} has ended")
         self.master = master
-        self.transport = TransportNode(master, f"gzclient {node.name}")
+        self.transport = TransportNode(master, f"gzclient {node.name}", master.namespace)
         self._models: dict[str, Model] = {}
         self._scene: Scene | None = None
         self._asked = 0

@@ -149,7 +149,7 @@ class Gz:
             raise GazeboError(
                 f"an instance of Gazebo is not running: there is no Master at {address()}. Start `gazebo_ros/gzserver` in the same graph"
             )
-        return TransportNode(master, "gz")
+        return TransportNode(master, "gz", master.namespace)
 
     def _wait(self, found: list[Any], count: int, seconds: float) -> None:
         """Let the graph go on until so many messages have come, or the time is over."""

@@ -32,10 +32,12 @@ def address() -> str:
 class RunningMaster(Master):
     """A Master that a server started."""
 
-    def __init__(self, graph: Graph, uri: str, server: GazeboServer) -> None:
+    def __init__(self, graph: Graph, uri: str, server: GazeboServer, namespace: str) -> None:
         super().__init__()
         self.uri = uri
         self.server = server
+        self.namespace = namespace
+        """What `~` stands for in the names of topics, after /gazebo/: the name of the world."""
         self._graph = weakref.ref(graph)
 
     def close(self) -> None:
@@ -45,7 +47,7 @@ class RunningMaster(Master):
             _RUNNING.get(graph, {}).pop(self.uri, None)
 
 
-def start_master(graph: Graph, server: GazeboServer) -> RunningMaster:
+def start_master(graph: Graph, server: GazeboServer, namespace: str) -> RunningMaster:
     """Start the Master of a server. Raises `GazeboError` if there is one at the address."""
     uri = address()
     there = _RUNNING.setdefault(graph, {})
@@ -55,7 +57,7 @@ def start_master(graph: Graph, server: GazeboServer) -> RunningMaster:
             f"for a second world set {VARIABLE} to another address"
         )
         raise GazeboError(msg)
-    there[uri] = RunningMaster(graph, uri, server)
+    there[uri] = RunningMaster(graph, uri, server, namespace)
     return there[uri]
 
 

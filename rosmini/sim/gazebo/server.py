@@ -28,7 +28,6 @@ from .services import Services
 from .sources import EMPTY, load_world
 from .states import StateTopics
 from .topics import ServerTopics
-from .transport import NAMESPACE
 from .world import GazeboWorld
 
 CLOCK_RATE = 100.0
@@ -98,12 +97,12 @@ class GazeboServer:
         self.world = GazeboWorld(node, found, paused=options.pause, noise=noise)
         self.started_ns = self.world.host.clock.now_ns()
         """When the server came [ns]."""
-        self.master = start_master(node.graph, self)
+        self.master = start_master(node.graph, self, self.world.name)
         self.clock = self.world.host.add(ClockDevice(self.world.host, rate=_rate(node)))
         node.set_param("/use_sim_time", True)
         self.services = Services(self.world, self.set_physics)
         self.states = StateTopics(self.world, self.services, self.clock.rate)
-        self.topics = ServerTopics(self, NAMESPACE)
+        self.topics = ServerTopics(self, self.master.namespace)
         self.reconfigure = ReconfigureServer(node, PhysicsConfig, self._reconfigured)
         for name in options.server_plugin:
             if name.rsplit("/", 1)[-1] not in BUILT_IN:

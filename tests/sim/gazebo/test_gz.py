@@ -1,0 +1,155 @@
+"""The `gz` verbs act on a running server, by Gazebo's own topics."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from rosmini import Graph
+from rosmini.cli.main import main
+from rosmini.markup import MarkupError
+from rosmini.sim import sdf
+from rosmini.sim.gazebo import GazeboError, Gz
+from rosmini.sim.gazebo.gz import UsageError
+
+from .conftest import Bench, box, urdf
+
+Start = Callable[..., Bench]
+
+
+def test_topics_are_listed_told_of_echoed_and_measured(bench: Start) -> None:
+    there = bench()
+    gz = Gz(there.graph)
+    names = gz.run("topic", "-l")
+    # in the namespace of the world's name
+    assert {"/gazebo/empty/world_stats", "/gazebo/empty/pose/info", "/gazebo/empty/request"} <= set(names)
+    stats = "/gazebo/empty/world_stats"
+    info = gz.run("topic", "-i", stats)
+    assert info[0] == "Type: gazebo.msgs.WorldStatistics"
+    assert "\tgzserver" in info
+    echoed = gz.run("topic", "-e", stats, "-n", 1)
+    assert echoed[0] == "sim_time {"
+    assert "paused: false" in echoed
+    assert gz.run("topic", "-z", "~/world_stats", "-d", 2) == ["Hz:   5.00"]
+    with pytest.raises(GazeboError, match="did you mean"):
+        gz.run("topic", "-i", "/gazebo/empty/world_stat")
+
+
+def test_a_model_is_told_of_moved_and_deleted(bench: Start) -> None:
+    there = bench()
+    there.spawn(box(), "crate", 1.0, 2.0)
+    gz = Gz(there.graph)
+    assert gz.run("model", "-m", "crate", "-p") == ["1.000000 2.000000 0.000000 0.000000 0.000000 0.000000"]
+    gz.run("model", "-m", "crate", "-x", 3, "-Y", 0.5)
+    assert there.pose("crate") == pytest.approx((3.0, 2.0, 0.5))
+    lines = gz.run("model", "-m", "crate", "-i")
+    assert lines[0] == 'name: "crate"'
+    assert "is_static: false" in lines
+    gz.run("model", "-m", "crate", "-d")
+    assert "crate" not in there.server.world.models
+    with pytest.raises(GazeboError, match="there is no model 'crate'"):
+        gz.run("model", "-m", "crate", "-p")
+
+
+def test_a_model_is_spawned_from_a_file(bench: Start, tmp_path: Path) -> None:
+    there = bench()
+    path = tmp_path / "box.sdf"
+    path.write_text(box("chest"))
+    gz = Gz(there.graph)
+    gz.run("model", "-f", path, "-m", "one", "-x", 1)
+    gz.run("model", "-f", path, "-y", 2)
+    assert there.pose("one")[0] == 1.0
+    assert there.pose("chest")[1] == 2.0
+    with pytest.raises(GazeboError, match="there is a model 'one' already"):
+        gz.run("model", "-f", path, "-m", "one", "-x", 4)
+    with pytest.raises(GazeboError, match="there is no file"):
+        gz.run("model", "-f", tmp_path / "none.sdf")
+
+
+def test_the_world_stands_is_stepped_and_reset(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(), "robot")
+    there.drive("/cmd_vel", 0.2)
+    there.graph.run(2.0)
+    gz = Gz(there.graph)
+    gz.run("world", "-p", 1)
+    now = there.server.world.now
+    there.graph.run(1.0)
+    assert there.server.world.now == now
+    gz.run("world", "-s")
+    assert there.server.world.now == pytest.approx(now + 0.001)
+    x = there.pose("robot")[0]
+    gz.run("world", "-m", 500)
+    assert there.server.world.now == pytest.approx(now + 0.501)
+    assert there.pose("robot")[0] == pytest.approx(x + 0.1, abs=1e-6)
+    gz.run("world", "-o")
+    assert there.pose("robot") == (0.0, 0.0, 0.0)
+    assert there.server.world.now > 2.0
+    gz.run("world", "-r")
+    assert there.server.world.now == 0.0
+    gz.run("world", "-p", 0)
+    there.graph.run(1.0)
+    assert there.server.world.now == pytest.approx(1.0, abs=0.01)
+    with pytest.raises(UsageError, match="once or more often, not 0 times"):
+        gz.run("world", "-m", 0)
+
+
+def test_stats_tell_how_time_goes_on(bench: Start) -> None:
+    there = bench()
+    there.graph.run(1.0)
+    lines = Gz(there.graph).run("stats", "-d", 0.5)
+    assert len(lines) == 2
+    assert all(
+        re.fullmatch(r"Factor\[1\.00\] SimTime\[1\.\d\d\] RealTime\[1\.\d\d\] Paused\[F\]", line)
+        for line in lines
+    )
+    lines = Gz(there.graph).run("stats", "-p")
+    assert lines[0].startswith("# real-time factor")
+    assert lines[1].count(",") == 3
+
+
+def test_files_are_checked_and_printed(tmp_path: Path) -> None:
+    path = tmp_path / "robot.urdf"
+    path.write_text(urdf().replace('<?xml version="1.0"?>\n', ""))
+    gz = Gz()
+    assert gz.run("sdf", "-k", path)[-1] == "Check complete"
+    text = "\n".join(gz.run("sdf", "-p", path))
+    assert [link.name for link in sdf.load(text).models[0].links] == ["base_footprint", "left", "right"]
+    path.write_text("<robot name='r'>\n<link nam='a'/></robot>")
+    with pytest.raises(MarkupError, match=r"robot\.urdf:2"):
+        gz.run("sdf", "-k", path)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("topc", "-l"), "did you mean topic?"),
+        (("camera", "-l"), "is a command of Gazebo's own, which rosmini has not"),
+        (("topic",), "say what to do"),
+        (("model", "-p"), "which model?"),
+        (("world", "-p", "2"), "invalid choice"),
+        (("stats", "-q"), "unrecognized arguments: -q"),
+    ],
+)
+def test_command_lines_that_make_no_sense(bench: Start, words: tuple[str, ...], said: str) -> None:
+    with pytest.raises(UsageError, match=re.escape(said)):
+        Gz(bench().graph).run(*words)
+
+
+def test_without_a_server_it_says_how_to_start_one(graph: Graph) -> None:
+    with pytest.raises(GazeboError, match=r"not running: there is no Master at http://localhost:11345"):
+        Gz(graph).run("topic", "-l")
+
+
+def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["gz", "topic", "-l", "+", "gazebo_ros/gzserver", "room"]) == 0
+    assert "/world_stats" in capsys.readouterr().out
+    assert main(["gz", "topic", "-l"]) == 1
+    assert "name it after a +" in capsys.readouterr().err
+    assert main(["gz", "topc"]) == 255
+    assert "did you mean topic?" in capsys.readouterr().err
+    assert main(["gz", "help"]) == 0
+    assert "stats" in capsys.readouterr().out

@@ -1,0 +1,224 @@
+"""gzserver, gzclient and gazebo: arguments, worlds, time, and a client that knows the server by Gazebo's topics only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from rosmini import Graph
+from rosmini.errors import ParameterError, ROSException, ScriptError
+from rosmini.msgs import message_class
+from rosmini.scripts import rosrun
+from rosmini.sim.gazebo import GazeboClient, GazeboError, GazeboServer
+from rosmini.sim.sdf import SdfError
+from rosmini.sim.world import Box, Obstacle, World
+
+from .conftest import Bench, box, urdf
+
+Start = Callable[..., Bench]
+
+WORLD = """<sdf version="1.6"><world name="yard">
+  <physics type="ode"><max_step_size>0.002</max_step_size><real_time_update_rate>500</real_time_update_rate></physics>
+  <gravity>0 0 -1.6</gravity>
+  <include><uri>model://ground_plane</uri></include>
+  <model name="wall"><static>1</static><pose>3 0 0 0 0 0</pose><link name="link"><collision name="c"><pose>0 0 0.5 0 0 0</pose>
+    <geometry><box><size>0.2 4 1</size></box></geometry></collision></link></model>
+  <model name="crate"><pose>1 1 0.2 0 0 0.5</pose><link name="link"><inertial><mass>1.5</mass></inertial><collision name="c">
+    <geometry><box><size>0.4 0.4 0.4</size></box></geometry></collision></link></model>
+</world></sdf>"""
+
+
+def test_a_world_file_is_loaded(bench: Start, tmp_path: Path) -> None:
+    path = tmp_path / "yard.world"
+    path.write_text(WORLD)
+    there = bench(str(path))
+    world = there.server.world
+    assert world.name == "yard"
+    assert list(world.models) == ["ground_plane", "wall", "crate"]
+    assert (world.physics.time_step, world.physics.max_update_rate, world.engine.gravity) == (
+        0.002,
+        500.0,
+        1.6,
+    )
+    assert there.pose("crate") == pytest.approx((1.0, 1.0, 0.5))
+    assert there.pose("wall") == (3.0, 0.0, 0.0)
+    assert world.models["wall"].static
+    assert not world.models["crate"].static
+    properties = there.call("get_model_properties", "gazebo_msgs/GetModelProperties", model_name="crate")
+    assert properties.geom_names == ["c"]
+    assert (
+        there.call("get_link_properties", "gazebo_msgs/GetLinkProperties", link_name="crate::link").mass
+        == 1.5
+    )
+
+
+def test_worlds_are_looked_for_as_gzserver_does(
+    bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "worlds").mkdir()
+    (tmp_path / "worlds" / "yard.world").write_text(WORLD)
+    monkeypatch.setenv("GAZEBO_RESOURCE_PATH", str(tmp_path))
+    assert bench("worlds/yard.world").server.world.name == "yard"
+
+
+def test_the_empty_world_is_the_default(graph: Graph) -> None:
+    server = rosrun("gazebo_ros", "gzserver", graph=graph)
+    assert server.node.name == "/gazebo"
+    assert list(server.world.models) == ["ground_plane"]
+
+
+def test_worlds_that_are_none(graph: Graph, tmp_path: Path) -> None:
+    for name, said in (("romm", "did you mean room?"), ("worlds/none.world", "it was looked for in")):
+        with pytest.raises(GazeboError, match=said.replace("?", r"\?")):
+            GazeboServer(graph.node("gazebo"), name)
+    path = tmp_path / "broken.world"
+    path.write_text("<sdf version='1.6'>\n<world name='w'><model/></world></sdf>")
+    with pytest.raises(SdfError, match=r"broken\.world:2"):
+        GazeboServer(graph.node("gazebo"), str(path))
+    path.write_text(box())
+    with pytest.raises(GazeboError, match="spawn_model -sdf -file"):
+        GazeboServer(graph.node("gazebo"), str(path))
+    GazeboServer(graph.node("gazebo"), "empty")  # what failed left nothing behind
+
+
+def test_arguments(graph: Graph) -> None:
+    server = GazeboServer(graph.node("gazebo"), "-u", "--verbose", "-e", "ode", "room")
+    assert server.world.paused
+    for words, said in (
+        (("--no-such",), "unrecognized arguments: --no-such"),
+        (("-e", "od"), "there is no physics engine 'od'"),
+    ):
+        with pytest.raises(ScriptError, match=said):
+            GazeboServer(graph.node("other"), "empty", *words)
+
+
+def test_a_server_ends_after_so_many_steps(graph: Graph) -> None:
+    server = GazeboServer(graph.node("gazebo"), "--iters", "500", "empty")
+    graph.run(0.4)
+    assert not server.node.is_shutdown()
+    graph.run(0.2)
+    assert server.node.is_shutdown()
+
+
+def test_time_begins_at_zero_and_everybody_lives_on_it(bench: Start) -> None:
+    there = bench()
+    assert there.node.get_param("/use_sim_time") is True
+    late = there.graph.node("late")
+    there.graph.run(1.0)
+    assert late.clock.now_ns() == pytest.approx(1e9, abs=2e7)
+    ticks = there.hear("/clock", "rosgraph_msgs/Clock")
+    there.graph.run(1.0)
+    assert len(ticks) in (99, 100)
+    there.call("reset_simulation", "std_srvs/Empty")
+    there.graph.run(0.5)
+    assert late.clock.now_ns() == pytest.approx(5e8, abs=2e7)
+
+
+def test_how_often_the_clock_ticks(graph: Graph) -> None:
+    graph.master.setParam("/test", "/gazebo/pub_clock_frequency", 10)
+    there = Bench(graph, "empty")
+    ticks = there.hear("/clock", "rosgraph_msgs/Clock")
+    graph.run(1.05)
+    assert len(ticks) == 10
+    graph.master.setParam("/test", "/other/pub_clock_frequency", -1)
+    there.server.node.shutdown("enough")
+    with pytest.raises(ParameterError, match="more than 0 Hz"):
+        GazeboServer(graph.node("other"), "empty")
+
+
+def test_rosminis_own_worlds_have_their_obstacles_as_models(bench: Start) -> None:
+    own = World(
+        "own",
+        (
+            Obstacle("pillar", Box(0.4, 0.4), (2.0, 0.0, 0.0)),
+            Obstacle("crate", Box(0.3, 0.3), (0.0, 2.0, 0.0), mass=1.0),
+        ),
+    )
+    there = bench(world=own)
+    assert there.pose("pillar") == (2.0, 0.0, 0.0)
+    there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="pillar")
+    there.spawn(urdf(), "robot", 2.0)  # the place is free now
+    assert "robot" in there.server.world.models
+
+
+# ---- the client ----
+
+
+def test_a_client_knows_what_the_server_tells(graph: Graph) -> None:
+    server = rosrun("gazebo_ros", "gzserver", "room", graph=graph)
+    client = rosrun("gazebo_ros", "gzclient", graph=graph)
+    assert client.node.name == "/gazebo_gui"
+    assert set(client.models) == set(server.world.models)
+    assert server.master.info("/gazebo/room/pose/info").subscribers == ("gzclient /gazebo_gui",)
+    there = Bench.__new__(Bench)
+    there.graph, there.server, there.node = graph, server, graph.node("tester")
+    there.spawn(urdf(), "robot")
+    assert "robot" in client.models
+    there.drive("/cmd_vel", 0.2)
+    graph.run(2.0)
+    assert "robot at (0.3" in client.text
+    assert client.statistics is not None
+    assert client.statistics.iterations > 1500
+    there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="robot")
+    assert "robot" not in client.models
+
+
+def test_a_clients_buttons(bench: Start) -> None:
+    there = bench()
+    client = there.server.client()
+    client.pause()
+    assert there.server.world.paused
+    client.step(100)
+    assert there.server.world.now == pytest.approx(0.1, abs=1e-6)
+    client.play()
+    there.graph.run(1.0)
+    assert there.server.world.now == pytest.approx(1.1, abs=0.01)
+    client.reset()
+    assert there.server.world.now == pytest.approx(0.0, abs=0.01)
+
+
+def test_the_simulation_does_not_need_a_client(bench: Start) -> None:
+    there = bench()
+    client = there.server.client()
+    there.graph.run(0.5)
+    client.node.shutdown("the window is closed")
+    there.graph.run(0.5)
+    assert there.server.world.now == pytest.approx(1.0, abs=0.01)
+    assert there.server.master.info("/gazebo/empty/pose/info").subscribers == ()
+
+
+def test_a_client_without_a_server_says_so(graph: Graph) -> None:
+    with pytest.raises(ROSException, match=r"no server runs at http://localhost:11345"):
+        GazeboClient(graph.node("gazebo_gui"))
+    with pytest.raises(ScriptError, match="there is no option --what"):
+        GazeboClient(graph.node("gazebo_gui"), "--what")
+
+
+def test_gazebo_is_both(graph: Graph) -> None:
+    both = rosrun("gazebo_ros", "gazebo", "room", graph=graph)
+    assert both.node.name == "/gazebo"
+    assert both.gui.node.name == "/gazebo_gui"
+    both.node.shutdown("enough")
+    assert both.gui.node.is_shutdown()
+
+
+def test_what_the_client_shows_is_the_world(bench: Start, tmp_path: Path) -> None:
+    path = tmp_path / "yard.world"
+    path.write_text(WORLD)
+    there = bench(str(path))
+    there.spawn(urdf(), "robot", -1.0, 0.0)
+    client = there.server.client()
+    shown = client.world()
+    names = {obstacle.name.split(" ")[0] for obstacle in shown.obstacles}
+    assert names == {"wall", "crate", "robot"}
+    crate = next(obstacle for obstacle in shown.obstacles if obstacle.name == "crate")
+    assert crate.pose == pytest.approx((1.0, 1.0, 0.5))
+    message = message_class("gazebo_msgs/ModelState")(model_name="crate")
+    message.pose.position.x = 2.0
+    there.call("set_model_state", "gazebo_msgs/SetModelState", model_state=message)
+    there.graph.run(0.1)
+    crate = next(obstacle for obstacle in client.world().obstacles if obstacle.name == "crate")
+    assert crate.pose[0] == pytest.approx(2.0)
+    assert "yard" in client.show().text
