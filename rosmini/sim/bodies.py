@@ -263,3 +263,22 @@ def _reach(shapes: list[pymunk.Shape]) -> float:
         elif isinstance(shape, pymunk.Poly):
             found = max(found, *(corner.length for corner in shape.get_vertices()))
     return found
+
+
+def correction(depths: list[float], levers: list[float], mass: float, inertia: float) -> tuple[float, float]:
+    """How far to move a body along the normal of a contact [m], and how far to turn it [rad], so that it just touches.
+
+    The contact has one or two points, each with the depth of the overlap there and its lever, the part of its place across the normal. The
+    answer is what forces k >= 0 at these points do, along = sum k / m and turn = sum k r / I, that make the overlap vanish.
+    """
+    if len(depths) == 2:
+        (first, second), (r, q) = depths, levers
+        if abs(r - q) > 1e-9:
+            turn = (first - second) / (r - q)
+            along = first - turn * r
+            k = (inertia * turn - mass * along * q) / (r - q)
+            if 0 <= k <= mass * along:  # both points push, and none pulls
+                return along, turn
+    depth, lever = max(zip(depths, levers, strict=True))
+    k = depth / (1 / mass + lever * lever / inertia)
+    return k / mass, k * lever / inertia

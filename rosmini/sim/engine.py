@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,11 +35,11 @@ from .odometry import RealWheels
 from .robot import Robot, Thing, make_robot
 from .shapes import Part, Polygon
 from .sights import Sights, parts_of, parts_of_robot
-from .state import EngineState, RobotState
+from .state import EngineState, bring_back, taken
 from .world import Obstacle, World, WorldError
 
 if TYPE_CHECKING:
-    from .physics import Contacts, RoverMemory, Surface
+    from .physics import Contacts, Surface
     from .touching import Touch
 
 Floats = NDArray[np.float64]
@@ -78,8 +78,8 @@ class Engine:
         """How long one step of the physics is [s]."""
         self._rng = rng
         self._contacts: Contacts | None = None
-        self._sights = Sights(world)
-        self._clockwork = Clockwork(self)
+        self.sights = Sights(world)
+        self.clockwork = Clockwork(self)
         self.changed = 0
         """How often something came, went, or was put elsewhere."""
         for obstacle in world.obstacles:
@@ -113,13 +113,13 @@ class Engine:
         return self._enter(name, model, where)
 
     def _enter(self, name: str, model: RobotModel, pose: Pose) -> Robot:
-        new = make_robot(name, model, pose, RealWheels(model, self._rng(f"{name}/wheels"), self.noise))
-        self.robots[name] = new
-        self._embody(new)
+        new = self.robots[name] = self.make_robot(name, model, pose)
+        self.embody(new)
         self._look_again()
         return new
 
-    def _embody(self, new: Robot) -> None:
+    def embody(self, new: Robot) -> None:
+        """Make the body of a robot; for whoever makes the bodies."""
         name, model = new.name, new.model
         if isinstance(new, Thing):
             loose = math.isinf(model.mass)
@@ -145,7 +145,7 @@ class Engine:
             self.contacts.take_away(name)
         else:
             self.contacts.remove(name)
-        self._sights.forget_viewer(name)
+        self.sights.forget_viewer(name)
         self._look_again()
 
     def robot(self, name: str) -> Robot:
@@ -183,7 +183,7 @@ class Engine:
                 self.contacts.place(name, lifted.pose, velocity)
             else:
                 self.contacts.move(name, lifted.pose)
-        self._clockwork.moving = self.contacts.moving
+        self.clockwork.moving = self.contacts.moving
         self._look_again()
 
     def _put_obstacle(self, obstacle: Obstacle, pose: Pose, velocity: Velocity) -> None:
@@ -213,7 +213,7 @@ class Engine:
                 self.contacts.place(each.name, each.pose)
             else:
                 self.contacts.move(each.name, each.pose)
-        self._clockwork.moving = False
+        self.clockwork.moving = False
         self._look_again()
 
     def command(self, name: str, v: float, w: float, timeout: float = 0.0, *, vy: float = 0.0) -> None:
@@ -229,7 +229,7 @@ class Engine:
             raise RosminiError(msg)
         told.drive(v, vy, w)
         told.expires = self.now + timeout if timeout else math.inf
-        self._clockwork.plan()
+        self.clockwork.plan()
 
     def _free(self, model: RobotModel, pose: Pose, name: str = "") -> Pose:
         if not all(math.isfinite(part) for part in pose):
@@ -251,7 +251,7 @@ class Engine:
 
     def hindrance(self, model: RobotModel, pose: Pose, name: str = "") -> str | None:
         """Return what stands at `pose`, in words; None if a robot has room there."""
-        self._clockwork.tell_places()
+        self.clockwork.tell_places()
         corners = np.array(model.footprint)
         middle = corners.mean(axis=0)
         within = middle + (corners - middle) * PLAY  # where a robot only touches, it may stand
@@ -279,7 +279,7 @@ class Engine:
         self._insert(obstacle)
 
     def _hindrance_of(self, obstacle: Obstacle) -> str | None:
-        self._clockwork.tell_places()
+        self.clockwork.tell_places()
         return self.contacts.hindrance_of(obstacle, obstacle.at(0.0))
 
     def _insert(self, obstacle: Obstacle) -> None:
@@ -288,7 +288,7 @@ class Engine:
         contacts.insert(obstacle)
         if obstacle.motion is not None:
             self.movers[obstacle.name] = Mover(obstacle, obstacle.motion)
-        self._sights.forget(self.world)
+        self.sights.forget(self.world)
         self._look_again()
 
     def take_away(self, name: str) -> None:
@@ -299,8 +299,8 @@ class Engine:
         self.world = replace(
             self.world, obstacles=tuple(each for each in self.world.obstacles if each.name != name)
         )
-        self._sights.forget(self.world)
-        self._clockwork.moving = self.contacts.moving
+        self.sights.forget(self.world)
+        self.clockwork.moving = self.contacts.moving
         self._look_again()
 
     def _obstacle(self, name: str) -> Obstacle:
@@ -352,7 +352,7 @@ class Engine:
                     f"the obstacle {name!r} is fixed: ask the robots and the things that move what they touch"
                 )
                 raise RobotGone(msg)
-        self._clockwork.tell_places()
+        self.clockwork.tell_places()
         return touches(self.contacts, name)
 
     @property
@@ -362,7 +362,7 @@ class Engine:
 
     @friction.setter
     def friction(self, value: float) -> None:
-        self._tune(friction=value)
+        self.tune(friction=value)
 
     @property
     def gravity(self) -> float:
@@ -371,14 +371,15 @@ class Engine:
 
     @gravity.setter
     def gravity(self, value: float) -> None:
-        self._tune(gravity=value)
+        self.tune(gravity=value)
 
     @property
     def surface(self) -> Surface:
         """Everything about friction and gravity."""
         return self.contacts.surface
 
-    def _tune(self, **changes: float) -> None:
+    def tune(self, **changes: float) -> None:
+        """Let wheels grip, things drag and rub, or gravity pull otherwise: see `rosmini.sim.bodies.Surface`. Raises `WorldError`."""
         for what, value in changes.items():
             if not (math.isfinite(value) and value >= 0):
                 msg = f"{what} cannot be {value}; it has to be a finite number, 0 or more"
@@ -389,88 +390,38 @@ class Engine:
 
     def advance(self, until: float) -> None:
         """Let time go on until then; what is over stays as it is."""
-        self._clockwork.advance(until)
+        self.clockwork.advance(until)
 
     def peek(self, name: str, when: float) -> Pose:
         """Where a robot will be then, soon, without letting time go on: a look changes nothing of what happens.
 
         If something may be in its way until then, the answer is where it is now. Raises `RobotGone`.
         """
-        return self._clockwork.peek(self.robot(name), when)
+        return self.clockwork.peek(self.robot(name), when)
 
     def _look_again(self) -> None:
         """Forget how much room the robots have."""
         self.changed += 1
-        self._clockwork.look_again()
+        self.clockwork.look_again()
 
     def state(self) -> EngineState:
         """Everything that is and moves here: `restore` brings it back, and the same happens from then on, to the last bit.
 
         The physics forgets, for that, what its solver remembers of the last steps: where nothing touches, a state that is taken changes nothing.
         """
-        if self.contacts.pruned:
-            self._rebuild()
-        things, bodies = self.contacts.things(), self.contacts.memory()
-        self._renew(things, bodies)
-        return EngineState(
-            now=self.now,
-            world=self.world,
-            noise=self.noise,
-            step=self.step,
-            surface=self.contacts.surface,
-            slips=self._clockwork.slips,
-            moving=self._clockwork.moving,
-            robots=tuple(RobotState(each.name, each.model, each.state()) for each in self.robots.values()),
-            things=things,
-            movers={name: mover.state() for name, mover in self.movers.items()},
-            bodies=bodies,
-        )
+        return taken(self)
 
     def restore(self, state: EngineState) -> None:
         """Be as it was when the state was taken, here or in another engine of the same world. Robots that were not there go, others come back."""
-        same = state.world is self.world and not self.contacts.pruned
-        there = {(each.name, each.model) for each in self.robots.values()}
-        same = same and there == {(each.name, each.model) for each in state.robots}
-        self.now, self.world, self.noise, self.step = state.now, state.world, state.noise, state.step
-        old, self.robots = self.robots, {}
-        for each in state.robots:
-            kept = old.get(each.name)
-            if kept is None or kept.model != each.model:
-                wheels = RealWheels(each.model, self._rng(f"{each.name}/wheels"), self.noise)
-                kept = make_robot(each.name, each.model, (0.0, 0.0, 0.0), wheels)
-            kept.restore(each.state)
-            self.robots[each.name] = kept
-        self._clockwork.look_again()
-        if not same:
-            self._rebuild()
-        self._tune(**asdict(state.surface))
-        self._renew(state.things, state.bodies)
-        for each in state.robots:
-            self.robots[each.name].room = each.state["room"]
-        for name, kept_mover in state.movers.items():
-            self.movers[name].restore(kept_mover)
-        self._clockwork.slips, self._clockwork.moving = state.slips, state.moving
-        self._clockwork.plan()
-        self._sights.forget(self.world)
-        self.changed += 1
+        bring_back(self, state)
 
-    def _rebuild(self) -> None:
-        """Make all bodies anew, the fixed ones too."""
-        things = self.contacts.things()
-        surface, self._contacts = self.contacts.surface, None
-        self._tune(**asdict(surface))
-        self.movers = {
-            obstacle.name: self.movers.get(obstacle.name) or Mover(obstacle, obstacle.motion)
-            for obstacle in self.world.obstacles
-            if obstacle.motion is not None
-        }
-        for each in self.robots.values():
-            self._embody(each)
-        for name in self.contacts.things().keys() & things.keys():
-            self.contacts.place(name, *things[name])
+    def make_robot(self, name: str, model: RobotModel, pose: Pose) -> Robot:
+        """A robot with wheels of its own, which is nowhere yet."""
+        return make_robot(name, model, pose, RealWheels(model, self._rng(f"{name}/wheels"), self.noise))
 
-    def _renew(self, things: dict[str, tuple[Pose, Velocity]], memory: dict[str, RoverMemory]) -> None:
-        self.contacts.renew(things, {name: each.pose for name, each in self.robots.items()}, memory)
+    def forget_bodies(self) -> None:
+        """Make all bodies anew when they are needed next."""
+        self._contacts = None
 
     # -- what is seen --------------------------------------------------------------------------------------------
 
@@ -478,7 +429,7 @@ class Engine:
         """What the laser of this robot can see: segments (n, 4) and discs (m, 3), other robots among them, in the frame map."""
         viewer = self.robot(name)
         laser = viewer.model.laser if lidar is None else lidar
-        return self._sights.of(
+        return self.sights.of(
             laser,
             viewer,
             list(self.robots.values()),
