@@ -40,6 +40,7 @@ from rosmini.viz.world_drawing import (
     draw_trail,
     draw_way,
     draw_world,
+    name_box,
 )
 
 if TYPE_CHECKING:
@@ -190,11 +191,23 @@ class Scene:
                 draw_start(axes, other.trail[0, :2], scale, colour=colour)
         for i, other in enumerate(self.others):
             draw_robot(axes, other.model, other.pose, scale, colour=colour_of(i))
-            draw_name(axes, other.model, other.pose, other.name, colour_of(i), scale)
         if self.robot is not None:
             draw_robot(axes, self.model, self.robot, scale)
-            if self.others and self.name:
-                draw_name(axes, self.model, self.robot, self.name, "blue", scale)
+        self._draw_names(axes, scale)
+
+    def _draw_names(self, axes: Axes, scale: float) -> None:
+        """The robots' names, where they have others; of those that would cover one another the first."""
+        named = [(other.name, other.model, other.pose, colour_of(i)) for i, other in enumerate(self.others)]
+        if named and self.name and self.robot is not None:
+            named.insert(0, (self.name, self.model, self.robot, "blue"))
+        written: list[Bounds] = []
+        for name, model, pose, colour in named:
+            for above in (False, True):
+                x0, y0, x1, y1 = box = name_box(model, pose, name, scale, above=above)
+                if all(x1 < a or c < x0 or y1 < b or d < y0 for a, b, c, d in written):
+                    draw_name(axes, model, pose, name, colour, scale, above=above)
+                    written.append(box)
+                    break
 
     def _legend(self) -> list[Any]:
         from matplotlib.lines import Line2D

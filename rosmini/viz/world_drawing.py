@@ -17,6 +17,7 @@ from rosmini.sim.models import RobotModel
 from rosmini.sim.shapes import Box, Polygon, Simple, outline_at
 from rosmini.sim.world import Obstacle, Walk, World
 from rosmini.viz.beams import Beams
+from rosmini.viz.metrics import text_width
 from rosmini.viz.rounding import kept, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT, LINE_WIDTH
 
@@ -137,20 +138,38 @@ def draw_way(axes: Axes, points: Floats, colour: str, scale: float) -> None:
     axes.plot(*line.T, color=_paint(colour), linewidth=1.2, zorder=2.7, clip_on=False, dashes=(3.0, 2.0))
 
 
-def draw_name(axes: Axes, model: RobotModel, pose: Pose, name: str, colour: str, scale: float) -> None:
-    """A robot's name beside it."""
+def name_box(
+    model: RobotModel, pose: Pose, name: str, scale: float, *, above: bool
+) -> tuple[float, float, float, float]:
+    """Where a robot's name is written, from left to right and from bottom to top [px], seen from the origin of the world."""
+    x, y = scale * pose[0], scale * pose[1]
+    half, height = text_width(name, LABEL_SIZE) / 2, 1.2 * LABEL_SIZE
+    bottom = y + _aside(model, scale) if above else y - _aside(model, scale) - height
+    return (x - half, bottom, x + half, bottom + height)
+
+
+def draw_name(
+    axes: Axes, model: RobotModel, pose: Pose, name: str, colour: str, scale: float, *, above: bool
+) -> None:
+    """A robot's name below or above it."""
+    aside = _aside(model, scale)
     axes.annotate(
         name,
         (float(snap(pose[0])), float(snap(pose[1]))),
-        xytext=(0.0, -max(model.reach * scale, LEAST_ROBOT) - 3.0),
+        xytext=(0.0, aside if above else -aside),
         textcoords="offset points",
         ha="center",
-        va="top",
+        va="bottom" if above else "top",
         color=LIGHT[colour],
         size=LABEL_SIZE,
         zorder=8.0,
         bbox={"facecolor": LIGHT["page"], "alpha": 0.75, "edgecolor": "none", "pad": 1.0},
     )
+
+
+def _aside(model: RobotModel, scale: float) -> float:
+    """How far from a robot its name is written [px]."""
+    return max(model.reach * scale, LEAST_ROBOT) + 3.0
 
 
 def draw_robot(

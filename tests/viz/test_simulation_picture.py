@@ -124,6 +124,14 @@ def test_a_hundred_robots_are_drawn_and_only_counted_in_the_alt_text(graph):
     assert len(view.svg) < 400_000
 
 
+def test_names_do_not_cover_one_another(graph):
+    simulator = Simulator(graph.node("simulator"), world="empty", model="burger")
+    for i, x in enumerate((0.4, -0.4, 0.0, 3.0)):
+        simulator.spawn(f"robot_{i}", pose=(x, 0.4 * (x == 0.0), 0.0))
+    words = re.findall(r">(robot_\d|burger)</text>", simulation_picture(simulator).svg)
+    assert {"burger", "robot_3"} <= set(words) and len(words) < 5
+
+
 def test_a_walker_is_drawn_once_and_where_it_is(graph):
     walker = Obstacle(
         "walker", Cylinder(0.1), (1.0, 1.0, 0.0), colour="orange", motion=Walk(((1.0, 1.0), (1.0, -1.0)), 0.5)
