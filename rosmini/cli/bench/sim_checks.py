@@ -195,7 +195,8 @@ def check_scans(heard: Heard, truth: Floats, others: list[Floats], world: World,
         near = discs[np.hypot(discs[:, 0] - x, discs[:, 1] - y) < lidar.range_max + 2]
         exact = raycast(world.segments, near, x, y, heading, step, lidar.beams, lidar.range_max + 1)
         steady = _steady(exact)
-        inside, outside = steady & (exact < lidar.range_max - 0.1), steady & (exact > lidar.range_max + 0.1)
+        outside = steady & (exact > lidar.range_max + 0.1)
+        inside = steady & (exact > lidar.range_min + 0.1) & (exact < lidar.range_max - 0.1)
         expect(bool(np.isposinf(ranges[outside]).all()), "a range is not inf where nothing is within reach")
         residuals.append(ranges[inside] - exact[inside])
     errors = np.concatenate(residuals)

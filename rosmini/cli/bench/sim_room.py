@@ -66,15 +66,16 @@ def crowded_room() -> World:
 def middles() -> tuple[tuple[float, float], ...]:
     """Where circles can be in the room that no robot leaves: none reaches what stands there, or another one. The first is that of `START`."""
     world = room()
+    lines = np.arange(-SIZE / 2 + CLEAR, SIZE / 2 - CLEAR, 0.05)
+    grid = np.stack(np.meshgrid(lines, lines), axis=-1).reshape(-1, 1, 2)
     begin, end = world.segments[:, :2], world.segments[:, 2:]
     along = end - begin
+    part = (((grid - begin) * along).sum(axis=-1) / (along * along).sum(axis=-1)).clip(0, 1)
+    walls = np.linalg.norm(begin + part[..., None] * along - grid, axis=-1).min(axis=1)
+    pillars = (np.linalg.norm(world.discs[:, :2] - grid, axis=-1) - world.discs[:, 2]).min(axis=1)
     found = [(START[0] - RADIUS, START[1])]
-    lines = np.arange(-SIZE / 2 + CLEAR, SIZE / 2 - CLEAR, 0.05)
-    for x, y in ((float(x), float(y)) for y in lines for x in lines):
-        part = ((((x, y) - begin) * along).sum(axis=1) / (along * along).sum(axis=1)).clip(0, 1)
-        nearest = np.hypot(*(begin + part[:, None] * along - (x, y)).T).min()
-        pillar = (np.hypot(*(world.discs[:, :2] - (x, y)).T) - world.discs[:, 2]).min()
-        if min(nearest, pillar) > CLEAR and all(math.dist((x, y), other) > 2 * CLEAR for other in found):
+    for x, y in grid[np.minimum(walls, pillars) > CLEAR, 0].tolist():
+        if all(math.dist((x, y), other) > 2 * CLEAR for other in found):
             found.append((x, y))
     return tuple(found)
 
