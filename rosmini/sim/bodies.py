@@ -282,3 +282,10 @@ def correction(depths: list[float], levers: list[float], mass: float, inertia: f
     depth, lever = max(zip(depths, levers, strict=True))
     k = depth / (1 / mass + lever * lever / inertia)
     return k / mass, k * lever / inertia
+
+
+def depths_of(contacts: pymunk.ContactPointSet) -> list[float]:
+    """How deep two shapes overlap at each point of their contact; pymunk's own `distance` has either sign."""
+    nx, ny = contacts.normal
+    pairs = ((point.point_a, point.point_b) for point in contacts.points)
+    return [(a[0] - b[0]) * nx + (a[1] - b[1]) * ny for a, b in pairs]

@@ -212,9 +212,7 @@ class Clockwork:
                 thing = engine.robots[crate.obstacle.name]
                 if isinstance(thing, Thing):
                     thing.follow(crate.pose, crate.velocity, end - begin)
-        if len(self.drivers) > 1 or engine.movers:
-            for robot in robots:
-                self.look(robot)
+        self._keep_apart(robots)
 
     def _step(self, until: float, robots: list[Robot], movers: list[Mover]) -> None:
         """Let time go on by a step, with an eye on what touches."""
@@ -240,7 +238,9 @@ class Clockwork:
                 robot.pose = ways[robot.name][1]
                 robot.touching = False
             return
-        self._tell(robots)
+        for robot in robots:
+            if not robot.touching:
+                contacts.speed(robot.name, robot.world_velocity())
         for name, (pose, touching) in contacts.step(ways, dt).items():
             engine.robots[name].carried(pose, dt, touching=touching)
         self.moving = contacts.moving
@@ -248,6 +248,21 @@ class Clockwork:
             for robot in robots:
                 if not robot.touching and robot.room <= 0:
                     self.look(robot)
+
+    def _keep_apart(self, robots: list[Robot]) -> None:
+        """Let nobody else come nearer to those that went in steps than they are now, by circles; they themselves look before they move."""
+        others: list[Robot | Mover] = [each for each in self.drivers if each not in robots]
+        others += self.engine.movers.values()
+        for robot in robots:
+            robot.room = 0.0
+        if others and robots:
+            table = np.array([(*each.pose[:2], reach_of(each)) for each in others])
+            steps = np.array([(*each.pose[:2], reach_of(each)) for each in robots])
+            apart = np.hypot(table[:, :1] - steps[:, 0], table[:, 1:2] - steps[:, 1]) - (
+                table[:, 2:] + steps[:, 2]
+            )
+            for each, gap in zip(others, apart.min(axis=1).tolist(), strict=True):
+                each.room = min(each.room, max(gap - SAFE, 0.0))
 
     def _crate_moved(self, crate: Crate) -> None:
         """Let those look again that a thing came near to."""
@@ -314,8 +329,7 @@ class Clockwork:
         others: list[Robot | Mover] = [*self.drivers, *self.engine.movers.values()]
         for other in others:
             if other is not mover:
-                reach = other.model.reach if isinstance(other, Robot) else other.reach
-                gap = (math.hypot(other.pose[0] - x, other.pose[1] - y) - reach - mover.reach) / 2
+                gap = (math.hypot(other.pose[0] - x, other.pose[1] - y) - reach_of(other) - mover.reach) / 2
                 room = min(room, gap)
                 if 0 < gap < other.room:
                     other.room = gap
@@ -347,3 +361,8 @@ class Clockwork:
         pose, moved = robot.roll(when - now)
         robot.set_wheel_state(kept)
         return pose if moved <= robot.room else robot.pose
+
+
+def reach_of(each: Robot | Mover) -> float:
+    """The radius of the circle around what moves [m]."""
+    return each.model.reach if isinstance(each, Robot) else each.reach

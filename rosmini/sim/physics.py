@@ -30,6 +30,7 @@ from .bodies import (
     Rover,
     Surface,
     correction,
+    depths_of,
     grip_again,
     hold,
     make_crate,
@@ -227,7 +228,7 @@ class Contacts:
                     and other.name != owner.name
                     and owner.meets(other.bottom, other.top)
                 ):
-                    deepest = max(deepest, *_depths(hit.contact_point_set))
+                    deepest = max(deepest, *depths_of(hit.contact_point_set))
         return deepest
 
     # -- robots --------------------------------------------------------------------------------------------------
@@ -276,6 +277,12 @@ class Contacts:
         body.velocity, body.angular_velocity = velocity[:2], velocity[2]
         self.space.reindex_shapes_for_body(body)
 
+    def speed(self, name: str, velocity: Velocity) -> None:
+        """Tell how fast a robot goes of which `step` will be told where it goes."""
+        rover = self.rovers[name]
+        rover.told, body = None, rover.body
+        body.velocity, body.angular_velocity = velocity[:2], velocity[2]
+
     def hindrance(self, model: RobotModel, pose: Pose, ignoring: str = "") -> str | None:
         """Return what a robot of this model would overlap with at `pose`, in words; None if it has room there."""
         probe = pymunk.Body(1.0, 1.0)
@@ -305,7 +312,7 @@ class Contacts:
         for shape in shapes:
             shape.filter = IS_LOOK
             hits = self.space.shape_query(shape)
-            found += [hit.shape for hit in hits if max(_depths(hit.contact_point_set)) > OVERLAP]
+            found += [hit.shape for hit in hits if max(depths_of(hit.contact_point_set)) > OVERLAP]
         for shape in shapes:
             # of two shapes that coincide pymunk knows no depth
             middle = probe.local_to_world(shape.center_of_gravity)
@@ -336,7 +343,7 @@ class Contacts:
                 continue
             owner = self.owners[hit.shape]
             if owner.bottom <= rover.model.height:
-                gap = VIEW - max(_depths(hit.contact_point_set))
+                gap = VIEW - max(depths_of(hit.contact_point_set))
                 found.append((gap, owner.name, owner.kind in ("robot", "leaf")))
         return found
 
@@ -402,7 +409,7 @@ class Contacts:
         rover = self.rovers[name]
         worst, hit = TOUCH, None
         for each in self.space.shape_query(rover.shape):
-            depth = max(_depths(each.contact_point_set)) - self._slack(each.shape)
+            depth = max(depths_of(each.contact_point_set)) - self._slack(each.shape)
             if (
                 depth > worst
                 and each.shape is not None
@@ -413,7 +420,7 @@ class Contacts:
             return []
         n = hit.contact_point_set.normal
         slack = self._slack(hit.shape)
-        depths = [depth - slack for depth in _depths(hit.contact_point_set)]
+        depths = [depth - slack for depth in depths_of(hit.contact_point_set)]
         places = [point.point_a for point in hit.contact_point_set.points]
         owner = self.owners[hit.shape]
         others = [owner.name] if owner.kind == "robot" and owner.name in poses else []
@@ -489,9 +496,3 @@ class Contacts:
 
 def _slides(body: pymunk.Body) -> bool:
     return body.velocity.length > REST or abs(body.angular_velocity) > REST
-
-
-def _depths(contacts: pymunk.ContactPointSet) -> list[float]:
-    """How deep two shapes overlap at each point of their contact; pymunk's own `distance` has either sign."""
-    n = contacts.normal
-    return [(point.point_a - point.point_b).dot(n) for point in contacts.points]
