@@ -102,6 +102,15 @@ def test_a_built_in_node_takes_ros_arguments_and_gives_its_object(graph):
     assert (graph.now() - began).to_sec() == pytest.approx(1.7)
 
 
+def test_a_path_is_an_argument_like_its_text(graph, tmp_path):
+    path = tmp_path / "small.world"
+    path.write_text('position( name "alone" )')
+    assert rosrun("stage_ros", "stageros", path).world.name == "small"
+    with Graph() as other:
+        assert rosrun("stage_ros", "stageros", str(path), graph=other).world.name == "small"
+    assert list(graph.nodes) == ["/rosout", "/stageros"]
+
+
 @pytest.mark.usefixtures("workspace")
 def test_starting_takes_no_time_unless_the_node_waits(graph):
     began = graph.now()

@@ -103,6 +103,12 @@ def test_the_scene_is_the_world_in_plain_numbers():
     assert "robot" not in scene_data(given)
 
 
+def test_a_robot_that_has_its_speed_at_once_can_be_drawn():
+    scene = scene_data(World("field"), replace(BURGER, wheel_acceleration=math.inf))
+    assert scene["robot"]["acceleration"] >= 1e6
+    assert json.loads(json.dumps(scene, allow_nan=False)) == scene
+
+
 def test_the_scene_does_not_hang_on_the_last_bit():
     def scene(nudge):
         poses = [(0.0005 + nudge, -1.0 - nudge, 0.0), (-0.0005 - nudge, 0.1235 - nudge, math.pi / 2 + nudge)]

@@ -16,6 +16,9 @@ from rosmini.viz.rounding import MILLIMETRE, snap
 from rosmini.viz.style import dark_of
 from rosmini.viz.view import ViewError
 
+AT_ONCE = 1e6
+"""What is said of an infinite acceleration, of a robot that has the speed that it is told at once [m/s2]: JSON has no infinity."""
+
 
 def scene_data(world: World, model: RobotModel | None = None) -> dict[str, Any]:
     """A world, and the robot in it if there is one, in the terms of `rosmini/viz/static/rosmini-canvas.js`.
@@ -63,7 +66,7 @@ def robot_data(model: RobotModel) -> dict[str, Any]:
         },
         "max_linear": _metres(model.max_linear, what),
         "max_angular": _metres(model.max_angular, what),
-        "acceleration": _metres(model.wheel_acceleration, what),
+        "acceleration": _metres(min(model.wheel_acceleration, AT_ONCE), what),
         "wheel_separation": _metres(model.wheel_separation, what),
         "wheel_radius": _metres(model.wheel_radius, what),
     }
