@@ -367,10 +367,10 @@ def seconds(stamps: list[int] | NDArray[np.int64], begin: int) -> Floats:
 
 
 def aligned(scan: Any, lidar: LidarModel) -> Floats:
-    """The ranges (beams,) of a `sensor_msgs/LaserScan` so that beam i looks at 2 pi i / beams from ahead; inf where nothing was hit.
+    """The ranges (beams,) of a `sensor_msgs/LaserScan` so that beam i looks at 2 pi i / beams from ahead.
 
-    What lies outside of the scan's range_min and range_max is no hit, as its message definition says; so are nan, and the 0 that an
-    LDS-01 gives for a beam that did not come back.
+    Where nothing was hit there is inf, and where it was too near to be measured -inf (REP 117). What lies outside of the scan's range_min and
+    range_max is no hit, as its message definition says; so are nan, and the 0 that an LDS-01 gives for a beam that did not come back.
 
     Raises:
         RecordingError: it has another number of beams than the laser, or they are not spread evenly over a whole turn.
@@ -391,4 +391,5 @@ def aligned(scan: Any, lidar: LidarModel) -> Floats:
             f"whole turn, here by {step:.6f} rad, in which one beam looks straight ahead"
         )
     hit = (ranges >= scan.range_min) & (ranges <= scan.range_max)
-    return np.roll(np.where(hit, ranges, np.inf), round(first))
+    near = (ranges == -np.inf) | (ranges > 0) & (ranges < scan.range_min)
+    return np.roll(np.where(hit, ranges, np.where(near, -np.inf, np.inf)), round(first))

@@ -105,7 +105,7 @@ class Recording:
     scan_times: Floats
     """(k,)"""
     scans: Floats
-    """(k, beams): ranges [m], inf where nothing was hit; beam i looks at 2 pi i / beams from ahead, counter-clockwise."""
+    """(k, beams): ranges [m], inf where nothing was hit, -inf where it was too near; beam i looks at 2 pi i / beams from ahead, counter-clockwise."""
     name: str = ""
     """The robot's, where there are several."""
     others: tuple[Recording, ...] = ()

@@ -25,7 +25,7 @@ class Beams:
     angles: Floats
     """(n,): of each beam [rad], counter-clockwise from straight ahead of the laser."""
     ranges: Floats
-    """(n,) [m]; inf where nothing was hit."""
+    """(n,) [m]; inf where nothing was hit, -inf where what was hit is too near to be measured."""
     range_max: float
     """[m]"""
     frame: str = ""
@@ -36,15 +36,15 @@ class Beams:
         return np.isfinite(self.ranges)
 
     def points(self) -> Floats:
-        """The ends (n, 2) of the beams, seen from the laser; where nothing was hit, at `range_max`."""
-        reach = np.where(self.hits, self.ranges, self.range_max)
+        """The ends (n, 2) of the beams, seen from the laser; where nothing was hit, at `range_max`, where it was too near, at the laser."""
+        reach = np.where(self.hits, self.ranges, np.where(self.ranges < 0, 0.0, self.range_max))
         return np.column_stack([reach * np.cos(self.angles), reach * np.sin(self.angles)])
 
     def nearest(self) -> int | None:
         """The beam with the nearest hit; of those that differ by less than a hair, the one that looks ahead most."""
         if not self.hits.any():
             return None
-        near = np.flatnonzero(self.ranges < self.ranges.min() + 1.0371e-5)
+        near = np.flatnonzero(self.hits & (self.ranges < self.ranges[self.hits].min() + 1.0371e-5))
         off = [(fixed(abs(_wrapped(self.angles[i])), 4), self.angles[i] < 0, int(i)) for i in near]
         return min(off)[2]
 
@@ -144,7 +144,9 @@ def _from_ranges(given: ArrayLike, lidar: LidarModel | None) -> Beams:
 def _beams(angles: Floats, ranges: Floats, least: float, most: float, frame: str) -> Beams:
     hit = np.isfinite(ranges) & (ranges >= least) & (ranges <= most)
     reach = most if 0 < most < math.inf else float(max(ranges[hit], default=1.0))
-    return Beams(angles, np.where(hit, ranges, np.inf), reach, frame)
+    # 0 is no distance: an LDS-01 gives it for a beam that did not come back
+    near = (ranges == -np.inf) | (ranges > 0) & (ranges < least)
+    return Beams(angles, np.where(hit, ranges, np.where(near, -np.inf, np.inf)), reach, frame)
 
 
 def _wrapped(angle: float) -> float:

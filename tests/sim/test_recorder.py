@@ -148,7 +148,7 @@ def test_a_command_that_came_before_the_first_pose_counts_from_the_begin(graph, 
     np.testing.assert_allclose(recorder.recording().commands, [(0, 0.2, -1), (0.5, 0, 0.5)])
 
 
-def test_scans_begin_ahead_and_what_is_no_hit_is_infinite(graph, robot, recorder):
+def test_scans_begin_ahead_and_what_is_no_hit_or_too_near_is_infinite(graph, robot, recorder):
     robot.see([9] * BEAMS)  # before the run
     graph.run(0.1)
     robot.be(0, 0, 0)
@@ -160,7 +160,7 @@ def test_scans_begin_ahead_and_what_is_no_hit_is_infinite(graph, robot, recorder
     inf = math.inf
     np.testing.assert_allclose(run.scan_times, [0, 0.2])
     np.testing.assert_allclose(
-        run.scans, [[inf, inf, 0.5, 3.5, inf, inf, inf, inf], [5, 6, 7, 8, 1, 2, 3, 4]]
+        run.scans, [[inf, -inf, 0.5, 3.5, inf, inf, inf, -inf], [5, 6, 7, 8, 1, 2, 3, 4]]
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -137,3 +138,10 @@ def test_the_scan_of_another_laser_is_refused_for_a_robot():
 )  # fmt: skip
 def test_directions_in_words(angle, words):
     assert direction(math.radians(angle)) == words
+
+
+def test_what_is_too_near_ends_at_the_laser_and_is_no_free_space():
+    beams = beams_of(np.array([-np.inf, 0.05, 0.0, 1.0, np.inf, np.nan]), replace(BURGER.laser, beams=6))
+    reach = np.hypot(*beams.points().T)
+    np.testing.assert_allclose(reach, [0.0, 0.0, 3.5, 1.0, 3.5, 3.5])
+    assert beams.text().startswith("1 of 6 beams hit, nearest 1.00 m")

@@ -43,7 +43,7 @@ def replay_data(recording: Recording) -> dict[str, Any]:
     | `truth`, `odom` | as many x [mm], then y [mm], then headings [0.1 mrad], at even times from start to end |
     | `commands` | times [ms], then linear [mm/s], then angular velocities [0.1 mrad/s]: those that differ from the one before |
     | `scan_times` | [ms] |
-    | `scans` | ranges [mm], scan by scan; 0 where a beam hit nothing |
+    | `scans` | ranges [mm], scan by scan; 0 where a beam hit nothing, -1 where it hit what was too near |
     | `things` | of each thing that moved its name, its shapes in its own frame, and its `track`, as `truth` |
     | `others` | of each other robot its name, colour and numbers, and its `track`; `name` is the first one's |
 
@@ -76,7 +76,9 @@ def replay_data(recording: Recording) -> dict[str, Any]:
             )
         ),
         "scan_times": pack(whole(recording.scan_times[::every], TIME)),
-        "scans": pack(whole(np.where(np.isfinite(scans), scans, 0.0), LENGTH).ravel()),
+        "scans": pack(
+            whole(np.where(np.isfinite(scans), scans, np.where(scans < 0, -LENGTH, 0.0)), LENGTH).ravel()
+        ),
     }
     if moved:
         data["scene"]["bounds"] = scene_data(recording.world)["bounds"]

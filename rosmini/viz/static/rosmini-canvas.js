@@ -13,7 +13,7 @@
                                                bitmap in the view, so that each further call is one copy.
      scan(view, robot, pose, ranges)           laser hits and what the laser sees, from the robot at `pose`. A beam
                                                that hit nothing is Infinity, null or 0; one that hit what is too near to
-                                               be measured is -Infinity (REP 117).
+                                               be measured is negative: -Infinity (REP 117).
      trail(view, points, {colour, dashed, count})   a line through [x, y, ...] points, the first `count` of them.
      robot(view, robot, pose, {ghost, colour}) the robot from above; a ghost is an outline: where odometry puts it.
      thing(view, shapes, pose)                 something that moves: shapes in its own frame, at `pose`.
@@ -214,7 +214,7 @@
     context.beginPath();
     for (let i = 0; i < ranges.length; i += 1) {
       const hit = ranges[i] > 0 && Number.isFinite(ranges[i]);
-      const range = hit ? ranges[i] : ranges[i] === -Infinity ? 0 : max;
+      const range = hit ? ranges[i] : ranges[i] < 0 ? 0 : max;
       const angle = theta + (TURN * i) / ranges.length;
       const [px, py] = [view.x(originX + range * Math.cos(angle)), view.y(originY + range * Math.sin(angle))];
       context.lineTo(px, py);
