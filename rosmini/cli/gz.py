@@ -26,6 +26,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def main(args: argparse.Namespace) -> int:
     """Do what the words say; the exit status is 255 for what failed, as Gazebo's is."""
     words: list[str] = args.words
+    if words and words[0] in ("-h", "--help"):
+        print("\n".join(Gz().run("help")))
+        print("\nusage: rosmini gz <command> [options] [+ node...]")
+        raise SystemExit(0)  # as argparse ends after a help text
     own, nodes = words, []
     if "+" in words:
         own, nodes = words[: words.index("+")], words[words.index("+") + 1 :]

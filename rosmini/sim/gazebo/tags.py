@@ -7,7 +7,7 @@
 >>> PushTags.read(parse("<plugin><speed>0.4</speed></plugin>"), print).speed
 0.4
 >>> PushTags.read(parse("<plugin><sped>0.4</sped></plugin>"), print).speed
-<text>:1: <sped> means nothing to the plugin; did you mean 'speed'?
+<text>:1: <sped> means nothing to the plugin; did you mean speed?
 0.1
 """
 

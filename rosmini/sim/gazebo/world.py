@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError, nearest
 from rosmini.geometry.poses import Pose, compose
 from rosmini.markup import Element
 from rosmini.sim.engine import Engine
-from rosmini.sim.host import Host
+from rosmini.sim.host import Host, HostState
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfLink, SdfModel, SdfPlugin, SdfWorld, converted, to_obstacles
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.world import Obstacle, World, WorldError
@@ -32,6 +32,16 @@ if TYPE_CHECKING:
 
 WORLD_FRAMES = ("", "world", "map", "/map")
 """What stands for the world where the name of a model or a link is asked for."""
+
+
+@dataclass(frozen=True)
+class WorldState:
+    """All that a world will go on from."""
+
+    host: HostState
+    fixed: dict[str, Pose6 | None]
+    """Where the models are that stand fast."""
+    physics: PhysicsProperties
 
 
 class GazeboWorld:
@@ -171,6 +181,26 @@ class GazeboWorld:
         self.physics = physics
         self.host.speed = physics.speed
         self.engine.gravity = max(0.0, -physics.gravity[2])
+
+    def save(self) -> WorldState:
+        """Everything of now: where all is, how fast it goes, what the noise will be. Nothing changes by it; it can be pickled."""
+        return WorldState(
+            self.host.save(), {name: model.fixed for name, model in self.models.items()}, self.physics
+        )
+
+    def restore(self, state: WorldState) -> None:
+        """Go on from there as it went on then. Raises `RosminiError` if there are other models now than there were."""
+        if set(state.fixed) != set(self.models):
+            gone, new = set(state.fixed) - set(self.models), set(self.models) - set(state.fixed)
+            msg = (
+                f"the world {self.name!r} has other models than the state that is to be restored (missing: {', '.join(sorted(gone)) or 'none'}; "
+                f"additional: {', '.join(sorted(new)) or 'none'})"
+            )
+            raise GazeboError(msg)
+        self.set_physics(state.physics)
+        self.host.restore(state.host)
+        for name, pose in state.fixed.items():
+            self.models[name].fixed = pose
 
     # -- models --------------------------------------------------------------------------------------------------
 
