@@ -57,7 +57,7 @@ class Body:
         raise SpawnError(f"the model {self.model.name!r} has no joint {name!r}; {hint}")
 
     def put_on_wheels(self, left: str, right: str, separation: float, radius: float) -> None:
-        """Let two wheels drive it. Raises `SpawnError` if there are no such joints."""
+        """Let two wheels drive it; which of them is the left one is seen from where they are. Raises `SpawnError` if there are no such joints."""
         self.drive, self.wheels = "differential", (left, right)
         self.wheel_separation, self.wheel_radius = separation, radius
         places = {name: pose for name, _, pose in placed_links(self.model)}
@@ -68,13 +68,12 @@ class Body:
                 f"the wheels of the joints {left!r} and {right!r} of the model {self.model.name!r} are at the same place"
             )
         middle = (a + b) / 2
-        self.axle = (
-            float(middle[0]),
-            float(middle[1]),
-            math.atan2(a[1] - b[1], a[0] - b[0]) - math.pi / 2,
-        )
-        if abs(math.remainder(self.axle[2], 2 * math.pi)) < 1e-9:
-            self.axle = (self.axle[0], self.axle[1], 0.0)
+        heading = math.atan2(a[1] - b[1], a[0] - b[0]) - math.pi / 2
+        heading = math.remainder(heading, 2 * math.pi)
+        if abs(heading) > math.pi / 2 + 1e-6:  # the left wheel is on the right
+            self.wheels = (right, left)
+            heading = math.remainder(heading + math.pi, 2 * math.pi)
+        self.axle = (float(middle[0]), float(middle[1]), heading if abs(heading) > 1e-9 else 0.0)
         if abs(distance - separation) > 0.05 * distance:
             self.notes.append(
                 f"the wheels of the model {self.model.name!r} are {distance:.3f} m apart, but its plugin says {separation:g} m: it is taken as the plugin says"

@@ -155,22 +155,18 @@ class Model:
         hint = nearest(link, there) or f"its links are: {', '.join(there)}"
         raise UnknownEntity(f"the model {self.name!r} has no link {link!r}; {hint}")
 
-    def link_pose(self, link: str) -> Pose6:
-        """Where a link is in the world; wheels turn. Raises `UnknownEntity`."""
+    def link_in_model(self, link: str) -> Pose6:
+        """Where a link is in the model now: wheels turn. Raises `UnknownEntity`."""
         frame = self.link_frame(link)
+        wheels = self.body.wheels if self.body is not None else None
         for joint in self.sdf.joints:
-            if (
-                joint.child == link
-                and self.body is not None
-                and self.body.wheels
-                and joint.name in self.body.wheels
-            ):
-                x, y, z, roll, pitch, yaw = frame
-                turned = self.joint(joint.name)[0]
-                frame = (x, y, z, roll, pitch, yaw)
-                spin = _spin(joint.axis, turned)
-                frame = compose6(frame, spin)
-        return compose6(self.pose, frame)
+            if wheels and joint.child == link and joint.name in wheels:
+                return compose6(frame, _spin(joint.axis, self.joint(joint.name)[0]))
+        return frame
+
+    def link_pose(self, link: str) -> Pose6:
+        """Where a link is in the world. Raises `UnknownEntity`."""
+        return compose6(self.pose, self.link_in_model(link))
 
     def link_velocity(self, link: str) -> Velocity:
         """How fast a link goes, in the frame of the world."""

@@ -15,7 +15,7 @@ from rosmini.sim.gazebo import GazeboServer
 DIFF_DRIVE = """
 <gazebo><plugin name="drive" filename="libgazebo_ros_diff_drive.so">
   <commandTopic>cmd_vel</commandTopic><odometryTopic>odom</odometryTopic><odometryFrame>odom</odometryFrame>
-  <robotBaseFrame>base_footprint</robotBaseFrame><odometrySource>world</odometrySource><publishWheelJointState>true</publishWheelJointState>
+  <robotBaseFrame>base_footprint</robotBaseFrame><odometrySource>world</odometrySource><legacyMode>false</legacyMode><publishWheelJointState>true</publishWheelJointState>
   <wheelSeparation>0.3</wheelSeparation><wheelDiameter>0.1</wheelDiameter><wheelAcceleration>1.0</wheelAcceleration>
   <updateRate>20</updateRate><leftJoint>left_wheel</leftJoint><rightJoint>right_wheel</rightJoint>
 </plugin></gazebo>

@@ -68,6 +68,52 @@ def test_an_axle_that_is_not_at_the_origin(bench: Start) -> None:
     assert (vx, vy) == pytest.approx((0.2 * math.sin(theta), -0.2 * math.cos(theta)), abs=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("exchange", "legacy", "warned"),
+    [(False, "false", False), (False, "true", True), (True, "true", False), (True, "false", True)],
+)
+def test_which_wheel_is_the_left_one_is_seen_and_gazebos_legacy_mode_warned_of(
+    bench: Start, capsys: pytest.CaptureFixture[str], exchange: bool, legacy: str, warned: bool
+) -> None:
+    there = bench()
+    text = DIFF_DRIVE.replace(">false</legacyMode>", f">{legacy}</legacyMode>")
+    if exchange:
+        text = (
+            text.replace("left_wheel", "x")
+            .replace("right_wheel", "left_wheel")
+            .replace("x</left", "right_wheel</left")
+        )
+    assert there.spawn(urdf(text), "r").success
+    there.drive("/cmd_vel", 0.2, 0.5)
+    there.graph.run(1.0)
+    x, _, theta = there.pose("r")
+    assert x > 0.1
+    assert theta > 0.3
+    assert ("would turn the other way round" in "".join(capsys.readouterr())) is warned
+    left, right = (
+        there.call("get_joint_properties", "gazebo_msgs/GetJointProperties", joint_name=name).rate[0]
+        for name in ("left_wheel", "right_wheel")
+    )
+    assert left < right
+
+
+def test_transforms_of_wheels(bench: Start) -> None:
+    there = bench()
+    there.spawn(
+        urdf(DIFF_DRIVE.replace("<updateRate>", "<publishWheelTF>true</publishWheelTF><updateRate>")),
+        "r",
+        robot_namespace="n",
+    )
+    heard = there.hear("/tf", "tf2_msgs/TFMessage")
+    there.drive("/n/cmd_vel", 0.1)
+    there.graph.run(1.0)
+    told = {each.child_frame_id: each for message in heard for each in message.transforms}
+    assert set(told) == {"n/base_footprint", "n/left", "n/right"}
+    assert told["n/left"].header.frame_id == "n/base_footprint"
+    assert told["n/left"].transform.translation.y == pytest.approx(0.15)
+    assert told["n/left"].transform.rotation.z != pytest.approx(0.0, abs=1e-3)  # it has turned
+
+
 def test_a_planar_move_goes_aside(bench: Start) -> None:
     there = bench()
     there.spawn(urdf(PLANAR), "r", 0.0, 0.0, math.pi / 2)

@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from rosmini.markup import Element
+from rosmini.msgs import message_class
 from rosmini.sim import devices
-from rosmini.sim.devices import DifferentialDrive, JointStates, one_of
+from rosmini.sim.devices import DifferentialDrive, JointStates, one_of, order
 from rosmini.sim.gazebo.body import Body
 from rosmini.sim.gazebo.model import Model
+from rosmini.sim.gazebo.msgs import quaternion
 from rosmini.sim.gazebo.plugins import ModelPlugin
 from rosmini.sim.gazebo.tags import Tags, tag
-from rosmini.sim.host import Device
+from rosmini.sim.host import Device, Host, Stamp
 
 from .names import RosNames
 
@@ -23,7 +25,7 @@ from .names import RosNames
 class DiffDriveTags(Tags):
     """The tags of libgazebo_ros_diff_drive.so."""
 
-    ignored: ClassVar[tuple[str, ...]] = ("wheelTorque", "legacyMode", "publishWheelTF")
+    ignored: ClassVar[tuple[str, ...]] = ("wheelTorque",)
 
     command_topic: str = tag("commandTopic", "cmd_vel", "where commands come in")
     odometry_topic: str = tag("odometryTopic", "odom", "where the odometry is published")
@@ -34,6 +36,12 @@ class DiffDriveTags(Tags):
     )
     publish_odom_tf: bool = tag("publishOdomTF", True, "publish the transform between the two frames")
     publish_tf: bool = tag("publishTf", True, "publish the odometry at all")
+    publish_wheel_tf: bool = tag("publishWheelTF", False, "publish the transforms of the wheels")
+    legacy: bool = tag(
+        "legacyMode",
+        True,
+        "left and right are exchanged, as they once were by mistake; here it is seen where the wheels are",
+    )
     publish_joints: bool = tag("publishWheelJointState", False, "publish how far the wheels have turned")
     separation: float = tag("wheelSeparation", 0.34, "how far the wheels are apart", unit="m")
     diameter: float = tag("wheelDiameter", 0.15, "of the wheels", unit="m")
@@ -59,6 +67,14 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
                 raise sdf.need(name).error(f"<{name}> is more than 0 m, not {value:g}")
         one_of("odometrySource", tags.odometry_source, ("encoder", "world"))
         body.put_on_wheels(tags.left, tags.right, tags.separation, tags.diameter / 2)
+        exchanged = body.wheels == (tags.right, tags.left)
+        if tags.legacy != exchanged:
+            where = f"{sdf.path}:{sdf.line}"
+            word = "false" if tags.legacy else "true"
+            complain(
+                f"{where}: in Gazebo this robot would turn the other way round, for its joint {tags.left!r} is on the "
+                f"{'right' if exchanged else 'left'}: say <legacyMode>{word}</legacyMode>"
+            )
         body.wheel_acceleration = tags.acceleration or math.inf
         body.rate = rate_of(tags.rate)
 
@@ -80,12 +96,15 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
             name=f"{self.name}/drive",
         )
         self.devices: list[Device] = [host.add(drive)]
+        if tags.publish_wheel_tf:
+            name = f"{self.name}/wheels"
+            self.devices.append(host.add(WheelTransforms(host, name, rate_of(tags.rate), model, names)))
         if tags.publish_joints:
             states = JointStates(
                 host,
                 drive,
                 topic=names.topic("joint_states"),
-                joints=(tags.left, tags.right),
+                joints=(model.body.wheels if model.body is not None else None) or (tags.left, tags.right),
                 frame="",
                 name=f"{self.name}/joints",
             )
@@ -96,6 +115,46 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
         for device in reversed(self.devices):
             self.world.host.remove(device)
         super().close()
+
+
+class WheelTransforms(Device):
+    """The transforms from a drive's base to its wheels, on /tf: `<publishWheelTF>`."""
+
+    order = order("transforms")
+    always = False
+
+    def __init__(self, host: Host, name: str, rate: float, model: Model, names: RosNames) -> None:
+        super().__init__(host, name, rate)
+        self._model = model
+        self._message: Any = message_class("tf2_msgs/TFMessage")()
+        self._links: list[str] = []
+        for joint in model.sdf.joints:
+            if model.body is not None and model.body.wheels and joint.name in model.body.wheels:
+                told = message_class("geometry_msgs/TransformStamped")()
+                told.header.frame_id, told.child_frame_id = (
+                    names.frame(joint.parent),
+                    names.frame(joint.child),
+                )
+                self._message.transforms.append(told)
+                self._links.append(joint.child)
+        self._publisher = host.node.publisher("/tf", type(self._message), queue_size=100)
+
+    def wanted(self) -> bool:
+        """Tell whether anybody listens."""
+        return self._publisher.num_connections() > 0
+
+    def due(self, stamp: Stamp, _: int, /) -> None:
+        """Tell where the wheels are."""
+        for link, told in zip(self._links, self._message.transforms, strict=True):
+            told.header.stamp.secs, told.header.stamp.nsecs = stamp
+            way, turn = told.transform.translation, told.transform.rotation
+            way.x, way.y, way.z, roll, pitch, yaw = self._model.link_in_model(link)
+            turn.x, turn.y, turn.z, turn.w = quaternion(roll, pitch, yaw)
+        self._publisher.publish(self._message)
+
+    def close(self) -> None:
+        """End the topic."""
+        self._publisher.unregister()
 
 
 @dataclass(frozen=True, kw_only=True)
