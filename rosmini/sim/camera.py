@@ -261,6 +261,10 @@ def _chosen(backend: str | None) -> str:
     if wanted not in ("numba", "numpy"):
         hint = nearest(wanted, ("numba", "numpy"))
         raise CameraError(f"there is no raster backend {wanted!r}: it is numba or numpy. {hint}".rstrip())
+    if wanted == "numba" and not _has_numba():
+        raise CameraError(
+            "the raster backend 'numba' was asked for, but numba is not installed; 'numpy' always works"
+        )
     return wanted
 
 

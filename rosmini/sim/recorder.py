@@ -74,6 +74,7 @@ class Recorder:
         if simulator is not None:
             world, model = world or simulator.world, model or simulator.model
             robots, first = dict(getattr(simulator, "robots", {})), getattr(simulator, "name", "")
+            first = first if first in robots or not robots else next(iter(robots))
             if things is None and getattr(getattr(simulator, "parameters", None), "obstacles", False):
                 things = simulator.node.resolve("obstacles")  # type: ignore[attr-defined]
         if world is None or model is None:
@@ -86,10 +87,12 @@ class Recorder:
         self._things = None if things is None else _Things(self, things)
         self._runs: dict[str, _Run] = {}
         own = robots.pop(first, None)
-        self._first = _Run(self, first, model, getattr(own, "namespace", "") if own is not None else "")
+        # who gives a namespace means the first robot's, and this node is in it
+        space = "" if own is None or namespace not in ("", "/") else own.namespace
+        self._first = _Run(self, first, model, space and _resolved(simulator, space))
         self._runs[first] = self._first
         for other, robot in robots.items():
-            self.add(other, robot.model, robot.namespace)
+            self.add(other, robot.model, _resolved(simulator, robot.namespace or "/"))
 
     def add(self, name: str, model: RobotModel, namespace: str | None = None) -> None:
         """Record another robot too, from now on; its topics are in the namespace, which is its name if nothing else is said.
@@ -172,6 +175,11 @@ class Recorder:
     def stamp(self, header: Any) -> int:
         """A header's time [ns]; that of arrival where the sender left it out."""
         return header.stamp.to_nsec() or self.node.clock.now_ns()
+
+
+def _resolved(simulator: Any, namespace: str) -> str:
+    """The whole name of a namespace that a simulator's node gave."""
+    return str(simulator.node.resolve(namespace))
 
 
 class _Run:

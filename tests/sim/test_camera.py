@@ -303,6 +303,16 @@ def test_an_unknown_backend_is_refused():
         depth(CAMERA, HERE, [], backend="nunba")
 
 
+def test_a_backend_that_is_not_installed_is_refused_and_not_chosen(monkeypatch):
+    monkeypatch.setattr("rosmini.sim.camera._has_numba", lambda: False)
+    with pytest.raises(CameraError, match="numba is not installed"):
+        depth(CAMERA, HERE, [], backend="numba")
+    monkeypatch.setenv("ROSMINI_RASTER", "numpy")
+    assert np.isfinite(depth(CAMERA, HERE, [])[100]).all()
+    monkeypatch.delenv("ROSMINI_RASTER")
+    assert np.isfinite(depth(CAMERA, HERE, [])[100]).all()
+
+
 def test_a_pose_that_is_not_finite_is_refused():
     with pytest.raises(CameraError, match="finite"):
         render(CAMERA, (math.nan, 0.0, 0.0), [])
