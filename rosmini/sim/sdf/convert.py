@@ -18,12 +18,12 @@ from rosmini.geometry.poses import Pose
 from rosmini.sim.motion import Motion, Walk
 from rosmini.sim.shapes import Compound, Cylinder, Shape, Sphere
 from rosmini.sim.world import Obstacle, World, WorldError
+from rosmini.urdf.meshes import MeshError
 
 from .colours import HOUSE
 from .document import Note, Pose6, SdfActor, SdfCollision, SdfJoint, SdfLink, SdfModel, SdfWorld
 from .doors import door_of
 from .errors import SdfError
-from .meshes import MeshError
 from .poses import compose
 from .solids import FLAT, Solid, solids
 

@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,12 +17,14 @@ from rosmini.geometry import polygons
 from rosmini.geometry.poses import Pose
 from rosmini.geometry.slices import convex_hull, cut, loops, pieces, thinned
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Simple, Sphere
+from rosmini.urdf.meshes import MeshError, read
 
 from .document import Pose6, SdfGeometry
-from .meshes import MeshError, Triangles, load_mesh
 from .poses import matrix, upright
 
 Floats = NDArray[np.float64]
+Triangles = NDArray[np.float64]
+"""(n, 3, 3): for each its three corners x, y, z [m]."""
 
 FLAT = 0.01
 """What is no higher than this above the ground [m] is a part of the ground: wheels roll over it."""
@@ -143,17 +143,11 @@ def _polyline(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:
 # ---- meshes ----
 
 
-@lru_cache(maxsize=32)
-def _loaded(path: Path, part: str, changed: int) -> Triangles:  # noqa: ARG001 (a file that changed is read again)
-    return load_mesh(path, part)
-
-
 def _triangles(geometry: SdfGeometry, pose: Pose6) -> Triangles:
     if geometry.mesh is None:
         raise MeshError("a mesh has no file")
-    changed = geometry.mesh.stat().st_mtime_ns if geometry.mesh.exists() else 0
-    triangles = _loaded(geometry.mesh, geometry.submesh, changed) * geometry.scale
-    return _moved(triangles.reshape(-1, 3), pose).reshape(-1, 3, 3)
+    triangles = np.concatenate([each.triangles for each in read(geometry.mesh, geometry.submesh)])
+    return _moved((triangles * geometry.scale).reshape(-1, 3), pose).reshape(-1, 3, 3)
 
 
 def _mesh(geometry: SdfGeometry, pose: Pose6) -> tuple[list[Solid], str]:

@@ -115,11 +115,11 @@ def _number(value: float, digits: int) -> str:
 # ---- reading ----
 
 
-def read(root: Element) -> Iterator[Surface]:
-    """The surfaces of a file, in metres with z up. Raises the file's kind of `MarkupError`."""
+def read(root: Element, part: str = "") -> Iterator[Surface]:
+    """The surfaces of a file, or of its nodes called `part`, in metres with z up. Raises the file's kind of `MarkupError`."""
     if root.tag != "COLLADA":
         raise root.error(f"a COLLADA file begins with <COLLADA>, this one with <{root.tag}>")
-    yield from _Reader(root).surfaces()
+    yield from _Reader(root).surfaces(part)
 
 
 class _Reader:
@@ -140,26 +140,31 @@ class _Reader:
             raise element.error(f"there is nothing with the id {name!r} in this file")
         return self.by_id[name]
 
-    def surfaces(self) -> Iterator[Surface]:
+    def surfaces(self, part: str) -> Iterator[Surface]:
         shown = self.root.find("scene/instance_visual_scene")
-        if shown is None:
+        scene = self.root.find("library_visual_scenes/visual_scene")
+        if shown is not None:
+            scene = self.target(shown, "url")
+        if scene is not None:
+            for node in scene.all("node"):
+                yield from self.node(node, self.base, part, 0)
+        elif not part:
             for geometry in self.root.walk():
                 if geometry.tag == "geometry":
                     yield from self.geometry(geometry, self.base, {})
-            return
-        for node in self.target(shown, "url").all("node"):
-            yield from self.node(node, self.base, 0)
 
-    def node(self, node: Element, above: Floats, depth: int) -> Iterator[Surface]:
+    def node(self, node: Element, above: Floats, part: str, depth: int) -> Iterator[Surface]:
         if depth > 50:
             raise node.error("nodes of the scene hold one another without end")
         place = above @ _transform(node)
+        if part in (node.get("name"), node.get("id")):
+            part = ""
         for child in node:
             if child.tag == "node":
-                yield from self.node(child, place, depth + 1)
+                yield from self.node(child, place, part, depth + 1)
             elif child.tag == "instance_node":
-                yield from self.node(self.target(child, "url"), place, depth + 1)
-            elif child.tag == "instance_geometry":
+                yield from self.node(self.target(child, "url"), place, part, depth + 1)
+            elif child.tag == "instance_geometry" and not part:
                 bound = {
                     each.get("symbol"): self.colour(each)
                     for each in child.walk()

@@ -25,10 +25,12 @@ class MeshError(MarkupError):
     """A mesh file is broken, or of a kind that is not read."""
 
 
-def read(path: str | PathLike[str]) -> tuple[Surface, ...]:
+def read(path: str | PathLike[str], part: str = "") -> tuple[Surface, ...]:
     """The surfaces of a ``.stl``, ``.dae`` or ``.obj`` file. STL and OBJ have no colours here.
 
-    Raises `MeshError`, with the line where there are lines.
+    With `part`, only those of the COLLADA nodes, or of the OBJ objects and groups, that have this name.
+
+    Raises `MeshError`, with the line where there are lines, also for a file without triangles.
     """
     file = Path(path)
     try:
@@ -37,19 +39,23 @@ def read(path: str | PathLike[str]) -> tuple[Surface, ...]:
         raise MeshError(f"cannot be read: {error.strerror}", file) from error
     if changed.st_size > LARGEST:
         raise MeshError(f"this mesh has {changed.st_size / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}", file)
-    return _read(file, changed.st_mtime_ns)
+    return _read(file, part, changed.st_mtime_ns)
 
 
 @lru_cache(maxsize=64)
-def _read(file: Path, _changed: int) -> tuple[Surface, ...]:
+def _read(file: Path, part: str, _changed: int) -> tuple[Surface, ...]:
     kind = file.suffix.lower()
     if kind == ".dae":
-        return tuple(collada.read(parse_file(file, MeshError)))
-    if kind == ".stl":
-        return (_flat(_stl(file)),)
-    if kind == ".obj":
-        return (_flat(_obj(file)),)
-    raise MeshError(f"a mesh is a .dae, .stl or .obj file, not {kind or 'one without an ending'}", file)
+        found = tuple(collada.read(parse_file(file, MeshError), part))
+    elif kind == ".stl":
+        found = (_flat(_stl(file)),)
+    elif kind == ".obj":
+        found = (_flat(_obj(file, part)),)
+    else:
+        raise MeshError(f"a mesh is a .dae, .stl or .obj file, not {kind or 'one without an ending'}", file)
+    if not any(len(surface.faces) for surface in found):
+        raise MeshError(f"there is no triangle in it{f' called {part!r}' if part else ''}", file)
+    return found
 
 
 def _flat(triangles: Floats) -> Surface:
@@ -81,14 +87,17 @@ def _stl(file: Path) -> Floats:
     return _finite(np.array(corners).reshape(-1, 3, 3), file)
 
 
-def _obj(file: Path) -> Floats:
+def _obj(file: Path, part: str) -> Floats:
     points: list[tuple[float, float, float]] = []
     triangles = []
+    wanted = not part
     for number, line in enumerate(file.read_text("utf-8", "replace").splitlines(), start=1):
-        words = line.split()
+        words = line.split("#")[0].split()
         if words[:1] == ["v"]:
             points.append(_three(words[1:4], file, number))
-        elif words[:1] == ["f"]:
+        elif words[:1] in (["o"], ["g"]) and part:
+            wanted = " ".join(words[1:]) == part
+        elif words[:1] == ["f"] and wanted:
             found = [re.match(r"-?\d+", word) for word in words[1:]]
             places = [int(each[0]) if each else 0 for each in found]
             places = [place - 1 if place > 0 else len(points) + place for place in places]

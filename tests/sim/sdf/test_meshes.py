@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from rosmini.sim.sdf import SdfError, load, to_obstacles, to_world
-from rosmini.sim.sdf.meshes import MeshError, load_mesh
 from rosmini.sim.world import World
+from rosmini.urdf.meshes import MeshError, read
 
 # A table: a top of 1 m by 0.6 m at a height from 0.7 to 0.75 m on one foot of 0.1 m by 0.1 m.
 TOP = ((-0.5, -0.3, 0.7), (0.5, 0.3, 0.75))
@@ -96,10 +96,14 @@ def dae(
     return f"""<?xml version="1.0"?><COLLADA version="1.4.1"><asset><unit meter="{unit}"/><up_axis>{up}</up_axis></asset>
     <library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="{count * 3}">{numbers}</float_array></source>
     <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-    <{kind} count="{len(triangles)}"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="NORMAL" source="#v" offset="1"/>{vcount}<p>{order}</p></{kind}>
+    <{kind} count="{len(triangles)}"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="NORMAL" source="#p" offset="1"/>{vcount}<p>{order}</p></{kind}>
     </mesh></geometry></library_geometries>
     <library_visual_scenes><visual_scene id="s"><node name="n">{node}<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
     </COLLADA>""".encode()
+
+
+def load_mesh(path, part=""):
+    return np.concatenate([surface.triangles for surface in read(path, part)])
 
 
 @pytest.mark.parametrize(
@@ -140,16 +144,16 @@ def test_one_part_of_a_mesh(tmp_path):
     ("name", "data", "part"),
     [
         ("m.ply", b"", "not .ply"),
-        ("m.stl", b"\0" * 90, "has 90"),
-        ("m.stl", b"solid s\nvertex 0 0 a\n", "broken"),
+        ("m.stl", b"\0" * 90, "not 90"),
+        ("m.stl", b"solid s\nvertex 0 0 a\n", ":2: a corner has three numbers"),
         ("m.stl", b"solid s\nendsolid", "no triangle"),
         ("m.stl", text_stl(TABLE * np.nan), "not finite"),
-        ("m.obj", b"v 0 0 0\nf 1 2 3", "a corner that is not there"),
-        ("m.obj", b"v 0 zero 0", "broken"),
+        ("m.obj", b"v 0 0 0\nf 1 2 3", ":2: the face"),
+        ("m.obj", b"v 0 zero 0", ":1: a corner has three numbers"),
         ("m.dae", b"<COLLADA", "not XML|still open"),
         ("m.dae", b"<collada/>", "begins with <COLLADA>"),
-        ("m.dae", dae(TABLE).replace(b"#v", b"#w"), "no element 'w'"),
-        ("m.dae", dae(TABLE).replace(b"<p>0 0 ", b"<p>999 0 "), "broken"),
+        ("m.dae", dae(TABLE).replace(b"#v", b"#w"), "the id 'w'"),
+        ("m.dae", dae(TABLE).replace(b"<p>0 0 ", b"<p>999 0 "), "counts to 999"),
     ],
 )
 def test_a_broken_mesh_is_an_error_that_names_the_file(tmp_path, name, data, part):
