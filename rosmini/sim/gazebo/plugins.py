@@ -14,7 +14,10 @@ http://classic.gazebosim.org/tutorials?cat=write_plugin tells how it is done the
 
 from __future__ import annotations
 
+import importlib.util
+import os
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.errors import nearest
@@ -27,6 +30,9 @@ if TYPE_CHECKING:
     from .body import Body
     from .model import Model, Sensor
     from .world import GazeboWorld
+
+PLUGIN_PATH = "GAZEBO_PLUGIN_PATH"
+"""The environment variable that names folders with plugins."""
 
 _CLASSES: dict[str, type[Plugin]] = {}
 
@@ -119,13 +125,35 @@ def _base(filename: str) -> str:
 
 
 def plugin_class(filename: str) -> type[Plugin]:
-    """The class that stands for a library. Raises `UnknownPlugin`, with the nearest name."""
-    found = _CLASSES.get(_base(filename))
+    """The class that stands for a library.
+
+    One that is not known yet is looked for as a Python file of its name (`libshout.so`: `shout.py` or `libshout.py`) in the folders of
+    GAZEBO_PLUGIN_PATH, which is run then. Raises `UnknownPlugin`, with the nearest name, and what that file raises.
+    """
+    base = _base(filename)
+    if base not in _CLASSES:
+        for folder in os.environ.get(PLUGIN_PATH, "").split(os.pathsep):
+            for name in (f"{base}.py", f"lib{base}.py"):
+                if folder and (Path(folder) / name).is_file():
+                    _run(Path(folder) / name, base)
+    found = _CLASSES.get(base)
     if found is None:
         known = plugin_filenames()
         hint = nearest(filename, known) or f"there are: {', '.join(known)}"
         raise UnknownPlugin(f"there is no plugin {filename!r}; {hint}")
     return found
+
+
+def _run(path: Path, name: str) -> None:
+    """Run a file that holds a plugin."""
+    spec = importlib.util.spec_from_file_location(f"gazebo_plugin_{name}", path)
+    if spec is None or spec.loader is None:
+        raise UnknownPlugin(f"{path} is no Python file")
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        raise UnknownPlugin(f"the plugin {path} cannot be loaded: {type(error).__name__}: {error}") from error
 
 
 def plugin_filenames() -> tuple[str, ...]:

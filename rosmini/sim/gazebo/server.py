@@ -15,17 +15,21 @@ from typing import Any, NoReturn
 
 from rosmini.dynamic_reconfigure import Server as ReconfigureServer
 from rosmini.errors import ParameterError, ScriptError
+from rosmini.geometry.poses import Pose
 from rosmini.graph import Node
 from rosmini.sim.devices import ClockDevice
 from rosmini.sim.gazebo.errors import GazeboError
-from rosmini.sim.sdf import SdfWorld
+from rosmini.sim.sdf import SdfModel, SdfWorld
 from rosmini.sim.world import World
 
 from .client import GazeboClient
+from .gz import Gz
 from .master import start_master
+from .model import Model
 from .physics import PhysicsConfig, PhysicsProperties
 from .services import Services
 from .sources import EMPTY, load_world
+from .spawning import spawn_text
 from .states import StateTopics
 from .topics import ServerTopics
 from .world import GazeboWorld
@@ -134,6 +138,31 @@ class GazeboServer:
             return self.world.model(model).flat
 
         return self.node.scheduler.on_hub(look)
+
+    def spawn(
+        self, model: str | SdfModel, name: str = "", pose: Pose = (0.0, 0.0, 0.0), *, namespace: str = ""
+    ) -> Model:
+        """Let a model come into the world: the text of a URDF or an SDF, or an `SdfModel`; `pose` is x [m], y [m], heading [rad].
+
+        Raises `SpawnError`, and what the readers raise.
+        """
+        where = (pose[0], pose[1], 0.0, 0.0, 0.0, pose[2])
+
+        def bring() -> Model:
+            if isinstance(model, SdfModel):
+                return self.world.spawn(model, name, where, namespace=namespace)
+            return spawn_text(self.world, model, name, where, namespace=namespace)
+
+        return self.node.scheduler.on_hub(bring)
+
+    def delete(self, name: str) -> None:
+        """Take a model out of the world. Raises `UnknownEntity`."""
+        self.node.scheduler.on_hub(lambda: self.world.delete(name))
+
+    @property
+    def gz(self) -> Gz:
+        """The `gz` command line for this server: `server.gz("topic", "-l")`."""
+        return Gz(self.node.graph)
 
     def client(self) -> GazeboClient:
         """A client that shows this server, as a node `gazebo_gui` of the same graph."""

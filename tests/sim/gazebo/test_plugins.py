@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -148,6 +149,24 @@ def test_what_a_plugin_raises_is_told_and_all_goes_on(
     there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="crate")
     there.graph.run(0.5)
     assert there.server.world.now > now
+
+
+def test_a_plugin_in_a_file_is_found(
+    bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "nudge.py").write_text(
+        "from rosmini.sim.gazebo import ModelPlugin\n"
+        "class Nudge(ModelPlugin, filename='libnudge.so'):\n"
+        "    def load(self, model, sdf):\n"
+        "        model.set_pose((7.0, 0.0, 0.0, 0.0, 0.0, 0.0))\n"
+    )
+    (tmp_path / "broken.py").write_text("1 / 0\n")
+    monkeypatch.setenv("GAZEBO_PLUGIN_PATH", str(tmp_path))
+    there = bench()
+    assert there.spawn(box(extra='<plugin name="n" filename="libnudge.so"/>'), "crate").success
+    assert there.pose("crate")[0] == 7.0
+    assert there.spawn(box(extra='<plugin name="n" filename="libbroken.so"/>'), "other").success
+    assert "cannot be loaded: ZeroDivisionError: division by zero" in "".join(capsys.readouterr())
 
 
 def test_names_of_libraries() -> None:

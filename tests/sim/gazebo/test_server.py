@@ -169,6 +169,17 @@ def test_a_state_is_saved_and_all_goes_on_from_it_as_it_did(bench: Start) -> Non
         world.restore(state)
 
 
+def test_from_python_without_services(bench: Start) -> None:
+    there = bench()
+    model = there.server.spawn(urdf(), "robot", (1.0, 2.0, 0.5), namespace="r")
+    assert model.links == ("base_footprint", "left", "right")
+    assert there.pose("robot") == pytest.approx((1.0, 2.0, 0.5))
+    assert there.server.gz.run("model", "-m", "robot", "-p")[0].startswith("1.000000 2.000000")
+    there.server.delete("robot")
+    with pytest.raises(GazeboError, match="there is no model 'robot'"):
+        there.pose("robot")
+
+
 # ---- the client ----
 
 
