@@ -57,6 +57,22 @@ def test_check_knows_stage_worlds_and_robots(capsys, tmp_path):
     assert "Stage: " in lines[2]
 
 
+def test_check_takes_a_part_of_a_robot_for_what_it_is(capsys, tmp_path):
+    macro = "<xacro:macro name='leg' params='n'><link name='leg${n}'/></xacro:macro>"
+    spaces = "xmlns:xacro='http://www.ros.org/wiki/xacro'"
+    (tmp_path / "part.xacro").write_text(f"<robot {spaces}>{macro}</robot>")
+    (tmp_path / "wrong.xacro").write_text(f"<robot {spaces}>\n<xacro:leg n='1'/></robot>")
+    (tmp_path / "whole.xacro").write_text(f"<robot name='r' {spaces}>{macro}<xacro:leg n='1'/></robot>")
+    status, out, err = run(
+        capsys, "check", *(tmp_path / f"{name}.xacro" for name in ("part", "wrong", "whole"))
+    )
+    assert status == 1
+    assert "part.xacro: sound: xacro: a part of a robot, with 1 macro" in out
+    assert "whole.xacro: sound: URDF: the robot 'r': 1 link" in out
+    assert "wrong.xacro" in err
+    assert "leg" in err
+
+
 def test_check_names_file_and_line_of_what_is_wrong(capsys, tmp_path):
     (tmp_path / "bad.world").write_text(BAD)
     (tmp_path / "bad.yaml").write_text("image: a.png\nresolution: x\n")

@@ -126,13 +126,19 @@ def _map(path: Path) -> tuple[str, list[str]]:
 
 
 def _urdf(path: Path) -> tuple[str, list[str]]:
-    from rosmini.urdf import load
+    from rosmini.markup import parse_file
+    from rosmini.urdf import UrdfError, load
 
+    written = parse_file(path, UrdfError)
+    if path.suffix == ".xacro" and not written.get("name"):  # no robot, but what others include
+        from rosmini.urdf.xacro import expand
+
+        expand(path, {})
+        macros = sum(each.tag == "xacro:macro" for each in written.walk())
+        return f"xacro: a part of a robot, with {_count(macros, 'macro')}, for others to include", []
     robot = load(path)
-    return (
-        f"URDF: the robot {robot.name!r}: {_count(len(robot.links), 'link')}, {_count(len(robot.joints), 'joint')}",
-        [],
-    )
+    said = f"URDF: the robot {robot.name!r}: {_count(len(robot.links), 'link')}, {_count(len(robot.joints), 'joint')}"
+    return said, [str(note) for note in robot.notes]
 
 
 def _measures(world: World) -> str:
