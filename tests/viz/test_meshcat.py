@@ -424,6 +424,19 @@ def test_a_replay_of_several_robots_moves_each_and_what_was_pushed():
     assert "robot (waffle): " in view.text and "Beside it drive robot." in view.alt
 
 
+def test_a_laser_that_looks_ahead_only_has_its_hits_ahead():
+    lidar = replace(
+        BURGER.laser, beams=3, angle_min=-math.pi / 4, angle_max=math.pi / 4, mount=(0.0, 0.0, 0.2), yaw=0.0
+    )
+    view = robot_3d(SMALL, replace(BURGER, lidar=lidar), (1.0, 0.0, 0.0), np.array([1.0, 1.0, np.inf]))
+    half = math.sqrt(0.5)
+    np.testing.assert_allclose(view.scene.scans[0], [(1 + half, -half, 0.2), (2.0, 0.0, 0.2)], atol=2e-5)
+    turned = robot_3d(
+        SMALL, replace(BURGER, lidar=replace(lidar, yaw=math.pi)), (0, 0, 0), np.array([np.inf, 1.0, np.inf])
+    )
+    np.testing.assert_allclose(turned.scene.scans[0], [(-1.0, 0.0, 0.2)], atol=2e-5)
+
+
 def test_a_simulator_shows_all_its_robots():
     with Graph() as graph:
         simulator = Simulator(graph.node("simulator"), world="empty", model="burger")

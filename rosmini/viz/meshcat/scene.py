@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.models import Part as SimplePart
-from rosmini.sim.models import RobotModel
 from rosmini.sim.shapes import Cylinder, Simple, Sphere, outline_at, simple_parts
 from rosmini.sim.world import Obstacle, Pose, World
 from rosmini.viz import style
@@ -277,9 +277,11 @@ class Scene3D:
 
         It saw that at `pose`; by default where the robot is.
         """
-        points = scan_points(ranges)
+        points = scan_points(ranges, model.laser)
         mount = np.eye(4)
         mount[:3, 3] = model.laser.mount
+        if model.laser.yaw:
+            mount = mount @ planar((0.0, 0.0, model.laser.yaw))
         if pose is not None:
             mount = np.linalg.inv(self.nodes[name]) @ planar(pose) @ mount
         self.place(f"{name}/scan", mount)
@@ -370,9 +372,14 @@ def colour_of(name: str) -> str:
     return name if name.startswith("#") else {"wall": WALL, "grey": GREY}.get(name) or style.LIGHT[name]
 
 
-def scan_points(ranges: Floats) -> Floats:
-    """Where beams end (beams, 3), seen from the laser; 100 m below it where they hit nothing."""
-    angles = 2 * math.pi * np.arange(len(ranges)) / len(ranges)
+def scan_points(ranges: Floats, lidar: LidarModel) -> Floats:
+    """Where beams end (beams, 3), seen from the laser; 100 m below it where they hit nothing.
+
+    Of a laser that goes round, there may be fewer ranges than it has beams, as evenly spread.
+    """
+    places = np.arange(len(ranges))
+    step = 2 * math.pi * places / len(ranges) if lidar.angle_max is None else lidar.increment * places
+    angles = lidar.angle_min + step
     hit = np.isfinite(ranges)
     reach = np.where(hit, ranges, 0.0)
     return rounded(
