@@ -13,6 +13,7 @@ import pytest
 from rosmini.cli.bench import (
     sim,
     sim_checks,
+    sim_engine,
     sim_growth,
     sim_mujoco,
     sim_peer,
@@ -221,6 +222,12 @@ def test_mujocos_room_is_the_same_room() -> None:
 def test_mujoco_drives_and_sees_the_room() -> None:
     pytest.importorskip("mujoco")
     sim_peer.check(sim_mujoco.simulate(1.0, 2), "MuJoCo")
+
+
+def test_robots_that_do_not_meet_give_no_figure_of_a_crowd() -> None:
+    assert sim_engine.crowd_factor(1.0, 60) > 0
+    with pytest.raises(RosminiError, match="none of 1 robots touched anything"):
+        sim_engine.crowd_factor(1.0, 1)
 
 
 # -- what it is right about --------------------------------------------------------------------------------------

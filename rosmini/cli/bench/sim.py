@@ -19,7 +19,7 @@ from rosmini.sim.world import World
 
 from . import Measure, sim_growth, sim_physics, sim_room
 from .sim_checks import first_hit
-from .sim_engine import engine_factor
+from .sim_engine import crowd_factor, engine_factor
 from .sim_run import PIECE, real_time_factor
 
 if TYPE_CHECKING:
@@ -112,6 +112,11 @@ def measures(irsim: Peer | None, mujoco: Peer | None, scale: float) -> Iterator[
             partial(engine_factor, max(200 * scale / count, 1.0), count),
             *_beside(mujoco, 60 * scale / count, count, scale),
         )
+    yield Measure(
+        "100 robots that push one another, engine alone, poses at 100 Hz",
+        "simulated s/s",
+        partial(crowd_factor, max(10 * scale, 1.0), 100),
+    )
     fast, slow = max(int(10_000 * scale), 20), max(int(1_000 * scale), 10)
     pymunk_rays = pymunk_scan()
     for backend, count in (("numba", fast), ("numpy", slow)):

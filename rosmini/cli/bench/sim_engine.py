@@ -68,3 +68,30 @@ def engine_factor(seconds: float, count: int) -> float:
             f"a robot went {length:.3f} m, and was told to go {expected:.3f} m",
         )
     return (number / RATE) / spent
+
+
+def crowd_factor(seconds: float, count: int) -> float:
+    """Return the same of so many robots that are in one another's way: their circles are twice as large as there is room for, and they push.
+
+    Poses are asked for a hundred times a second; there are no scans. Raises `RosminiError` if nobody touches anything, or somebody leaves the room.
+    """
+    engine, names = make_engine(count)
+    begin, touching, number = 0.0, 0, 0
+    for number in range(
+        max(round(seconds * RATE), RATE) + 2 * RATE
+    ):  # in the first two seconds they get at each other
+        if number == 2 * RATE:
+            begin = time.process_time()
+        if number % (RATE // COMMANDS) == 0:
+            for name in names:
+                engine.command(name, 2 * sim_room.SPEED, sim_room.TURN_RATE, 0.5)
+        engine.advance(number / RATE)
+        if number >= 2 * RATE:
+            touching += sum(robot.touching for robot in engine.robots.values())
+    spent = time.process_time() - begin
+    inside = sim_room.SIZE / 2
+    expect(touching > 0, f"none of {count} robots touched anything")
+    for robot in engine.robots.values():
+        x, y, _ = robot.pose
+        expect(abs(x) < inside and abs(y) < inside, f"{robot.name} left the room, to ({x:.2f}, {y:.2f})")
+    return (number + 1 - 2 * RATE) / RATE / spent
