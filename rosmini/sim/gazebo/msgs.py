@@ -85,6 +85,31 @@ class PosesStamped(Message):
 
 
 @dataclass(frozen=True)
+class LaserScan(Message):
+    """What a ray sensor measured."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.LaserScan"
+    frame: str
+    world_pose: Pose
+    angle_min: float
+    angle_max: float
+    angle_step: float
+    range_min: float
+    range_max: float
+    count: int
+    ranges: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class LaserScanStamped(Message):
+    """What a ray sensor measured, and when."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.LaserScanStamped"
+    time: Time
+    scan: LaserScan
+
+
+@dataclass(frozen=True)
 class WorldStatistics(Message):
     """How time goes on."""
 

@@ -28,6 +28,7 @@ from .msgs import (
     WorldStatistics,
 )
 from .msgs import Model as ModelMessage
+from .sensor_topics import SensorTopics
 from .transport import TransportNode
 
 if TYPE_CHECKING:
@@ -80,6 +81,7 @@ class ServerTopics:
         ):
             host.add(_Telling(host, name, rate, lambda publication=publication: publication.heard, tell))  # type: ignore[misc]
         world.on_change.append(self._changed)
+        self._sensors = SensorTopics(world, node)
 
     def close(self) -> None:
         """Leave all topics."""

@@ -15,7 +15,7 @@ from rosmini.sim import sdf
 from rosmini.sim.gazebo import GazeboError, Gz
 from rosmini.sim.gazebo.gz import UsageError
 
-from .conftest import Bench, box, urdf
+from .conftest import LASER, Bench, box, urdf
 
 Start = Callable[..., Bench]
 
@@ -36,6 +36,23 @@ def test_topics_are_listed_told_of_echoed_and_measured(bench: Start) -> None:
     assert gz.run("topic", "-z", "~/world_stats", "-d", 2) == ["Hz:   5.00"]
     with pytest.raises(GazeboError, match="did you mean"):
         gz.run("topic", "-i", "/gazebo/empty/world_stat")
+
+
+def test_a_ray_sensor_has_a_topic_of_gazebos_own(bench: Start) -> None:
+    there = bench()
+    silent = LASER[: LASER.index("<plugin")] + "</sensor></gazebo>"  # no plugin tells ROS of it
+    there.spawn(urdf(silent), "r")
+    there.spawn(box(static=True), "wall", 2.2)
+    gz = Gz(there.graph)
+    topic = "/gazebo/empty/r/base_footprint/lidar/scan"
+    assert topic in gz.run("topic", "-l")
+    lines = gz.run("topic", "-e", topic, "-n", 1)
+    assert '  frame: "r::base_footprint"' in lines
+    ranges = [float(line.split(":")[1]) for line in lines if line.startswith("  ranges")]
+    assert (len(ranges), ranges[90]) == (181, pytest.approx(2.0))
+    assert gz.run("topic", "-z", topic, "-d", 2) == ["Hz:  10.00"]
+    gz.run("model", "-m", "r", "-d")
+    assert topic not in gz.run("topic", "-l")
 
 
 def test_a_model_is_told_of_moved_and_deleted(bench: Start) -> None:
