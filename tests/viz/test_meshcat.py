@@ -409,6 +409,15 @@ def test_shapes_and_colours_of_all_kinds_stand_where_they_are():
     assert (pair.solids[0].bottom, pair.solids[0].top) == (0.1, 0.4)
 
 
+def test_what_solid_walls_go_round_has_a_top():
+    ring = [(0, 0, 2, 0), (2, 0, 2, 1), (2, 1, 0, 1), (0, 1, 0, 0)]
+    open_, solid = (world_3d(World("block", walls=ring, wall_height=0.4, solid=s)) for s in (False, True))
+    assert not [part for part in open_.scene.parts if part.name == "blocks"]
+    [top] = [part for part in solid.scene.parts if part.name == "blocks"]
+    corners = np.vstack(list(top.solids[0].faces()))
+    assert corners.min(axis=0).tolist() == [0, 0, 0.4] and corners.max(axis=0).tolist() == [2, 1, 0.4]
+
+
 def test_a_replay_of_several_robots_moves_each_and_what_was_pushed():
     own = run()
     crate = SMALL.obstacles[0]

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.models import Part as SimplePart
+from rosmini.sim.scene import trapezia
 from rosmini.sim.shapes import Cylinder, Simple, Sphere, outline_at, simple_parts
 from rosmini.sim.world import Obstacle, Pose, World
 from rosmini.viz import style
@@ -203,6 +204,9 @@ class Scene3D:
             self.add_obstacle(obstacle)
 
     def _add_walls(self, world: World) -> None:
+        if world.solid and len(world.walls) <= MANY_WALLS:
+            tops = trapezia(world.walls, world.wall_height)
+            self.add(Part("", "blocks", WALL, (Facets(tuple(tops)),)))
         if len(world.walls) <= MANY_WALLS:
             walls = tuple(Prism(_slab(*wall), 0.0, world.wall_height) for wall in world.walls)
             self.add(Part("", "walls", WALL, walls))
