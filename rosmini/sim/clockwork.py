@@ -35,6 +35,12 @@ SAFE = 1e-4
 NEAR = 0.02
 """What comes so near [m] to what is gone on with in steps, goes on in steps too."""
 
+FEW = 5
+"""From so many robots on that go in steps together, it is asked first who may touch anything at all."""
+
+CLOSE = 0.005
+"""So near [m] are circles around robots that may touch in a step."""
+
 AROUND = 0.5
 """So far [m] a robot looks around itself (`rosmini.sim.bodies.VIEW`)."""
 
@@ -147,6 +153,7 @@ class Clockwork:
                 robot.settle()
                 robot.pose = pose
                 robot.room -= moved
+                robot.clear -= moved
                 robot.touching = False
         dt = end - self.engine.now
         for mover in self.engine.movers.values():
@@ -164,7 +171,7 @@ class Clockwork:
         if not crates and not every and len(rolled) == 1:
             return stuck, [], []
         dt = end - engine.now
-        places = [(*robot.pose[:2], robot.model.reach) for robot, _, _, _ in rolled]
+        places = [robot.circle() for robot, _, _, _ in rolled]
         places += [(*mover.pose[:2], mover.reach) for mover in every]
         places += [(*crate.pose[:2], crate.reach) for crate in crates]
         speeds = [math.hypot(*crate.velocity[:2]) + crate.reach * abs(crate.velocity[2]) for crate in crates]
@@ -231,6 +238,7 @@ class Clockwork:
             robot.settle()
             ways[robot.name] = (robot.pose, pose)
             robot.room -= moved
+            robot.clear -= moved
             free = free and (robot.room > 0 or moved == 0)
         engine.now = until
         if free:
@@ -241,13 +249,29 @@ class Clockwork:
         for robot in robots:
             if not robot.touching:
                 contacts.speed(robot.name, robot.world_velocity())
-        for name, (pose, touching) in contacts.step(ways, dt).items():
-            engine.robots[name].carried(pose, dt, touching=touching)
+        watched = None if self.moving or len(robots) < FEW else self._watched(robots, ways)
+        for name, (pose, touching) in contacts.step(ways, dt, watched).items():
+            robot = engine.robots[name]
+            robot.carried(pose, dt, touching=touching)
+            if touching:
+                robot.clear = 0.0
         self.moving = contacts.moving
         if not self.moving:
             for robot in robots:
                 if not robot.touching and robot.room <= 0:
                     self.look(robot)
+
+    def _watched(self, robots: list[Robot], ways: dict[str, tuple[Pose, Pose]]) -> set[str]:
+        """Who of many robots may touch anything at the end of a step: the others need not be asked."""
+        poses = np.array([ways[robot.name][1] for robot in robots])
+        girths = np.array([robot.model.girth for robot in robots])
+        c, s = np.cos(poses[:, 2]), np.sin(poses[:, 2])
+        x = poses[:, 0] + c * girths[:, 0] - s * girths[:, 1]
+        y = poses[:, 1] + s * girths[:, 0] + c * girths[:, 1]
+        apart = np.hypot(x[:, None] - x, y[:, None] - y) - (girths[:, 2:] + girths[:, 2])
+        np.fill_diagonal(apart, np.inf)
+        near = (apart.min(axis=1) < CLOSE).tolist()
+        return {robot.name for robot, close in zip(robots, near, strict=True) if close or robot.clear <= 0}
 
     def _keep_apart(self, robots: list[Robot]) -> None:
         """Let nobody else come nearer to those that went in steps than they are now, by circles; they themselves look before they move."""
@@ -272,7 +296,7 @@ class Clockwork:
                 math.hypot(robot.pose[0] - x, robot.pose[1] - y)
                 < robot.model.reach + crate.reach + 2 * AROUND
             ):
-                robot.room = 0.0
+                robot.room = robot.clear = 0.0
         for mover in self.engine.movers.values():
             mover.room = 0.0
 
@@ -282,7 +306,7 @@ class Clockwork:
         """Forget how much room there is, and who there is."""
         self._drivers = None
         for robot in self.engine.robots.values():
-            robot.room = 0.0
+            robot.room = robot.clear = 0.0
         for mover in self.engine.movers.values():
             mover.room = 0.0
         self.plan()
@@ -298,14 +322,17 @@ class Clockwork:
                 near[mover.obstacle.name] = mover
                 contacts.place(mover.obstacle.name, mover.pose)
         self._tell([each for each in near.values() if isinstance(each, Robot)])
-        room = AROUND
+        room = clear = AROUND
         for gap, name, moves in contacts.around(robot.name):
-            if moves:
+            if not moves:
+                clear = min(clear, gap)
+            else:
                 if name not in near:
                     continue  # it is elsewhere by now
                 gap /= 2
                 near[name].room = min(near[name].room, gap - SAFE)
             room = min(room, gap)
+        robot.clear = clear - SAFE
         robot.room = room - SAFE
         return robot.room
 

@@ -266,6 +266,13 @@ class RobotModel:
         return max(math.hypot(x, y) for x, y in self.footprint)
 
     @cached_property
+    def girth(self) -> tuple[float, float, float]:
+        """A small circle around the footprint: x and y of its middle, seen from base_footprint, and its radius [m]."""
+        xs, ys = zip(*self.footprint, strict=True)
+        x, y = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
+        return (x, y, max(math.hypot(px - x, py - y) for px, py in self.footprint))
+
+    @cached_property
     def own_limits(self) -> bool:
         """Tell whether the robot's speeds have limits besides those of its rims."""
         return not (math.isinf(self.linear_acceleration) and math.isinf(self.angular_acceleration))

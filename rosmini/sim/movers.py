@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from rosmini.geometry.poses import Pose
 
 from .motion import Door, Walk
-from .physics import Contacts
 from .shapes import reach_of
 from .world import Obstacle
+
+if TYPE_CHECKING:
+    from .physics import Contacts
 
 DELTA = 1e-4
 """Over so long a time [s] a velocity is measured."""

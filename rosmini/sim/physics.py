@@ -17,9 +17,6 @@ import pymunk
 from rosmini.geometry.poses import Pose
 
 from .bodies import (
-    DRAG,
-    FRICTION,
-    GRIP,
     IS_GHOST,
     IS_LOOK,
     IS_SOLID,
@@ -42,7 +39,7 @@ from .bodies import (
 from .models import RobotModel
 from .world import Obstacle, World
 
-__all__ = ["DRAG", "FRICTION", "GRIP", "VIEW", "Contacts", "Surface", "correction"]
+__all__ = ["VIEW", "Contacts", "Surface", "correction"]
 
 TOUCH = 1e-9
 """Bodies that overlap by less [m] only touch."""
@@ -56,8 +53,15 @@ OVERLAP = 1e-4
 ROUNDS = 20
 """So often at most a robot is pushed out of what it has driven into; a wedge between two walls takes the most."""
 
+QUICK, NEARLY = 4, 1e-6
+"""After so many rounds, robots that push one another may still overlap by so much [m]."""
+
 REST = 1e-4
 """A movable obstacle that is slower [m/s, rad/s] stands."""
+
+SOFT = ("robot", "crate", "leaf")
+KINDS = ("wall", "fixed", *SOFT)
+"""What there is: SOFT is what can be elsewhere than it was."""
 
 Velocity = tuple[float, float, float]
 """Along x and y of the world [m/s], and to the left [rad/s]."""
@@ -126,7 +130,6 @@ class Contacts:
 
     def insert(self, obstacle: Obstacle, *, shown: bool = True, loose: bool = False) -> None:
         """Put a thing where its pose is; `loose` for one that nobody pushes, but that may be put elsewhere."""
-        owner = Owner("fixed", obstacle.name, obstacle.bottom, obstacle.height)
         if obstacle.movable:
             crate = make_crate(obstacle)
             crate.shown = shown
@@ -135,40 +138,42 @@ class Contacts:
             self.place(obstacle.name, obstacle.pose)
         elif obstacle.motion is not None or loose:
             leaf = self.leaves[obstacle.name] = make_leaf(obstacle)
-            self.space.add(leaf.body)
-            for shape in leaf.shapes:
-                self._add(shape, replace(owner, kind="leaf"))
+            self._enter(leaf)
             self.place(obstacle.name, obstacle.at(0.0))
         else:
             shapes = self.fixed[obstacle.name] = shapes_of(obstacle, self.space.static_body, obstacle.pose)
             for shape in shapes:
-                self._add(shape, owner)
+                self._add(shape, Owner("fixed", obstacle.name, obstacle.bottom, obstacle.height))
 
-    def _enter(self, crate: Crate) -> None:
-        obstacle = crate.obstacle
-        self.space.add(crate.body)
-        for shape in crate.shapes:
-            self._add(shape, Owner("crate", obstacle.name, obstacle.bottom, obstacle.height))
-        hold(crate, self.space.static_body, self.surface)
-        self.space.add(*crate.drag)
+    def _enter(self, thing: Crate | Leaf) -> None:
+        obstacle, kind = thing.obstacle, "crate" if isinstance(thing, Crate) else "leaf"
+        self.space.add(thing.body)
+        for shape in thing.shapes:
+            self._add(shape, Owner(kind, obstacle.name, obstacle.bottom, obstacle.height))
+        if isinstance(thing, Crate):
+            hold(thing, self.space.static_body, self.surface)
+            self.space.add(*thing.drag)
+
+    def _leave(self, thing: Crate | Leaf) -> None:
+        drag = thing.drag if isinstance(thing, Crate) else ()
+        self.space.remove(*drag, *thing.shapes, thing.body)
+        for shape in thing.shapes:
+            del self.owners[shape]
 
     def take_away(self, name: str) -> None:
         """Take a thing away."""
         crate = self.crate(name)
         if crate is not None:
             self._crates.remove(crate)
-            self.space.remove(*crate.drag, *crate.shapes, crate.body)
-            shapes = crate.shapes
+            self._leave(crate)
         elif name in self.leaves:
-            leaf = self.leaves.pop(name)
-            self.space.remove(*leaf.shapes, leaf.body)
-            shapes = leaf.shapes
+            self._leave(self.leaves.pop(name))
         else:
             shapes = self.fixed.pop(name)
             self.pruned = True
             self.space.remove(*shapes)
-        for shape in shapes:
-            del self.owners[shape]
+            for shape in shapes:
+                del self.owners[shape]
 
     def crate(self, name: str) -> Crate | None:
         """The thing of this name that can be pushed, if there is one."""
@@ -179,16 +184,15 @@ class Contacts:
         """All things that can be pushed."""
         return self._crates
 
-    def place(self, name: str, pose: Pose, velocity: Velocity = AT_REST, *, indexed: bool = True) -> None:
-        """Put a thing that is not fixed elsewhere; only what can be pushed has a velocity there. `indexed` if it is in the space."""
+    def place(self, name: str, pose: Pose, velocity: Velocity = AT_REST) -> None:
+        """Put a thing that is not fixed elsewhere; only what can be pushed has a velocity there."""
         crate = self.crate(name)
         body = self.leaves[name].body if crate is None else crate.body
         put(body, pose)
         if crate is not None:
             (vx, vy, w), lever = velocity, body.center_of_gravity.rotated(body.angle)
             body.velocity, body.angular_velocity = (vx - w * lever.y, vy + w * lever.x), w
-        if indexed:
-            self.space.reindex_shapes_for_body(body)
+        self.space.reindex_shapes_for_body(body)
 
     @property
     def moving(self) -> bool:
@@ -223,11 +227,7 @@ class Contacts:
         for hit in self.space.shape_query(shape):
             if hit.shape is not None:
                 other = self.owners[hit.shape]
-                if (
-                    other.kind in ("robot", "crate", "leaf")
-                    and other.name != owner.name
-                    and owner.meets(other.bottom, other.top)
-                ):
+                if other.kind in SOFT and other.name != owner.name and owner.meets(other.bottom, other.top):
                     deepest = max(deepest, *depths_of(hit.contact_point_set))
         return deepest
 
@@ -291,11 +291,10 @@ class Contacts:
         )
 
     def hindrance_of(self, obstacle: Obstacle, pose: Pose) -> str | None:
-        """Return what a thing would overlap with at `pose`, in words; None if it has room there. Fixed things and walls do not count."""
+        """The same of a thing; fixed things and walls do not count."""
         probe = pymunk.Body(1.0, 1.0)
-        shapes = shapes_of(obstacle, probe, (0.0, 0.0, 0.0))
-        soft = ("robot", "crate", "leaf")
-        return self._in_the_way(shapes, probe, pose, obstacle.name, obstacle.bottom, obstacle.height, soft)
+        shapes, bottom, top = shapes_of(obstacle, probe, (0.0, 0.0, 0.0)), obstacle.bottom, obstacle.height
+        return self._in_the_way(shapes, probe, pose, obstacle.name, bottom, top, SOFT)
 
     def _in_the_way(
         self,
@@ -305,7 +304,7 @@ class Contacts:
         ignoring: str,
         bottom: float,
         top: float,
-        kinds: tuple[str, ...] = ("wall", "fixed", "robot", "crate", "leaf"),
+        kinds: tuple[str, ...] = KINDS,
     ) -> str | None:
         put(probe, pose)
         found: list[pymunk.Shape | None] = []
@@ -349,10 +348,13 @@ class Contacts:
 
     # -- contact -------------------------------------------------------------------------------------------------
 
-    def step(self, ways: dict[str, tuple[Pose, Pose]], dt: float) -> dict[str, tuple[Pose, bool]]:
+    def step(
+        self, ways: dict[str, tuple[Pose, Pose]], dt: float, watched: set[str] | None = None
+    ) -> dict[str, tuple[Pose, bool]]:
         """Let `dt` seconds pass in which each robot's wheels take it from the first pose to the second, if nothing is in the way.
 
-        Return where each robot is then, and whether anything kept it from where it would have gone. Robots that are not told of are ghosts.
+        Return where each robot is then, and whether anything kept it from where it would have gone. Only those that are `watched` can touch anything
+        at the end, or all. Robots that are not told of are ghosts.
         """
         for name in ways:
             if not self.rovers[name].awake:
@@ -360,7 +362,7 @@ class Contacts:
         poses = {name: after for name, (_, after) in ways.items()}
         for name, pose in poses.items():
             put(self.rovers[name].body, pose)
-        held = self._make_way(poses, dt)
+        held = self._make_way(poses, dt, list(poses) if watched is None else sorted(watched))
         for name, (before, after) in ways.items():
             rover = self.rovers[name]
             body, axle = rover.body, rover.axle
@@ -378,7 +380,7 @@ class Contacts:
             put(self.rovers[name].body, pose)
         return {name: (pose, name in held) for name, pose in poses.items()}
 
-    def _make_way(self, poses: dict[str, Pose], dt: float) -> set[str]:
+    def _make_way(self, poses: dict[str, Pose], dt: float, names: list[str]) -> set[str]:
         """Bring the robots out of what they have driven into, and out of each other; return who was moved by that."""
         sliding = [crate.body for crate in self.sliding()]
         kept = [(*body.position, body.angle) for body in sliding]
@@ -389,9 +391,10 @@ class Contacts:
         for name in poses:
             self.space.reindex_shapes_for_body(self.rovers[name].body)
         moved: set[str] = set()
-        names = list(poses)
         for number in range(ROUNDS):
-            pushed = {name: self._push_out(name, poses, fair=2 * number >= ROUNDS) for name in names}
+            least = TOUCH if number < QUICK or len(poses) == 1 else NEARLY
+            fair = 2 * number >= ROUNDS
+            pushed = {name: self._push_out(name, poses, least, fair=fair) for name in names}
             again = {other for others in pushed.values() for other in others}
             if not again:
                 break
@@ -401,13 +404,13 @@ class Contacts:
             put(body, pose)
         return moved
 
-    def _push_out(self, name: str, poses: dict[str, Pose], *, fair: bool) -> list[str]:
-        """Move a robot out of the thing into which it reaches deepest; return who was moved.
+    def _push_out(self, name: str, poses: dict[str, Pose], least: float, *, fair: bool) -> list[str]:
+        """Move a robot out of the thing into which it reaches deepest, if by more than `least` [m]; return who was moved.
 
         Of two robots the one gives way whose wheels grip less, or, if both grip alike, or in any case if it is to be `fair`, both by half.
         """
         rover = self.rovers[name]
-        worst, hit = TOUCH, None
+        worst, hit = least, None
         for each in self.space.shape_query(rover.shape):
             depth = max(depths_of(each.contact_point_set)) - self._slack(each.shape)
             if (
@@ -475,15 +478,14 @@ class Contacts:
             self.remove(name)
         loose: list[Crate | Leaf] = [*self._crates, *self.leaves.values()]
         for each in loose:
-            drag = each.drag if isinstance(each, Crate) else ()
-            self.space.remove(*drag, *each.shapes, each.body)
+            self._leave(each)
         for each in sorted(loose, key=lambda thing: thing.obstacle.name):
-            name = each.obstacle.name
-            self.place(name, *things[name], indexed=False)
-            self.space.add(each.body, *each.shapes)
             if isinstance(each, Crate):
-                hold(each, self.space.static_body, self.surface)
-                self.space.add(*each.drag)
+                # a new body too: an old one has a velocity more, by which pymunk parts what overlaps
+                fresh = make_crate(each.obstacle)
+                each.body, each.shapes = fresh.body, fresh.shapes
+            self._enter(each)
+            self.place(each.obstacle.name, *things[each.obstacle.name])
         for name in sorted(models):
             self.add(name, models[name], poses[name])
         for name, (vx, vy, w, slip) in sorted(memory.items()):

@@ -57,6 +57,8 @@ class Robot:
         """When the command is too old [s]."""
         self.room = 0.0
         """How far it can move [m] before it has to be looked again whether anything is in its way."""
+        self.clear = 0.0
+        """How far it can move [m] before it may touch what does not move by itself."""
         self.touching = False
         """True while something keeps it from where its wheels would take it."""
         self.seen = (0.0, 0.0)
@@ -103,6 +105,12 @@ class Robot:
     def acceleration_aside(self) -> float:
         """How fast its speed to its left side changes [m/s2], but for its turning."""
         return 0.0
+
+    def circle(self) -> tuple[float, float, float]:
+        """A small circle around its footprint where it is now: x, y and radius [m]."""
+        (x, y, theta), (px, py, radius) = self.pose, self.model.girth
+        c, s = math.cos(theta), math.sin(theta)
+        return (x + c * px - s * py, y + s * px + c * py, radius)
 
     def corners(self) -> Floats:
         """The footprint (k, 2) where the robot is now."""

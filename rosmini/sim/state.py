@@ -90,6 +90,7 @@ def bring_back(engine: Engine, state: EngineState) -> None:
     )
     for each in state.robots:
         engine.robots[each.name].room = each.state["room"]
+        engine.robots[each.name].clear = each.state["clear"]
     for name, mover in state.movers.items():
         engine.movers[name].restore(mover)
     engine.clockwork.slips, engine.clockwork.moving = state.slips, state.moving
