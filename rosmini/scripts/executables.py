@@ -58,7 +58,9 @@ class BuiltIn:
         self._entry = executable.load()
         self._others = Remappings.other_arguments(args)
         check_arguments(executable, self._entry, self._others)
-        self._name = getattr(self._entry, "node_name", executable.name)  # gzserver is called gazebo, as ROS's is
+        self._name = getattr(
+            self._entry, "node_name", executable.name
+        )  # gzserver is called gazebo, as ROS's is
         self._remappings = Remappings.from_argv(args)
 
     def start(self) -> None:

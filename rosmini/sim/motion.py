@@ -184,8 +184,8 @@ class Door:
     def pose_at(self, t: float, start: Pose = (0.0, 0.0, 0.0)) -> Pose:
         """Where it is at its time t [s], if it had never to wait for anybody; closed it is at `start`.
 
-        >>> Door(opening=0.9, slide=0.0, closed=1.0, moving=2.0).pose_at(2.0)
-        (0.45, 0.0, 0.0)
+        >>> Door(opening=0.9, slide=0.0, closed=1.0, moving=2.0).pose_at(3.0)
+        (0.9, 0.0, 0.0)
         """
         part = self.openness(t)
         if self.slide is not None:
