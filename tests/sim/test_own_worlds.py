@@ -91,6 +91,7 @@ def test_what_a_file_is_hangs_on_what_stands_in_it(tmp_path):
     assert kind_of(tmp_path / "c") == "map"
     assert world(tmp_path / "c").walls.shape == world("floor").walls.shape
     assert world("package://rosmini_sim/worlds/maze.world").bounds == world("maze").bounds
+    assert kind_of("package://rosmini_sim/worlds/maze.world") == "sdf"
     (tmp_path / "m.sdf").write_text("<sdf version='1.7'><model name='m'><link name='l'/></model></sdf>")
     with pytest.raises(SdfError, match=r"no <world> .* the model 'm'"):
         world(tmp_path / "m.sdf")

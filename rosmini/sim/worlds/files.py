@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
+from rosmini.packages import PackageIndex
 from rosmini.sim.sdf import SdfError, converted, load
 from rosmini.sim.sdf.document import Note
 from rosmini.sim.world import World
@@ -16,10 +17,16 @@ from .traced import world_from_map
 
 Kind = Literal["sdf", "stage", "map", "urdf", "xml"]
 
+SCHEME = "package://"
+
 
 def kind_of(path: str | os.PathLike[str]) -> Kind:
-    """What a file is, told from what stands in it: XML by its first element, a map by its suffix or fields, else it is taken for a Stage world."""
-    path = Path(path)
+    """What a file is, told from what stands in it: XML by its first element, a map by its suffix or fields, else it is taken for a Stage world.
+
+    The file is given by its path or its `package://` address. Raises `UnknownPackage` or `RosminiError` for an address that leads nowhere.
+    """
+    text = os.fspath(path)
+    path = Path(PackageIndex().resolve(text)) if text.startswith(SCHEME) else Path(text)
     try:
         head = path.read_bytes()[:50_000].decode("utf-8", "replace").lstrip("\ufeff")
     except OSError:
