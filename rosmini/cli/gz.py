@@ -42,7 +42,7 @@ def main(args: argparse.Namespace) -> int:
                 "an instance of Gazebo is not running in this process: name it after a +, for example "
                 f"`rosmini gz {' '.join(own)} + gazebo_ros/gzserver worlds/empty.world`"
             )
-        print("\n".join(Gz().run(*own)))
+        Gz()(*own)
     except UsageError as error:
         print(error, file=sys.stderr)
         return 255
@@ -62,5 +62,5 @@ def _on_server(own: list[str], nodes: list[str]) -> int:
             package, _, executable = name.partition("/")
             rosrun(package, executable, *words, graph=graph)
         graph.run(SETTLE_S)
-        print("\n".join(Gz(graph).run(*own)))
+        Gz(graph)(*own)
     return 0

@@ -121,7 +121,8 @@ class Gz:
 
     def __call__(self, *words: Any) -> None:
         """Do what the words say and print what `gz` prints. Raises `GazeboError`, and what the readers of files raise."""
-        print("\n".join(self.run(*words)))
+        for line in self.run(*words):
+            print(line)
 
     def run(self, *words: Any) -> list[str]:
         """The same, returning the lines."""

@@ -86,13 +86,15 @@ def test_a_model_is_spawned_from_a_file(bench: Start, tmp_path: Path) -> None:
         gz.run("model", "-f", tmp_path / "none.sdf")
 
 
-def test_the_world_stands_is_stepped_and_reset(bench: Start) -> None:
+def test_the_world_stands_is_stepped_and_reset(bench: Start, capsys: pytest.CaptureFixture[str]) -> None:
     there = bench()
     there.spawn(urdf(), "robot")
     there.drive("/cmd_vel", 0.2)
     there.graph.run(2.0)
     gz = Gz(there.graph)
-    gz.run("world", "-p", 1)
+    capsys.readouterr()
+    gz("world", "-p", 1)
+    assert capsys.readouterr().out == ""  # not so much as an empty line
     now = there.server.world.now
     there.graph.run(1.0)
     assert there.server.world.now == now
