@@ -14,6 +14,7 @@ from rosmini.sim.recording import Recording
 from rosmini.sim.shapes import Box, Cylinder
 from rosmini.sim.worlds import world
 from rosmini.urdf import UnknownJoint, load
+from rosmini.urdf.meshes.turtlebot3 import HOLE
 from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d
 from rosmini.viz.meshcat.hidden import painting_order
 from rosmini.viz.meshcat.links import link_surfaces
@@ -188,3 +189,12 @@ def test_runs_of_robots_with_wheels_and_without(name, turning):
     run = Recording(world("room"), known, times, truth, truth, np.zeros((0, 3)), np.zeros(0), scans)
     (animation,) = [command for command in replay_3d(run).scene.commands if b"set_animation" in command]
     assert animation.count(b"rotation[y]") == turning
+
+
+def test_in_a_world_a_described_robot_is_drawn_without_its_holes():
+    alone = urdf_3d(load("package://turtlebot3_description/urdf/turtlebot3_waffle.urdf.xacro")).scene.surfaces
+    there = robot_3d(world("empty"), model("waffle"), (0.0, 0.0, 0.0)).scene.surfaces
+    left_out = {part.colour for part in alone} - {part.colour for part in there}
+    assert left_out == {HOLE}
+    assert sum(len(part.surface.faces) for part in alone if part.colour == HOLE) > 1000
+    assert len(there) == len(alone) - 1

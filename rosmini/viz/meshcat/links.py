@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import replace
 from functools import lru_cache
 
@@ -41,10 +42,13 @@ def hex_colour(surface: Surface) -> str:
     return "#" + "".join(f"{math.floor(255 * part + 0.5):02x}" for part in surface.colour[:3])
 
 
-def link_surfaces(robot: Robot, link: str, *, collisions: bool = False) -> list[Surface]:
+def link_surfaces(
+    robot: Robot, link: str, *, collisions: bool = False, without: Collection[str] = ()
+) -> list[Surface]:
     """What there is to see of a link, in its frame: one surface for each colour.
 
-    A material of the URDF comes before the colours of a mesh file, as in RViz. Raises `MeshError`.
+    A material of the URDF comes before the colours of a mesh file, as in RViz. Surfaces in one of the colours `without`,
+    `#rrggbb`, are left out. Raises `MeshError`.
     """
     found: dict[str, list[Surface]] = {}
     described = robot.link(link)
@@ -59,6 +63,8 @@ def link_surfaces(robot: Robot, link: str, *, collisions: bool = False) -> list[
         for surface in _surfaces(piece.geometry):
             moved = surface.moved(piece.origin.matrix)
             moved = replace(moved, colour=colour or moved.colour)
+            if hex_colour(moved) in without:
+                continue
             found.setdefault(hex_colour(moved), []).append(moved)
     return [_merged(surfaces) for surfaces in found.values()]
 

@@ -19,6 +19,7 @@ from rosmini.sim.models import Part as SimplePart
 from rosmini.sim.scene import trapezia
 from rosmini.sim.shapes import Cylinder, Simple, Sphere, outline_at, simple_parts
 from rosmini.sim.world import Obstacle, Pose, World
+from rosmini.urdf.meshes.turtlebot3 import HOLE
 from rosmini.viz import style
 from rosmini.viz.rounding import snap
 
@@ -33,6 +34,8 @@ Colour = tuple[float, float, float]
 
 DESCRIBED = ("waffle", "waffle_pi")
 """Models that are drawn from their URDF. The Burger has a drawing of its own, a tenth as large."""
+TINY = (HOLE,)
+"""Of what is left out of these drawings in a world, the colours: a quarter of their bytes, and no more than dots from where one looks."""
 SIDES = (("left", 1), ("right", -1))
 """The wheels, and where they look."""
 ROBOT = "robots/robot"
@@ -258,7 +261,7 @@ class Scene3D:
         for side, outwards in SIDES:
             self._place_hub(model, name, side, outwards)
         for link, at in robot.transforms().items():
-            surfaces = link_surfaces(robot, link)
+            surfaces = link_surfaces(robot, link, without=TINY)
             if not surfaces:
                 continue
             above = f"{name}/{link.removesuffix('_link')}" if link.startswith("wheel_") else name
