@@ -1,0 +1,299 @@
+"""What is right in the exercises of chapter 20, Simulation and Stage."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rosmini.book.checks import Wrong, exercise, expect
+from rosmini.geometry.poses import arc
+from rosmini.geometry.raycast import raycast
+from rosmini.msgs import message_class
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.sim.stage import StageRobot, StageWorld
+
+
+# ---- 20.1: what was hit ----
+
+
+def _scan(ranges: list[float], low: float, high: float) -> Any:
+    scan = message_class("sensor_msgs/LaserScan")()
+    scan.ranges = np.array(ranges, dtype=np.float32)
+    scan.range_min, scan.range_max = low, high
+    scan.angle_min, scan.angle_increment = -0.5, 0.1
+    return scan
+
+
+def _counting(rule: Callable[[Any, Any], Any]) -> Callable[[], Any]:
+    return lambda: lambda scan: int(np.sum(rule(np.array(scan.ranges), scan)))
+
+
+_SCANS = (
+    ("of Stage, two of whose beams hit nothing", [5.0, 1.0, 2.5, 5.0], 0.0, 5.0, 2),
+    ("of a TurtleBot3, with inf, -inf and 0.0", [math.inf, 1.0, -math.inf, 0.0, 3.4, 0.12], 0.12, 3.5, 3),
+    ("with a range below range_min", [0.05, 0.5], 0.12, 3.5, 1),
+    ("of Stage with a 0.0 in it, which is no measurement", [0.0, 4.9, 5.0], 0.0, 5.0, 1),
+    ("that hit nothing at all", [5.0, 5.0], 0.0, 5.0, 0),
+)
+
+
+@exercise(
+    "20.1",
+    praise="One test that does for Stage, for REP 117, and for drivers that say 0.0.",
+    mistakes=[
+        _counting(lambda r, _: np.isfinite(r)),
+        _counting(lambda r, s: r < s.range_max),
+        _counting(lambda r, s: (r >= s.range_min) & (r <= s.range_max)),
+        _counting(lambda r, s: (r >= s.range_min) & (r < s.range_max)),
+        _counting(lambda r, s: (r > 0) & (r < s.range_max)),
+        lambda: lambda scan: [r for r in scan.ranges if scan.range_min <= r < scan.range_max and r > 0],
+    ],
+)
+def count_hits(answer: Any) -> None:
+    """How many beams of a scan hit something that could be measured."""
+    for what, ranges, low, high, right in _SCANS:
+        found = answer(_scan(ranges, low, high))
+        if isinstance(found, bool) or not isinstance(found, int | np.integer):
+            raise Wrong(
+                f"It returned a {type(found).__name__}, not a whole number.", "return how many they are"
+            )
+        expect(
+            found == right,
+            f"For a scan {what}, it counted {found}, not {right}: ranges {ranges}, range_min {low}, range_max {high}.",
+            "from range_min on, more than 0, and less than range_max",
+        )
+
+
+# ---- 20.2: a world file ----
+
+_MOLE = """
+position( name "{name}" pose [{pose}] size [{size}] drive "{drive}"
+  ranger( pose [0 0 {z} 0] sensor( range [0 {reach}] fov {fov} samples {samples} ) ) )
+model( name "wall" pose [{wall}] size [3 0.2 {top}] {more} )
+"""
+_RIGHT = {
+    "name": "mole",
+    "pose": "1 2 0 90",
+    "size": "0.5 0.5 0.3",
+    "drive": "omni",
+    "z": "-0.15",
+    "reach": "4",
+    "fov": "90",
+    "samples": "91",
+    "wall": "1 3.6 0 0",
+    "top": "0.6",
+    "more": "",
+}
+
+
+def _mole(**other: str) -> Callable[[], str]:
+    return lambda: _MOLE.format(**{**_RIGHT, **other})
+
+
+def _loaded(text: str) -> StageWorld:
+    from rosmini.sim.stage import StageError, load
+
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "mole.world"
+        path.write_text(text, encoding="utf-8")
+        try:
+            return load(path)
+        except StageError as error:
+            raise Wrong(
+                f"Stage cannot read it: {str(error).replace(folder, '').lstrip('/')}",
+                "the number after the file is that of the line",
+            ) from error
+
+
+@exercise(
+    "20.2",
+    praise="Stage reads it, and the mole stands before its wall.",
+    mistakes=[
+        lambda: 'scout( name "mole" )',
+        _mole(name="vole"),
+        _mole(pose="1 2 0 0"),
+        _mole(pose="1 2 0 1.5708"),
+        _mole(drive="diff"),
+        _mole(size="0.5 0.5 0.5"),
+        _mole(z="0"),
+        _mole(z="-0.29"),
+        _mole(reach="5"),
+        _mole(fov="180"),
+        _mole(samples="90"),
+        _mole(wall="1 3.5 0 0"),
+        _mole(wall="2.6 2 0 90"),
+        _mole(top="0.5"),
+        _mole(more="gripper_return 1"),
+        lambda: _MOLE.format(**_RIGHT) * 2,
+        lambda: 'model( name "wall" pose [1 3.6 0 0] size [3 0.2 0.6] )',
+    ],
+)
+def mole_world(answer: Any) -> None:
+    """A Stage world of a robot that goes in any direction, and a wall."""
+    expect(isinstance(answer, str), f"mole_world is a {type(answer).__name__}, not a text.")
+    world = _loaded(answer)
+    expect(
+        len(world.robots) == 1,
+        f"There are {len(world.robots)} robots in it, not one.",
+        "what drives is a position",
+    )
+    _examine_robot(world.robots[0])
+    _examine_wall(world)
+
+
+def _examine_robot(robot: StageRobot) -> None:
+    expect(robot.name == "mole", f"The robot is called {robot.name}, not mole.", 'name "mole"')
+    expect(robot.drive == "omni", f'Its drive is "{robot.drive}".', 'in any direction: "omni"')
+    x, y, heading = robot.pose
+    expect(
+        math.dist((x, y), (1, 2)) < 0.01 and abs(math.remainder(heading - math.pi / 2, 2 * math.pi)) < 0.01,
+        f"It starts at x {x:.2f} m, y {y:.2f} m and looks to {math.degrees(heading):.0f} degrees.",
+        "x, y, z, heading; along y is 90 degrees, and a world file counts in degrees",
+    )
+    expect(
+        np.allclose(robot.size, (0.5, 0.5, 0.3), atol=0.001),
+        f"Its size is {' x '.join(f'{part:g}' for part in robot.size)} m.",
+        "length, width, height",
+    )
+    expect(len(robot.lasers) == 1, f"It has {len(robot.lasers)} lasers, not one.", "a ranger with a sensor")
+    laser = robot.lasers[0]
+    expect(laser.samples == 91, f"Its laser has {laser.samples} beams, not 91.", "samples")
+    expect(
+        abs(laser.fov - math.pi / 2) < 0.001,
+        f"Its laser looks over {math.degrees(laser.fov):.0f} degrees, not 90.",
+        "fov",
+    )
+    expect(
+        abs(laser.range_max - 4) < 0.001, f"Its laser reaches {laser.range_max:g} m, not 4.", "range [0 4]"
+    )
+    expect(
+        0.1 <= laser.height <= 0.2,
+        f"Its laser looks out {laser.height:.2f} m above the ground.",
+        "what stands on a model stands on top of it; a negative z lets it down",
+    )
+
+
+def _examine_wall(world: StageWorld) -> None:
+    things = {thing.name: thing for thing in world.world.obstacles}
+    expect("wall" in things, "There is no model called wall.", 'model( name "wall" ... )')
+    wall = things["wall"]
+    expect(wall.fixed, "The wall can be pushed.", "leave gripper_return out")
+    expect(abs(wall.height - 0.6) < 0.001, f"The wall is {wall.height:g} m high.", "the third number of size")
+    segments, discs = world.world.segments, world.world.discs
+    ahead = float(raycast(segments, discs, 1.0, 2.0, math.pi / 2, 0.1, 1, 10.0)[0])
+    expect(
+        abs(ahead - 1.5) < 0.005,
+        "Nothing stands ahead of the mole."
+        if math.isinf(ahead)
+        else f"What stands ahead of the mole is {ahead:.2f} m from its middle, not 1.50 m.",
+        "the pose of the wall is its middle; half of its thickness is nearer",
+    )
+
+
+# ---- 20.3: a velocity of the world ----
+
+
+def _velocity(turn: Callable[[float, float, float], tuple[float, float]]) -> Callable[[], Any]:
+    def make(vx: float, vy: float, heading: float) -> Any:
+        twist = message_class("geometry_msgs/Twist")()
+        twist.linear.x, twist.linear.y = turn(vx, vy, heading)
+        return twist
+
+    return lambda: make
+
+
+@exercise(
+    "20.3",
+    praise="It goes north, whatever it looks at.",
+    mistakes=[
+        _velocity(lambda vx, vy, _: (vx, vy)),
+        _velocity(
+            lambda vx, vy, a: (math.cos(a) * vx - math.sin(a) * vy, math.sin(a) * vx + math.cos(a) * vy)
+        ),
+        _velocity(
+            lambda vx, vy, a: (math.cos(a) * vx + math.sin(a) * vy, math.sin(a) * vx - math.cos(a) * vy)
+        ),
+        _velocity(lambda vx, vy, _: (math.hypot(vx, vy), 0.0)),
+        lambda: lambda vx, vy, _heading: (vx, vy),
+    ],
+)
+def world_velocity(answer: Any) -> None:
+    """The Twist for a velocity along the axes of the world, of a robot that goes in any direction."""
+    for vx, vy, degrees in ((0.3, 0.0, 0), (0.3, 0.0, 90), (0.0, 0.4, 30), (-0.2, 0.1, 200)):
+        a = math.radians(degrees)
+        command = answer(vx, vy, a)
+        expect(
+            getattr(command, "_type", "") == "geometry_msgs/Twist",
+            f"It returned a {type(command).__name__}, not a Twist.",
+            "make a Twist(), set linear.x and linear.y, and return it",
+        )
+        v, aside = command.linear.x, command.linear.y
+        gone = (math.cos(a) * v - math.sin(a) * aside, math.sin(a) * v + math.cos(a) * aside)
+        expect(
+            math.dist(gone, (vx, vy)) < 1e-6,
+            f"Asked for ({vx}, {vy}) m/s, the robot that looks to {degrees} degrees goes ({gone[0]:z.2f}, {gone[1]:z.2f}) m/s.",
+            "draw the two axes of the robot, and how much of the velocity lies along each",
+        )
+        expect(abs(command.angular.z) < 1e-9, "Your robot turns.", "leave angular.z at 0")
+
+
+# ---- 20.4: Stage's odometry ----
+
+
+def _belief(v: float, w: float, seconds: float, e_x: float, e_a: float) -> tuple[float, float, float]:
+    x, y, heading = arc((0.0, 0.0, 0.0), (1 + e_x) * v, (1 + e_a) * w, seconds)
+    return float(x), float(y), float(heading)
+
+
+def _wrapped(*of: float) -> tuple[float, float, float]:
+    x, y, heading = _belief(*of)
+    return x, y, math.remainder(heading, 2 * math.pi)
+
+
+@exercise(
+    "20.4",
+    praise="An arc, or a straight line: what Stage's robot believes, without driving it.",
+    mistakes=[
+        lambda: lambda v, w, seconds, _x, _a: _belief(v, w, seconds, 0.0, 0.0),
+        lambda: lambda v, w, seconds, e_x, e_a: _belief(v, w, seconds, e_a, e_x),
+        lambda: lambda v, w, seconds, e_x, e_a: _belief(v, w, seconds, e_x / 2, e_a / 2),
+        lambda: lambda v, w, seconds, e_x, e_a: _belief(v, w, seconds, -e_x, -e_a),
+        lambda: lambda v, w, seconds, e_x, e_a: (v * seconds * (1 + e_x), 0.0, w * seconds * (1 + e_a)),
+        lambda: (
+            lambda v, w, seconds, e_x, _a: (
+                (1 + e_x) * v / w * math.sin(w * seconds),
+                (1 + e_x) * v / w * (1 - math.cos(w * seconds)),
+                w * seconds,
+            )
+        ),
+        lambda: _wrapped,
+    ],
+)
+def belief(answer: Any) -> None:
+    """Where a robot of Stage with errors believes to be after one command."""
+    cases = ((0.5, 0.5, 2.0, 0.1, 0.0), (0.5, 0.5, 2.0, 0.0, -0.1), (0.3, -0.4, 20.0, -0.05, 0.08))
+    for given in (*cases, (0.4, 0.0, 5.0, 0.1, 0.2), (0.0, 1.0, 3.0, 0.1, 0.2)):
+        found = answer(*given)
+        right = _belief(*given)
+        expect(
+            isinstance(found, tuple | list | np.ndarray) and len(found) == 3,
+            f"It returned {found!r}, not x, y and heading.",
+            "return x, y, heading",
+        )
+        wrong = [
+            name
+            for name, a, b in zip(("x", "y", "heading"), found, right, strict=True)
+            if not abs(a - b) < 1e-6
+        ]
+        expect(
+            not wrong,
+            f"For v {given[0]}, w {given[1]}, {given[2]:.0f} s, e_x {given[3]} and e_a {given[4]}, this is wrong: {' and '.join(wrong)}.",
+            "an arc of radius v / w, both with their errors; straight on if w is 0",
+        )

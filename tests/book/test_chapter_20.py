@@ -1,0 +1,97 @@
+"""Chapter 20: its figures are numbered, its numbers are Stage's, and its solutions drive where they are said to."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+from rosmini import Graph, rosrun
+from rosmini.book import notebooks, solutions
+from rosmini.msgs import message_class
+from rosmini.sim.stage import load
+
+from .conftest import figure_numbers
+
+CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "20_simulation_and_stage.ipynb"
+
+FIGURES = ("rqt_graph(", "world_picture(", ".show(", ".show3d(", ".replay(")
+
+
+@pytest.fixture(scope="module")
+def chapter():
+    return notebooks.read(CHAPTER)
+
+
+@pytest.fixture(scope="module")
+def prose(chapter):
+    return "\n\n".join(cell.source for cell in chapter.cells if cell.cell_type == "markdown")
+
+
+def test_every_figure_is_numbered_in_order(chapter):
+    code = [cell.source for cell in chapter.cells if cell.cell_type == "code"]
+    numbers = figure_numbers(CHAPTER.stem)
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert sum(source.count(word) for source in code for word in FIGURES) == len(numbers) > 0
+
+
+def test_a_page_holds_few_moving_pictures(chapter):
+    code = "".join(cell.source for cell in chapter.cells if cell.cell_type == "code")
+    assert sum(code.count(word) for word in (".show3d(", ".replay(", ".replay3d(")) == 2
+
+
+def test_parameters_that_the_text_names_exist(chapter):
+    from rosmini.sim.simulator import SimulatorParameters
+    from rosmini.sim.stage.node import StageParameters
+
+    everything = "\n".join(cell.source for cell in chapter.cells)
+    named = set(re.findall(r"[\s`\"](_\w+):=", everything))
+    known = {
+        row[0].replace("~", "_") for each in (SimulatorParameters, StageParameters) for row in each.table()
+    }
+    assert {"_world", "_noise", "_base_watchdog_timeout"} <= named <= known
+
+
+def test_the_watchdog_and_the_bounds_are_those_of_the_text(prose, tmp_path):
+    from rosmini.sim.stage.node import WATCHDOG
+
+    assert WATCHDOG == 0.2
+    assert "stops a robot that has heard nothing for 0.2 s" in prose
+    assert "1 m/s and 90 degrees a second: these are Stage's bounds" in prose
+    (tmp_path / "plain.world").write_text("position( )")
+    (robot,) = load(tmp_path / "plain.world").robots
+    ahead, _, turning = robot.velocity_bounds
+    assert ahead == (-1.0, 1.0)
+    assert turning == pytest.approx((-math.pi / 2, math.pi / 2))
+    assert robot.localization == "gps"
+
+
+@pytest.mark.parametrize("w", [0.5, 0.0])
+def test_the_solution_believes_what_stage_comes_to(chapter, tmp_path, w):
+    found = {"math": math}
+    exec(solutions.solutions(chapter)["20.4"], found)
+    text = 'position( pose [1 2 0 90] localization "odom" odom_error [0.2 0 0 0.2] )'
+    (tmp_path / "mole.world").write_text(text)
+    with Graph(seed=3) as graph:
+        base = rosrun("stage_ros", "stageros", tmp_path / "mole.world", graph=graph).robot().base
+        e_x, _, e_a = base.reckoning.errors
+        base.go((0.3, 0.0, w))
+        base.reckoning.advance(2.0)
+    assert e_x
+    assert e_a
+    assert base.reckoning.belief == pytest.approx(found["belief"](0.3, w, 2.0, e_x, e_a))
+
+
+def test_the_solution_slides_to_the_north_whatever_it_looks_at(chapter, tmp_path):
+    found = {"math": math, "Twist": message_class("geometry_msgs/Twist")}
+    exec(solutions.solutions(chapter)["20.3"], found)
+    (tmp_path / "omni.world").write_text('position( pose [0 0 0 30] drive "omni" )')
+    with Graph() as graph:
+        stage = rosrun("stage_ros", "stageros", tmp_path / "omni.world", graph=graph)
+        command = found["world_velocity"](0.0, 0.4, math.radians(30))
+        stage.robot().base.command(command.linear.x, command.angular.z, command.linear.y)
+        graph.run(0.1)
+        x, y, heading = stage.truth()
+    assert (x, y, heading) == pytest.approx((0.0, 0.04, math.radians(30)), abs=1e-9)
