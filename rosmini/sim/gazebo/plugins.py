@@ -18,7 +18,7 @@ import importlib.util
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from rosmini.errors import nearest
 from rosmini.markup import Element
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 PLUGIN_PATH = "GAZEBO_PLUGIN_PATH"
 """The environment variable that names folders with plugins."""
+
+D = TypeVar("D", bound=Device)
 
 _CLASSES: dict[str, type[Plugin]] = {}
 
@@ -55,24 +57,33 @@ class Plugin:
         """The running world."""
         self.name = name
         """What the tag calls it, under the name of what it belongs to."""
-        self._updates: list[Update] = []
+        self._endings: list[Callable[[], object]] = []
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name}>"
 
     def every(self, rate: float, callback: Callable[[float], object]) -> None:
         """Call `callback(now)` so many times a second of the world's time [s], until the plugin is closed."""
-        name = f"{self.name}/update{len(self._updates) or ''}"
-        self._updates.append(self.world.host.add(Update(self.world.host, name, rate, callback)))
+        name = f"{self.name}/update{len(self._endings) or ''}"
+        self.add(Update(self.world.host, name, rate, callback))
+
+    def add(self, device: D) -> D:
+        """Take a device into the world's host, until the plugin is closed; return it."""
+        self.world.host.add(device)
+        self.at_close(lambda: self.world.host.remove(device))
+        return device
+
+    def at_close(self, ending: Callable[[], object]) -> None:
+        """Call `ending()` when the plugin is closed, also if it was closed because the rest of its `load` failed."""
+        self._endings.append(ending)
 
     def reset(self) -> None:
         """Go back to how it was in the beginning, because the world does."""
 
     def close(self) -> None:
-        """End: what it belongs to leaves the world. Who overrides this calls it too."""
-        for update in self._updates:
-            self.world.host.remove(update)
-        self._updates.clear()
+        """End, the last thing first: what it belongs to leaves the world. Who overrides this calls it too."""
+        while self._endings:
+            self._endings.pop()()
 
 
 class WorldPlugin(Plugin):

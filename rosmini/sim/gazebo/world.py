@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -289,9 +290,14 @@ class GazeboWorld:
         self.models[name] = model
         try:
             self._load(model, found, sensors)
-        except RosminiError as error:
-            self.delete(name)
-            raise SpawnError(f"the model {name!r} cannot come into the world: {error}") from error
+        except Exception as error:  # whatever a plugin of somebody's raises
+            self._take(model)
+            why = (
+                error
+                if isinstance(error, RosminiError)
+                else f"a plugin raised {type(error).__name__}: {error}"
+            )
+            raise SpawnError(f"the model {name!r} cannot come into the world: {why}") from error
         return model
 
     def _check_new(self, name: str, pose: Pose6) -> None:
@@ -347,15 +353,23 @@ class GazeboWorld:
     def delete(self, name: str) -> None:
         """Take a model out of the world, whether it moves or not: its topics end, and all else goes on. Raises `UnknownEntity`."""
         model = self.model(name)
+        self._take(model)
+        self._tell("delete", model)
+
+    def _take(self, model: Model) -> None:
+        """Take a model out of the world; what its plugins raise then is told, and it goes all the same."""
         self.host.catch_up()
-        for plugin in reversed(model.plugins):
-            plugin.close()
+        with ExitStack() as ends:
+            ends.callback(self._forget, model)
+            for plugin in model.plugins:
+                ends.callback(self.node.guarded, plugin.close, what=f"the end of {plugin.name}")
+
+    def _forget(self, model: Model) -> None:
         if model.body is not None:
-            self.engine.remove(name)
+            self.engine.remove(model.name)
         for obstacle in model.obstacles:
             self.engine.take_away(obstacle)
-        del self.models[name]
-        self._tell("delete", model)
+        del self.models[model.name]
 
     def move(self, model: Model, pose: Pose6, velocity: Velocity = STILL) -> None:
         """Put a model elsewhere, with a velocity in the frame of the world. Raises `GazeboError` for what is not finite, `WorldError` if something stands there."""
@@ -455,9 +469,10 @@ class GazeboWorld:
 
     def close(self) -> None:
         """End all plugins, and time."""
-        for plugin in reversed(self._all_plugins()):
-            plugin.close()
-        self.host.end()
+        with ExitStack() as ends:
+            ends.callback(self.host.end)
+            for plugin in self._all_plugins():
+                ends.callback(self.node.guarded, plugin.close, what=f"the end of {plugin.name}")
 
 
 def _plugins(model: SdfModel) -> list[SdfPlugin]:

@@ -22,7 +22,7 @@ from rosmini.sim.gazebo import (
     tag,
 )
 
-from .conftest import LASER, Bench, box, urdf
+from .conftest import DIFF_DRIVE, LASER, Bench, box, urdf
 
 Start = Callable[..., Bench]
 
@@ -149,6 +149,35 @@ def test_what_a_plugin_raises_is_told_and_all_goes_on(
     there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="crate")
     there.graph.run(0.5)
     assert there.server.world.now > now
+
+
+def test_a_plugin_that_cannot_begin_takes_its_model_away_again(bench: Start) -> None:
+    class Broken(ModelPlugin, filename="libbroken.so"):
+        def load(self, model: Any, sdf: Element) -> None:
+            self.every(10, lambda _: None)
+            raise KeyError("speed")
+
+        def close(self) -> None:
+            super().close()
+            raise ValueError("nor can it end")
+
+    there = bench()
+    there.graph.strict = False
+    topics = there.graph.master.getPublishedTopics("/test", "")[2]
+    before = [device.name for device in there.server.world.host.devices]
+    extra = '<plugin name="broken" filename="libbroken.so"/>'
+    for xml, fields, said in (
+        (box(extra=extra), {}, "a plugin raised KeyError: 'speed'"),
+        (urdf(), {"robot_namespace": "9 lives"}, "illegal topic"),
+        (urdf(DIFF_DRIVE.replace("cmd_vel", "cmd vel") + LASER), {}, "illegal topic"),
+    ):
+        answer = there.spawn(xml, "model", **fields)
+        assert not answer.success
+        assert said in answer.status_message
+        assert [device.name for device in there.server.world.host.devices] == before
+        assert there.graph.master.getPublishedTopics("/test", "")[2] == topics
+    assert there.spawn(urdf(), "model").success
+    there.graph.run(0.5)
 
 
 def test_a_plugin_in_a_file_is_found(

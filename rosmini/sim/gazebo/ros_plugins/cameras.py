@@ -61,7 +61,7 @@ class CameraPlugin(SensorPlugin, filename=("libgazebo_ros_camera.so", "libgazebo
     ) -> None:
         """Add the device, with these topics."""
         rates = [rate for rate in (tags.rate, sensor.sdf.update_rate) if rate > 0]
-        self.device = self.world.host.add(
+        self.device = self.add(
             CameraDevice(
                 self.world.host,
                 sensor.model.name,
@@ -73,11 +73,6 @@ class CameraPlugin(SensorPlugin, filename=("libgazebo_ros_camera.so", "libgazebo
                 **topics,
             )
         )
-
-    def close(self) -> None:
-        """End its topics."""
-        self.world.host.remove(self.device)
-        super().close()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -176,7 +171,7 @@ class BumperPlugin(SensorPlugin, filename="libgazebo_ros_bumper.so"):
             )
         names = RosNames(sensor.model, sdf)
         collision = sensor.element.word("contact/collision", f"{sensor.link}_collision")
-        self.device = self.world.host.add(
+        self.device = self.add(
             Bumper(
                 self.world.host,
                 sensor.model.name,
@@ -188,8 +183,3 @@ class BumperPlugin(SensorPlugin, filename="libgazebo_ros_bumper.so"):
                 name=sensor.device_name,
             )
         )
-
-    def close(self) -> None:
-        """End its topic."""
-        self.world.host.remove(self.device)
-        super().close()

@@ -83,38 +83,34 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
         tags = DiffDriveTags.read(sdf, lambda _: None)
         names = RosNames(model, sdf)
         host = self.world.host
-        drive = DifferentialDrive(
-            host,
-            model.name,
-            cmd_vel=names.topic(tags.command_topic),
-            odom=names.topic(tags.odometry_topic) if tags.publish_tf else None,
-            odom_frame=names.frame(tags.odometry_frame),
-            base_frame=names.frame(tags.base_frame),
-            tf="/tf" if tags.publish_odom_tf and tags.publish_tf else None,
-            rate=rate_of(tags.rate),
-            source=tags.odometry_source,
-            name=f"{self.name}/drive",
+        drive = self.add(
+            DifferentialDrive(
+                host,
+                model.name,
+                cmd_vel=names.topic(tags.command_topic),
+                odom=names.topic(tags.odometry_topic) if tags.publish_tf else None,
+                odom_frame=names.frame(tags.odometry_frame),
+                base_frame=names.frame(tags.base_frame),
+                tf="/tf" if tags.publish_odom_tf and tags.publish_tf else None,
+                rate=rate_of(tags.rate),
+                source=tags.odometry_source,
+                name=f"{self.name}/drive",
+            )
         )
-        self.devices: list[Device] = [host.add(drive)]
         if tags.publish_wheel_tf:
             name = f"{self.name}/wheels"
-            self.devices.append(host.add(WheelTransforms(host, name, rate_of(tags.rate), model, names)))
+            self.add(WheelTransforms(host, name, rate_of(tags.rate), model, names))
         if tags.publish_joints:
-            states = JointStates(
-                host,
-                drive,
-                topic=names.topic("joint_states"),
-                joints=(model.body.wheels if model.body is not None else None) or (tags.left, tags.right),
-                frame="",
-                name=f"{self.name}/joints",
+            self.add(
+                JointStates(
+                    host,
+                    drive,
+                    topic=names.topic("joint_states"),
+                    joints=(model.body.wheels if model.body is not None else None) or (tags.left, tags.right),
+                    frame="",
+                    name=f"{self.name}/joints",
+                )
             )
-            self.devices.append(host.add(states))
-
-    def close(self) -> None:
-        """End its topics."""
-        for device in reversed(self.devices):
-            self.world.host.remove(device)
-        super().close()
 
 
 class WheelTransforms(Device):
@@ -184,7 +180,7 @@ class PlanarMove(ModelPlugin, filename="libgazebo_ros_planar_move.so"):
         """Open its topics."""
         tags = PlanarMoveTags.read(sdf, lambda _: None)
         names = RosNames(model, sdf)
-        self.device = self.world.host.add(
+        self.device = self.add(
             devices.PlanarMove(
                 self.world.host,
                 model.name,
@@ -199,11 +195,6 @@ class PlanarMove(ModelPlugin, filename="libgazebo_ros_planar_move.so"):
                 name=f"{self.name}/drive",
             )
         )
-
-    def close(self) -> None:
-        """End its topics."""
-        self.world.host.remove(self.device)
-        super().close()
 
 
 def rate_of(rate: float, step: float = 0.001) -> float:

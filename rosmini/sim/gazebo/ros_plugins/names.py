@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rosmini.graph import Node
 from rosmini.markup import Element
+from rosmini.names import check_name
 from rosmini.sim.gazebo.model import Model
 
 
@@ -19,11 +20,11 @@ class RosNames:
         self.prefix = tf_prefix(model.world.node, self.namespace)
 
     def topic(self, name: str) -> str:
-        """The whole name of a topic or a service; one that begins with a slash stays as it is."""
+        """The whole name of a topic or a service; one that begins with a slash stays as it is. Raises `IllegalName`."""
         name = name.strip()
-        if name.startswith("/"):
-            return name
-        return f"/{self.namespace}/{name}" if self.namespace else f"/{name}"
+        if not name.startswith("/"):
+            name = f"/{self.namespace}/{name}" if self.namespace else f"/{name}"
+        return check_name(name, "topic")
 
     def frame(self, name: str) -> str:
         """The whole name of a frame; one that begins with a slash has no prefix."""

@@ -50,7 +50,7 @@ class LaserPlugin(
         """Open its topic. Raises `MarkupError` for what is no ray sensor."""
         tags = LaserTags.read(sdf, self.world.node.logwarn)
         names = RosNames(sensor.model, sdf)
-        self.device = self.world.host.add(
+        self.device = self.add(
             Laser(
                 self.world.host,
                 sensor.model.name,
@@ -61,11 +61,6 @@ class LaserPlugin(
                 name=sensor.device_name,
             )
         )
-
-    def close(self) -> None:
-        """End its topic."""
-        self.world.host.remove(self.device)
-        super().close()
 
 
 def lidar_of(sensor: Sensor) -> LidarModel:
@@ -156,7 +151,7 @@ class ImuModelPlugin(ModelPlugin, filename="libgazebo_ros_imu.so"):
         own = sdf.find("imu/noise")
         if own is not None:
             unit = _noisy(unit, own, "rate", "accel")
-        self.device = self.world.host.add(
+        self.device = self.add(
             WorldImu(
                 self.world.host,
                 model.name,
@@ -166,15 +161,10 @@ class ImuModelPlugin(ModelPlugin, filename="libgazebo_ros_imu.so"):
                 name=f"{self.name}/imu",
             )
         )
-        self.service = self.world.node.service(
+        service = self.world.node.service(
             names.topic(tags.service), service_class("std_srvs/Empty"), lambda _: {}
         )
-
-    def close(self) -> None:
-        """End its topic and its service."""
-        self.world.host.remove(self.device)
-        self.service.shutdown("the model was deleted")
-        super().close()
+        self.at_close(lambda: service.shutdown("the model was deleted"))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -203,7 +193,7 @@ class ImuSensorPlugin(SensorPlugin, filename="libgazebo_ros_imu_sensor.so"):
         if own is not None:
             unit = _noisy(unit, own, "angular_velocity/z/noise", "linear_acceleration/x/noise")
         kind = ImuDevice if tags.from_start else WorldImu
-        self.device = self.world.host.add(
+        self.device = self.add(
             kind(
                 self.world.host,
                 sensor.model.name,
@@ -213,11 +203,6 @@ class ImuSensorPlugin(SensorPlugin, filename="libgazebo_ros_imu_sensor.so"):
                 name=sensor.device_name,
             )
         )
-
-    def close(self) -> None:
-        """End its topic."""
-        self.world.host.remove(self.device)
-        super().close()
 
 
 def _noisy(unit: ImuModel, noise: Element, gyro: str, accel: str) -> ImuModel:

@@ -43,16 +43,11 @@ class JointStatePublisher(ModelPlugin, filename="libgazebo_ros_joint_state_publi
         for joint in joints:
             model.joint(joint)
         rate = rate_of(tags.rate, self.world.physics.time_step)
-        self.device = self.world.host.add(
+        self.device = self.add(
             _JointStates(
                 self.world.host, f"{self.name}/joints", rate, model, joints, names.topic("joint_states")
             )
         )
-
-    def close(self) -> None:
-        """End its topic."""
-        self.world.host.remove(self.device)
-        super().close()
 
 
 class _JointStates(Device):
@@ -106,7 +101,7 @@ class GroundTruthPlugin(ModelPlugin, filename="libgazebo_ros_p3d.so"):
         model.link_frame(tags.body)
         dx, dy, dz = sdf.floats(tags.xyz, 3, "xyzOffsets")
         roll, pitch, yaw = sdf.floats(tags.rpy, 3, "rpyOffsets")
-        self.device = self.world.host.add(
+        self.device = self.add(
             _Truth(
                 self.world.host,
                 f"{self.name}/truth",
@@ -117,11 +112,6 @@ class GroundTruthPlugin(ModelPlugin, filename="libgazebo_ros_p3d.so"):
                 (dx, dy, dz, roll, pitch, yaw),
             )
         )
-
-    def close(self) -> None:
-        """End its topic."""
-        self.world.host.remove(self.device)
-        super().close()
 
 
 class _Truth(Device):
