@@ -22,6 +22,7 @@ from rosmini.graph.show import show
 from rosmini.msgs import service_class
 
 from .devices.obstacles import ObstacleMarkers
+from .dragging import drag
 from .engine import Engine, RobotGone
 from .host import Host, HostState
 from .models import RobotModel
@@ -248,6 +249,16 @@ class Simulator:
 
         self.node.scheduler.on_hub(put)
 
+    def drag(self, name: str, pose: Pose) -> None:
+        """Take a robot, or a thing that can be pushed, and put it down elsewhere, at rest. Raises `WorldError` and `RobotGone`."""
+
+        def put() -> None:
+            self._open()
+            self.host.catch_up()
+            drag(self.engine, name, pose)
+
+        self.node.scheduler.on_hub(put)
+
     def reset(self) -> None:
         """Put all robots and all movable obstacles back to where they began, with odometry at zero. Raises `RobotGone`."""
 
@@ -334,6 +345,10 @@ class Simulator:
     def show3d(self, **options: Any) -> Any:
         """The robot in its world, to be turned; the options are those of the renderer "simulation_3d" in `rosmini.viz`."""
         return show("simulation_3d", self, **options)
+
+    def view(self, **options: Any) -> Any:
+        """The running world, in which robots and boxes are dragged; the options are those of the renderer "simulation_view" in `rosmini.widgets`."""
+        return show("simulation_view", self, **options)
 
     def pad(self, **options: Any) -> Any:
         """A pad to drive the robot with; the options are those of the renderer "teleop_pad" in `rosmini.widgets`."""

@@ -5,15 +5,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .pad import TeleopPad
+from .simulation_view import SimulationView
 from .teleop import Limits, Teleop, TeleopError
 
 if TYPE_CHECKING:
     from rosmini.graph import Graph
     from rosmini.sim.simulator import Simulator
 
-__all__ = ["Limits", "Teleop", "TeleopError", "TeleopPad", "teleop_pad"]
+    from .watch import Running
+
+__all__ = ["Limits", "SimulationView", "Teleop", "TeleopError", "TeleopPad", "simulation_view", "teleop_pad"]
 
 
 def teleop_pad(driven: Simulator | Graph, **options: Any) -> TeleopPad:
     """The renderer "teleop_pad": a pad for a simulator's robot, or for whatever listens on a graph; see `TeleopPad`."""
     return TeleopPad(driven, **options)
+
+
+def simulation_view(simulation: Running, **options: Any) -> SimulationView:
+    """The renderer "simulation_view": a running world in which robots and boxes are dragged; see `SimulationView`."""
+    return SimulationView(simulation, **options)

@@ -77,7 +77,7 @@ class Link:
             # It also has the laser's code loaded now, while the cell runs, and not at the first key.
             data["ranges"] = np.array(pad.sight.survey(), dtype=np.float32).tobytes()
         self.widget = PadWidget(_esm=module(), data=data)
-        _answer_in_subshells(self.widget.comm)
+        answer_in_subshells(self.widget.comm)
         self.widget.on_msg(self.receive)
         pad.on_publish(self._published)
 
@@ -206,7 +206,7 @@ class Link:
         self.widget.send(content, buffers)
 
 
-def _answer_in_subshells(comm: Any) -> None:
+def answer_in_subshells(comm: Any) -> None:
     """Let the page choose the thread that hears it.
 
     ipykernel 7.4 has a page's messages handled where the kernel last sent it one. That is the main thread, which is busy

@@ -17,8 +17,10 @@ from rosmini.dynamic_reconfigure import Server as ReconfigureServer
 from rosmini.errors import ParameterError, ScriptError
 from rosmini.geometry.poses import Pose
 from rosmini.graph import Node
+from rosmini.graph.show import show
 from rosmini.sim.devices import ClockDevice
 from rosmini.sim.gazebo.errors import GazeboError
+from rosmini.sim.host import Host
 from rosmini.sim.sdf import SdfModel, SdfWorld
 from rosmini.sim.world import World
 
@@ -130,6 +132,11 @@ class GazeboServer:
         """The engine of the world."""
         return self.world.engine
 
+    @property
+    def host(self) -> Host:
+        """The time of the world."""
+        return self.world.host
+
     def truth(self, model: str) -> tuple[float, float, float]:
         """Where a model is now: x [m], y [m], heading [rad]. Raises `UnknownEntity`."""
 
@@ -159,6 +166,28 @@ class GazeboServer:
         """Take a model out of the world. Raises `UnknownEntity`."""
         self.node.scheduler.on_hub(lambda: self.world.delete(name))
 
+    def drag(self, name: str, pose: Pose) -> None:
+        """Put a model elsewhere on the ground, at rest, as one does with the mouse in Gazebo's window: x [m], y [m], heading [rad].
+
+        Raises `UnknownEntity`, and `WorldError` if something stands there.
+        """
+
+        def put() -> None:
+            model = self.world.model(name)
+            _, _, z, roll, pitch, _ = model.pose
+            model.set_pose((pose[0], pose[1], z, roll, pitch, pose[2]))
+
+        self.node.scheduler.on_hub(put)
+
+    def axle(self, name: str) -> Pose:
+        """Where the engine has the middle of a model's wheels, seen from the model: x [m], y [m], heading [rad]. Raises `UnknownEntity`."""
+        body = self.world.model(name).body
+        return (0.0, 0.0, 0.0) if body is None else body.axle
+
+    def reset(self) -> None:
+        """Put every model back to where it came into the world; time goes on."""
+        self.node.scheduler.on_hub(self.world.reset_models)
+
     @property
     def gz(self) -> Gz:
         """The `gz` command line for this server: `server.gz("topic", "-l")`."""
@@ -187,6 +216,10 @@ class GazeboServer:
     def show3d(self, **options: Any) -> Any:
         """The world as it is now in three dimensions; the options are those of `rosmini.viz.meshcat.world_3d`."""
         return self.topics.snapshot().show3d(**options)
+
+    def view(self, **options: Any) -> Any:
+        """The running world, in which models are dragged; the options are those of the renderer "simulation_view" in `rosmini.widgets`."""
+        return show("simulation_view", self, **options)
 
     def _end(self) -> None:
         self.node.shutdown("so many steps as --iters said have passed")

@@ -28,6 +28,7 @@ from rosmini.graph import Node
 from rosmini.graph.show import show
 from rosmini.msgs import service_class
 from rosmini.sim.devices.clock import ClockDevice
+from rosmini.sim.dragging import drag
 from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.host import Host, HostState
 from rosmini.sim.models import RobotModel
@@ -241,11 +242,11 @@ class Stageros:
 
         def put() -> None:
             self.host.catch_up()
-            if any(each.name == name for each in self.engine.obstacles()):
-                self.engine.put(name, pose)
+            if any(each.name == name for each in self.engine.world.obstacles):
+                drag(self.engine, name, pose)
                 return
             robot = self.robot(name)
-            self.engine.place(robot.name, pose)
+            drag(self.engine, robot.name, pose)
             robot.base.reckoning.told(STILL, self.host.engine_now)
 
         self.node.scheduler.on_hub(put)
@@ -299,6 +300,10 @@ class Stageros:
         """Where the first robot was when its laser measured last."""
         robot = self.robot()
         return robot.lasers[0].pose if robot.lasers else robot.base.robot.pose
+
+    def view(self, **options: Any) -> Any:
+        """The running world, in which robots and boxes are dragged; the options are those of the renderer "simulation_view" in `rosmini.widgets`."""
+        return show("simulation_view", self, **options)
 
     def show3d(self, **options: Any) -> Any:
         """The world with its robots, to be turned; the options are those of the renderer "simulation_3d" in `rosmini.viz`."""

@@ -1,0 +1,49 @@
+"""Taking things by hand: what a view of a running world does with a mouse, a finger or a key."""
+
+from __future__ import annotations
+
+import math
+
+from rosmini.errors import nearest
+from rosmini.geometry.poses import Pose
+
+from .engine import Engine, RobotGone
+from .models import hull
+from .shapes import ROUND, outline_at, simple_parts
+from .world import Obstacle, WorldError
+
+
+def drag(engine: Engine, name: str, pose: Pose) -> None:
+    """Lift a robot, or a thing that can be pushed, and put it down elsewhere, at rest.
+
+    Raises `WorldError` if something stands there, walls among it, or for what moves by itself, and `RobotGone` if there is nothing of this name
+    that could be taken. All is as it was then.
+    """
+    if name in engine.robots:
+        engine.place(name, pose)
+        return
+    found = {obstacle.name: obstacle for obstacle in engine.obstacles()}
+    if name not in found:
+        takeable = [*engine.robots, *(each.name for each in found.values() if each.movable)]
+        hint = nearest(name, takeable) or f"there are: {', '.join(takeable) or 'none'}"
+        fixed = any(each.name == name for each in engine.world.obstacles)
+        what = f"{name!r} is fixed" if fixed else f"there is no {name!r}"
+        msg = f"{what} in the world {engine.world.name!r}; robots and what can be pushed can be taken by hand. {hint}"
+        raise RobotGone(msg)
+    if found[name].movable and all(math.isfinite(part) for part in pose):
+        _check_walls(engine, found[name], pose)
+    engine.put(name, pose)
+
+
+def _check_walls(engine: Engine, thing: Obstacle, pose: Pose) -> None:
+    """Raise `WorldError` if a wall, or something else that is fixed, is where the thing is to be."""
+    for shape, place in simple_parts(thing.shape, pose):
+        if isinstance(shape, ROUND):
+            hindrance = engine.world.blocked(place, shape.radius, thing.height)
+        else:
+            corners = hull([(float(x), float(y)) for x, y in outline_at(shape, place)])
+            hindrance = engine.world.blocked((0.0, 0.0, 0.0), corners, thing.height)
+        if hindrance is not None:
+            x, y, theta = pose
+            msg = f"{thing.name!r} cannot be put to ({x:.2f}, {y:.2f}) with heading {theta:.2f}: {hindrance} is in its way"
+            raise WorldError(msg)

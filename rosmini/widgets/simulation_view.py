@@ -1,0 +1,213 @@
+"""The view of a running simulation: robots and boxes are dragged with a mouse, a finger or keys, as in the windows of Stage and Gazebo.
+
+>>> from rosmini import Graph
+>>> from rosmini.sim.simulator import Simulator
+>>> graph = Graph()
+>>> simulator = Simulator(graph.node("simulator"), world="room", model="burger")
+>>> view = SimulationView(simulator)
+>>> view.drag("burger", (1.0, -1.0))
+>>> view.turn("burger", 1.570796)
+>>> print(view.message)
+burger is at (1.00, -1.00, 90.0 deg)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Sequence
+from typing import TYPE_CHECKING, TypeVar
+
+from rosmini.errors import RosminiError
+from rosmini.geometry.poses import Pose
+from rosmini.graph import Node
+from rosmini.graph.notebook import kernel_shell
+from rosmini.viz.form import book_form
+from rosmini.viz.rounding import fixed
+from rosmini.viz.view import SVG_MIME, MimeBundle, Picture, View, ViewError
+from rosmini.viz.world import pose_text
+
+from .watch import Running, Watch
+
+if TYPE_CHECKING:
+    from .view_link import ViewLink
+
+T = TypeVar("T")
+
+STEP_S = 0.1
+"""How much time the button Step lets pass [s]."""
+
+
+class SimulationView(View):
+    """A running world from above, in a notebook; `drag` and `turn` are what a pointer and the keys of a browser call too.
+
+    In a live notebook it follows the simulation, whoever drives the graph. In the book, and where no kernel runs, it is a picture of how things stand.
+
+    Args:
+        simulation: a simulator, stageros or gzserver.
+        title: a caption under the view, and the first line of its text form.
+
+    Raises:
+        ViewError: `simulation` is none of them.
+
+    """
+
+    def __init__(self, simulation: Running, *, title: str | None = None) -> None:
+        for needed, kind in (("node", Node), ("engine", object), ("host", object), ("drag", object)):
+            if not isinstance(getattr(simulation, needed, None), kind) or not hasattr(simulation, needed):
+                raise ViewError(
+                    f"a running simulation is viewed, not a {type(simulation).__name__}. Give the view what "
+                    "rosrun('rosmini_sim', 'simulator'), rosrun('stage_ros', 'stageros') or rosrun('gazebo_ros', 'gzserver') returned."
+                )
+        self.watch = Watch(simulation)
+        self.title = title
+        self.message = ""
+        """What the last drag, turn or button did, or why it was refused."""
+        self._link: ViewLink | None = None
+
+    # -- what is done --------------------------------------------------------------------------------------------
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of all that can be dragged."""
+        return self._on_hub(lambda: tuple(body.name for body in self.watch.bodies() if body.takeable))
+
+    def pose(self, name: str) -> Pose:
+        """Where a robot or a thing is now: x [m], y [m], heading [rad]. Raises `ViewError` for another name."""
+        return self._on_hub(lambda: self.watch.pose(self.watch.body(name)))
+
+    def drag(self, name: str, to: Sequence[float]) -> None:
+        """Take a robot or a box, and put it down at x, y [m], with the heading that it has, or with a third number [rad].
+
+        It is at rest then. If something stands there it stays where it was, and `WorldError` says what. Raises `ViewError` for another name and for
+        what is no place, and when the simulation has ended.
+        """
+        if len(to) not in (2, 3) or not all(math.isfinite(part) for part in to):
+            raise ViewError(f"{name!r} cannot be dragged to {tuple(to)!r}: give x and y [m], both finite")
+
+        def put() -> None:
+            self._require()
+            body = self.watch.body(name)
+            heading = to[2] if len(to) == 3 else self.watch.pose(body)[2]
+            self._try(lambda: self.watch.simulation.drag(name, (float(to[0]), float(to[1]), float(heading))))
+            self.message = f"{name} is at {pose_text(self.watch.pose(body))}"
+
+        self._on_hub(put)
+
+    def turn(self, name: str, heading: float) -> None:
+        """Take a robot or a box, and let it look there [rad, counter-clockwise from the x axis]. Raises as `drag` does."""
+        if not math.isfinite(heading):
+            raise ViewError(f"{name!r} cannot be turned to {heading!r}: give a finite heading [rad]")
+        x, y, _ = self.pose(name)
+        self.drag(name, (x, y, heading))
+
+    def pause(self) -> None:
+        """Let the world's time stand. Harmless when repeated."""
+        self._do(self.watch.host.pause, "time stands")
+
+    def unpause(self) -> None:
+        """Let the world's time go on. Harmless when repeated."""
+        self._do(self.watch.host.unpause, "time goes on")
+
+    def step(self, seconds: float = STEP_S) -> None:
+        """Let so much of the world's time pass, and stand then. Raises `RosminiError` for what is no positive number."""
+        if not self.paused:
+            self.pause()
+        self._do(lambda: self.watch.host.step(seconds), f"{seconds:g} s have passed")
+
+    def reset(self) -> None:
+        """Put everything back to where it began, as the simulation's own `reset` does."""
+        self._do(self.watch.simulation.reset, "all is back where it began")
+
+    @property
+    def paused(self) -> bool:
+        """Whether time stands."""
+        return self.watch.host.paused
+
+    def _do(self, action: Callable[[], object], said: str) -> None:
+        def act() -> None:
+            self._require()
+            self._try(action)
+            self.message = said
+
+        self._on_hub(act)
+
+    def _try(self, action: Callable[[], object]) -> None:
+        """Do it, and keep what is wrong with it as the message."""
+        try:
+            action()
+        except RosminiError as error:
+            self.message = str(error)
+            raise
+
+    def _require(self) -> None:
+        why = self.watch.gone
+        if why is not None:
+            raise ViewError(why)
+
+    def _on_hub(self, function: Callable[[], T]) -> T:
+        return self.watch.node.scheduler.on_hub(function)
+
+    # -- showing -------------------------------------------------------------------------------------------------
+
+    @property
+    def heading(self) -> str:
+        """What is viewed, in a few words."""
+        world = self.watch.engine.world
+        return self.title or f"Simulation of the world {world.name}"
+
+    @property
+    def text(self) -> str:
+        """The time, and where all is that can be dragged: robots first."""
+        return self._on_hub(self._describe)
+
+    def _describe(self) -> str:
+        watch = self.watch
+        time = f"{fixed(watch.host.now, 2)} s{', paused' if watch.host.paused else ''}"
+        lines = [f"{self.heading}: {time}"]
+        lines += [
+            f"{body.name} ({body.what}): {pose_text(watch.pose(body))}"
+            for body in watch.bodies()
+            if body.takeable
+        ]
+        why = watch.gone
+        if why is not None:
+            lines.append(why)
+        elif self.message:
+            lines.append(f"last: {self.message}")
+        return "\n".join(lines)
+
+    def still(self) -> Picture:
+        """A picture of how things stand."""
+        return self._on_hub(lambda: self.watch.picture(self.title))
+
+    @property
+    def alt(self) -> str:
+        """The view in a few sentences."""
+        return f"{self.still().alt} Robots and boxes can be dragged in a live notebook."
+
+    def _images(self) -> dict[str, bytes]:
+        picture = self.still()
+        return {SVG_MIME: (picture.svg or "").encode()}
+
+    @property
+    def html(self) -> str | None:
+        """The still picture: what moves needs the simulation, which runs in Python."""
+        return self.still().html
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> MimeBundle:
+        """A live widget in a notebook; in the book, and where no kernel runs, the still picture."""
+        if book_form() or kernel_shell() is None:
+            return super()._repr_mimebundle_(include, exclude)
+        data, metadata = self.link.mimebundle()
+        return {**data, "text/plain": self.text}, metadata
+
+    @property
+    def link(self) -> ViewLink:
+        """What goes between this view and its page in a live notebook. Raises `ViewError` without anywidget."""
+        if self._link is None:
+            from .view_link import ViewLink
+
+            self._link = ViewLink(self)
+        return self._link
