@@ -100,18 +100,10 @@ def world_picture(
         raise ViewError(
             f"a world is drawn from a rosmini.sim World, not from a {type(world).__name__}: rosmini.sim.worlds.world('room') is one"
         )
-    scene = Scene(world, model or BURGER)
-    if robot is not None:
-        scene.robot = pose_of(robot, "the robot's pose")
-    if scan is not None:
-        seen_from = scene.robot if scan_from is None else pose_of(scan_from, "the pose of a scan")
-        if seen_from is None:
-            raise ViewError("a scan is drawn from where it was taken: give robot=(x, y, heading) with it")
-        scene.beams = beams_of(scan, scene.model.laser)
-        scene.laser = laser_pose(seen_from, scene.model)
-    scene.trail = None if trail is None else _line(trail, "trail")
-    scene.odom = None if odom is None else _line(odom, "odom")
-    scene.others, scene.name = [other.checked() for other in others], name
+    scene = Scene(world)
+    scene.fill(
+        robot=robot, model=model, scan=scan, scan_from=scan_from, trail=trail, odom=odom, others=others, name=name
+    )  # fmt: skip
     return scene.picture(title, size)
 
 
@@ -140,7 +132,7 @@ def colour_of(number: int) -> str:
 class Scene:
     """What there is to see in a world, and how it is drawn and said."""
 
-    def __init__(self, world: World, model: RobotModel) -> None:
+    def __init__(self, world: World, model: RobotModel = BURGER) -> None:
         self.world = world
         self.model = model
         self.robot: Pose | None = None
@@ -152,11 +144,31 @@ class Scene:
         self.odom: Floats | None = None
         self.name = ""
         """Of the robot, where there are others."""
+        self.alone_too = False
+        """Whether its name is written and said where there are no others, too."""
         self.others: list[Other] = []
         self.places: list[Obstacle] = []
         """Things where they stood before they were moved."""
         self.ways: list[tuple[Floats, str]] = []
         """Where things were moved along, (n, 2), and their colours."""
+
+    def fill(
+        self, *, robot: Sequence[float] | None, model: RobotModel | None, scan: Any, scan_from: Sequence[float] | None,
+        trail: ArrayLike | None, odom: ArrayLike | None, others: Iterable[Other], name: str,
+    ) -> None:  # fmt: skip
+        """Add robots and what they saw and did, as `world_picture` takes them. Raises `ViewError`."""
+        self.model = model or BURGER
+        if robot is not None:
+            self.robot = pose_of(robot, "the robot's pose")
+        if scan is not None:
+            seen_from = self.robot if scan_from is None else pose_of(scan_from, "the pose of a scan")
+            if seen_from is None:
+                raise ViewError("a scan is drawn from where it was taken: give robot=(x, y, heading) with it")
+            self.beams = beams_of(scan, self.model.laser)
+            self.laser = laser_pose(seen_from, self.model)
+        self.trail = None if trail is None else _line(trail, "trail")
+        self.odom = None if odom is None else _line(odom, "odom")
+        self.others, self.name = [other.checked() for other in others], name
 
     def picture(self, title: str | None, size: tuple[float, float]) -> Picture:
         """The drawing of it."""
@@ -198,7 +210,7 @@ class Scene:
     def _draw_names(self, axes: Axes, scale: float) -> None:
         """The robots' names, where they have others; of those that would cover one another the first."""
         named = [(other.name, other.model, other.pose, colour_of(i)) for i, other in enumerate(self.others)]
-        if named and self.name and self.robot is not None:
+        if (named or self.alone_too) and self.name and self.robot is not None:
             named.insert(0, (self.name, self.model, self.robot, "blue"))
         written: list[Bounds] = []
         for name, model, pose, colour in named:
@@ -257,11 +269,12 @@ class Scene:
         lines = [f"{title or f'world {self.world.name}'}: {contents(self.world)}"]
         if self.robot is not None:
             lines.append(
-                f"{self.name if self.others and self.name else self.model.name}: pose {pose_text(self.robot)}"
+                f"{self.name if (self.others or self.alone_too) and self.name else self.model.name}: pose {pose_text(self.robot)}"
             )
         for other in self.others:
             driven = "" if other.trail is None else f", {fixed(length_of(other.trail), 2)} m driven"
-            lines.append(f"{other.name} ({other.model.name}): pose {pose_text(other.pose)}{driven}")
+            kind = f" ({other.model.name})" if other.model.name != other.name else ""
+            lines.append(f"{other.name}{kind}: pose {pose_text(other.pose)}{driven}")
         if self.beams is not None:
             lines.append(f"scan: {self.beams.text()}")
         if self.trail is not None:

@@ -16,6 +16,7 @@ from rosmini.sim.world import World
 from .master import address, find_master
 from .msgs import (
     Model,
+    Pose,
     PosesStamped,
     Request,
     Response,
@@ -25,6 +26,7 @@ from .msgs import (
     WorldReset,
     WorldStatistics,
 )
+from .snapshot import Snapshot
 from .transport import TransportNode
 
 WAIT_S = 30.0
@@ -66,6 +68,7 @@ class GazeboClient:
         self.master = master
         self.transport = TransportNode(master, f"gzclient {node.name}", master.namespace)
         self._models: dict[str, Model] = {}
+        self._poses: dict[str, Pose] = {}
         self._scene: Scene | None = None
         self._asked = 0
         self.statistics: WorldStatistics | None = None
@@ -96,17 +99,22 @@ class GazeboClient:
         if isinstance(message.serialized_data, Scene):
             self._scene = message.serialized_data
             self._models = {model.name: model for model in self._scene.model}
+            self._poses = {model.name: model.pose for model in self._scene.model if model.pose is not None}
         elif message.request == "entity_delete":
-            self._models.pop(str(message.serialized_data), None)
+            name = str(message.serialized_data)
+            self._models.pop(name, None)
+            for each in [each for each in self._poses if each.partition("::")[0] == name]:
+                del self._poses[each]
 
     def _model(self, message: Model) -> None:
         self._models[message.name] = message
+        if message.pose is not None:
+            self._poses[message.name] = message.pose
 
     def _moved(self, message: PosesStamped) -> None:
         self.time = message.time
         for pose in message.pose:
-            if pose.name in self._models:
-                self._models[pose.name] = replace(self._models[pose.name], pose=pose)
+            self._poses[pose.name] = pose
 
     def _told(self, message: WorldStatistics) -> None:
         self.statistics = message
@@ -123,28 +131,33 @@ class GazeboClient:
         """What is to be seen, in words: where each model is that is not static."""
         name = self._scene.name if self._scene is not None else "?"
         moving = [
-            f"{model.name} at ({model.pose.position.x:.2f}, {model.pose.position.y:.2f})"
+            f"{model.name} at ({self._poses[model.name].position.x:.2f}, {self._poses[model.name].position.y:.2f})"
             for model in self._models.values()
-            if not model.is_static and model.pose is not None
+            if not model.is_static and model.name in self._poses
         ]
         count = len(self._models)
         there = f"{count} model{'' if count == 1 else 's'} in {name}"
         return f"{there}: {', '.join(moving)}" if moving else there
 
-    def world(self) -> World:
-        """What it knows, as a world that can be drawn."""
-        from .topics import world_of_scene
+    def snapshot(self) -> Snapshot:
+        """What it knows: the models, where they are, and what time it is there."""
+        scene = replace(self._scene or Scene("default"), model=tuple(self._models.values()))
+        time = self.time.sec + self.time.nsec * 1e-9
+        return Snapshot.of(
+            scene, self._poses, time, paused=self.statistics is not None and self.statistics.paused
+        )
 
-        scene = self._scene or Scene("default")
-        return world_of_scene(replace(scene, model=tuple(self._models.values())))
+    def world(self) -> World:
+        """What it knows to be solid, as a flat world."""
+        return self.snapshot().world()
 
     def show(self, **options: Any) -> Any:
-        """A picture of what it knows; the options are those of `rosmini.viz.world_picture`."""
-        return self.world().show(**options)
+        """A picture of what it knows, from above; the options are those of `rosmini.viz.gazebo.gazebo_picture`."""
+        return self.snapshot().show(**options)
 
     def show3d(self, **options: Any) -> Any:
-        """What it knows in three dimensions; the options are those of `rosmini.viz.meshcat.world_3d`."""
-        return self.world().show3d(**options)
+        """What it knows in three dimensions; the options are those of `rosmini.viz.meshcat.gazebo_3d`."""
+        return self.snapshot().show3d(**options)
 
     # -- its buttons ---------------------------------------------------------------------------------------------
 

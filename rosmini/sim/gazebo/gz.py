@@ -23,8 +23,8 @@ from .errors import GazeboError
 from .from_urdf import from_urdf
 from .master import address, find_master
 from .msgs import Factory, Model, Pose, Request, Response, WorldControl, WorldReset, WorldStatistics
+from .snapshot import pose_of
 from .to_sdf import to_sdf
-from .topics import pose_of
 from .transport import TransportNode
 
 VERBS = {

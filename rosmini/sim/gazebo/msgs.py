@@ -6,10 +6,12 @@ They print as `gz topic -e` does: field by field, in Protocol Buffers' text form
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar
 
+from rosmini.sim.models import RobotModel
 from rosmini.sim.sdf import Pose6
+from rosmini.sim.world import Obstacle, World
 
 
 @dataclass(frozen=True)
@@ -177,6 +179,161 @@ class Factory(Message):
     pose: Pose | None = None
 
 
+class Word(str):
+    """A word of a list of words, which is printed without quotes."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True)
+class Color(Message):
+    """A colour: parts from 0 to 1."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.Color"
+    r: float = 0.0
+    g: float = 0.0
+    b: float = 0.0
+    a: float = 1.0
+
+
+@dataclass(frozen=True)
+class Material(Message):
+    """What the surface of something looks like."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.Material"
+    diffuse: Color
+
+
+@dataclass(frozen=True)
+class BoxGeom(Message):
+    """The lengths of a box."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.BoxGeom"
+    size: Vector3d
+
+
+@dataclass(frozen=True)
+class CylinderGeom(Message):
+    """A cylinder along its z."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.CylinderGeom"
+    radius: float
+    length: float
+
+
+@dataclass(frozen=True)
+class SphereGeom(Message):
+    """A ball."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.SphereGeom"
+    radius: float
+
+
+@dataclass(frozen=True)
+class Vector2d(Message):
+    """Two numbers."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.Vector2d"
+    x: float = 0.0
+    y: float = 0.0
+
+
+@dataclass(frozen=True)
+class PlaneGeom(Message):
+    """A flat rectangle."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.PlaneGeom"
+    normal: Vector3d
+    size: Vector2d
+
+
+@dataclass(frozen=True)
+class PolylineGeom(Message):
+    """A closed outline, and how far it reaches up."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.Polyline"
+    height: float
+    point: tuple[Vector2d, ...]
+
+
+@dataclass(frozen=True)
+class MeshGeom(Message):
+    """A file of triangles."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.MeshGeom"
+    filename: str
+    scale: Vector3d
+    submesh: str | None = None
+
+
+@dataclass(frozen=True)
+class Geometry(Message):
+    """A shape; of the fields one is set, that of its type."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.Geometry"
+    type: Word
+    """BOX, CYLINDER, SPHERE, PLANE, POLYLINE, MESH or EMPTY."""
+    box: BoxGeom | None = None
+    cylinder: CylinderGeom | None = None
+    sphere: SphereGeom | None = None
+    plane: PlaneGeom | None = None
+    mesh: MeshGeom | None = None
+    polyline: tuple[PolylineGeom, ...] = ()
+
+
+@dataclass(frozen=True)
+class Visual(Message):
+    """What is drawn of a link."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.Visual"
+    name: str
+    """MODEL::LINK::VISUAL"""
+    id: int
+    parent_name: str
+    pose: Pose
+    """Seen from the link."""
+    geometry: Geometry
+    material: Material | None = None
+    """None: a mesh has its own colours."""
+
+
+@dataclass(frozen=True)
+class Collision(Message):
+    """What is solid of a link."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.Collision"
+    id: int
+    name: str
+    pose: Pose
+    geometry: Geometry
+
+
+@dataclass(frozen=True)
+class Link(Message):
+    """A rigid body of a model."""
+
+    TYPE: ClassVar[str] = "gazebo.msgs.Link"
+    id: int
+    name: str
+    """MODEL::LINK"""
+    pose: Pose
+    """Seen from the model."""
+    visual: tuple[Visual, ...] = ()
+    collision: tuple[Collision, ...] = ()
+
+
+@dataclass(frozen=True)
+class Flat:
+    """What a model is seen from above, in rosmini's flat world; Gazebo's messages have nothing like it, so it is not printed."""
+
+    solids: tuple[Obstacle, ...] = ()
+    """At the model's pose of zero."""
+    robot: RobotModel | None = None
+    """Of a model with a drive: its outline, its wheels and its laser."""
+    axle: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Where the middle of the robot's axle is, seen from the model."""
+
+
 @dataclass(frozen=True)
 class Model(Message):
     """A model that has come into the world, or one that is to be changed."""
@@ -186,9 +343,9 @@ class Model(Message):
     id: int
     is_static: bool = False
     pose: Pose | None = None
-    link: tuple[str, ...] = ()
-    visual: tuple[Any, ...] = ()
-    """What a client draws: `rosmini.sim.world.Obstacle`s at the model's pose of zero."""
+    link: tuple[Link, ...] = ()
+    """What a client draws."""
+    flat: Flat = Flat()
 
 
 @dataclass(frozen=True)
@@ -198,8 +355,8 @@ class Scene(Message):
     TYPE: ClassVar[str] = "gazebo.msgs.Scene"
     name: str
     model: tuple[Model, ...] = ()
-    walls: Any = None
-    """Thin walls (n, 4), where the world was made from a map."""
+    flat: World | None = None
+    """Walls that are no models, where the world was made from a map; not printed."""
 
 
 @dataclass(frozen=True)
@@ -239,9 +396,7 @@ def _lines(message: Message, indent: str) -> list[str]:
             elif isinstance(item, bool):
                 lines.append(f"{indent}{each.name}: {'true' if item else 'false'}")
             elif isinstance(item, str):
-                lines.append(f'{indent}{each.name}: "{item}"')
+                lines.append(f"{indent}{each.name}: " + (item if isinstance(item, Word) else f'"{item}"'))
             elif isinstance(item, (int, float)):
                 lines.append(f"{indent}{each.name}: {item:.12g}")
-            elif is_dataclass(item) and hasattr(item, "name"):
-                lines.append(f'{indent}{each.name}: "{item.name}"')
     return lines

@@ -210,11 +210,11 @@ class GazeboServer:
         return config
 
     def show(self, **options: Any) -> Any:
-        """A picture of the world as it is now; the options are those of `rosmini.viz.world_picture`."""
+        """A picture of the world as it is now; the options are those of `rosmini.viz.gazebo.gazebo_picture`."""
         return self.topics.snapshot().show(**options)
 
     def show3d(self, **options: Any) -> Any:
-        """The world as it is now in three dimensions; the options are those of `rosmini.viz.meshcat.world_3d`."""
+        """The world as it is now in three dimensions; the options are those of `rosmini.viz.meshcat.gazebo_3d`."""
         return self.topics.snapshot().show3d(**options)
 
     def view(self, **options: Any) -> Any:

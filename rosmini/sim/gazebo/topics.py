@@ -7,11 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
-from rosmini.geometry.poses import compose
 from rosmini.sim.host import Device, Host, Stamp
-from rosmini.sim.sdf import ORIGIN, Pose6, to_obstacles
-from rosmini.sim.sdf.poses import from_quaternion
-from rosmini.sim.world import Obstacle, World
+from rosmini.sim.sdf import Pose6
 
 from .model import Model
 from .msgs import (
@@ -28,7 +25,9 @@ from .msgs import (
     WorldStatistics,
 )
 from .msgs import Model as ModelMessage
+from .scenes import Wheel, model_message, wheels
 from .sensor_topics import SensorTopics
+from .snapshot import Snapshot, pose_of
 from .transport import TransportNode
 
 if TYPE_CHECKING:
@@ -74,6 +73,8 @@ class ServerTopics:
         node.subscribe("~/world_control", self._control)
         node.subscribe("~/physics", self._set_physics)
         self._numbers: dict[str, int] = {}
+        self._wheels: dict[str, tuple[Wheel, ...]] = {}
+        self._told: dict[str, tuple[Pose6, Pose]] = {}
         host = world.host
         for name, rate, publication, tell in (
             ("~/world_stats", STATISTICS_RATE, self._statistics, self.tell_statistics),
@@ -105,10 +106,22 @@ class ServerTopics:
         self._statistics.publish(self.statistics())
 
     def poses(self) -> PosesStamped:
-        """Where all models are."""
-        world = self.world
-        there = tuple(Pose.of(name, self.number(name), model.pose) for name, model in world.models.items())
-        return PosesStamped(Time.of(world.now), there)
+        """Where all models are, and, seen from their models, the links that turn."""
+        there: list[Pose] = []
+        for name, model in self.world.models.items():
+            there.append(self._pose(name, model.pose))
+            if model.body is not None:
+                if name not in self._wheels:
+                    self._wheels[name] = wheels(model, self.number)
+                there += [wheel.pose for wheel in self._wheels[name]]
+        return PosesStamped(Time.of(self.world.now), tuple(there))
+
+    def _pose(self, name: str, pose: Pose6) -> Pose:
+        """A pose as a message; that of what has not moved is the last one."""
+        told = self._told.get(name)
+        if told is None or told[0] != pose:
+            told = self._told[name] = (pose, Pose.of(name, self.number(name), pose))
+        return told[1]
 
     def tell_poses(self) -> None:
         """Say where all models are."""
@@ -116,25 +129,26 @@ class ServerTopics:
 
     def model(self, model: Model) -> ModelMessage:
         """What there is to know of a model."""
-        number = self.number(model.name)
-        pose = Pose.of(model.name, number, model.pose)
-        return ModelMessage(model.name, number, model.static, pose, model.links, visuals(model))
+        return model_message(model, self.number)
 
     def scene(self) -> Scene:
         """All that there is."""
-        walls = self.world.flat.walls
         models = tuple(self.model(model) for model in self.world.models.values())
-        return Scene(self.world.name, models, walls if len(walls) else None)
+        return Scene(self.world.name, models, replace(self.world.flat, obstacles=()))
 
-    def snapshot(self) -> World:
-        """The world as it is now, as one that can be shown."""
-        self.world.host.catch_up()
-        return world_of_scene(self.scene())
+    def snapshot(self) -> Snapshot:
+        """The world as it is now."""
+        world = self.world
+        world.host.catch_up()
+        poses = {pose.name: pose for pose in self.poses().pose}
+        return Snapshot.of(self.scene(), poses, world.now, paused=world.paused)
 
     def _changed(self, what: str, model: Model) -> None:
         if what == "insert":
             self._models.publish(self.model(model))
         elif what == "delete":
+            self._wheels.pop(model.name, None)
+            self._told.pop(model.name, None)
             self._responses.publish(Response(0, "entity_delete", "success", "string", model.name))
         elif self.world.paused:
             self.tell_poses()
@@ -211,55 +225,3 @@ class ServerTopics:
             self.server.set_physics(physics)
         except RosminiError as error:
             self.world.node.logerr(f"Gazebo's ~/physics: {error}")
-
-
-def visuals(model: Model) -> tuple[Obstacle, ...]:
-    """What a client draws of a model, seen from its origin."""
-    if model.body is not None:
-        return tuple(
-            Obstacle(
-                f"{model.name} {i}" if i else model.name,
-                part.shape,
-                compose(model.body.axle, part.pose),
-                part.top,
-                part.colour,
-                bottom=part.bottom,
-            )
-            for i, part in enumerate(model.body.parts())
-            if part.top > 0
-        )
-    if model.sdf.links and not any(link.collisions for link in model.sdf.links):
-        own = (each for each in model.world.flat.obstacles if each.name in model.obstacles)
-        return tuple(replace(each, pose=(0.0, 0.0, 0.0)) for each in own)
-    at: Pose6 = (*ORIGIN[:2], *model.start[2:5], 0.0)
-    return to_obstacles(model.sdf, at)
-
-
-def pose_of(message: Pose) -> Pose6:
-    """The six numbers of a pose."""
-    at, to = message.position, message.orientation
-    return (at.x, at.y, at.z, *from_quaternion(to.x, to.y, to.z, to.w))
-
-
-def world_of_scene(scene: Scene) -> World:
-    """What a scene shows, as a world that can be drawn."""
-    placed = []
-    for model in scene.model:
-        if model.pose is not None:
-            x, y, _, _, _, yaw = pose_of(model.pose)
-            placed += [_placed(each, (x, y, yaw)) for each in model.visual]
-    names: dict[str, int] = {}
-    unique = []
-    for each in placed:
-        count = names[each.name] = names.get(each.name, 0) + 1
-        unique.append(each if count == 1 else _renamed(each, f"{each.name} ({count})"))
-    options: dict[str, Any] = {} if scene.walls is None else {"walls": scene.walls}
-    return World(scene.name, tuple(unique), title=f"Gazebo's world {scene.name}", **options)
-
-
-def _placed(visual: Obstacle, pose: tuple[float, float, float]) -> Obstacle:
-    return replace(visual, pose=compose(pose, visual.pose), mass=None, motion=None)
-
-
-def _renamed(visual: Obstacle, name: str) -> Obstacle:
-    return replace(visual, name=name)

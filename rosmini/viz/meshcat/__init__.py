@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rosmini.viz.meshcat.gazebo import gazebo_3d
 from rosmini.viz.meshcat.recorder import Recorder
 from rosmini.viz.meshcat.scene import Camera, Scene3D
 from rosmini.viz.meshcat.urdf import urdf_3d
@@ -12,6 +13,7 @@ __all__ = [
     "MeshcatView",
     "Recorder",
     "Scene3D",
+    "gazebo_3d",
     "replay_3d",
     "robot_3d",
     "simulation_3d",

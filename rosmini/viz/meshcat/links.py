@@ -60,16 +60,17 @@ def link_surfaces(
         ]
     for piece in pieces:
         colour = piece.material.colour if piece.material is not None else None
-        for surface in _surfaces(piece.geometry):
+        for surface in surfaces_of(piece.geometry):
             moved = surface.moved(piece.origin.matrix)
             moved = replace(moved, colour=colour or moved.colour)
             if hex_colour(moved) in without:
                 continue
             found.setdefault(hex_colour(moved), []).append(moved)
-    return [_merged(surfaces) for surfaces in found.values()]
+    return [merged(surfaces) for surfaces in found.values()]
 
 
-def _surfaces(geometry: Geometry) -> list[Surface]:
+def surfaces_of(geometry: Geometry) -> list[Surface]:
+    """A shape around its origin."""
     if isinstance(geometry, Box):
         return [join(box((0, 0, 0), geometry.size), GREY)]
     if isinstance(geometry, Cylinder):
@@ -89,7 +90,8 @@ def _mesh(mesh: Mesh) -> list[Surface]:
     return [surface.moved(scale) for surface in read(mesh.path)]
 
 
-def _merged(surfaces: list[Surface]) -> Surface:
+def merged(surfaces: list[Surface]) -> Surface:
+    """Several surfaces as one, in the colour of the first."""
     starts = np.cumsum([0, *(len(each.vertices) for each in surfaces)])
     faces = [each.faces + start for each, start in zip(surfaces, starts, strict=False)]
     return Surface(

@@ -104,8 +104,11 @@ class Scene3D:
     """What the ground covers."""
     duration: float = 0.0
     """Of the animation [s]; 0: nothing moves."""
+    copies: list[tuple[str, str]] = field(default_factory=list)
+    """Paths of objects, each with the path where the same object is once more: the viewer keeps one geometry for all."""
 
     def __post_init__(self) -> None:
+        self._shared: dict[tuple[str, bytes, bytes], str] = {}
         self.recorder = Recorder()
         self.visualizer: Any = meshcat().Visualizer(window=self.recorder)
         self.nodes: dict[str, Floats] = {"": np.eye(4)}
@@ -172,13 +175,20 @@ class Scene3D:
                     place[:3, :3] = [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
             path[str(i)].set_transform(rounded(place))
 
-    def add_surface(self, part: LinkPart) -> None:
-        """Add a surface to its node."""
+    def add_surface(self, part: LinkPart, *, shared: bool = False) -> None:
+        """Add a surface to its node; a `shared` one that is there already is told of only as a copy of the other."""
         self.surfaces.append(part)
+        path, vertices = f"{part.node}/{part.name}", rounded(part.surface.vertices)
+        if shared:
+            known = (part.colour, vertices.tobytes(), part.surface.faces.tobytes())
+            first = self._shared.setdefault(known, path)
+            if first != path:
+                self.copies.append((f"/meshcat/{first}", f"/meshcat/{path}"))
+                return
         geometry = meshcat().geometry
         material = geometry.MeshPhongMaterial(color=int(part.colour[1:], 16), shininess=26, specular=0x0E0E0E)
-        triangles = geometry.TriangularMeshGeometry(rounded(part.surface.vertices), part.surface.faces)
-        self.visualizer[f"{part.node}/{part.name}"].set_object(triangles, material)
+        triangles = geometry.TriangularMeshGeometry(vertices, part.surface.faces)
+        self.visualizer[path].set_object(triangles, material)
 
     def add_ground(self, bounds: tuple[float, float, float, float]) -> None:
         """Add a floor that reaches half a metre further than `bounds`, with a line each metre."""
@@ -198,9 +208,9 @@ class Scene3D:
         lines = geometry.TriangularMeshGeometry(vertices, faces)
         self.visualizer["grid"].set_object(lines, geometry.MeshBasicMaterial(color=int(GRID[1:], 16)))
 
-    def add_world(self, world: World) -> None:
-        """Add ground, walls and obstacles."""
-        self.add_ground(world.bounds)
+    def add_world(self, world: World, *, bounds: tuple[float, float, float, float] | None = None) -> None:
+        """Add walls and obstacles, and ground under them or under `bounds`."""
+        self.add_ground(bounds or world.bounds)
         if len(world.walls):
             self._add_walls(world)
         for obstacle in world.obstacles:

@@ -98,6 +98,7 @@ class MeshcatView(View):
             "duration": self.scene.duration,
             "follow": self._follow,
             "legend": [[trail.name, style.variable(trail.colour)] for trail in self.scene.trails],
+            **({"copies": self.scene.copies} if self.scene.copies else {}),
             **self.extra,
         }
         return embed(
@@ -158,8 +159,8 @@ def world_3d(
     scene = Scene3D(camera)
     scene.add_world(world)
     label = f"{_title(world)} in 3D"
-    text = f"3D: {_contents(world)}"
-    alt = f"{_title(world)} in three dimensions, seen from above at an angle: {_contents(world)}."
+    text = f"3D: {contents_of(world)}"
+    alt = f"{_title(world)} in three dimensions, seen from above at an angle: {contents_of(world)}."
     return MeshcatView(scene, label=label, text=text, alt=alt, title=title, height=height)
 
 
@@ -266,7 +267,7 @@ def robot_3d(
         scene.add_scan(model, ranges, scan_from)
         hits = f"; {int(np.isfinite(ranges).sum())} of {len(ranges)} beams hit"
     name = model.title or model.name
-    text = "\n".join([f"3D: {model.name} at {_pose(pose)}{hits}", *beside, _contents(world)])
+    text = "\n".join([f"3D: {model.name} at {_pose(pose)}{hits}", *beside, contents_of(world)])
     alt = f"{name} in {_title(world)}, in three dimensions, at {_pose(pose)}{hits}."
     alt += f" Beside it {', '.join(beside)}." if beside else ""
     return MeshcatView(
@@ -282,7 +283,8 @@ def _pose(pose: Pose) -> str:
     return f"({fixed(pose[0], 2)}, {fixed(pose[1], 2)}, {degrees(pose[2])} deg)"
 
 
-def _contents(world: World) -> str:
+def contents_of(world: World) -> str:
+    """How much there is in a world, in words."""
     counts = [(len(world.walls), "wall"), (len(world.obstacles), "obstacle")]
     return f"{world.name} with " + ", ".join(f"{n} {what}{'s' * (n != 1)}" for n, what in counts)
 

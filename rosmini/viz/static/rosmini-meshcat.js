@@ -3,7 +3,7 @@
    `rosminiMeshcat.mount(host, data, options)` as `rosmini/viz/embed.py` calls it. `data` is what `rosmini/viz/meshcat` makes:
    `commands` (base64 of packed commands), `themes` (colours of paths on light and dark pages), `duration` [s] of the
    animation or 0, `follow` (the path of what the camera follows, or null), `legend` (names and colours of lines), and
-   `scan` with a recorded laser (or absent).
+   `scan` with a recorded laser (or absent), `copies` with pairs of paths: at the second is once more what is at the first (or absent).
 
    The viewer runs in a frame, so its styles and its globals stay there. It is made when the reader comes near it, and
    again if the page takes the frame out and puts it back. Outside a click it leaves the wheel to the page. */
@@ -20,6 +20,7 @@
   const STEP = Math.PI / 24;
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const parts = (path) => path.split("/").filter(Boolean);
   const make = (tag, properties = {}, style = {}) => {
     const made = Object.assign(document.createElement(tag), properties);
     Object.assign(made.style, style);
@@ -90,6 +91,10 @@
       const viewer = new frame.contentWindow.MeshCat.Viewer(page.getElementById("pane"));
       viewer.gui.domElement.style.display = "none";
       for (const command of data.commands) viewer.handle_command_bytearray(bytes(command));
+      for (const [from, to] of data.copies ?? []) { // what is there several times has one geometry
+        const known = viewer.scene_tree.find([...parts(from), "<object>"]).object;
+        viewer.set_object(parts(to), known.clone());
+      }
       state.viewer = frame.contentWindow.viewer = viewer; // where meshcat's own page has it
       state.target = null;
       viewer.controls.minDistance = 0.15;
@@ -116,7 +121,7 @@
     page.body.style.background = `linear-gradient(${top}, ${bottom})`;
     viewer.renderer.domElement.style.outlineColor = ink;
     for (const [path, colour] of Object.entries(data.themes[name])) {
-      viewer.set_property(path.split("/").filter(Boolean), "color", colour);
+      viewer.set_property(parts(path), "color", colour);
     }
     viewer.set_dirty();
   }

@@ -1,0 +1,116 @@
+"""A world at one moment, as Gazebo's messages tell of it: what a client shows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from rosmini.geometry.poses import compose
+from rosmini.graph.show import show
+from rosmini.sim.models import RobotModel
+from rosmini.sim.sdf import Pose6
+from rosmini.sim.sdf.poses import from_quaternion
+from rosmini.sim.world import Obstacle, World
+
+from .msgs import Model, Pose, Scene
+
+Place = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A model with a drive, seen from above."""
+
+    name: str
+    model: RobotModel
+    pose: Place
+    """Of the middle of its axle: x [m], y [m], heading [rad]."""
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """What there is in a world, where all of it is, and what time it is there."""
+
+    name: str
+    models: tuple[Model, ...]
+    """Each with its pose, and with its links where they are now."""
+    flat: World
+    """Walls that are no models."""
+    time: float
+    """[s]"""
+    paused: bool
+
+    @classmethod
+    def of(cls, scene: Scene, poses: Mapping[str, Pose], time: float, *, paused: bool) -> Snapshot:
+        """A scene with its models and links where ~/pose/info said last."""
+        models = tuple(_moved(model, poses) for model in scene.model)
+        flat = scene.flat or World(scene.name)
+        return cls(scene.name, models, flat, time, paused)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return f"Gazebo's world {self.name}"
+
+    @property
+    def robots(self) -> tuple[Robot, ...]:
+        """The models that have a drive."""
+        return tuple(
+            Robot(model.name, model.flat.robot, compose(place_of(model.pose), model.flat.axle))
+            for model in self.models
+            if model.flat.robot is not None and model.pose is not None
+        )
+
+    @property
+    def things(self) -> tuple[Model, ...]:
+        """The models that are neither static nor have a drive."""
+        return tuple(model for model in self.models if not model.is_static and model.flat.robot is None)
+
+    @property
+    def standing(self) -> tuple[Model, ...]:
+        """The static models."""
+        return tuple(model for model in self.models if model.is_static and model.flat.robot is None)
+
+    def world(self, *, robots: bool = True) -> World:
+        """All that is solid, as a flat world; with or without the models that have a drive."""
+        names: dict[str, int] = {}
+        found = []
+        for model in self.models:
+            for each in solids_of(model) if robots or model.flat.robot is None else ():
+                count = names[each.name] = names.get(each.name, 0) + 1
+                found.append(each if count == 1 else replace(each, name=f"{each.name} ({count})"))
+        return replace(self.flat, name=self.name, obstacles=tuple(found), title=self.title)
+
+    def show(self, **options: Any) -> Any:
+        """A picture from above; the options are those of `rosmini.viz.gazebo.gazebo_picture`."""
+        return show("gazebo", self, **options)
+
+    def show3d(self, **options: Any) -> Any:
+        """The same in three dimensions; the options are those of `rosmini.viz.meshcat.gazebo_3d`."""
+        return show("gazebo_3d", self, **options)
+
+
+def solids_of(model: Model) -> Iterator[Obstacle]:
+    """What is solid of a model, where it is."""
+    if model.pose is not None:
+        at = place_of(model.pose)
+        for each in model.flat.solids:
+            yield replace(each, pose=compose(at, each.pose), mass=None, motion=None)
+
+
+def place_of(pose: Pose) -> Place:
+    """Where something is on the ground."""
+    x, y, _, _, _, yaw = pose_of(pose)
+    return (x, y, yaw)
+
+
+def pose_of(message: Pose) -> Pose6:
+    """The six numbers of a pose."""
+    at, to = message.position, message.orientation
+    return (at.x, at.y, at.z, *from_quaternion(to.x, to.y, to.z, to.w))
+
+
+def _moved(model: Model, poses: Mapping[str, Pose]) -> Model:
+    links = tuple(replace(link, pose=poses[link.name]) if link.name in poses else link for link in model.link)
+    return replace(model, pose=poses.get(model.name, model.pose), link=links)

@@ -1,0 +1,129 @@
+"""A running Gazebo world in three dimensions: its models as their visuals look, or as their collisions are solid."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from rosmini.errors import nearest
+from rosmini.sim.gazebo.msgs import Model
+from rosmini.sim.gazebo.snapshot import Snapshot, place_of, solids_of
+from rosmini.sim.shapes import Box, Cylinder, Polygon, Sphere, outline_at
+from rosmini.viz.gazebo import places, when
+from rosmini.viz.rounding import snap
+from rosmini.viz.view import ViewError
+from rosmini.viz.world import pose_text
+
+from .links import link_parts
+from .scene import TINY, Camera, Scene3D
+from .solids import Floats
+from .view import HEIGHT, MeshcatView, camera_for, contents_of
+from .visuals import is_plain, surfaces, transform
+
+CLOSE = 2.6
+"""How far the camera is from a model by its size."""
+
+
+def gazebo_3d(
+    snapshot: Snapshot, *, focus: str = "world", collisions: bool = False, distance: float | None = None,
+    azimuth: float | None = None, elevation: float | None = None, title: str | None = None, height: int = HEIGHT,
+) -> MeshcatView:  # fmt: skip
+    """A world of Gazebo in three dimensions, as its window shows it.
+
+    Args:
+        snapshot: what a server's or a client's `snapshot()` gives.
+        focus: what the camera looks at: "world", or the name of a model.
+        collisions: show what is solid in place of what one sees, as View, Collisions does.
+        distance: of the camera from what it looks at [m].
+        azimuth: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y.
+        elevation: how high from [deg].
+        title: a caption under the picture, and the first line of its text form.
+        height: of the viewer [CSS px].
+
+    Raises:
+        ViewError: there is no such model, or the distance is not positive.
+        MeshError: a mesh cannot be read.
+
+    """
+    world = snapshot.world()
+    camera = camera_for(world, None, focus="world", distance=distance, azimuth=azimuth, elevation=elevation)
+    plain = [model for model in snapshot.models if is_plain(model)]
+    drawn = [model for model in snapshot.models if not is_plain(model) and model.pose is not None]
+    if focus != "world":
+        camera = _close(snapshot, focus, distance=distance, azimuth=azimuth, elevation=elevation)
+    scene = Scene3D(camera)
+    obstacles = [each for model in plain for each in solids_of(model)]
+    if collisions:
+        obstacles = [replace(each, colour="orange") for each in obstacles]
+    scene.add_world(replace(world, obstacles=tuple(obstacles)), bounds=world.bounds)
+    for model in drawn:
+        _add(scene, model, collisions=collisions)
+    kind = ", what is solid" if collisions else ""
+    lines = [f"3D: {contents_of(world)}{kind}, at {when(snapshot)}"]
+    lines += [f"{robot.name}: pose {pose_text(robot.pose)}" for robot in snapshot.robots]
+    lines += places(snapshot)
+    said = [f"{robot.name} at {pose_text(robot.pose)}" for robot in snapshot.robots]
+    said += [f"{m.name} at {pose_text(place_of(m.pose))}" for m in snapshot.things if m.pose is not None]
+    there = f": {', '.join(said[:6])}{' and more' if len(said) > 6 else ''}" if said else ""
+    alt = f"{snapshot.title} in three dimensions{kind}, at {when(snapshot)}{there}."
+    return MeshcatView(
+        scene, label=f"{snapshot.title} in 3D", text="\n".join(lines), alt=alt, title=title, height=height
+    )
+
+
+def _add(scene: Scene3D, model: Model, *, collisions: bool) -> None:
+    """Add a model; what equal ones consist of is there once."""
+    node = "models/" + model.name.replace("/", " ")
+    if model.pose is not None:
+        scene.place(node, transform(model.pose))
+    for link in model.link:
+        parts = surfaces(link, collisions=collisions, without=TINY)
+        if parts:
+            below = f"{node}/{link.name.partition('::')[2].replace('/', ' ')}"
+            scene.place(below, transform(link.pose))
+            for part in link_parts(below, parts):
+                scene.add_surface(part, shared=True)
+
+
+def _close(
+    snapshot: Snapshot, name: str, *, distance: float | None, azimuth: float | None, elevation: float | None
+) -> Camera:
+    """A view of one model."""
+    models = {model.name: model for model in snapshot.models}
+    if name not in models:
+        hint = nearest(name, models) or f"the models are: {', '.join(models) or 'none'}"
+        raise ViewError(
+            f"the focus of a 3D picture of Gazebo is 'world' or the name of a model, not {name!r}; {hint}"
+        )
+    if distance is not None and not 0 < distance < 1e4:
+        raise ViewError(f"the distance of the camera is a number of metres above 0, not {distance!r}")
+    points = _corners(models[name])
+    low, high = points.min(axis=0), points.max(axis=0)
+    pose = models[name].pose
+    heading = float(np.rad2deg(place_of(pose)[2])) if pose is not None else 0.0
+    x, y, z = (round(c, 3) for c in snap((low + high) / 2).tolist())
+    return Camera(
+        (x, y, z),
+        round(CLOSE * float(np.linalg.norm(high - low)) / 2 + 0.1, 2) if distance is None else distance,
+        float(snap(heading - 38.0, 1.0)) if azimuth is None else azimuth,
+        25.0 if elevation is None else elevation,
+    )
+
+
+def _corners(model: Model) -> Floats:
+    """Corners (n, 3) of what there is to see of a model, in the world."""
+    there = transform(model.pose) if model.pose is not None else np.eye(4)
+    found = [
+        surface.moved(there @ transform(link.pose)).vertices
+        for link in model.link
+        for surface in surfaces(link)
+    ]
+    for solid in solids_of(model) if not found else ():
+        for shape, pose in solid.parts():
+            reach = shape.radius if isinstance(shape, (Cylinder, Sphere)) else 0.0
+            flat = np.add(pose[:2], [(-reach, -reach), (reach, reach)])
+            if isinstance(shape, (Box, Polygon)):
+                flat = outline_at(shape, pose)
+            found += [np.column_stack([flat, np.full(len(flat), z)]) for z in (solid.bottom, solid.height)]
+    return np.vstack(found) if found else there[None, :3, 3]

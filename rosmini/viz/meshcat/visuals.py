@@ -1,0 +1,122 @@
+"""What Gazebo's messages tell of a model's looks, as surfaces: the visuals or the collisions of its links."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from rosmini.sim.gazebo.msgs import Collision, Geometry, Link, Model, Pose, Visual
+from rosmini.sim.gazebo.snapshot import pose_of, solids_of
+from rosmini.sim.sdf.poses import matrix
+from rosmini.urdf import Box, Cylinder, Sphere
+from rosmini.urdf.meshes import Surface, read
+
+from .links import hex_colour, merged, surfaces_of
+from .solids import Facets, Floats, Prism, mesh, triangulate
+
+COLLISION = (0.9, 0.62, 0.0, 1.0)
+"""The colour of what is solid, as Gazebo's View menu shows it."""
+SAME = 1e-6
+
+
+def transform(pose: Pose) -> Floats:
+    """The transform (4, 4) of a pose."""
+    return matrix(pose_of(pose))
+
+
+def surfaces(link: Link, *, collisions: bool = False, without: Iterable[str] = ()) -> list[Surface]:
+    """What there is to see of a link, in its frame: one surface for each colour. Raises `MeshError`.
+
+    The material of a visual comes before the colours of a mesh file, as in Gazebo; surfaces of a file in one of the colours `without` are left out.
+    """
+    found: dict[str, list[Surface]] = {}
+    left_out = frozenset(without)
+    pieces: tuple[Visual | Collision, ...] = link.collision if collisions else link.visual
+    for piece in pieces:
+        colour = COLLISION if collisions else colour_of(piece)
+        for surface in _shape(piece.geometry):
+            if hex_colour(surface) in left_out:
+                continue
+            moved = surface.moved(transform(piece.pose))
+            moved = replace(moved, colour=colour or moved.colour)
+            found.setdefault(hex_colour(moved), []).append(moved)
+    return [merged(several) for several in found.values()]
+
+
+def colour_of(piece: Visual | Collision) -> tuple[float, float, float, float] | None:
+    """The colour that a visual says itself."""
+    if isinstance(piece, Collision) or piece.material is None:
+        return None
+    diffuse = piece.material.diffuse
+    return (diffuse.r, diffuse.g, diffuse.b, diffuse.a)
+
+
+def _shape(shape: Geometry) -> list[Surface]:
+    if shape.box is not None:
+        size = shape.box.size
+        return surfaces_of(Box((size.x, size.y, size.z)))
+    if shape.cylinder is not None:
+        return surfaces_of(Cylinder(shape.cylinder.radius, shape.cylinder.length))
+    if shape.sphere is not None:
+        return surfaces_of(Sphere(shape.sphere.radius))
+    if shape.mesh is not None:
+        scale = shape.mesh.scale
+        stretched = np.diag([scale.x, scale.y, scale.z, 1.0])
+        return [each.moved(stretched) for each in read(shape.mesh.filename, shape.mesh.submesh or "")]
+    if shape.plane is not None:
+        normal, size2 = shape.plane.normal, shape.plane.size
+        return [_plane(np.array([normal.x, normal.y, normal.z]), size2.x, size2.y)]
+    outlines = [np.array([(point.x, point.y) for point in line.point]) for line in shape.polyline]
+    return [_upright(outline, shape.polyline[0].height) for outline in outlines]
+
+
+def _plane(normal: Floats, length: float, width: float) -> Surface:
+    """A rectangle around the origin, seen from the side that its normal points to."""
+    up = normal / np.linalg.norm(normal)
+    aside = np.cross(up, (1.0, 0.0, 0.0) if abs(up[0]) < 0.9 else (0.0, 1.0, 0.0))
+    aside /= np.linalg.norm(aside)
+    ahead = np.cross(aside, up)
+    ends = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    corners = [a * length / 2 * ahead + b * width / 2 * aside for a, b in ends]
+    return Surface(np.array(corners), np.array([(0, 1, 2), (0, 2, 3)]))
+
+
+def _upright(outline: Floats, height: float) -> Surface:
+    """A closed outline from the ground up."""
+    x, y = outline.T
+    if float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) < 0:
+        outline = outline[::-1]
+    floor = np.column_stack([outline, np.zeros(len(outline))])
+    below = Facets(tuple(floor[corners[::-1]] for corners in triangulate(outline)))
+    vertices, faces = mesh([Prism(outline, 0.0, height), below])
+    return Surface(vertices, faces)
+
+
+# ---- what is drawn by its solids ----
+
+
+def is_plain(model: Model) -> bool:
+    """Tell whether a model looks as it is solid, upright and of a colour: such things are drawn as those of other worlds are.
+
+    So is what has no visuals: Gazebo would show nothing at all.
+    """
+    visuals = [(link, visual) for link in model.link for visual in link.visual]
+    if not visuals:
+        return True
+    solids = sum(len(solid.parts()) for solid in solids_of(model))
+    if solids != len(visuals) or (solids > 1 and not model.is_static):
+        return False
+    there = transform(model.pose) if model.pose is not None else np.eye(4)
+    for link in model.link:
+        if len(link.visual) != len(link.collision):
+            return False
+        for visual, collision in zip(link.visual, link.collision, strict=True):
+            at, solid_at = transform(visual.pose), transform(collision.pose)
+            up = (there @ transform(link.pose) @ at)[2, 2]
+            if visual.geometry.mesh is not None or visual.geometry != collision.geometry:
+                return False
+            if up < 1 - SAME or not np.allclose(at, solid_at, atol=SAME):
+                return False
+    return True
