@@ -57,6 +57,12 @@ class ModelError(RosminiError, ValueError):
 Drive = Literal["differential", "holonomic"]
 """Two driven wheels; or wheels that take it anywhere, as Gazebo's planar move and Stage's "omni" do."""
 
+MOST_BEAMS = 100_000
+"""Of a laser: a file that asks for more is wrong, and would take all the memory there is."""
+
+MOST_PIXELS = 1 << 24
+"""Of a camera's image: 4096 by 4096."""
+
 
 @dataclass(frozen=True)
 class LidarModel:
@@ -82,9 +88,10 @@ class LidarModel:
 
     def __post_init__(self) -> None:
         numbers = (*self.mount, self.angle_min, self.yaw, 0.0 if self.angle_max is None else self.angle_max)
-        if self.beams < 1 or not all(map(is_finite, numbers)) or not 0 <= self.range_min <= self.range_max:
+        within = 1 <= self.beams <= MOST_BEAMS and 0 <= self.range_min <= self.range_max
+        if not within or not all(map(is_finite, numbers)):
             msg = (
-                f"the laser {self.name!r} is not possible: it needs a beam, finite angles and a mount, and range_min and range_max "
+                f"the laser {self.name!r} is not possible: it needs 1 to {MOST_BEAMS} beams, finite angles and a mount, and range_min and range_max "
                 f"with 0 <= range_min <= range_max, not beams={self.beams}, mount={self.mount}, angle_min={self.angle_min}, "
                 f"angle_max={self.angle_max}, yaw={self.yaw}, range_min={self.range_min}, range_max={self.range_max}"
             )
@@ -137,11 +144,12 @@ class CameraModel:
         if (
             self.width < 1
             or self.height < 1
+            or self.width * self.height > MOST_PIXELS
             or not 0 < self.horizontal_fov < math.pi
             or not 0 < self.near < self.far
         ):
             msg = (
-                f"the camera {self.name!r} is not possible: it needs pixels, 0 < near < far and an angle between 0 and pi, not {self.width} x "
+                f"the camera {self.name!r} is not possible: it needs pixels, {MOST_PIXELS} at the most, 0 < near < far and an angle between 0 and pi, not {self.width} x "
                 f"{self.height} pixels, near={self.near}, far={self.far}, horizontal_fov={self.horizontal_fov}"
             )
             raise ModelError(msg)

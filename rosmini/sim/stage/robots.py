@@ -11,6 +11,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from rosmini.sim.models import MOST_BEAMS, MOST_PIXELS
+
 from .errors import Place, StageError
 from .parse import Entity
 from .things import Pose4, Thing, moved
@@ -207,7 +209,7 @@ def _sensor(entity: Entity, thing: Thing, base: Thing, units: Units) -> StageLas
     constant, part, _ = reader.several("noise", "lfa", (0.0, 0.0, 0.0))
     fov, samples = reader.angle("fov", 0.1), reader.whole("samples", 1, minimum=1)
     reader.done(("color", "color_rgba"))
-    _check(reader, low, high, fov)
+    _check(reader, low, high, fov, samples)
     if constant < 0 or part < 0:
         raise StageError(reader.place("noise"), "noise cannot be negative")
     on = moved(_on(thing, base), thing.origin)
@@ -232,13 +234,13 @@ def _old_laser(thing: Thing, base: Thing, units: Units) -> StageLaser:
     high = reader.length("range_max", LASER3_RANGE[1])
     fov = reader.angle("fov", LASER3_FOV)
     samples = reader.whole("samples", LASER3_SAMPLES, minimum=1)
-    _check(reader, low, high, fov)
+    _check(reader, low, high, fov, samples)
     on = moved(_on(thing, base), thing.origin)
     height = base.at[2] + on[2] + SENSOR_SIZE[2] / 2
     return StageLaser(on, height, low, high, fov, samples, (0.0, 0.0), thing.place)
 
 
-def _check(reader: Reader, low: float, high: float, fov: float) -> None:
+def _check(reader: Reader, low: float, high: float, fov: float, samples: int) -> None:
     name = "range" if "range" in reader.entity.properties else "range_max"
     if low < 0 or high <= low:
         what = f"a ranger measures from {low:g} m to {high:g} m; the first has to be 0 or more, and the second more than it"
@@ -247,6 +249,10 @@ def _check(reader: Reader, low: float, high: float, fov: float) -> None:
         raise StageError(
             reader.place("fov"), f"fov is {math.degrees(fov):g} degrees; it has to be from 0 to 360"
         )
+    if samples > MOST_BEAMS:
+        raise StageError(
+            reader.place("samples"), f"samples is {samples}; a ranger has {MOST_BEAMS} at the most"
+        )
 
 
 def _camera(thing: Thing, base: Thing) -> StageCamera:
@@ -254,6 +260,9 @@ def _camera(thing: Thing, base: Thing) -> StageCamera:
     width, height = reader.several("resolution", "ff", CAMERA_RESOLUTION)
     if not (width >= 1 and height >= 1 and width == int(width) and height == int(height)):
         what = f"resolution is [{width:g} {height:g}]; a picture has whole numbers of pixels"
+        raise StageError(reader.place("resolution"), what)
+    if width * height > MOST_PIXELS:
+        what = f"resolution is [{width:g} {height:g}]; a picture has {MOST_PIXELS} pixels at the most"
         raise StageError(reader.place("resolution"), what)
     horizontal, vertical = reader.several("fov", "ff", CAMERA_FOV)  # in degrees, whatever unit_angle says
     if not (0 < horizontal < 180 and 0 < vertical < 180):

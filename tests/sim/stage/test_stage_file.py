@@ -407,8 +407,13 @@ def test_bounds_and_odometry(world):
         (robot("range [5 1]"), "a ranger measures from 5 m to 1 m"),
         (robot("fov 400"), "fov is 400 degrees; it has to be from 0 to 360"),
         (robot("samples 0"), "samples is 0; it has to be at least 1"),
+        (robot("samples 1000000000"), "samples is 1000000000; a ranger has 100000 at the most"),
         (robot("samples 2.5"), "samples is 2.5; it has to be a whole number"),
         (robot("noise [-1]"), "noise cannot be negative"),
+        (
+            "position( camera( resolution [100000 100000] ) )",
+            "resolution is [100000 100000]; a picture has 16777216 pixels at the most",
+        ),
         ("position( camera( resolution [10.5 3] ) )", "a picture has whole numbers of pixels"),
         ("position( camera( fov [200 3] ) )", "a camera sees more than 0 and less than 180"),
         ("position( camera( range [0 3] ) )", "range is [0 3]"),
