@@ -321,3 +321,127 @@ def safe_speed(answer: Any) -> None:
             f"For {case} it goes {found:.3f} m/s; it could go faster, {1000 * needed:.1f} mm are enough for it to stand.",
             "the speed at which both ways together are the distance",
         )  # fmt: skip
+
+
+# ---- 40.5: a mast ----
+
+BURGER_URDF = "package://turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro"
+
+
+def _mast(
+    *, middle: float = 0.5, foot: str = "-0.09 0 0.15", top: float | None = None, size: float = 1.0,
+    hold: str = "fixed", parent: str = "mast_link", extra: str = "",
+) -> Callable[[], Any]:  # fmt: skip
+    """An answer with the cylinder's middle at a part of the height, and the beacon at `top` instead of on top."""
+
+    def text(height: float) -> str:
+        return f"""
+        <link name="mast_link"><visual><origin xyz="0 0 {middle * height}"/>
+          <geometry><cylinder radius="{0.005 * size}" length="{height}"/></geometry></visual></link>
+        <joint name="mast_joint" type="{hold}"><parent link="base_link"/><child link="mast_link"/><origin xyz="{foot}"/></joint>
+        <link name="beacon_link"><visual><geometry><sphere radius="{0.015 * size}"/></geometry></visual></link>
+        <joint name="beacon_joint" type="{hold}"><parent link="{parent}"/><child link="beacon_link"/>
+          <origin xyz="0 0 {height if top is None else top}"/></joint>{extra}"""
+
+    return lambda: text
+
+
+def _looks(robot: Any, link: str, kind: type, **sizes: float) -> Any:
+    """The one visual of a link, which has to be of this kind and of these sizes [m]."""
+    from rosmini.urdf import Cylinder
+
+    word = "cylinder" if kind is Cylinder else "sphere"
+    visuals = robot.links[link].visuals
+    expect(len(visuals) == 1, f"{link} has {len(visuals)} visuals.", f"it needs one, with a <{word}>")
+    shape = visuals[0].geometry
+    expect(
+        isinstance(shape, kind),
+        f"The visual of {link} is a {type(shape).__name__.lower()}.",
+        f"its geometry is a <{word}>",
+    )
+    for name, right in sizes.items():
+        found = getattr(shape, name)
+        expect(
+            abs(found - right) < 1e-6,
+            f"The {word} of {link} has the {name} {found:g} m, not {right:g} m.",
+            "lengths are in metres; a radius is half of a diameter",
+        )
+    return visuals[0]
+
+
+@exercise(
+    "40.5",
+    praise="The mast stands, and any program that reads the description knows where its ball is.",
+    mistakes=[
+        _mast(middle=0.0),
+        _mast(middle=1.0),
+        _mast(foot="-0.09 0 0.16"),
+        _mast(foot="0.09 0 0.15"),
+        _mast(top=0.3),
+        _mast(parent="base_link"),
+        _mast(size=2.0),
+        _mast(size=1000.0),
+        _mast(hold="continuous"),
+        _mast(extra="<joint>"),
+        lambda: lambda height: _mast()()(height).replace("beacon_link", "beacon"),
+        lambda: lambda height: _mast()()(height).replace("sphere", "cylinder length='0.03'"),
+        lambda: lambda height: _mast()()(height).partition("<joint")[0],
+        lambda: lambda _height: _mast()()(0.3),
+        lambda: lambda _height: None,
+    ],
+)
+def mast(answer: Any) -> None:
+    """A piece of URDF: a mast with a ball on top, for a TurtleBot3 Burger."""
+    from rosmini.urdf import Cylinder, Sphere, UrdfError, load, xacro
+
+    burger = xacro.expand(BURGER_URDF)
+    for height in (0.3, 0.12):
+        asked = f"For a height of {height} m"
+        piece = answer(height)
+        expect(
+            isinstance(piece, str),
+            f"{asked} it returned a {type(piece).__name__}, not a text.",
+            "return the lines of XML as one string",
+        )
+        try:
+            robot = load(burger.replace("</robot>", piece + "</robot>"), meshes=False)
+        except UrdfError as error:
+            raise Wrong(
+                f"{asked} the description cannot be read: {error}", "compare with a joint of the Burger's"
+            ) from error
+        for link in ("mast_link", "beacon_link"):
+            expect(link in robot.links, f"There is no link {link}.", "mind the names")
+            kind = robot.above[link].type
+            expect(
+                kind == "fixed",
+                f"{link} hangs on a {kind} joint.",
+                "nothing moves: the type of the joint is fixed",
+            )
+        _places(robot, height, asked)
+        pole = _looks(robot, "mast_link", Cylinder, radius=0.005, length=height)
+        x, y, z = pole.origin.xyz
+        expect(
+            abs(x) < 1e-6 and abs(y) < 1e-6 and abs(z - height / 2) < 1e-6,
+            f"{asked} the cylinder reaches from {z - height / 2:.3f} m to {z + height / 2:.3f} m above the foot.",
+            "the origin of a cylinder is its middle: raise the visual by half of the height",
+        )
+        ball = _looks(robot, "beacon_link", Sphere, radius=0.015)
+        expect(
+            ball.origin.xyz == (0.0, 0.0, 0.0),
+            "The ball is not around the frame of beacon_link.",
+            "its visual needs no origin: the joint puts the frame to the top",
+        )
+
+
+def _places(robot: Any, height: float, asked: str) -> None:
+    """The frames of mast and ball are where they were wanted."""
+    places = robot.transforms()
+    base = places["base_link"][:3, 3]
+    for link, right in (("mast_link", (-0.09, 0.0, 0.15)), ("beacon_link", (-0.09, 0.0, 0.15 + height))):
+        found = places[link][:3, 3] - base
+        expect(
+            bool(np.allclose(found, right, atol=1e-6)),
+            f"{asked} the frame {link} is at ({found[0]:.2f}, {found[1]:.2f}, {found[2]:.2f}) in base_link, "
+            f"not at ({right[0]:.2f}, {right[1]:.2f}, {right[2]:.2f}).",
+            "the origin of a joint is where the child's frame is in the parent's; x points ahead",
+        )
