@@ -387,7 +387,7 @@ def _looks(robot: Any, link: str, kind: type, **sizes: float) -> Any:
         lambda: lambda height: _mast()()(height).replace("sphere", "cylinder length='0.03'"),
         lambda: lambda height: _mast()()(height).partition("<joint")[0],
         lambda: lambda _height: _mast()()(0.3),
-        lambda: lambda _height: None,
+        lambda: lambda height: ("mast_link", height),
     ],
 )
 def mast(answer: Any) -> None:
