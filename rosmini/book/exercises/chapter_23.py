@@ -1,0 +1,376 @@
+"""What is right in the exercises of chapter 23, Gazebo."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from rosmini.book.checks import Wrong, exercise, expect
+from rosmini.errors import RosminiError
+from rosmini.graph import Graph
+from rosmini.msgs import message_class
+from rosmini.scripts import rosrun
+from rosmini.sim import sdf
+from rosmini.sim.gazebo import GazeboServer, ModelPlugin
+from rosmini.sim.gazebo.spawning import spawn_text
+from rosmini.urdf import xacro
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+BURGER = "package://turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro"
+
+
+def _server(graph: Graph) -> GazeboServer:
+    found: GazeboServer = rosrun("gazebo_ros", "gzserver", graph=graph)
+    return found
+
+
+def _number(found: Any, what: str) -> float:
+    if isinstance(found, bool) or not isinstance(found, int | float) or not math.isfinite(found):
+        raise Wrong(f"It returned {found!r}, which is no {what}.", "return one number")
+    return float(found)
+
+
+# ---- 23.1: a barrel ----
+
+
+def _barrel(
+    *,
+    low: float = 0.5,
+    along: Callable[[float, float, float], float] = lambda m, r, _h: m * r**2 / 2,
+    across: Callable[[float, float, float], float] = lambda m, r, h: m * (3 * r**2 + h**2) / 12,
+    shape: str = "<cylinder><radius>{r}</radius><length>{h}</length></cylinder>",
+    solid: str = "collision",
+    static: str = "",
+    called: str = "",
+) -> Callable[[], Any]:
+    def text(name: str, radius: float, height: float, mass: float) -> str:
+        a, b = across(mass, radius, height), along(mass, radius, height)
+        return (
+            f'<sdf version="1.6"><model name="{called or name}">{static}<link name="link"><pose>0 0 {low * height} 0 0 0</pose>'
+            f"<inertial><mass>{mass}</mass><inertia><ixx>{a}</ixx><iyy>{a}</iyy><izz>{b}</izz></inertia></inertial>"
+            f'<{solid} name="solid"><geometry>{shape.format(r=radius, h=height)}</geometry></{solid}></link></model></sdf>'
+        )
+
+    return lambda: text
+
+
+@exercise(
+    "23.1",
+    praise="It came into a world, stood on the floor, and could be pushed.",
+    mistakes=[
+        _barrel(low=0.0),
+        _barrel(low=1.0),
+        _barrel(along=lambda m, r, _h: m * r**2),
+        _barrel(across=lambda m, r, h: m * (3 * r**2 + h**2)),
+        _barrel(shape="<cylinder><radius>{h}</radius><length>{r}</length></cylinder>"),
+        _barrel(shape="<box><size>{r} {r} {h}</size></box>"),
+        _barrel(shape="<cylinder><radius>{r}</radius><length>0.8</length></cylinder>"),
+        _barrel(solid="visual"),
+        _barrel(static="<static>true</static>"),
+        _barrel(called="barrel"),
+        lambda: lambda _name, _radius, _height, _mass: "<sdf version='1.6'/>",
+        lambda: lambda name, _radius, _height, _mass: {"name": name},
+    ],
+)
+def barrel(answer: Any) -> None:
+    """The SDF of a solid cylinder that stands on the floor."""
+    for name, radius, height, mass in (("barrel", 0.3, 0.8, 20.0), ("tin", 0.05, 0.1, 0.5)):
+        text = answer(name, radius, height, mass)
+        expect(isinstance(text, str), f"It returned a {type(text).__name__}, not a text.", 'f"""<sdf ..."""')
+        try:
+            models = sdf.load(text).models
+        except RosminiError as error:
+            raise Wrong(f"This is no SDF: {error}", "the crate of the chapter shows the form") from error
+        expect(len(models) == 1, f"There are {len(models)} models in it, not one.")
+        _check_barrel(models[0], name, radius, height, mass)
+        with Graph() as graph:
+            server = _server(graph)
+            spawn_text(server.world, text, name, (0.0,) * 6)
+            server.world.model(name).set_velocity((1.0, 0.0, 0.0))
+            graph.run(2.0)
+            expect(server.truth(name)[0] > 0.05, "It cannot be pushed.", "a static model stands fast")
+
+
+def _check_barrel(model: sdf.SdfModel, name: str, radius: float, height: float, mass: float) -> None:
+    expect(
+        model.name == name,
+        f"Its name is {model.name!r}, not {name!r}.",
+        "the name is the function's first value",
+    )
+    expect(not model.static, "It is static, so it cannot be pushed.", "leave <static> out")
+    expect(len(model.links) == 1, f"It has {len(model.links)} links, not one.")
+    link = model.links[0]
+    expect(len(link.collisions) == 1, f"It has {len(link.collisions)} collisions, not one.", "<collision>")
+    collision = link.collisions[0]
+    shape = collision.geometry
+    expect(shape.kind == "cylinder", f"Its collision is a {shape.kind}, not a cylinder.")
+    expect(
+        math.isclose(shape.radius, radius) and math.isclose(shape.length, height),
+        f"Its cylinder has the radius {shape.radius:g} m and the length {shape.length:g} m, not {radius} m and {height} m.",
+    )
+    bottom = model.pose[2] + link.pose[2] + collision.pose[2] - height / 2
+    expect(
+        abs(bottom) < 1e-9,
+        f"With its origin on the floor, its bottom is at a height of {bottom:.2f} m.",
+        "the pose of a cylinder is that of its middle",
+    )
+    inertial = link.inertial
+    expect(math.isclose(inertial.mass, mass), f"Its mass is {inertial.mass:g} kg, not {mass:g} kg.")
+    across, along = mass * (3 * radius**2 + height**2) / 12, mass * radius**2 / 2
+    for axis, found, right in zip(
+        ("ixx", "iyy", "izz"), inertial.inertia, (across, across, along), strict=False
+    ):
+        expect(
+            math.isclose(found, right, rel_tol=1e-4),
+            f"{axis} is {found:.4g} kg m2, not {right:.4g}.",
+            "izz is about the cylinder's own axis, which stands upright",
+        )
+
+
+# ---- 23.2: friction ----
+
+
+def _friction(measure: Callable[[float, float, float], float], speed: float = 3.0) -> Callable[[], Any]:
+    """An answer that pushes once; `measure` is given the speed [m/s], the way [m] and gravity [m/s2]."""
+    return lambda: lambda push, gravity: measure(speed, push(speed), gravity)
+
+
+def _slide(mu: float, gravity: float) -> Callable[[float], float]:
+    """A push in a world of its own: give a crate this speed, wait until it stands, and say how far it slid."""
+
+    def push(speed: float) -> float:
+        surface = f"<surface><friction><ode><mu>{mu}</mu></ode></friction></surface>"
+        box = f'<collision name="c"><geometry><box><size>0.4 0.4 0.4</size></box></geometry>{surface}</collision>'
+        text = f'<sdf version="1.6"><model name="m"><link name="l"><pose>0 0 0.2 0 0 0</pose>{box}</link></model></sdf>'
+        with Graph() as graph:
+            server = _server(graph)
+            server.engine.gravity = gravity
+            model = spawn_text(server.world, text, "m", (0.0,) * 6)
+            model.set_velocity((speed, 0.0, 0.0))
+            graph.run(abs(speed) / (mu * gravity) + 1.0)
+            return server.truth("m")[0]
+
+    return push
+
+
+@exercise(
+    "23.2",
+    praise="You found 0.15, 0.4 and 0.9, the last of them on the Moon.",
+    mistakes=[
+        _friction(lambda v, way, g: v * v / (g * way)),
+        _friction(lambda v, way, _g: v * v / (2 * 9.8 * way)),
+        _friction(lambda v, way, g: v / (2 * g * way)),
+        _friction(lambda v, way, g: 2 * g * way / v**2),
+        _friction(lambda v, way, g: v * v / (2 * g * way), speed=0.2),
+        lambda: lambda _push, _gravity: 0.5,
+        lambda: lambda push, _gravity: push(1.0),
+        lambda: lambda push, _gravity: str(push(1.0)),
+    ],
+)
+def friction(answer: Any) -> None:
+    """The coefficient of friction of something that is pushed, within 2 %."""
+    for mu, gravity in ((0.15, 9.8), (0.4, 9.8), (0.9, 1.6)):
+        found = _number(answer(_slide(mu, gravity), gravity), "coefficient")
+        expect(
+            abs(found - mu) <= 0.02 * mu,
+            f"You found {found:.3f} where mu is {mu}, with a gravity of {gravity} m/s2.",
+            "solve d = v * v / (2 * mu * g) for mu; and do not push too softly",
+        )
+
+
+# ---- 23.3: a laser that looks ahead ----
+
+HALF = math.pi / 2
+_CHANGES = {
+    "<samples>360</samples>": "<samples>181</samples>",
+    "<min_angle>0.0</min_angle>": f"<min_angle>{-HALF}</min_angle>",
+    "<max_angle>6.28319</max_angle>": f"<max_angle>{HALF}</max_angle>",
+    "<topicName>scan</topicName>": "<topicName>front_scan</topicName>",
+}
+
+
+def _changed(**other: str) -> Callable[[], Any]:
+    """An answer that makes the changes, but one of them otherwise; `other` is by the name of the tag."""
+    changes = {
+        old: next((new for tag, new in other.items() if old.startswith(f"<{tag}>")), right)
+        for old, right in _CHANGES.items()
+    }
+
+    def answer(text: str) -> str:
+        for old, new in changes.items():
+            text = text.replace(old, new)
+        return text
+
+    return lambda: answer
+
+
+@exercise(
+    "23.3",
+    praise="Beam 0 looks to the right, beam 90 ahead, beam 180 to the left.",
+    mistakes=[
+        lambda: lambda text: text,
+        _changed(samples="<samples>180</samples>"),
+        _changed(min_angle="<min_angle>-90</min_angle>", max_angle="<max_angle>90</max_angle>"),
+        _changed(min_angle="<min_angle>0.0</min_angle>"),
+        _changed(max_angle=f"<max_angle>{math.pi}</max_angle>"),
+        _changed(topicName="<topicName>scan</topicName>"),
+        lambda: lambda text: _changed()()(text).replace("<stddev>0.01</stddev>", "<stddev>0.0</stddev>"),
+        lambda: lambda text: _changed()()(text).replace("<update_rate>5</update_rate>", "<update_rate>10</update_rate>"),
+        lambda: lambda text: _changed()()(text).replace("</sensor>", ""),
+        lambda: lambda _text: 181,
+    ],
+)  # fmt: skip
+def look_ahead(answer: Any) -> None:
+    """A TurtleBot3 whose laser has 181 beams ahead."""
+    original = xacro.expand(BURGER)
+    text = answer(original)
+    expect(
+        isinstance(text, str), f"It returned a {type(text).__name__}, not a text.", "return the changed text"
+    )
+    with Graph() as graph:
+        server = _server(graph)
+        try:
+            spawn_text(server.world, text, "robot", (0.0,) * 6)
+        except RosminiError as error:
+            raise Wrong(f"The robot does not come into the world: {error}") from error
+        types = dict(graph.master.getTopicTypes("/check")[2])
+        expect("/front_scan" in types, "There is no topic /front_scan.", "<topicName> of the laser's plugin")
+        expect("/scan" not in types, "The topic /scan is still there.")
+        heard: list[Any] = []
+        graph.node("check").subscriber("/front_scan", message_class("sensor_msgs/LaserScan"), heard.append)
+        graph.run(1.0)
+    _check_scan(heard[-1])
+    expect(
+        _rest(text) == _rest(original),
+        "Something else of the robot has changed.",
+        "change these four tags only",
+    )
+
+
+def _check_scan(scan: Any) -> None:
+    count = len(scan.ranges)
+    expect(count == 181, f"A scan has {count} beams, not 181.", "<samples>")
+    degrees = [math.degrees(angle) for angle in (scan.angle_min, scan.angle_max)]
+    expect(
+        max(abs(degrees[0] + 90), abs(degrees[1] - 90)) < 0.1,
+        f"The beams go from {degrees[0]:.0f} to {degrees[1]:.0f} degrees, not from -90 to 90.",
+        "angles in SDF are in radians",
+    )
+
+
+TAGS = ("samples", "min_angle", "max_angle")
+
+
+def _rest(text: str) -> list[str]:
+    """All other lines; of topics only those that are not the laser's."""
+    lines = (line.strip() for line in text.splitlines())
+    return [
+        line.replace("front_scan", "scan")
+        for line in lines
+        if line and not any(f"<{tag}>" in line for tag in TAGS)
+    ]
+
+
+# ---- 23.4: a leash ----
+
+
+def _leash(
+    *,
+    length: Callable[[Any], float] = lambda tag: float(tag.word("length")),
+    home: Callable[[Any], Any] = lambda model: model.pose,
+    rate: float = 50.0,
+    back: Callable[[Any, Any], object] = lambda model, home: model.set_pose(home),
+    far: Callable[[Any, Any], float] = lambda pose, home: math.dist(pose[:2], home[:2]),
+) -> Callable[[], Any]:
+    def make() -> Any:
+        class Leash(ModelPlugin, filename="libleash.so"):
+            def load(self, model: Any, sdf: Any) -> None:
+                self.model, self.home = model, home(model)
+                self.length = length(sdf)
+                self.every(rate, self.look)
+
+            def look(self, _: float) -> None:
+                if far(self.model.pose, self.home) > self.length:
+                    back(self.model, self.home)
+
+        return Leash
+
+    return make
+
+
+class _Deaf(ModelPlugin):
+    def load(self, model: Any, sdf: Any) -> None:  # noqa: ARG002
+        self.model = model
+
+
+@exercise(
+    "23.4",
+    praise="Two crates on leashes of different lengths were pushed, and both were brought home.",
+    mistakes=[
+        _leash(length=lambda _: 1.0),
+        _leash(home=lambda _: (0.0,) * 6),
+        _leash(rate=0.5),
+        _leash(back=lambda model, _home: model.set_velocity((0.0, 0.0, 0.0))),
+        _leash(back=lambda model, home: model.set_pose(home, (1.0, 0.0, 0.0))),
+        _leash(far=lambda pose, home: pose[0] - home[0]),
+        _leash(far=lambda _pose, _home: math.inf),
+        lambda: _Deaf,
+        lambda: object,
+        lambda: lambda model, _sdf: model,
+    ],
+)
+def leash(answer: Any) -> None:
+    """A plugin that brings its model home when it is too far away."""
+    expect(
+        isinstance(answer, type) and issubclass(answer, ModelPlugin),
+        "It is no model plugin.",
+        'class Leash(ModelPlugin, filename="libleash.so")',
+    )
+    library = "libleash_on_trial.so"
+    type(
+        "OnTrial", (answer,), {}, filename=library
+    )  # whichever class was made last for the reader's own library
+    for length, x, y, speed in ((0.5, 2.0, -1.0, (3.0, 0.0)), (1.2, -1.0, 3.0, (0.0, -4.0))):
+        text = _on_leash(library, length)
+        with Graph() as graph:
+            server = _server(graph)
+            model = spawn_text(server.world, text, "dog", (x, y, 0.0, 0.0, 0.0, 0.5))
+            _short(graph, server, model, length)
+            way = []
+            model.set_velocity((*speed, 0.0))
+            for _ in range(60):
+                graph.run(0.05)
+                way.append(math.dist(server.truth("dog")[:2], (x, y)))
+            there = server.truth("dog")
+        what = f"With a leash of {length} m"
+        expect(
+            max(way) < length + 0.45,
+            f"{what} the model came {max(way):.2f} m away.",
+            "look at least ten times a second; <length> is the tag's",
+        )
+        expect(
+            way[-1] < 0.02 and abs(there[2] - 0.5) < 0.02,
+            f"{what} it ended {way[-1]:.2f} m from where it came into the world.",
+            "keep model.pose in load, and put the model back there, without a velocity",
+        )
+
+
+def _short(graph: Graph, server: GazeboServer, model: Any, length: float) -> None:
+    """What stays within its leash is left alone."""
+    x, y, _ = server.truth("dog")
+    model.set_velocity((1.0, 0.0, 0.0))
+    graph.run(1.0)
+    way = math.dist(server.truth("dog")[:2], (x, y))
+    expect(
+        0.05 < way < length,
+        f"A model that slid within its leash of {length} m is {way:.2f} m from home.",
+        "leave it alone as long as it is not too far away",
+    )
+
+
+def _on_leash(library: str, length: float) -> str:
+    box = '<collision name="c"><geometry><box><size>0.3 0.3 0.3</size></box></geometry></collision>'
+    plugin = f'<plugin name="leash" filename="{library}"><length>{length}</length></plugin>'
+    return f'<sdf version="1.6"><model name="dog"><link name="l"><pose>0 0 0.15 0 0 0</pose>{box}</link>{plugin}</model></sdf>'
