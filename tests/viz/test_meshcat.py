@@ -446,6 +446,14 @@ def test_a_laser_that_looks_ahead_only_has_its_hits_ahead():
     np.testing.assert_allclose(turned.scene.scans[0], [(-1.0, 0.0, 0.2)], atol=2e-5)
 
 
+def test_what_a_laser_without_noise_has_hit_is_drawn_before_the_surface():
+    lidar = replace(BURGER.laser, beams=1, noise=0.0, mount=(0.0, 0.0, 0.2))
+    view = robot_3d(SMALL, replace(BURGER, lidar=lidar), (1.0, 0.0, 0.0), np.array([1.0]))
+    ((x, y, z),) = view.scene.scans[0]
+    assert 1.98 < x < 1.995
+    assert (y, z) == pytest.approx((0.0, 0.2), abs=2e-5)
+
+
 def test_a_simulator_shows_all_its_robots():
     with Graph() as graph:
         simulator = Simulator(graph.node("simulator"), world="empty", model="burger")

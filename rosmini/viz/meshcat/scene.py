@@ -46,6 +46,8 @@ MANY_WALLS = 400
 """Above this number, walls are sheets without a top: a traced map has thousands."""
 TRAIL_WIDTH = 0.016
 """[m]"""
+HAIR = 0.012
+"""So far before what a laser without noise has hit its points are drawn [m]."""
 
 WALL, GREY, GROUND, GRID = "#c4ccd4", "#98a3ad", "#e8ecf0", "#b9c2ca"
 DARK_GROUND, DARK_GRID, DARK_WALL = "#2d353e", "#505c68", "#77828d"
@@ -392,13 +394,14 @@ def colour_of(name: str) -> str:
 def scan_points(ranges: Floats, lidar: LidarModel) -> Floats:
     """Where beams end (beams, 3), seen from the laser; 100 m below it where they hit nothing.
 
-    Of a laser that goes round, there may be fewer ranges than it has beams, as evenly spread.
+    Of a laser that goes round, there may be fewer ranges than it has beams, as evenly spread. What a laser without noise sees would lie within the
+    surfaces themselves, where nobody sees it: its points are a hair nearer.
     """
     places = np.arange(len(ranges))
     step = 2 * math.pi * places / len(ranges) if lidar.angle_max is None else lidar.increment * places
     angles = lidar.angle_min + step
     hit = np.isfinite(ranges)
-    reach = np.where(hit, ranges, 0.0)
+    reach = np.where(hit, ranges - (0.0 if lidar.noise else HAIR), 0.0)
     return rounded(
         np.column_stack([reach * np.cos(angles), reach * np.sin(angles), np.where(hit, 0.0, -100.0)])
     )
