@@ -163,7 +163,8 @@ class ViewLink:
         watch = self.watch
         key = self._present()
         if key != self._key:
-            self._send({"type": "scene", "data": self._data()})
+            data = self._data()
+            self._send({"type": "scene", "data": data}, [data.pop("scans")])
         poses = [watch.pose(body) for body in self._bodies]
         shown = (watch.host.paused, watch.host.now, *poses)
         if shown == self._last and now - self._last_sent < QUIET_S:

@@ -13,10 +13,12 @@
                                                bitmap in the view, so that each further call is one copy.
      scan(view, robot, pose, ranges)           laser hits and what the laser sees, from the robot at `pose`. A beam
                                                that hit nothing is Infinity, null or 0; one that hit what is too near to
-                                               be measured is negative: -Infinity (REP 117).
+                                               be measured is negative: -Infinity (REP 117). `robot.lidar` has where it
+                                               sits, x and y, its range max, and the first beam's angle, start, and the
+                                               step between beams, where that is not a full turn from 0 on.
      trail(view, points, {colour, dashed, count})   a line through [x, y, ...] points, the first `count` of them.
      robot(view, robot, pose, {ghost, colour}) the robot from above; a ghost is an outline: where odometry puts it.
-     thing(view, shapes, pose)                 something that moves: shapes in its own frame, at `pose`.
+     thing(view, shapes, pose, {ghost})        something that moves: shapes in its own frame, at `pose`; a ghost is an outline.
      label(view, pose, text, {colour, below})  a word under a place, `below` metres under it.
      scaleBar(view)                            how long a metre is.
 
@@ -136,7 +138,7 @@
     context.globalAlpha = 1;
   }
 
-  function drawShape(view, shape) {
+  function drawShape(view, shape, ghost = false) {
     const { context, theme: colours } = view;
     const solid = shape.colour === "wall";
     const own = shape.dark && isDark(colours.page) ? shape.dark : shape.colour;
@@ -149,21 +151,23 @@
       context.closePath();
     }
     context.fillStyle = context.strokeStyle = colour;
-    context.globalAlpha = solid ? 1 : shape.bottom ? 0.16 : 0.32; // what one passes under is fainter
+    context.globalAlpha = solid ? 1 : ghost ? 0.12 : shape.bottom ? 0.16 : 0.32; // what one passes under is fainter
     context.fill();
     context.globalAlpha = 1;
     context.lineWidth = shape.bottom ? 0.7 : 1.4;
+    context.setLineDash(ghost ? [4, 3] : []);
     context.stroke();
+    context.setLineDash([]);
   }
 
   const isDark = (page) => /^#[0-7]/.test(page);
 
-  function thing(view, shapes, [x, y, theta]) {
+  function thing(view, shapes, [x, y, theta], { ghost = false } = {}) {
     const [c, s] = [Math.cos(theta), Math.sin(theta)];
     const put = ([px, py]) => [x + c * px - s * py, y + s * px + c * py];
     for (const shape of shapes) {
       const [cx, cy] = shape.kind === "disc" ? put([shape.x, shape.y]) : [0, 0];
-      drawShape(view, shape.kind === "disc" ? { ...shape, x: cx, y: cy } : { ...shape, points: shape.points.map(put) });
+      drawShape(view, shape.kind === "disc" ? { ...shape, x: cx, y: cy } : { ...shape, points: shape.points.map(put) }, ghost);
     }
   }
 
@@ -207,15 +211,17 @@
 
   function scan(view, robot, pose, ranges) {
     const { context, theme: colours, scale } = view;
-    const { x: mount, max } = robot.lidar;
+    const { x: ahead, y: aside = 0, max, start = 0, step = TURN / ranges.length } = robot.lidar;
     const [x, y, theta] = pose;
-    const [originX, originY] = [x + mount * Math.cos(theta), y + mount * Math.sin(theta)];
+    const [c, s] = [Math.cos(theta), Math.sin(theta)];
+    const [originX, originY] = [x + c * ahead - s * aside, y + s * ahead + c * aside];
     const hits = [];
     context.beginPath();
+    if (ranges.length * step < TURN - 1.5 * step) context.lineTo(view.x(originX), view.y(originY)); // a fan
     for (let i = 0; i < ranges.length; i += 1) {
       const hit = ranges[i] > 0 && Number.isFinite(ranges[i]);
       const range = hit ? ranges[i] : ranges[i] < 0 ? 0 : max;
-      const angle = theta + (TURN * i) / ranges.length;
+      const angle = theta + start + step * i;
       const [px, py] = [view.x(originX + range * Math.cos(angle)), view.y(originY + range * Math.sin(angle))];
       context.lineTo(px, py);
       if (hit) hits.push(px, py);
