@@ -1,7 +1,7 @@
-"""For the built book: images in notebook outputs get the alt text that their metadata carries.
+"""For the built book: images in notebook outputs get the alt text and the caption that their metadata carries.
 
 myst-nb writes an `image/png` output as an image without alt text. It loads this class through the entry point group
-`myst_nb.mime_renderers`; a view's own image brings `{"alt": ...}` in the metadata of its output (see `view.py`).
+`myst_nb.mime_renderers`; a view's own image brings `{"alt": ..., "caption": ...}` in the metadata of its output (see `view.py`).
 """
 
 from __future__ import annotations
@@ -19,10 +19,11 @@ class AltText:
 
     @staticmethod
     def handle_mime(renderer: Any, data: Any, inline: bool) -> list[nodes.Element] | None:
-        """Render an image that has alt text in its output's metadata; None for anything else."""
+        """Render an image that has alt text in its output's metadata, as a figure if it has a caption; None for anything else."""
         if data.mime_type not in {"image/png", "image/svg+xml"}:
             return None
-        alt = data.output_metadata.get(data.mime_type, {}).get("alt")
+        own = data.output_metadata.get(data.mime_type, {})
+        alt, caption = own.get("alt"), own.get("caption")
         if not alt:
             return None
         rendered: list[nodes.Element] = (
@@ -30,4 +31,10 @@ class AltText:
         )
         for image in rendered:
             image.setdefault("alt", alt)
-        return rendered
+        return [_figure(rendered, caption)] if caption and not inline else rendered
+
+
+def _figure(images: list[nodes.Element], caption: str) -> nodes.Element:
+    from docutils import nodes
+
+    return nodes.figure("", *images, nodes.caption("", caption), classes=["rosmini-figure"])

@@ -69,18 +69,22 @@ class View(ABC):
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> MimeBundle:
-        """All forms for Jupyter, with the alt text in the metadata of images."""
+        """All forms for Jupyter, with the alt text in the metadata of images, and the caption of one that has no HTML form for it."""
         data: dict[str, str] = {"text/plain": self.text}
         metadata: dict[str, dict[str, Any]] = {}
         for mime, content in self._images().items():
             data[mime] = content.decode() if mime == SVG_MIME else base64.b64encode(content).decode()
-            metadata[mime] = {"alt": self.alt}
+            metadata[mime] = self._about_image()
         if self.html is not None:
             data["text/html"] = self.html
         wanted = [
             mime for mime in data if (not include or mime in include) and (not exclude or mime not in exclude)
         ]
         return {m: data[m] for m in wanted}, {m: metadata[m] for m in wanted if m in metadata}
+
+    def _about_image(self) -> dict[str, str]:
+        """What the metadata of an image say of it."""
+        return {"alt": self.alt}
 
     def save(self, path: str | Path) -> Path:
         """Write the picture to a file, in the format that the file's suffix names, and return its path.
@@ -158,6 +162,11 @@ class Picture(View):
         if isinstance(self._image, str):
             return {SVG_MIME: self._image.encode()}
         return {PNG_MIME: self._image}
+
+    def _about_image(self) -> dict[str, str]:
+        # an SVG's caption stands in its HTML form; a PNG has none, because its bytes are not the same everywhere, and HTML is compared
+        own = {"caption": self.caption} if self.caption and self.svg is None else {}
+        return {"alt": self.alt, **own}
 
     @property
     def html(self) -> str | None:

@@ -56,6 +56,13 @@ def test_a_png_has_no_html_form_and_its_alt_text_in_the_metadata():
     assert metadata == {"image/png": {"alt": "A single pixel."}}
 
 
+def test_a_png_brings_its_caption_in_the_metadata():
+    view = Picture(PNG, text="one pixel", alt="A single pixel.", caption="Figure 1: a & b")
+    data, metadata = view._repr_mimebundle_()
+    assert sorted(data) == ["image/png", "text/plain"]
+    assert metadata == {"image/png": {"alt": "A single pixel.", "caption": "Figure 1: a & b"}}
+
+
 def test_saving_writes_the_form_that_the_suffix_names(tmp_path):
     view = rqt_graph(SYSTEM)
     assert view.save(tmp_path / "a.svg").read_text() == view.svg
@@ -194,7 +201,7 @@ def built_page(tmp_path_factory) -> str:
     outputs = []
     for view in (
         rqt_graph(SYSTEM, title="A caption"),
-        Picture(PNG, text="one pixel", alt='A "single" pixel.'),
+        Picture(PNG, text="one pixel", alt='A "single" pixel.', caption="One <pixel>"),
     ):
         data, metadata = view._repr_mimebundle_()
         outputs.append(nbformat.v4.new_output("display_data", data=data, metadata=metadata))
@@ -223,3 +230,9 @@ def test_the_built_page_shows_the_graph_inline_with_its_alt_text_and_caption(bui
 def test_the_built_page_gives_a_png_its_alt_text(built_page):
     (image,) = re.findall(r"<img [^>]*\.png[^>]*>", built_page)
     assert 'alt="A &quot;single&quot; pixel."' in image
+
+
+def test_the_built_page_gives_a_png_its_caption(built_page):
+    (figure,) = re.findall(r"<figure[^>]*>\s*<img [^>]*\.png.*?</figure>", built_page, re.DOTALL)
+    assert "rosmini-figure" in figure
+    assert "One &lt;pixel&gt;" in re.search(r"<figcaption>(.*?)</figcaption>", figure, re.DOTALL)[1]
