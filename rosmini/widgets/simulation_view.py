@@ -26,15 +26,12 @@ from rosmini.viz.rounding import fixed
 from rosmini.viz.view import SVG_MIME, MimeBundle, Picture, View, ViewError
 from rosmini.viz.world import pose_text
 
-from .watch import Running, Watch
+from .watch import STEP_S, Running, Watch
 
 if TYPE_CHECKING:
     from .view_link import ViewLink
 
 T = TypeVar("T")
-
-STEP_S = 0.1
-"""How much time the button Step lets pass [s]."""
 
 
 class SimulationView(View):

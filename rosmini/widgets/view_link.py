@@ -17,8 +17,6 @@ from rosmini.errors import RosminiError
 from rosmini.viz.embed import asset_path
 from rosmini.viz.view import MimeBundle, ViewError
 
-from .simulation_view import STEP_S
-
 try:
     import anywidget
     import traitlets
@@ -29,6 +27,7 @@ except ImportError as error:
     ) from error
 
 from .live import FRAME_HZ, LEFT_S, QUIET_S, SHORTEST_S, answer_in_subshells
+from .watch import STEP_S
 
 if TYPE_CHECKING:
     from collections.abc import Callable

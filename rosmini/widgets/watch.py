@@ -27,6 +27,8 @@ from rosmini.viz.world import Other, colour_of, world_picture
 Floats = NDArray[np.float64]
 
 HERE: Pose = (0.0, 0.0, 0.0)
+STEP_S = 0.1
+"""How much time the button Step lets pass [s]."""
 LASERS = 12
 """So many lasers are drawn; of more one would see nothing."""
 
@@ -76,6 +78,13 @@ class Body:
             return f"robot {self.model.title or self.model.name}"
         return "thing that can be pushed" if self.takeable else "moves by itself"
 
+    @property
+    def reach(self) -> float:
+        """How far it goes from its origin [m]."""
+        if self.model is not None:
+            return self.model.reach
+        return 0.0 if self.obstacle is None else _reach(shapes_of(self.obstacle, HERE))
+
     def data(self, laser: LidarModel | None) -> dict[str, Any]:
         """What the page has to know of it: it is drawn in the engine's frame."""
         robot, shapes = None, None
@@ -93,7 +102,7 @@ class Body:
             "colour": self.colour,
             "robot": robot,
             "shapes": shapes,
-            "reach": round(self.model.reach if self.model is not None else _reach(shapes or []), 4),
+            "reach": round(self.reach, 4),
             "axle": [round(part, 6) for part in self.axle],
             "laser": None if laser is None else _laser(laser),
         }
@@ -196,7 +205,7 @@ class Watch:
         """The rectangle to be seen: that of the world, and all that is in it."""
         x0, y0, x1, y1 = bounds
         for body in self.bodies():
-            (x, y, _), reach = self.pose(body), body.data(None)["reach"]
+            (x, y, _), reach = self.pose(body), body.reach
             x0, y0, x1, y1 = min(x0, x - reach), min(y0, y - reach), max(x1, x + reach), max(y1, y + reach)
         return [round(side, 3) for side in (x0, y0, x1, y1)]
 

@@ -17,7 +17,7 @@ from rosmini.viz.style import dark_of
 from rosmini.viz.view import ViewError
 
 AT_ONCE = 1e6
-"""What is said of an infinite acceleration, of a robot that has the speed that it is told at once [m/s2]: JSON has no infinity."""
+"""What is said of an acceleration, or of a speed, that has no bound [m/s2, m/s, rad/s]: JSON has no infinity."""
 
 
 def scene_data(world: World, model: RobotModel | None = None) -> dict[str, Any]:
@@ -64,8 +64,8 @@ def robot_data(model: RobotModel) -> dict[str, Any]:
             "min": _metres(lidar.range_min, what),
             "max": _metres(lidar.range_max, what),
         },
-        "max_linear": _metres(model.max_linear, what),
-        "max_angular": _metres(model.max_angular, what),
+        "max_linear": _metres(min(model.max_linear, AT_ONCE), what),
+        "max_angular": _metres(min(model.max_angular, AT_ONCE), what),
         "acceleration": _metres(min(model.wheel_acceleration, AT_ONCE), what),
         "wheel_separation": _metres(model.wheel_separation, what),
         "wheel_radius": _metres(model.wheel_radius, what),
