@@ -1,0 +1,356 @@
+"""What is right in the exercises of chapter 73, many TurtleBots."""
+
+from __future__ import annotations
+
+import math
+from contextlib import redirect_stdout
+from io import StringIO
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rosmini.book.checks import Wrong, exercise, expect
+from rosmini.graph import Graph
+from rosmini.msgs import message_class
+from rosmini.packages import PackageIndex
+from rosmini.scripts import rosrun
+from rosmini.sim.simulator import Simulator
+from rosmini.tf import Buffer
+from rosmini.tf.messages import to_stamped
+from rosmini.tf.rigid import Rigid, from_yaw
+from rosmini.urdf import xacro
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+Words = list[str]
+
+
+def _twist(v: float, w: float = 0.0) -> Any:
+    twist = message_class("geometry_msgs/Twist")()
+    twist.linear.x, twist.angular.z = float(v), float(w)
+    return twist
+
+
+def _robots(graph: Graph, *starts: tuple[str, float, float, float], noise: float = 1.0) -> Simulator:
+    """A simulator of an empty world with robots that have a name, a place and a heading."""
+    node = graph.node("simulator")
+    node.set_param("~robots", [dict(zip(("name", "x", "y", "yaw"), each, strict=True)) for each in starts])
+    node.set_param("~noise", noise)
+    return Simulator(node, world="empty")
+
+
+def _drive(graph: Graph, topic: str, v: float, w: float, seconds: float) -> None:
+    """Repeat a command ten times a second."""
+    driver = graph.node("checking_driver", anonymous=True)
+    cmd_vel = driver.publisher(topic, message_class("geometry_msgs/Twist"), queue_size=1)
+    cmd_vel.wait_for_subscribers()
+    for _ in range(round(10 * seconds)):
+        cmd_vel.publish(_twist(v, w))
+        graph.run(0.1)
+    driver.shutdown("it has arrived")
+
+
+# ---- 73.1: one more robot ----
+
+
+def _spawning(change: Callable[[Words], Words]) -> Callable[[], Any]:
+    def words(name: str, x: float, y: float, yaw: float) -> Words:
+        given = f"-urdf -model {name} -x {x} -y {y} -z 0.0 -Y {yaw} -param robot_description __ns:=/{name}"
+        return change(given.split())
+
+    return lambda: words
+
+
+def _without(words: Words, option: str) -> Words:
+    at = words.index(option)
+    return words[:at] + words[at + 2 :]
+
+
+@exercise(
+    "73.1",
+    praise="Two robots came to their places in a world of Gazebo, each with its topics in a namespace of its own.",
+    mistakes=[
+        _spawning(lambda words: words[:-1]),
+        _spawning(lambda words: _without(words, "-Y")),
+        _spawning(lambda words: _without(words, "-x")),
+        _spawning(lambda words: words[1:]),
+        _spawning(lambda words: [*words[:-1], "__ns:=/tb3_2"]),
+        _spawning(lambda words: [*words[:2], "tb3_2", *words[3:]]),
+        lambda: lambda name, x, y, yaw: f"-urdf -model {name} -x {x} -y {y} -Y {yaw}",
+        _spawning(lambda words: [*_without(words, "-Y"), "-Y", "90"]),
+    ],
+)
+def spawn_words(answer: Any) -> None:
+    """The words with which rosrun starts spawn_model for another robot."""
+    wanted = {"tb3_2": (1.0, -0.5, 1.5), "robby": (-1.0, 0.5, 0.0)}
+    packages = PackageIndex()
+    burger = packages.path("turtlebot3_description") / "urdf" / "turtlebot3_burger.urdf.xacro"
+    with redirect_stdout(StringIO()), Graph() as graph:  # what Gazebo logs is not the check's word
+        server = rosrun("gazebo_ros", "gzserver", graph=graph)
+        for name, (x, y, yaw) in wanted.items():
+            graph.master.setParam("/checking", f"/{name}/robot_description", xacro.expand(burger))
+            words = answer(name, x, y, yaw)
+            if not isinstance(words, list | tuple) or not all(isinstance(word, str) for word in words):
+                raise Wrong(
+                    f"It returned a {type(words).__name__}, not a list of words.", "text.split() makes one"
+                )
+            said = StringIO()
+            done = rosrun("gazebo_ros", "spawn_model", *words, graph=graph, stdout=said, stderr=said)
+            expect(
+                done.status == 0 and name in server.world.models,
+                f"spawn_model was started, but no model {name} came.",
+                "-urdf, -model, -param and the namespace in which the parameter is: look at the launch file",
+            )
+            found = server.truth(name)
+            expect(
+                math.dist(found, (x, y, yaw)) < 0.05,
+                f"{name} should come to ({x}, {y}) with heading {yaw}; it came to "
+                f"({found[0]:.1f}, {found[1]:.1f}) with heading {found[2]:.1f}.",
+                "-x and -y in metres, -Y for the heading in radians",
+            )
+            topics = [topic for topic, _ in graph.master.getTopicTypes("/checking")[2]]
+            expect(
+                f"/{name}/scan" in topics,
+                f"There is no topic /{name}/scan.",
+                "the node has to be started in the robot's namespace",
+            )
+
+
+# ---- 73.2: follow me ----
+
+
+def _follower(
+    law: Callable[[float], float], *, half: int = 20, who: str = "", everywhere: bool = False
+) -> Callable[[], Any]:
+    """A node that looks into a sector ahead and goes as `law` says."""
+
+    def follow(graph: Graph, robot: str) -> None:
+        node = graph.node("follow", namespace=who or robot)
+        cmd_vel = node.publisher("cmd_vel", message_class("geometry_msgs/Twist"), queue_size=1)
+
+        def look(scan: Any) -> None:
+            front = np.concatenate([scan.ranges[-half:], scan.ranges[: half + 1]])
+            cmd_vel.publish(_twist(law(float((scan.ranges if everywhere else front).min()))))
+
+        node.subscriber("scan", message_class("sensor_msgs/LaserScan"), look)
+
+    return lambda: follow
+
+
+def _keep(room: float) -> float:
+    return float(np.clip(room - 0.4, -0.1, 0.2)) if room < 1.0 else 0.0
+
+
+def _gap(sim: Simulator, robot: str) -> float:
+    """The least range ahead of a robot."""
+    ranges = sim.last_scan(robot).ranges
+    return float(min(ranges[-10:].min(), ranges[:11].min()))
+
+
+@exercise(
+    "73.2",
+    praise="Three robots drove in a row, and nobody touched anybody.",
+    mistakes=[
+        _follower(lambda _: 0.1),
+        _follower(lambda _: 0.0),
+        _follower(lambda room: float(np.clip(room - 0.4, -0.1, 0.2))),
+        _follower(lambda room: 0.2 if room < 1.0 else 0.0),
+        _follower(lambda room: -_keep(room)),
+        _follower(_keep, everywhere=True),
+        _follower(_keep, who="back"),
+    ],
+)
+def follow(answer: Any) -> None:
+    """A node that keeps a robot 0.4 m behind what is ahead of it."""
+    with Graph() as graph:
+        sim = _robots(graph, ("alone", 0.0, 0.0, 0.0), ("nearby", -0.35, 0.0, 0.0))
+        answer(graph, "alone")
+        graph.run(5.0)
+        expect(
+            math.dist(sim.truth("alone")[:2], (0.0, 0.0)) < 0.02,
+            "With nothing ahead of it, and a robot right behind it, the follower did not stand still.",
+            "look ahead only, and stand if nothing is within a metre",
+        )
+    with Graph() as graph:
+        sim = _robots(graph, ("leader", 0.0, 0.0, 0.0), ("middle", -0.7, 0.0, 0.0), ("back", -1.4, 0.0, 0.0))
+        for robot in ("middle", "back"):
+            answer(graph, robot)
+        graph.run(2.0)
+        for _ in range(20):
+            _drive(graph, "leader/cmd_vel", 0.1, 0.0, 1.0)
+            touched = [robot for robot in sim.robots if sim.engine.touching(robot)]
+            expect(not touched, "The follower drove into the one ahead of it.", "stand when it is 0.4 m away")
+        for robot in ("middle", "back"):
+            gap = _gap(sim, robot)
+            expect(
+                0.3 < gap < 0.6,
+                f"While the leader drives with 0.1 m/s, {robot} should be about 0.4 m behind; it is {gap:.1f} m.",
+                "drive faster the farther what is ahead is beyond 0.4 m",
+            )
+        graph.run(8.0)
+        before = sim.truth("back")
+        graph.run(2.0)
+        expect(
+            math.dist(before, sim.truth("back")) < 0.02 and 0.3 < _gap(sim, "back") < 0.5,
+            "The leader stands, but the last follower does not stand 0.4 m behind the one ahead of it.",
+            "at 0.4 m the speed is 0",
+        )
+
+
+# ---- 73.3: seen from another robot ----
+
+
+def _looking(source: str, target: str) -> Callable[[], Any]:
+    """The distance and bearing of one frame in another one; `{a}` stands for the robot, `{b}` for the other."""
+
+    def seen_from(buffer: Buffer, robot: str, other: str) -> tuple[float, float]:
+        frame, what = (text.format(a=robot, b=other) for text in (target, source))
+        place = buffer.lookup_transform(frame, what).transform.translation
+        return math.hypot(place.x, place.y), math.atan2(place.y, place.x)
+
+    return lambda: seen_from
+
+
+def _in_degrees() -> Any:
+    right: Callable[..., tuple[float, float]] = _looking("{b}/base_footprint", "{a}/base_scan")()
+
+    def seen_from(*given: Any) -> tuple[float, float]:
+        distance, bearing = right(*given)
+        return distance, math.degrees(bearing)
+
+    return seen_from
+
+
+@exercise(
+    "73.3",
+    praise="Both trees hang from map, so tf finds the way up the one and down the other.",
+    mistakes=[
+        _looking("{a}/base_footprint", "{b}/base_scan"),
+        _looking("{b}/base_footprint", "{a}/base_footprint"),
+        _looking("{b}/base_footprint", "map"),
+        _looking("{b}/odom", "{a}/base_scan"),
+        _looking("tb3_1/base_footprint", "tb3_0/base_scan"),
+        _in_degrees,
+        lambda: lambda _buffer, _robot, _other: 1.0,
+    ],
+)
+def seen_from(answer: Any) -> None:
+    """How far away, and in which direction, a robot's laser has another robot."""
+    buffer = Buffer(None)
+
+    def tell(parent: str, child: str, transform: Rigid) -> None:
+        buffer.set_transform(to_stamped(parent, child, transform, 1_000_000_000))
+
+    for name, start, driven in (
+        ("tb3_0", from_yaw(-3.0, 1.0, 0.0), from_yaw(1.0, 0.0, math.pi / 2)),
+        ("tb3_1", from_yaw(-3.0, 3.0, 1.0), from_yaw(0.4, -0.3, 0.5)),
+    ):
+        tell("map", f"{name}/odom", start)
+        tell(f"{name}/odom", f"{name}/base_footprint", driven)
+        tell(f"{name}/base_footprint", f"{name}/base_scan", from_yaw(-0.032, 0.0, 0.0, z=0.182))
+    for robot, other in (("tb3_0", "tb3_1"), ("tb3_1", "tb3_0")):
+        place = buffer.lookup_transform(f"{robot}/base_scan", f"{other}/base_footprint").transform.translation
+        found = answer(buffer, robot, other)
+        if not isinstance(found, tuple) or len(found) != 2:
+            raise Wrong(
+                "It has to return two numbers, the distance and the bearing.", "return distance, bearing"
+            )
+        distance, bearing = math.hypot(place.x, place.y), math.atan2(place.y, place.x)
+        expect(
+            abs(found[0] - distance) < 1e-3,
+            f"Seen from the laser of {robot}, {other} is {distance:.3f} m away, not {found[0]:.3f} m.",
+            "look up base_footprint of the other one in base_scan of this one, each with its prefix",
+        )
+        expect(
+            abs(found[1] - bearing) < 1e-3,
+            f"Seen from the laser of {robot}, {other} is at {bearing:.3f} rad, not {found[1]:.3f} rad.",
+            "math.atan2(y, x)",
+        )
+
+
+# ---- 73.4: rehearse ----
+
+Command = tuple[float, float]
+Choices = list[Command]
+
+
+def _ends(
+    graph: Graph, sim: Simulator, choices: Choices, goal: Sequence[float], *, back: bool
+) -> list[float]:
+    now, far = sim.save(), []
+    for v, w in choices:
+        _drive(graph, "tb3_0/cmd_vel", v, w, 3.0)
+        far.append(math.dist(sim.truth("tb3_0")[:2], goal))
+        if back:
+            sim.restore(now)
+    return far
+
+
+def _best(graph: Graph, sim: Simulator, choices: Choices, goal: Sequence[float]) -> Command:
+    far = _ends(graph, sim, choices, goal, back=True)
+    return choices[far.index(min(far))]
+
+
+def _on_paper(_graph: Graph, sim: Simulator, choices: Choices, goal: Sequence[float]) -> Command:
+    """By arithmetic, as if nothing were in the way."""
+    x, y, heading = sim.truth("tb3_0")
+
+    def far(choice: tuple[float, float]) -> float:
+        v, w = choice
+        turned = heading + 1.5 * w
+        return math.dist((x + 3 * v * math.cos(turned), y + 3 * v * math.sin(turned)), goal)
+
+    return min(choices, key=far)
+
+
+def _forgetful(graph: Graph, sim: Simulator, choices: Choices, goal: Sequence[float]) -> Command:
+    far = _ends(graph, sim, choices, goal, back=False)
+    return choices[far.index(min(far))]
+
+
+def _and_go(graph: Graph, sim: Simulator, choices: Choices, goal: Sequence[float]) -> Command:
+    best = _best(graph, sim, choices, goal)
+    _drive(graph, "tb3_0/cmd_vel", *best, 3.0)
+    return best
+
+
+@exercise(
+    "73.4",
+    praise="It looked three seconds ahead, once for each choice, and nobody in the world noticed.",
+    mistakes=[
+        lambda: _on_paper,
+        lambda: _forgetful,
+        lambda: _and_go,
+        lambda: lambda _graph, _sim, choices, _goal: choices[0],
+        lambda: lambda _graph, _sim, choices, _goal: choices[-1],
+        lambda: lambda graph, sim, choices, goal: min(_ends(graph, sim, choices, goal, back=True)),
+    ],
+)
+def rehearse(answer: Any) -> None:
+    """The command that takes a robot nearest to a goal within three seconds, found by trying each."""
+    choices = [(0.2, 0.0), (0.2, 0.5), (0.2, -0.5), (0.0, 0.0)]
+    for blocked in (True, False):
+        with Graph() as graph:
+            place = (0.25, 0.03, 0.0) if blocked else (-0.5, 0.0, 0.0)
+            sim = _robots(graph, ("tb3_0", 0.0, 0.0, 0.0), ("tb3_1", *place), noise=0.0)
+            graph.run(0.05)
+            goal = (0.55, -0.1)
+            wanted, before = _best(graph, sim, choices, goal), sim.save()
+            found = answer(graph, sim, choices, goal)
+            expect(
+                found in choices,
+                f"It returned {found!r}, which is none of the choices.",
+                "return one of the pairs",
+            )
+            expect(
+                all(sim.truth(each.name) == each.state["pose"] for each in before.host.engine.robots),
+                "Afterwards the robots are not where they were.",
+                "sim.restore(...) after each attempt, the last one too",
+            )
+            where = "with a robot ahead of it" if blocked else "with nothing ahead of it"
+            expect(
+                found == wanted,
+                f"From (0, 0), {where}, {wanted} leads nearest to {goal}; your function chose {found}.",
+                "save, drive for three seconds, measure the distance to the goal, restore; then the next one",
+            )
