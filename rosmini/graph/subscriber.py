@@ -226,7 +226,7 @@ class Connection:
     def closed(self) -> None:
         """Learn that the publisher closed the connection."""
         self._shut()
-        self.subscription.forget(self)
+        self.subscription.closed(self)
 
     def close(self) -> None:
         """Close the connection: callbacks that have not started do not come."""
@@ -255,6 +255,7 @@ class Subscription:
         self.handles: list[Subscriber] = []
         self.connections: dict[str, Connection] = {}
         self.queue_size: int | None = None
+        self._wanted: tuple[str, ...] = ()
 
     def update_publishers(self, uris: Iterable[str]) -> None:
         """Connect to new publishers: what ``publisherUpdate`` asks for.
@@ -262,7 +263,7 @@ class Subscription:
         As in rospy an open connection outlives its registration: the publisher closes it after its last message,
         which may still be on its way.
         """
-        wanted = list(dict.fromkeys(uris))
+        self._wanted = wanted = tuple(dict.fromkeys(uris))
         for uri in [uri for uri, link in self.connections.items() if uri not in wanted and not link.is_open]:
             self.connections.pop(uri).close()
         for uri in wanted:
@@ -273,6 +274,13 @@ class Subscription:
         """Drop a connection that is closed or was refused."""
         if self.connections.get(connection.uri) is connection:
             del self.connections[connection.uri]
+
+    def closed(self, connection: Connection) -> None:
+        """Learn that a publisher closed a connection; if it is on the topic again meanwhile, connect to it anew."""
+        self.forget(connection)
+        uri = connection.uri
+        if self.handles and uri in self._wanted and uri not in self.connections:
+            self.connections[uri] = Connection(self, uri)
 
     def add(self, handle: Subscriber) -> None:
         """Add a subscriber of this node; it gets what connected publishers latched."""

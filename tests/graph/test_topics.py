@@ -499,6 +499,25 @@ def test_what_was_published_before_unregistering_still_arrives(graph: Graph) -> 
         publisher.publish("more")
 
 
+def test_publishers_that_leave_and_come_back_while_messages_are_on_their_way_are_heard(graph: Graph) -> None:
+    heard: list[str] = []
+    talker, listener, topics = graph.node("talker"), graph.node("listener"), ("a", "b", "c")
+    for topic in topics:
+        listener.subscriber(topic, String, lambda message: heard.append(message.data))
+    first = [connected(talker, topic, String, queue_size=10) for topic in topics]
+    for publisher in first:
+        publisher.publish("on its way")
+    for publisher in first:
+        publisher.unregister()
+    second = [talker.publisher(topic, String, queue_size=10) for topic in topics]
+    settle(graph)
+    until(graph, lambda: [each.num_connections() for each in second] == [1, 1, 1])
+    for publisher in second:
+        publisher.publish("back")
+    until(graph, lambda: len(heard) == 6)
+    assert sorted(heard) == ["back"] * 3 + ["on its way"] * 3
+
+
 def test_an_unregistered_subscriber_hears_nothing_more(graph: Graph) -> None:
     heard: list[str] = []
     subscriber = graph.node("listener").subscriber("t", String, lambda message: heard.append(message.data))
