@@ -75,7 +75,7 @@ def solids(model: Model) -> tuple[Obstacle, ...]:
         own = (each for each in model.world.flat.obstacles if each.name in model.obstacles)
         return tuple(replace(each, pose=(0.0, 0.0, 0.0)) for each in own)
     at: Pose6 = (*ORIGIN[:2], *model.start[2:5], 0.0)
-    return to_obstacles(model.sdf, at)
+    return to_obstacles(replace(model.sdf, static=True), at)  # each part as it is, with its own colour
 
 
 def _robot(model: Model) -> tuple[RobotModel | None, tuple[float, float, float]]:

@@ -36,10 +36,14 @@ def draw(scene: Scene3D, *, title: str, alt: str) -> str:
     body = [*_ground(scene, look), *_trails(scene, look)]
     groups = _groups(scene)
     described = _described(scene)
-    if described:
-        groups = [*groups, *((outline, []) for outline, _ in described)]
-    first = len(groups) - len(described)
-    order = painting_order([outline for outline, _ in groups], look.position[:2])
+    first = len(groups)
+    outlines = [outline for outline, _ in groups] + [outline for outline, _ in described]
+    solid = [
+        *(np.vstack([face for _, each, at in group for face in _faces(each, at)]) for _, group in groups),
+        *(_corners(scene, parts) for _, parts in described),
+    ]
+    spans = [(float(snap(each[:, 2].min())), float(snap(each[:, 2].max()))) for each in solid]
+    order = painting_order(outlines, look.position, spans, [look.box(each) for each in solid])
     # Laser points are on what is seen from the robot: in the picture, all that is farther than the robot.
     robot = next((n for n, i in enumerate(order) if i >= first or _robot(groups[i][1][0][0])), len(order))
     for n, i in enumerate(order):
@@ -76,6 +80,15 @@ class _Look:
             return np.empty((0, 2))
         flat = seen[:, :2] / seen[:, 2:] * self._scale
         return snap(np.column_stack([WIDTH / 2 + flat[:, 0], HEIGHT / 2 - flat[:, 1]]), 0.1)
+
+    def box(self, corners: Floats) -> tuple[float, float, float, float]:
+        """What is around the picture of a thing with these corners (n, 3): x0, y0, x1, y1."""
+        seen = (corners - self.position) @ self._axes.T
+        if (seen[:, 2] < NEAR).any():  # it reaches behind the camera
+            return (-math.inf, -math.inf, math.inf, math.inf)
+        flat = snap(seen[:, :2] / seen[:, 2:] * self._scale, 0.1)
+        (x0, y0), (x1, y1) = flat.min(axis=0).tolist(), flat.max(axis=0).tolist()
+        return (x0, y0, x1, y1)
 
     def path(self, face: Floats, *, closed: bool = True) -> str:
         """The picture of a polygon or of a line as path data; empty where it is out of the picture."""
@@ -175,14 +188,12 @@ def _described(scene: Scene3D) -> list[tuple[Floats, list[LinkPart]]]:
     robots: dict[str, list[LinkPart]] = {}
     for part in scene.surfaces:
         robots.setdefault("/".join(part.node.split("/")[:2]), []).append(part)
-    found = []
-    for name, parts in robots.items():
-        place = scene.transform(name)
-        corners = np.vstack(
-            [triangles_in_world(part, scene.transform(part.node)).reshape(-1, 3) for part in parts]
-        )
-        found.append((_around(corners, place), parts))
-    return found
+    return [(_around(_corners(scene, parts), scene.transform(name)), parts) for name, parts in robots.items()]
+
+
+def _corners(scene: Scene3D, parts: list[LinkPart]) -> Floats:
+    """The corners (n, 3) of surfaces in the world."""
+    return np.vstack([triangles_in_world(part, scene.transform(part.node)).reshape(-1, 3) for part in parts])
 
 
 def _painted_surfaces(look: _Look, scene: Scene3D, parts: list[LinkPart]) -> Iterator[str]:

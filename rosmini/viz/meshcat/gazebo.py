@@ -18,11 +18,13 @@ from rosmini.viz.world import pose_text
 from .links import link_parts
 from .scene import TINY, Camera, Scene3D
 from .solids import Floats
-from .view import HEIGHT, MeshcatView, camera_for, contents_of
+from .view import HEIGHT, MeshcatView, camera_for, free_sight
 from .visuals import is_plain, surfaces, transform
 
-CLOSE = 2.6
+CLOSE = 1.7
 """How far the camera is from a model by its size."""
+STEEP = 58.0
+"""How high the camera looks from on a world with robots [deg]: they are small, and walls stand around them."""
 
 
 def gazebo_3d(
@@ -47,6 +49,8 @@ def gazebo_3d(
 
     """
     world = snapshot.world()
+    if elevation is None and focus == "world" and snapshot.robots:
+        elevation = STEEP
     camera = camera_for(world, None, focus="world", distance=distance, azimuth=azimuth, elevation=elevation)
     plain = [model for model in snapshot.models if is_plain(model)]
     drawn = [model for model in snapshot.models if not is_plain(model) and model.pose is not None]
@@ -59,14 +63,15 @@ def gazebo_3d(
     scene.add_world(replace(world, obstacles=tuple(obstacles)), bounds=world.bounds)
     for model in drawn:
         _add(scene, model, collisions=collisions)
-    kind = ", what is solid" if collisions else ""
-    lines = [f"3D: {contents_of(world)}{kind}, at {when(snapshot)}"]
+    kind = ", what is solid of them" if collisions else ""
+    count = f"{len(snapshot.models)} model{'s' * (len(snapshot.models) != 1)}"
+    lines = [f"3D: {snapshot.name} with {count}{kind}, at {when(snapshot)}"]
     lines += [f"{robot.name}: pose {pose_text(robot.pose)}" for robot in snapshot.robots]
     lines += places(snapshot)
     said = [f"{robot.name} at {pose_text(robot.pose)}" for robot in snapshot.robots]
     said += [f"{m.name} at {pose_text(place_of(m.pose))}" for m in snapshot.things if m.pose is not None]
     there = f": {', '.join(said[:6])}{' and more' if len(said) > 6 else ''}" if said else ""
-    alt = f"{snapshot.title} in three dimensions{kind}, at {when(snapshot)}{there}."
+    alt = f"{snapshot.title} in three dimensions, {count}{kind}, at {when(snapshot)}{there}."
     return MeshcatView(
         scene, label=f"{snapshot.title} in 3D", text="\n".join(lines), alt=alt, title=title, height=height
     )
@@ -75,10 +80,10 @@ def gazebo_3d(
 def _add(scene: Scene3D, model: Model, *, collisions: bool) -> None:
     """Add a model; what equal ones consist of is there once."""
     node = "models/" + model.name.replace("/", " ")
-    if model.pose is not None:
-        scene.place(node, transform(model.pose))
+    there = transform(model.pose) if model.pose is not None else np.eye(4)
+    scene.place(node, there)
     for link in model.link:
-        parts = surfaces(link, collisions=collisions, without=TINY)
+        parts = surfaces(link, there @ transform(link.pose), collisions=collisions, without=TINY)
         if parts:
             below = f"{node}/{link.name.partition('::')[2].replace('/', ' ')}"
             scene.place(below, transform(link.pose))
@@ -101,24 +106,24 @@ def _close(
     points = _corners(models[name])
     low, high = points.min(axis=0), points.max(axis=0)
     pose = models[name].pose
-    heading = float(np.rad2deg(place_of(pose)[2])) if pose is not None else 0.0
+    size = float(snap(np.linalg.norm(high - low), 0.01))
+    away = round(CLOSE * size + 0.1, 2) if distance is None else distance
+    there = replace(snapshot, models=tuple(model for model in snapshot.models if model.name != name)).world()
     x, y, z = (round(c, 3) for c in snap((low + high) / 2).tolist())
+    sight = free_sight(there, (x, y, place_of(pose)[2] if pose is not None else 0.0), away)
     return Camera(
         (x, y, z),
-        round(CLOSE * float(np.linalg.norm(high - low)) / 2 + 0.1, 2) if distance is None else distance,
-        float(snap(heading - 38.0, 1.0)) if azimuth is None else azimuth,
-        25.0 if elevation is None else elevation,
+        away,
+        sight[0] if azimuth is None else azimuth,
+        sight[1] if elevation is None else elevation,
     )
 
 
 def _corners(model: Model) -> Floats:
     """Corners (n, 3) of what there is to see of a model, in the world."""
     there = transform(model.pose) if model.pose is not None else np.eye(4)
-    found = [
-        surface.moved(there @ transform(link.pose)).vertices
-        for link in model.link
-        for surface in surfaces(link)
-    ]
+    placed = ((link, there @ transform(link.pose)) for link in model.link)
+    found = [surface.moved(at).vertices for link, at in placed for surface in surfaces(link, at)]
     for solid in solids_of(model) if not found else ():
         for shape, pose in solid.parts():
             reach = shape.radius if isinstance(shape, (Cylinder, Sphere)) else 0.0

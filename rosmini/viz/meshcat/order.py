@@ -19,15 +19,32 @@ TOUCH = 1e-4
 """Outlines may overlap by this much [m]."""
 
 
-def painting_order(outlines: list[Floats], eye: Floats) -> list[int]:
-    """The places of convex outlines (n, 2), counter-clockwise, from the farthest to the nearest as seen from `eye` (2,)."""
-    away = [float(snap(np.linalg.norm(outline.mean(axis=0) - eye), 1e-6)) for outline in outlines]
+Box = tuple[float, float, float, float]
+"""From the left to the right and from the top to the bottom: x0, y0, x1, y1 [px]."""
+
+
+def painting_order(
+    outlines: list[Floats],
+    eye: Floats,
+    spans: list[tuple[float, float]] | None = None,
+    boxes: list[Box] | None = None,
+) -> list[int]:
+    """The places of convex outlines (n, 2), counter-clockwise, from the farthest to the nearest as seen from `eye` (3,).
+
+    `spans` are the lowest and the highest point of each [m]: of two things on the same ground the upper one covers the lower. `boxes` are what is
+    around their pictures: what shares no place there does not cover one another.
+    """
+    away = [float(snap(np.linalg.norm(outline.mean(axis=0) - eye[:2]), 1e-6)) for outline in outlines]
     by_distance = sorted(range(len(outlines)), key=lambda i: -away[i])
-    if len(outlines) > MANY:
+    if len(outlines) > MANY and boxes is None:
         return by_distance
-    behind = {
-        i: {j for j in by_distance if j != i and _covers(outlines[i], outlines[j], eye)} for i in by_distance
-    }
+
+    def covers(i: int, j: int) -> bool:
+        if boxes is not None and not _meet(boxes[i], boxes[j]):
+            return False
+        return _covers(outlines[i], outlines[j], eye, (spans[i], spans[j]) if spans else None)
+
+    behind = {i: {j for j in by_distance if j != i and covers(i, j)} for i in by_distance}
     order: list[int] = []
     while len(order) < len(outlines):
         left = [i for i in by_distance if i in behind]
@@ -40,13 +57,22 @@ def painting_order(outlines: list[Floats], eye: Floats) -> list[int]:
     return order
 
 
-def _covers(near: Floats, far: Floats, eye: Floats) -> bool:
+def _meet(a: Box, b: Box) -> bool:
+    """Whether two boxes share a place."""
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+def _covers(
+    near: Floats, far: Floats, eye: Floats, spans: tuple[tuple[float, float], tuple[float, float]] | None
+) -> bool:
     """Whether `near` may cover a part of `far`."""
-    side = _between(near, far, eye)
-    if side is None:
-        other = _between(far, near, eye)
-        return False if other is None else other
-    return not side
+    side = _between(near, far, eye[:2])
+    if side is not None:
+        return not side
+    other = _between(far, near, eye[:2])
+    if other is not None:
+        return other
+    return spans is not None and TOUCH + eye[2] >= spans[0][0] >= spans[1][1] - TOUCH
 
 
 def _between(own: Floats, other: Floats, eye: Floats) -> bool | None:

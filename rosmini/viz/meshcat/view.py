@@ -124,7 +124,7 @@ def camera_for(
     x0, y0, x1, y1 = world.bounds
     if focus == "robot" and pose is not None:
         middle = (pose[0], pose[1], 0.09)
-        usual = (0.65, *_free_sight(world, pose, 0.65 if distance is None else distance))
+        usual = (0.65, *free_sight(world, pose, 0.65 if distance is None else distance))
     else:
         size = math.hypot(x1 - x0, y1 - y0)
         middle, usual = ((x0 + x1) / 2, (y0 + y1) / 2, 0.0), (1.2 * size + 0.3, -68.0, 42.0)
@@ -137,7 +137,7 @@ def camera_for(
     )
 
 
-def _free_sight(world: World, pose: Pose, distance: float) -> tuple[float, float]:
+def free_sight(world: World, pose: Pose, distance: float) -> tuple[float, float]:
     """From which azimuth and elevation [deg] a robot is seen: from ahead at an angle, or from where nothing stands between."""
     x, y, heading = (float(part) for part in snap(np.array(pose)))
     ahead = float(snap(math.degrees(heading), 1.0))
@@ -159,8 +159,8 @@ def world_3d(
     scene = Scene3D(camera)
     scene.add_world(world)
     label = f"{_title(world)} in 3D"
-    text = f"3D: {contents_of(world)}"
-    alt = f"{_title(world)} in three dimensions, seen from above at an angle: {contents_of(world)}."
+    text = f"3D: {_contents(world)}"
+    alt = f"{_title(world)} in three dimensions, seen from above at an angle: {_contents(world)}."
     return MeshcatView(scene, label=label, text=text, alt=alt, title=title, height=height)
 
 
@@ -267,7 +267,7 @@ def robot_3d(
         scene.add_scan(model, ranges, scan_from)
         hits = f"; {int(np.isfinite(ranges).sum())} of {len(ranges)} beams hit"
     name = model.title or model.name
-    text = "\n".join([f"3D: {model.name} at {_pose(pose)}{hits}", *beside, contents_of(world)])
+    text = "\n".join([f"3D: {model.name} at {_pose(pose)}{hits}", *beside, _contents(world)])
     alt = f"{name} in {_title(world)}, in three dimensions, at {_pose(pose)}{hits}."
     alt += f" Beside it {', '.join(beside)}." if beside else ""
     return MeshcatView(
@@ -283,8 +283,7 @@ def _pose(pose: Pose) -> str:
     return f"({fixed(pose[0], 2)}, {fixed(pose[1], 2)}, {degrees(pose[2])} deg)"
 
 
-def contents_of(world: World) -> str:
-    """How much there is in a world, in words."""
+def _contents(world: World) -> str:
     counts = [(len(world.walls), "wall"), (len(world.obstacles), "obstacle")]
     return f"{world.name} with " + ", ".join(f"{n} {what}{'s' * (n != 1)}" for n, what in counts)
 

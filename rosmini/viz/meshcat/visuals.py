@@ -19,6 +19,8 @@ from .solids import Facets, Floats, Prism, mesh, triangulate
 COLLISION = (0.9, 0.62, 0.0, 1.0)
 """The colour of what is solid, as Gazebo's View menu shows it."""
 SAME = 1e-6
+FLAT = 0.01
+"""A level plane that is no higher than this [m] is the ground."""
 
 
 def transform(pose: Pose) -> Floats:
@@ -26,16 +28,21 @@ def transform(pose: Pose) -> Floats:
     return matrix(pose_of(pose))
 
 
-def surfaces(link: Link, *, collisions: bool = False, without: Iterable[str] = ()) -> list[Surface]:
-    """What there is to see of a link, in its frame: one surface for each colour. Raises `MeshError`.
+def surfaces(
+    link: Link, place: Floats, *, collisions: bool = False, without: Iterable[str] = ()
+) -> list[Surface]:
+    """What there is to see of a link at `place` (4, 4) in the world, in its own frame: one surface for each colour. Raises `MeshError`.
 
-    The material of a visual comes before the colours of a mesh file, as in Gazebo; surfaces of a file in one of the colours `without` are left out.
+    The material of a visual comes before the colours of a mesh file, as in Gazebo; surfaces of a file in one of the colours `without` are left out. So
+    are planes that are the ground: a scene has a ground of its own.
     """
     found: dict[str, list[Surface]] = {}
     left_out = frozenset(without)
     pieces: tuple[Visual | Collision, ...] = link.collision if collisions else link.visual
     for piece in pieces:
         colour = COLLISION if collisions else colour_of(piece)
+        if _is_ground(piece, place):
+            continue
         for surface in _shape(piece.geometry):
             if hex_colour(surface) in left_out:
                 continue
@@ -51,6 +58,15 @@ def colour_of(piece: Visual | Collision) -> tuple[float, float, float, float] | 
         return None
     diffuse = piece.material.diffuse
     return (diffuse.r, diffuse.g, diffuse.b, diffuse.a)
+
+
+def _is_ground(piece: Visual | Collision, place: Floats) -> bool:
+    plane = piece.geometry.plane
+    if plane is None:
+        return False
+    at = place @ transform(piece.pose)
+    normal = at[:3, :3] @ (plane.normal.x, plane.normal.y, plane.normal.z)
+    return bool(abs(at[2, 3]) < FLAT and normal[2] > (1 - SAME) * np.linalg.norm(normal))
 
 
 def _shape(shape: Geometry) -> list[Surface]:
@@ -106,7 +122,7 @@ def is_plain(model: Model) -> bool:
     if not visuals:
         return True
     solids = sum(len(solid.parts()) for solid in solids_of(model))
-    if solids != len(visuals) or (solids > 1 and not model.is_static):
+    if solids != len(visuals):
         return False
     there = transform(model.pose) if model.pose is not None else np.eye(4)
     for link in model.link:
