@@ -133,8 +133,7 @@ class Clockwork:
             before = robot.wheel_state()
             pose, moved = robot.roll(dt)
             rolled.append((robot, before, pose, moved))
-            if moved > robot.room and moved > 0:
-                self.look(robot)
+        self._look_where_short([(robot, moved) for robot, _, _, moved in rolled if moved > 0])
         movers = [mover for mover in self.engine.movers.values() if mover.way(dt) > mover.room]
         movers = [mover for mover in movers if mover.way(dt) > self._look_around(mover)]
         # only now, for whoever looked has told the others how near they are
@@ -257,9 +256,7 @@ class Clockwork:
                 robot.clear = 0.0
         self.moving = contacts.moving
         if not self.moving:
-            for robot in robots:
-                if not robot.touching and robot.room <= 0:
-                    self.look(robot)
+            self._look_where_short([(robot, 0.0) for robot in robots if not robot.touching])
 
     def _watched(self, robots: list[Robot], ways: dict[str, tuple[Pose, Pose]]) -> set[str]:
         """Who of many robots may touch anything at the end of a step: the others need not be asked."""
@@ -310,6 +307,21 @@ class Clockwork:
         for mover in self.engine.movers.values():
             mover.room = 0.0
         self.plan()
+
+    def _look_where_short(self, ways: list[tuple[Robot, float]]) -> None:
+        """Let those robots look around that have no more room than they need for such a way [m]."""
+        several = len(ways) >= FEW and self.engine.contacts.at_once
+        while several:  # again, for whoever looks tells others that they have less room
+            short = [robot for robot, moved in ways if robot.room <= moved]
+            if len(short) < FEW:
+                break
+            self.engine.contacts.crowd.look(
+                self.engine.contacts, self.engine.robots, [robot.name for robot in short], SAFE
+            )
+            ways = [(robot, moved) for robot, moved in ways if robot not in short]
+        for robot, moved in ways:
+            if robot.room <= moved:
+                self.look(robot)
 
     def look(self, robot: Robot) -> float:
         """Measure, and return, how far a robot can move without touching anything; of a gap to another that moves each has half."""

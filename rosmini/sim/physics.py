@@ -26,7 +26,6 @@ from .bodies import (
     Owner,
     Rover,
     Surface,
-    correction,
     depths_of,
     grip_again,
     hold,
@@ -36,25 +35,15 @@ from .bodies import (
     put,
     shapes_of,
 )
+from .crowd import Crowd, fast
 from .models import RobotModel
+from .pushing import SLACK, make_way
 from .world import Obstacle, World
 
-__all__ = ["VIEW", "Contacts", "Surface", "correction"]
-
-TOUCH = 1e-9
-"""Bodies that overlap by less [m] only touch."""
-
-SLACK = 2e-5
-"""So deep [m] a robot reaches into what it pushes: bodies that do not overlap do not push each other."""
+__all__ = ["VIEW", "Contacts", "Surface"]
 
 OVERLAP = 1e-4
 """By so much [m] a robot may be put into something, for want of digits."""
-
-ROUNDS = 20
-"""So often at most a robot is pushed out of what it has driven into; a wedge between two walls takes the most."""
-
-QUICK, NEARLY = 4, 1e-6
-"""After so many rounds, robots that push one another may still overlap by so much [m]."""
 
 REST = 1e-4
 """A movable obstacle that is slower [m/s, rad/s] stands."""
@@ -85,6 +74,7 @@ class Contacts:
         self._crates: list[Crate] = []
         self.leaves: dict[str, Leaf] = {}
         self.fixed: dict[str, list[pymunk.Shape]] = {}
+        self._crowd: Crowd | None = None
         self.dt = 0.0
         """How long the last step was [s]; 0 before the first."""
         self.pruned = False
@@ -141,6 +131,7 @@ class Contacts:
             self._enter(leaf)
             self.place(obstacle.name, obstacle.at(0.0))
         else:
+            self._crowd = None
             shapes = self.fixed[obstacle.name] = shapes_of(obstacle, self.space.static_body, obstacle.pose)
             for shape in shapes:
                 self._add(shape, Owner("fixed", obstacle.name, obstacle.bottom, obstacle.height))
@@ -170,7 +161,7 @@ class Contacts:
             self._leave(self.leaves.pop(name))
         else:
             shapes = self.fixed.pop(name)
-            self.pruned = True
+            self.pruned, self._crowd = True, None
             self.space.remove(*shapes)
             for shape in shapes:
                 del self.owners[shape]
@@ -235,6 +226,7 @@ class Contacts:
 
     def add(self, name: str, model: RobotModel, pose: Pose) -> None:
         """Put a robot there."""
+        self._crowd = None
         rover = self.rovers[name] = make_rover(model, self.surface)
         self.space.add(rover.body, rover.axle)
         self._add(rover.shape, Owner("robot", name, 0.0, model.height))
@@ -242,6 +234,7 @@ class Contacts:
 
     def remove(self, name: str) -> None:
         """Take a robot away."""
+        self._crowd = None
         rover = self.rovers.pop(name)
         del self.owners[rover.shape]
         if rover.awake:
@@ -330,6 +323,18 @@ class Contacts:
         """
         return min([VIEW, *(gap / 2 if moves else gap for gap, _, moves in self.around(name))])
 
+    @property
+    def crowd(self) -> Crowd:
+        """All robots as tables."""
+        if self._crowd is None:
+            self._crowd = Crowd(self)
+        return self._crowd
+
+    @property
+    def at_once(self) -> bool:
+        """True if `crowd` can look around many robots at once: with numba, and if nothing moves by itself but robots."""
+        return not self.leaves and fast()
+
     def around(self, name: str) -> list[tuple[float, str, bool]]:
         """What is within VIEW of a robot: how far away [m], whose it is, and whether that moves by itself.
 
@@ -360,9 +365,7 @@ class Contacts:
             if not self.rovers[name].awake:
                 self._wake(self.rovers[name], awake=True)
         poses = {name: after for name, (_, after) in ways.items()}
-        for name, pose in poses.items():
-            put(self.rovers[name].body, pose)
-        held = self._make_way(poses, dt, list(poses) if watched is None else sorted(watched))
+        held = make_way(self, poses, dt, list(poses) if watched is None else sorted(watched))
         for name, (before, after) in ways.items():
             rover = self.rovers[name]
             body, axle = rover.body, rover.axle
@@ -379,77 +382,6 @@ class Contacts:
         for name, pose in poses.items():
             put(self.rovers[name].body, pose)
         return {name: (pose, name in held) for name, pose in poses.items()}
-
-    def _make_way(self, poses: dict[str, Pose], dt: float, names: list[str]) -> set[str]:
-        """Bring the robots out of what they have driven into, and out of each other; return who was moved by that."""
-        sliding = [crate.body for crate in self.sliding()]
-        kept = [(*body.position, body.angle) for body in sliding]
-        for body in sliding:  # to where they will be when the step is over
-            body.angle += body.angular_velocity * dt
-            body.position += body.velocity * dt
-            self.space.reindex_shapes_for_body(body)
-        for name in poses:
-            self.space.reindex_shapes_for_body(self.rovers[name].body)
-        moved: set[str] = set()
-        for number in range(ROUNDS):
-            least = TOUCH if number < QUICK or len(poses) == 1 else NEARLY
-            fair = 2 * number >= ROUNDS
-            pushed = {name: self._push_out(name, poses, least, fair=fair) for name in names}
-            again = {other for others in pushed.values() for other in others}
-            if not again:
-                break
-            moved |= again
-            names = [name for name in names if name in again] + sorted(again.difference(names))
-        for body, pose in zip(sliding, kept, strict=True):
-            put(body, pose)
-        return moved
-
-    def _push_out(self, name: str, poses: dict[str, Pose], least: float, *, fair: bool) -> list[str]:
-        """Move a robot out of the thing into which it reaches deepest, if by more than `least` [m]; return who was moved.
-
-        Of two robots the one gives way whose wheels grip less, or, if both grip alike, or in any case if it is to be `fair`, both by half.
-        """
-        rover = self.rovers[name]
-        worst, hit = least, None
-        for each in self.space.shape_query(rover.shape):
-            depth = max(depths_of(each.contact_point_set)) - self._slack(each.shape)
-            if (
-                depth > worst
-                and each.shape is not None
-                and self.owners[each.shape].bottom <= rover.model.height
-            ):
-                worst, hit = depth, each
-        if hit is None or hit.shape is None:
-            return []
-        n = hit.contact_point_set.normal
-        slack = self._slack(hit.shape)
-        depths = [depth - slack for depth in depths_of(hit.contact_point_set)]
-        places = [point.point_a for point in hit.contact_point_set.points]
-        owner = self.owners[hit.shape]
-        others = [owner.name] if owner.kind == "robot" and owner.name in poses else []
-        for who, nx, ny in [(name, -n.x, -n.y), *((other, n.x, n.y) for other in others)]:
-            x, y, theta = poses[who]
-            model = self.rovers[who].model
-            levers = [(place.x - x) * ny - (place.y - y) * nx for place in places]
-            along, turn = correction(depths, levers, model.mass, model.inertia)
-            part = self._share(who, owner.name if who == name else name, fair=fair) if others else 1.0
-            if not part:
-                continue
-            poses[who] = (x + part * along * nx, y + part * along * ny, theta + part * turn)
-            body = self.rovers[who].body
-            put(body, poses[who])
-            self.space.reindex_shapes_for_body(body)
-        return [name, *others]
-
-    def _share(self, name: str, other: str, *, fair: bool) -> float:
-        """How much of the way out of another robot is a robot's."""
-        own, others = self.rovers[name].model.mass, self.rovers[other].model.mass
-        return 0.5 if fair or own == others else float(own < others)
-
-    def _slack(self, shape: pymunk.Shape | None) -> float:
-        """How deep a robot may reach into a shape."""
-        body = None if shape is None else shape.body
-        return SLACK if body is not None and body.body_type == pymunk.Body.DYNAMIC else 0.0
 
     # -- the same again ------------------------------------------------------------------------------------------
 

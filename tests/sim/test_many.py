@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rosmini.geometry import polygons
+from rosmini.sim import crowd as crowd_of_robots
 from rosmini.sim import physics
 from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.models import BURGER, WAFFLE
@@ -181,11 +182,17 @@ def test_a_robot_is_removed_while_it_moves_and_pushes_and_is_pushed():
 
 
 def test_looks_at_what_is_near_grow_with_the_robots_and_not_with_their_pairs(monkeypatch):
-    counted = []
-    original = physics.Contacts.around
+    counted: list[str] = []
+    original, together = physics.Contacts.around, crowd_of_robots.Crowd.look
+
+    def look(self, contacts, robots, lookers, safe):
+        counted.extend(lookers)
+        together(self, contacts, robots, lookers, safe)
+
     monkeypatch.setattr(
         physics.Contacts, "around", lambda self, name: counted.append(name) or original(self, name)
     )
+    monkeypatch.setattr(crowd_of_robots.Crowd, "look", look)
 
     def looks(count: int) -> int:
         """What so many robots take that go in circles, 1 m apart from one another."""

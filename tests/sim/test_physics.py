@@ -9,8 +9,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from rosmini.sim.bodies import VIEW, correction
 from rosmini.sim.models import BURGER
-from rosmini.sim.physics import VIEW, Contacts, correction
+from rosmini.sim.physics import Contacts
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World
 
 depths = st.floats(1e-6, 1e-2)
