@@ -68,6 +68,18 @@ def test_the_watchdog_and_the_bounds_are_those_of_the_text(prose, tmp_path):
     assert robot.localization == "gps"
 
 
+def test_a_robot_is_dragged_in_the_view_and_only_gps_notices(prose, tmp_path):
+    assert "`stage.view()`" in prose
+    for kind, believed in (("gps", (1.0, -2.0)), ("odom", (0.0, 0.0))):
+        (tmp_path / "one.world").write_text(f'position( pose [-3 0 0 0] localization "{kind}" )')
+        with Graph() as graph:
+            stage = rosrun("stage_ros", "stageros", tmp_path / "one.world", graph=graph)
+            stage.view().drag("robot_0", (1.0, -2.0))
+            reckoning = stage.robot().base.reckoning
+            assert stage.truth()[:2] == pytest.approx((1.0, -2.0))
+            assert reckoning.pose(stage.truth())[:2] == pytest.approx(believed)
+
+
 @pytest.mark.parametrize("w", [0.5, 0.0])
 def test_the_solution_believes_what_stage_comes_to(chapter, tmp_path, w):
     found = {"math": math}
