@@ -179,7 +179,8 @@ class Simulator:
         Without a model it is one like the first; without a pose it comes to a free start of the world, or to the nearest place that is free. Its
         topics are in the namespace, and its frames begin with the prefix, which both are its name if nothing else is said.
 
-        Raises `RosminiError` for a name that is used, `UnknownModel`, and `WorldError`, with the nearest free place, if something stands there.
+        Raises `RosminiError` for a name that is used, `IllegalName` for one that cannot be that of its topics, `UnknownModel`,
+        and `WorldError`, with the nearest free place, if something stands there.
         """
 
         def bring() -> TurtleBot:
@@ -350,6 +351,6 @@ class Simulator:
         """The running world, in which robots and boxes are dragged; the options are those of the renderer "simulation_view" in `rosmini.widgets`."""
         return show("simulation_view", self, **options)
 
-    def pad(self, **options: Any) -> Any:
-        """A pad to drive the robot with; the options are those of the renderer "teleop_pad" in `rosmini.widgets`."""
-        return show("teleop_pad", self, **options)
+    def pad(self, robot: str = "", **options: Any) -> Any:
+        """A pad to drive a robot with, the first if none is named; the options are those of the renderer "teleop_pad" in `rosmini.widgets`."""
+        return show("teleop_pad", self, robot=robot, **options)

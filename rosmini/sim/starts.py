@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ParameterError, RosminiError, nearest
 from rosmini.geometry.poses import Pose
+from rosmini.names import check_name
 
 from .models import RobotModel
 from .models import model as model_called
@@ -106,9 +107,10 @@ def start_pose(world: World, x: float | None, y: float | None, yaw: float | None
 def add(engine: Engine, start: Start) -> Robot:
     """Put a robot into the engine. One without a pose comes to a free start of the world, or else to a free place near the first one.
 
-    Raises `WorldError`, with the nearest free place, and `RosminiError` for a name that is used.
+    Raises `WorldError`, with the nearest free place, `RosminiError` for a name that is used, and `IllegalName` for a namespace that is none.
     """
     _check(start.name)
+    check_name(start.namespace, f"namespace of the robot {start.name!r}")
     model = start.model
     if model.drive is None:
         msg = f"{model.name!r} cannot be a robot of the simulator: its model has no drive. Let the engine have it, as a thing"

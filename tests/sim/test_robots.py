@@ -12,7 +12,7 @@ import pytest
 import yaml
 from defusedxml import ElementTree
 
-from rosmini.errors import ParameterError, RosminiError
+from rosmini.errors import IllegalName, ParameterError, RosminiError
 from rosmini.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.packages import assets_dir
@@ -268,6 +268,10 @@ def test_errors_of_spawning_say_what_to_do_and_change_nothing(graph):
         simulator.spawn("other", pose=(math.nan, 0.0, 0.0))
     with pytest.raises(RosminiError, match="cannot be called"):
         simulator.spawn("a b")
+    for name, space in (("9x", None), ("a-b", None), ("fine", "not fine")):
+        with pytest.raises(IllegalName, match=f"illegal namespace of the robot '{name}'"):
+            simulator.spawn(name, namespace=space)
+        assert list(simulator.engine.robots) == ["burger"]
     with pytest.raises(RobotGone, match="did you mean burger"):
         simulator.delete("burgr")
     assert list(simulator.robots) == ["burger"]
