@@ -14,7 +14,7 @@ import numpy as np
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose, compose, inverse, transform_points
 from rosmini.sim.models import Drive, RobotModel, WheelErrors, hull
-from rosmini.sim.sdf import ORIGIN, Pose6, SdfJoint, SdfLink, SdfModel, to_obstacles
+from rosmini.sim.sdf import ORIGIN, Pose6, SdfJoint, SdfLink, SdfModel, SdfPlugin, to_obstacles
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.sdf.poses import matrix
 from rosmini.sim.shapes import Box, Cylinder, Part, Polygon, Sphere, outline_at, simple_parts
@@ -135,6 +135,18 @@ def placed_links(
         yield inside + link.name, link, compose6(pose, link.pose)
     for each in model.models:
         yield from placed_links(each, compose6(pose, each.pose), f"{inside}{each.name}::")
+
+
+def plugins_of(model: SdfModel) -> list[SdfPlugin]:
+    """The plugins of a model and of the models within it."""
+    return [*model.plugins, *(plugin for each in model.models for plugin in plugins_of(each))]
+
+
+def is_still(model: SdfModel) -> bool:
+    """Tell whether a model of a world's file is scenery: nothing drives it, pushes it or measures on it."""
+    if plugins_of(model) or any(link.sensors for _, link, _ in placed_links(model)):
+        return False
+    return not any(each.movable for each in to_obstacles(model))
 
 
 def lowest(model: SdfModel, pose: Pose6) -> float | None:

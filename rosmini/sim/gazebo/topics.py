@@ -82,6 +82,7 @@ class ServerTopics:
         ):
             host.add(_Telling(host, name, rate, lambda publication=publication: publication.heard, tell))  # type: ignore[misc]
         world.on_change.append(self._changed)
+        world.on_time.append(self._timed)
         self._sensors = SensorTopics(world, node)
 
     def close(self) -> None:
@@ -153,6 +154,12 @@ class ServerTopics:
         elif self.world.paused:
             self.tell_poses()
 
+    def _timed(self) -> None:
+        if self._statistics.heard:
+            self.tell_statistics()
+        if self.world.paused and self._poses.heard:
+            self.tell_poses()
+
     # -- what is heard -------------------------------------------------------------------------------------------
 
     def _request(self, message: Request) -> None:
@@ -164,6 +171,9 @@ class ServerTopics:
             )
         else:
             self._responses.publish(Response(message.id, message.request, "success", kind, data))
+        if message.request == "scene_info":  # who asks is new, and time may stand
+            self.tell_statistics()
+            self.tell_poses()
 
     def _answer(self, message: Request) -> tuple[str, Any]:
         if message.request == "scene_info":
@@ -211,7 +221,6 @@ class ServerTopics:
         if message.step or message.multi_step:
             world.step(message.multi_step or 1)
             self.server.clock.tell()
-        self.tell_statistics()
 
     def _set_physics(self, message: Physics) -> None:
         gravity = message.gravity

@@ -20,7 +20,7 @@ from rosmini.sim.sdf import ORIGIN, Pose6, SdfLink, SdfModel, SdfPlugin, SdfWorl
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.world import Obstacle, World, WorldError
 
-from .body import Body, lowest, outline_of, placed_links
+from .body import Body, is_still, lowest, outline_of, placed_links, plugins_of
 from .errors import GazeboError, SpawnError, UnknownEntity, UnknownPlugin
 from .model import STILL, Model, Sensor, Velocity
 from .physics import PhysicsProperties
@@ -66,9 +66,11 @@ class GazeboWorld:
         self.plugins: list[Plugin] = []
         self.on_change: list[Callable[[str, Model], object]] = []
         """Called with "insert", "delete" or "move", and the model."""
+        self.on_time: list[Callable[[], object]] = []
+        """Called when time was stopped, let go on, stepped, or set back with or without the models."""
         if isinstance(source, SdfWorld):
             self.name = source.name
-            still = [model for model in source.models if _still(model)]
+            still = [model for model in source.models if is_still(model)]
             flat, notes = converted(replace(source, models=tuple(still)))
             for note in notes:
                 node.loginfo(str(note))
@@ -145,10 +147,12 @@ class GazeboWorld:
     def pause(self) -> None:
         """Let time stand. Harmless when repeated."""
         self.host.pause()
+        self._tell_time()
 
     def unpause(self) -> None:
         """Let time go on. Harmless when repeated."""
         self.host.unpause()
+        self._tell_time()
 
     def step(self, count: int = 1) -> None:
         """Let so many steps of the physics pass, and stand then. Raises `GazeboError` for less than one."""
@@ -157,6 +161,7 @@ class GazeboWorld:
             raise GazeboError(msg)
         self.host.pause()
         self.host.step(count * self.physics.time_step)
+        self._tell_time()
 
     def reset_models(self) -> None:
         """Put every model back to where it came into the world; time goes on."""
@@ -166,10 +171,12 @@ class GazeboWorld:
                 self.move(model, model.start)
         for plugin in self._all_plugins():
             plugin.reset()
+        self._tell_time()
 
     def reset_time(self) -> None:
         """Let time begin at 0 again."""
         self.host.reset_time()
+        self._tell_time()
 
     def reset(self) -> None:
         """Put everything back to how it was in the beginning, and time to 0."""
@@ -275,7 +282,7 @@ class GazeboWorld:
             above = lowest(sdf, pose)
             pose = (pose[0], pose[1], 0.0 - above if above is not None else pose[2], *pose[3:])
         model = Model(self, name, sdf, pose, namespace, frames or {})
-        found = self._plugin_classes(_plugins(sdf), f"the model {name!r}", ModelPlugin)
+        found = self._plugin_classes(plugins_of(sdf), f"the model {name!r}", ModelPlugin)
         body = Body(sdf)
         for cls, tag in found:
             if issubclass(cls, ModelPlugin):
@@ -430,6 +437,10 @@ class GazeboWorld:
         for callback in self.on_change:
             callback(what, model)
 
+    def _tell_time(self) -> None:
+        for callback in self.on_time:
+            callback()
+
     # -- plugins -------------------------------------------------------------------------------------------------
 
     def _plugin_classes(
@@ -473,17 +484,6 @@ class GazeboWorld:
             ends.callback(self.host.end)
             for plugin in self._all_plugins():
                 ends.callback(self.node.guarded, plugin.close, what=f"the end of {plugin.name}")
-
-
-def _plugins(model: SdfModel) -> list[SdfPlugin]:
-    return [*model.plugins, *(plugin for each in model.models for plugin in _plugins(each))]
-
-
-def _still(model: SdfModel) -> bool:
-    """Tell whether a model of a world's file is scenery: nothing drives it, pushes it or measures on it."""
-    if _plugins(model) or any(link.sensors for _, link, _ in placed_links(model)):
-        return False
-    return not any(each.movable for each in to_obstacles(model))
 
 
 def _moved(old: tuple[Obstacle, ...], model: Model, pose: Pose6) -> tuple[Obstacle, ...]:
