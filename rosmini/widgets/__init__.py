@@ -10,15 +10,14 @@ from .teleop import Limits, Teleop, TeleopError
 
 if TYPE_CHECKING:
     from rosmini.graph import Graph
-    from rosmini.sim.simulator import Simulator
 
     from .watch import Running
 
 __all__ = ["Limits", "SimulationView", "Teleop", "TeleopError", "TeleopPad", "simulation_view", "teleop_pad"]
 
 
-def teleop_pad(driven: Simulator | Graph, **options: Any) -> TeleopPad:
-    """The renderer "teleop_pad": a pad for a simulator's robot, or for whatever listens on a graph; see `TeleopPad`."""
+def teleop_pad(driven: Running | Graph, **options: Any) -> TeleopPad:
+    """The renderer "teleop_pad": a pad for a robot of a simulation, or for whatever listens on a graph; see `TeleopPad`."""
     return TeleopPad(driven, **options)
 
 

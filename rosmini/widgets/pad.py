@@ -20,7 +20,7 @@ wanted 0.00 m/s and 0.0 rad/s; sent 0.00 m/s and 0.0 rad/s; 5 messages
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.errors import ROSException, ROSInterruptException, RosminiError
 from rosmini.graph import Graph, Node
@@ -39,6 +39,9 @@ if TYPE_CHECKING:
     from rosmini.graph.clock import Timer
     from rosmini.sim.simulator import Simulator
 
+    from .chosen import Chosen
+    from .watch import Running
+
 CONNECT_S = 1.0
 """So long a new pad waits for those who listen already, so that its first message is not lost."""
 
@@ -56,7 +59,8 @@ class TeleopPad(View):
     `press` and `stop` are what the keys, buttons and touches of a browser call too.
 
     Args:
-        driven: a simulator, whose robot is driven and shown; or a graph, and then only the messages are shown.
+        driven: a simulator, stageros or gzserver, whose robot is driven and shown; or a graph, and then only the messages are shown.
+        robot: which robot; without it the first. One without a laser is driven, but not shown: `view()` shows all.
         topic: where to publish, as the simulator's node calls it: in its namespace, remapped as it is there.
         name: the name of the node.
         limits: how fast at most; those of the simulator's robot by default, and of a Burger without one.
@@ -69,8 +73,9 @@ class TeleopPad(View):
 
     def __init__(
         self,
-        driven: Simulator | Graph,
+        driven: Running | Graph,
         *,
+        robot: str = "",
         topic: str = "cmd_vel",
         name: str = "teleop_pad",
         limits: Limits | None = None,
@@ -81,15 +86,20 @@ class TeleopPad(View):
         if isinstance(driven, Graph):
             self.graph = driven
         elif isinstance(getattr(driven, "node", None), Node):
-            self.sight = Sight(driven)
-            self.graph, namespace = driven.node.graph, driven.node.namespace
-            topic = driven.node.resolve(topic)
-            model = driven.model
-            limits = limits or Limits(model.max_linear, model.max_angular)
+            self.graph = driven.node.graph
+            chosen = _chosen(driven, robot)
+            if chosen is None:
+                simulator = cast("Simulator", driven)
+                self.sight = Sight(simulator)
+                namespace, topic = driven.node.namespace, driven.node.resolve(topic)
+                limits = limits or Limits(simulator.model.max_linear, simulator.model.max_angular)
+            else:
+                self.sight = Sight(chosen) if chosen.sees else None
+                namespace, topic, limits = chosen.namespace, chosen.topic, limits or chosen.limits
         else:
             raise TeleopError(
                 f"a pad drives the robot of a simulator, or what listens on a graph, not a {type(driven).__name__}. "
-                "Give it what rosrun('rosmini_sim', 'simulator') returned, or a Graph."
+                "Give it what rosrun('rosmini_sim', 'simulator'), 'stageros' or 'gzserver' returned, or a Graph."
             )
         self.title = title
         self.teleop = Teleop(limits)
@@ -253,3 +263,14 @@ class TeleopPad(View):
 
             self._link = Link(self)
         return self._link
+
+
+def _chosen(driven: Running, robot: str) -> Chosen | None:
+    """One robot of several, or of another simulation than `rosmini_sim/simulator`; None for that one's first, which has its node's names."""
+    from rosmini.sim.simulator import Simulator
+
+    if isinstance(driven, Simulator) and robot in ("", driven.name):
+        return None
+    from .chosen import Chosen
+
+    return Chosen(driven, robot)

@@ -47,7 +47,12 @@ def title(pad: TeleopPad) -> str:
 
 
 def static_html(pad: TeleopPad, *, caption: str | None = None) -> str:
-    """The HTML of a pad that drives a robot of its own, from where the pad's robot stands now; the same bytes for the same state."""
+    """The HTML of a pad that drives a robot of its own, from where the pad's robot stands now; the same bytes for the same state.
+
+    What is not driven by two wheels (a car, or what goes sideways) would move otherwise there: of that it is a picture of how things stand.
+    """
+    if pad.sight is not None and not pad.sight.stands_alone:
+        return _still(pad)
     return embed(
         SCRIPTS,
         "rosminiPad.mount",

@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.sim.shapes import Polygon
 from rosmini.sim.world import Obstacle, Pose
 from rosmini.viz.replay.scene import scene_data, shapes_of
+from rosmini.viz.world import colour_of
 
 if TYPE_CHECKING:
     from rosmini.sim.simulator import Simulator
+
+    from .chosen import Chosen
 
 Floats = NDArray[np.float64]
 
@@ -25,9 +29,9 @@ TRAIL_POINTS = 3000
 
 
 class Sight:
-    """Looks at the robot of one simulator and remembers its way."""
+    """Looks at one robot of a simulation and remembers its way."""
 
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, simulator: Simulator | Chosen) -> None:
         self.simulator = simulator
         self.trail: list[tuple[float, float]] = []
         self._poses: list[Pose] = []
@@ -40,14 +44,30 @@ class Sight:
     @property
     def scan_topic(self) -> str:
         """Where its laser's messages are."""
-        return self.simulator.node.resolve("scan")
+        topic = getattr(self.simulator, "scan_topic", None)
+        return self.simulator.node.resolve("scan") if topic is None else str(topic)
+
+    @property
+    def stands_alone(self) -> bool:
+        """Whether a page without a kernel can drive such a robot by itself, as it really moves."""
+        return getattr(self.simulator, "simple", True)
+
+    def moving(self) -> list[Obstacle]:
+        """All that need not stay where it is: what can be pushed, what moves by itself, and other robots."""
+        engine = self.simulator.engine
+        others = [
+            Obstacle(name, Polygon(robot.model.footprint), robot.pose, robot.model.height, colour_of(i))
+            for i, (name, robot) in enumerate(engine.robots.items())
+            if name != self.simulator.name
+        ]
+        return [*engine.obstacles(), *others]
 
     def scene(self) -> dict[str, Any]:
         """The world as it is now, with the robot, for the scripts in a page: what can be pushed comes last among the shapes."""
         simulator = self.simulator
         world, height = simulator.world, simulator.model.laser.mount[2]
         fixed = [obstacle for obstacle in world.obstacles if obstacle.fixed]
-        obstacles = (*fixed, *simulator.engine.obstacles())
+        obstacles = (*fixed, *self.moving())
         scene = scene_data(replace(world, obstacles=obstacles), simulator.model)
         scene["shapes"] = [
             self._flagged(obstacle, shape) for obstacle in obstacles for shape in shapes_of(obstacle)
@@ -66,8 +86,8 @@ class Sight:
         return shape
 
     def pushed(self) -> list[dict[str, Any]] | None:
-        """The shapes of what can be pushed, if it has moved since this was asked last; else None."""
-        obstacles = self.simulator.engine.obstacles()
+        """The shapes of what need not stay where it is, if it has moved since this was asked last; else None."""
+        obstacles = self.moving()
         poses = [obstacle.pose for obstacle in obstacles]
         if poses == self._poses:
             return None

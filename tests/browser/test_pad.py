@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rosmini import Graph
+from rosmini import Graph, rosrun
 from rosmini.geometry.angles import normalize_angle
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
@@ -243,6 +243,20 @@ def test_the_laser_looks_over_walls_that_are_low(bare):
     )
     assert hits == np.isfinite(simulator.engine.scan(simulator.name, None)).sum()
     assert 0 < hits < 100
+
+
+def test_a_laser_that_does_not_look_all_around_is_the_engines(bare):
+    with Graph() as graph:
+        stage = rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph)
+        measured = stage.engine.scan("robot_0", None)
+        data = pad_data(stage.pad())
+    cast = bare.evaluate(
+        "([scene, pose]) => [...rosminiTeleop.laser(scene, pose)].map((r) => Number.isFinite(r) ? r : 1e9)",
+        [data["scene"], data["pose"]],
+    )
+    measured = np.where(np.isfinite(measured), measured, 1e9)
+    assert len(cast) == len(measured) == 1081
+    assert np.mean(np.abs(np.array(cast) - measured) < 5e-3) > 0.98  # some beams just pass a corner
 
 
 def test_a_robot_that_leans_against_a_wall_gets_away(bare):

@@ -118,6 +118,14 @@ class DifferentialDrive(Device):
             self._transforms = there
             there.join(self)
 
+    steered = False
+    """Whether what it is told to turn is the angle of a wheel, as in a car."""
+
+    @property
+    def commanded_by(self) -> str | None:
+        """The topic of its commands, as a global name; None: there is none."""
+        return None if self._commands is None else self._commands.topic
+
     # -- commands ------------------------------------------------------------------------------------------------
 
     def command(self, v: float, w: float, vy: float = 0.0) -> None:

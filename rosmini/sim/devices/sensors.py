@@ -66,6 +66,8 @@ class Laser(Device):
         self._rng = host.rng(self.name)
         self._told = ScanMessage(self.lidar, frame or self.lidar.frame, self.rate)
         self._publisher = host.node.publisher(topic, type(self._told.message), queue_size=5)
+        self.topic: str = self._publisher.topic
+        """Where it is published, as a global name."""
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Measure. Noise is drawn even if nobody listens, so that it does not depend on who does."""

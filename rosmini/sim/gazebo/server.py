@@ -217,6 +217,10 @@ class GazeboServer:
         """The world as it is now in three dimensions; the options are those of `rosmini.viz.meshcat.gazebo_3d`."""
         return self.topics.snapshot().show3d(**options)
 
+    def pad(self, model: str = "", **options: Any) -> Any:
+        """A pad to drive a model with, the first that can be driven if none is named; the options are those of the renderer "teleop_pad"."""
+        return show("teleop_pad", self, robot=model, **options)
+
     def view(self, **options: Any) -> Any:
         """The running world, in which models are dragged; the options are those of the renderer "simulation_view" in `rosmini.widgets`."""
         return show("simulation_view", self, **options)

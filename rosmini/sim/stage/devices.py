@@ -44,6 +44,7 @@ class StageBase(DifferentialDrive):
     ) -> None:
         self.stage_robot = robot
         self.sideways = robot.drive == "omni"
+        self.steered = robot.drive == "car"
         self._commanded = commanded
         super().__init__(
             host,
@@ -169,6 +170,8 @@ class StageLaserDevice(Device):
         self._told = ScanMessage(model, frame, self.rate)
         self._told.message.range_min = laser.range_min
         self._publisher = host.node.publisher(topic, type(self._told.message), queue_size=10)
+        self.topic: str = self._publisher.topic
+        """Where it is published, as a global name."""
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Measure. Noise is drawn even if nobody listens, so that it does not depend on who does."""

@@ -301,6 +301,10 @@ class Stageros:
         robot = self.robot()
         return robot.lasers[0].pose if robot.lasers else robot.base.robot.pose
 
+    def pad(self, robot: str = "", **options: Any) -> Any:
+        """A pad to drive a robot with, the first if none is named; the options are those of the renderer "teleop_pad". Raises `RobotGone`."""
+        return show("teleop_pad", self, robot=self.robot(robot).name, **options)
+
     def view(self, **options: Any) -> Any:
         """The running world, in which robots and boxes are dragged; the options are those of the renderer "simulation_view" in `rosmini.widgets`."""
         return show("simulation_view", self, **options)

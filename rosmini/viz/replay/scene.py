@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rosmini.geometry.poses import Pose
-from rosmini.sim.models import RobotModel
+from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.shapes import ROUND, outline_at, simple_parts
 from rosmini.sim.world import Obstacle, World
 from rosmini.viz.rounding import MILLIMETRE, snap
@@ -63,6 +63,7 @@ def robot_data(model: RobotModel) -> dict[str, Any]:
             "beams": lidar.beams,
             "min": _metres(lidar.range_min, what),
             "max": _metres(lidar.range_max, what),
+            **_fan(lidar, what),
         },
         "max_linear": _metres(min(model.max_linear, AT_ONCE), what),
         "max_angular": _metres(min(model.max_angular, AT_ONCE), what),
@@ -70,6 +71,14 @@ def robot_data(model: RobotModel) -> dict[str, Any]:
         "wheel_separation": _metres(model.wheel_separation, what),
         "wheel_radius": _metres(model.wheel_radius, what),
     }
+
+
+def _fan(lidar: LidarModel, what: str) -> dict[str, float]:
+    """What is to be known of a laser that does not look all around from ahead on, or does not sit in the middle: `y`, `start` and `step`."""
+    if lidar.angle_max is None and lidar.angle_min == lidar.yaw == lidar.mount[1] == 0:
+        return {}
+    start, step = round(lidar.angle_min + lidar.yaw, 8), round(lidar.increment, 8)
+    return {"y": _metres(lidar.mount[1], what), "start": start, "step": step}
 
 
 def shapes_of(obstacle: Obstacle, pose: Pose | None = None) -> list[dict[str, Any]]:

@@ -318,9 +318,10 @@
       this.pose.textContent = `x ${fixed(x, 2)} m, y ${fixed(y, 2)} m, ${degrees(theta)}°`;
       if (!state.ranges) { this.seen.textContent = "no scan yet"; return; }
       const hits = [...state.ranges.keys()].filter((i) => state.ranges[i] > 0 && Number.isFinite(state.ranges[i]));
+      const { start = 0, step = (2 * Math.PI) / state.ranges.length } = this.data.scene.robot.lidar;
       const nearest = hits.reduce((best, i) => (state.ranges[i] < state.ranges[best] ? i : best), hits[0]);
       this.seen.textContent = hits.length
-        ? `nearest ${state.ranges[nearest].toFixed(2)} m at ${degrees((2 * Math.PI * nearest) / state.ranges.length)}°, ` +
+        ? `nearest ${state.ranges[nearest].toFixed(2)} m at ${degrees(start + step * nearest)}°, ` +
           `${hits.length} of ${state.ranges.length} beams hit`
         : `no hit within ${this.data.scene.robot.lidar.max} m`;
     }

@@ -213,14 +213,14 @@
     };
   }
 
-  /* A beam to each of `beams` directions, the first one ahead, counter-clockwise. REP 117: -Infinity is too close. */
+  /* A beam to each of `beams` directions, counter-clockwise, the first one ahead if nothing else is said. REP 117: -Infinity is too close. */
   function laser(scene, pose) {
-    const { x: mount, beams, min, max } = scene.robot.lidar;
-    const [ox, oy] = placed(pose, [mount, 0]);
+    const { x: ahead, y: aside = 0, beams, min, max, start = 0, step = TURN / beams } = scene.robot.lidar;
+    const [ox, oy] = placed(pose, [ahead, aside]);
     const { sides, discs } = near(scene, [ox, oy], max, true);
     const ranges = new Float64Array(beams);
     for (let i = 0; i < beams; i += 1) {
-      const angle = pose[2] + (TURN * i) / beams;
+      const angle = pose[2] + start + step * i;
       const range = beam(sides, discs, ox, oy, Math.cos(angle), Math.sin(angle));
       ranges[i] = range > max ? Infinity : range < min ? -Infinity : range;
     }
