@@ -19,6 +19,7 @@ from rosmini.geometry.poses import Pose
 
 from .bodies import VIEW, Crate, Leaf
 from .crowd_numba import compiled
+from .nearby import Nearby
 
 if TYPE_CHECKING:
     from .physics import Contacts
@@ -104,21 +105,16 @@ class Crowd:
         self._sides = Outlines([piece_of(shape) for shape, _ in fixed])
         bottoms = [owner.bottom for _, owner in fixed]
         self._boxes = np.column_stack([self._sides.boxes(self._sides.corners), bottoms, self._sides.radii])
+        self._nearby = Nearby(self._boxes[:, :4])
         self._near = np.full((len(self.names), 1), -1, dtype=np.int64)
         self._anchors = np.full((len(self.names), 2), np.inf)
 
     def _find_near(self, which: Iterable[int]) -> None:
         """Learn which fixed things are near to robots that have gone far."""
-        boxes = self._boxes
         for i in which:
             x, y = self._anchors[i] = self._poses[i, :2]
             r = self._reaches[i] + VIEW + MARGIN
-            found = np.flatnonzero(
-                (boxes[:, 0] <= x + r)
-                & (boxes[:, 2] >= x - r)
-                & (boxes[:, 1] <= y + r)
-                & (boxes[:, 3] >= y - r)
-            )
+            found = self._nearby.within(x, y, r)
             if len(found) >= self._near.shape[1]:
                 more = np.full((len(self.names), 2 * len(found)), -1, dtype=np.int64)
                 more[:, : self._near.shape[1]] = self._near

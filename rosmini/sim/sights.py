@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from rosmini.geometry.poses import Pose, compose
 
 from .models import LidarModel, RobotModel
+from .nearby import Nearby, boxes_around
 from .shapes import Part, Simple, Sphere, simple_parts
 from .world import Box, Obstacle, Polygon, World, edges
 
@@ -156,6 +157,7 @@ class Sights:
         """Look at another world from now on."""
         self.world = world
         self._solid: dict[float, Cut] = {}
+        self._nearby: dict[float, Nearby] = {}
         self._around: dict[tuple[str, float, float], tuple[float, float, Floats]] = {}
         self._things = {}
         self._crowd = None
@@ -182,14 +184,9 @@ class Sights:
         key = (viewer, height, radius)
         kept = self._around.get(key)
         if kept is None or math.hypot(kept[0] - x, kept[1] - y) > MARGIN:
-            r = radius + 2 * MARGIN
-            xs, ys = segments[:, ::2] - x, segments[:, 1::2] - y
-            near = (
-                (xs.max(axis=1) >= -r)
-                & (xs.min(axis=1) <= r)
-                & (ys.max(axis=1) >= -r)
-                & (ys.min(axis=1) <= r)
-            )
+            if height not in self._nearby:
+                self._nearby[height] = Nearby(boxes_around(segments))
+            near = self._nearby[height].within(x, y, radius + 2 * MARGIN)
             kept = self._around[key] = (x, y, np.ascontiguousarray(segments[near]))
         return kept[2], discs
 

@@ -1,0 +1,62 @@
+"""What is near to a place, of many things that stay where they are."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+SQUARE = 2.0
+"""How large the squares are [m] into which the ground is divided; what is larger than one is looked at each time."""
+
+
+class Nearby:
+    """Boxes (n, 4) around things, each x and y of its lower and upper corner [m], sorted by the squares of the ground in which their middles are."""
+
+    def __init__(self, boxes: Floats) -> None:
+        self.boxes = boxes
+        small = (boxes[:, 2:] - boxes[:, :2] <= SQUARE).all(axis=1)
+        which = np.flatnonzero(small)
+        self._large = np.flatnonzero(~small)
+        middles = (boxes[which, :2] + boxes[which, 2:]) / 2
+        self._origin = middles.min(axis=0) if len(which) else np.zeros(2)
+        squares = np.floor((middles - self._origin) / SQUARE).astype(np.int64)
+        self._columns = int(squares[:, 0].max(initial=-1)) + 1
+        self._rows = int(squares[:, 1].max(initial=-1)) + 1
+        keys = squares[:, 1] * self._columns + squares[:, 0]
+        order = np.argsort(keys, kind="stable")
+        self._keys, self._which = keys[order], which[order]
+
+    def within(self, x: float, y: float, reach: float) -> Ints:
+        """Which boxes meet the square that goes from a place so far [m] to each side: their numbers, ascending."""
+        parts = [self._large]
+        half = (
+            0.5 + 1e-6
+        )  # so many squares is a middle at most from the end of its box, and a little for want of digits
+        low = np.floor((np.array([x, y]) - self._origin - reach) / SQUARE - half)
+        high = np.floor((np.array([x, y]) - self._origin + reach) / SQUARE + half)
+        left, bottom = np.maximum(low, 0.0).tolist()
+        right, top = np.minimum(high, (self._columns - 1, self._rows - 1)).tolist()
+        if left <= right and bottom <= top:
+            rows = np.arange(int(bottom), int(top) + 1) * self._columns
+            begins = np.searchsorted(self._keys, rows + int(left), "left").tolist()
+            ends = np.searchsorted(self._keys, rows + int(right), "right").tolist()
+            parts += [self._which[begin:end] for begin, end in zip(begins, ends, strict=True)]
+        found = np.sort(np.concatenate(parts))
+        boxes = self.boxes[found]
+        near: Ints = found[
+            (boxes[:, 0] <= x + reach)
+            & (boxes[:, 2] >= x - reach)
+            & (boxes[:, 1] <= y + reach)
+            & (boxes[:, 3] >= y - reach)
+        ]
+        return near
+
+
+def boxes_around(segments: Floats) -> Floats:
+    """The boxes (n, 4) around segments (n, 4)."""
+    return np.hstack(
+        [np.minimum(segments[:, :2], segments[:, 2:]), np.maximum(segments[:, :2], segments[:, 2:])]
+    )
