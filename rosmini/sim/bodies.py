@@ -277,7 +277,8 @@ def correction(depths: list[float], levers: list[float], mass: float, inertia: f
             turn = (first - second) / (r - q)
             along = first - turn * r
             k = (inertia * turn - mass * along * q) / (r - q)
-            if 0 <= k <= mass * along:  # both points push, and none pulls
+            spare = 1e-12 * mass * along  # for want of digits
+            if -spare <= k <= mass * along + spare:  # both points push, and none pulls
                 return along, turn
     depth, lever = max(zip(depths, levers, strict=True))
     k = depth / (1 / mass + lever * lever / inertia)

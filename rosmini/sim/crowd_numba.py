@@ -187,12 +187,13 @@ def beside(bodies: Floats, i: int, boxes: Floats, n: int, more: float) -> bool:
 def give(
     count: int, d0: float, d1: float, r0: float, r1: float, mass: float, inertia: float
 ) -> tuple[float, float]:
-    """As `rosmini.sim.physics.correction`."""
+    """As `rosmini.sim.bodies.correction`."""
     if count == 2 and abs(r0 - r1) > 1e-9:
         turn = (d0 - d1) / (r0 - r1)
         along = d0 - turn * r0
         k = (inertia * turn - mass * along * r1) / (r0 - r1)
-        if 0 <= k <= mass * along:
+        spare = 1e-12 * mass * along
+        if -spare <= k <= mass * along + spare:
             return along, turn
     depth, lever = d0, r0
     if count == 2 and (d1 > d0 or (d1 == d0 and r1 > r0)):
