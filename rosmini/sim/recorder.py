@@ -52,6 +52,7 @@ class Recorder:
         name: of this node.
         things: on which topic it is told where things are that move: `visualization_msgs/MarkerArray`s, as the simulator's `obstacles`, or
             `gazebo_msgs/ModelStates`, as `/gazebo/model_states`. Without it they are taken to stay where they are.
+        scan: what the robots call the topic of their laser: `scan`, or, in Stage, `base_scan`.
 
     Raises:
         RecordingError: neither a simulator nor a world and a model are given.
@@ -68,6 +69,7 @@ class Recorder:
         namespace: str = "/",
         name: str = "recorder",
         things: str | None = None,
+        scan: str = SCAN,
     ) -> None:
         robots: dict[str, Any] = {}
         first = ""
@@ -84,6 +86,7 @@ class Recorder:
         self.world = world
         self.model = model
         self.node = graph.node(name, namespace=namespace or "/")
+        self.scan_topic = scan
         self._things = None if things is None else _Things(self, things)
         self._runs: dict[str, _Run] = {}
         own = robots.pop(first, None)
@@ -192,7 +195,9 @@ class _Run:
         node.subscriber(self.topic(TRUTH), odometry, self._pose, arguments=(TRUTH,))
         node.subscriber(self.topic(ODOM), odometry, self._pose, arguments=(ODOM,))
         if model.lidar is not None:
-            node.subscriber(self.topic(SCAN), message_class("sensor_msgs/LaserScan"), self._scan)
+            node.subscriber(
+                self.topic(recorder.scan_topic), message_class("sensor_msgs/LaserScan"), self._scan
+            )
         node.subscriber(self.topic(COMMANDS), message_class("geometry_msgs/Twist"), self._command)
 
     def topic(self, name: str) -> str:
@@ -375,13 +380,13 @@ def seconds(stamps: list[int] | NDArray[np.int64], begin: int) -> Floats:
 
 
 def aligned(scan: Any, lidar: LidarModel) -> Floats:
-    """The ranges (beams,) of a `sensor_msgs/LaserScan` so that beam i looks at 2 pi i / beams from ahead.
+    """The ranges (beams,) of a `sensor_msgs/LaserScan` so that beam i is the laser's: of one that looks all around, at 2 pi i / beams from ahead.
 
     Where nothing was hit there is inf, and where it was too near to be measured -inf (REP 117). What lies outside of the scan's range_min and
     range_max is no hit, as its message definition says; so are nan, and the 0 that an LDS-01 gives for a beam that did not come back.
 
     Raises:
-        RecordingError: it has another number of beams than the laser, or they are not spread evenly over a whole turn.
+        RecordingError: it has another number of beams than the laser, or they look elsewhere.
 
     """
     ranges = np.array(scan.ranges, dtype=float)
@@ -390,10 +395,14 @@ def aligned(scan: Any, lidar: LidarModel) -> Floats:
             f"a scan has {len(ranges)} ranges, but the {lidar.name} has {lidar.beams} beams: "
             "give the recorder the model of the robot that publishes it"
         )
-    step = 2 * math.pi / lidar.beams
-    first = scan.angle_min / step
+    if lidar.angle_max is not None:
+        _check_fan(scan, lidar)
+    step = lidar.increment
+    first = 0.0 if lidar.angle_max is not None else scan.angle_min / step
     # angles are 32-bit numbers, and real drivers give an angle_max, and so an increment, that is one beam off
-    if abs(scan.angle_increment - step) > 1.5 * step / lidar.beams or abs(first - round(first)) > 0.01:
+    if lidar.angle_max is None and (
+        abs(scan.angle_increment - step) > 1.5 * step / lidar.beams or abs(first - round(first)) > 0.01
+    ):
         raise RecordingError(
             f"a scan begins at {scan.angle_min:.4f} rad and goes on by {scan.angle_increment:.6f} rad; a recording holds scans of a "
             f"whole turn, here by {step:.6f} rad, in which one beam looks straight ahead"
@@ -401,3 +410,14 @@ def aligned(scan: Any, lidar: LidarModel) -> Floats:
     hit = (ranges >= scan.range_min) & (ranges <= scan.range_max)
     near = (ranges == -np.inf) | (ranges > 0) & (ranges < scan.range_min)
     return np.roll(np.where(hit, ranges, np.where(near, -np.inf, np.inf)), round(first))
+
+
+def _check_fan(scan: Any, lidar: LidarModel) -> None:
+    """Raise `RecordingError` if the beams of a scan are not those of a laser that does not look all around, by a hundredth of a beam's share."""
+    step = lidar.increment
+    off = abs(scan.angle_min - lidar.angle_min), (lidar.beams - 1) * abs(scan.angle_increment - step)
+    if max(off) > max(0.01 * abs(step), 1e-5):
+        raise RecordingError(
+            f"a scan begins at {scan.angle_min:.4f} rad and goes on by {scan.angle_increment:.6f} rad, but the {lidar.name} begins at "
+            f"{lidar.angle_min:.4f} rad and goes on by {step:.6f} rad"
+        )

@@ -105,7 +105,7 @@ class Recording:
     scan_times: Floats
     """(k,)"""
     scans: Floats
-    """(k, beams): ranges [m], inf where nothing was hit, -inf where it was too near; beam i looks at 2 pi i / beams from ahead, counter-clockwise."""
+    """(k, beams): ranges [m], inf where nothing was hit, -inf where it was too near; beam i looks at angle_min + i increment of the laser's model, counter-clockwise: 2 pi i / beams, if all around."""
     name: str = ""
     """The robot's, where there are several."""
     others: tuple[Recording, ...] = ()
@@ -114,7 +114,11 @@ class Recording:
     """What of the world was moved, or moved by itself."""
 
     def __post_init__(self) -> None:
-        n, k, beams = len(self.times), len(self.scan_times), self.model.laser.beams
+        n, k, beams = (
+            len(self.times),
+            len(self.scan_times),
+            0 if self.model.lidar is None else self.model.lidar.beams,
+        )
         if not n:
             raise RecordingError("a recording needs at least one sample: truth and odom at one time")
         wanted = {"times": (n,), "truth": (n, 3), "odom": (n, 3), "scan_times": (k,), "scans": (k, beams)}

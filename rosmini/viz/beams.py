@@ -91,7 +91,7 @@ def direction(angle: float) -> str:
 
 
 def beams_of(scan: Any, lidar: LidarModel | None = None) -> Beams:
-    """The beams of a `sensor_msgs/LaserScan`, or of an array of ranges of a laser, of which beam i looks at 2 pi i / beams.
+    """The beams of a `sensor_msgs/LaserScan`, or of an array of ranges of a laser, of which beam i looks at 2 pi i / beams, if its model says nothing else.
 
     What is outside of range_min and range_max is no hit, nor is nan (sensor_msgs/LaserScan, REP 117).
 
@@ -137,7 +137,8 @@ def _from_ranges(given: ArrayLike, lidar: LidarModel | None) -> Beams:
     if lidar is not None and lidar.beams != len(ranges):
         raise ViewError(f"{len(ranges)} ranges were given, but the {lidar.name} has {lidar.beams} beams")
     limits = (lidar.range_min, lidar.range_max) if lidar is not None else (0.0, math.inf)
-    angles = 2 * math.pi / len(ranges) * np.arange(len(ranges), dtype=float)
+    start, step = (0.0, 2 * math.pi / len(ranges)) if lidar is None else (lidar.angle_min, lidar.increment)
+    angles = start + step * np.arange(len(ranges), dtype=float)
     return _beams(angles, ranges, *limits, lidar.frame if lidar is not None else "")
 
 

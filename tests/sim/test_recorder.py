@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,11 +14,13 @@ from rosmini.geometry.angles import quaternion_from_yaw
 from rosmini.geometry.errors import GeometryError
 from rosmini.graph import Graph
 from rosmini.msgs import message_class
+from rosmini.scripts import rosrun
 from rosmini.sim.models import ImuModel, LidarModel, RobotModel
-from rosmini.sim.recorder import Recorder
+from rosmini.sim.recorder import Recorder, aligned
 from rosmini.sim.recording import RecordingError
 from rosmini.sim.world import World
 from rosmini.time import Time
+from rosmini.viz.beams import beams_of
 
 LaserScan = message_class("sensor_msgs/LaserScan")
 Odometry = message_class("nav_msgs/Odometry")
@@ -265,3 +268,47 @@ def test_a_pose_without_an_orientation_is_an_error_at_the_message(graph, robot, 
     with pytest.raises(CallbackError) as caught:
         graph.run(0.1)
     assert isinstance(caught.value.__cause__, GeometryError)
+
+
+FAN = "position( size [0.4 0.4 0.25] {0} ) model( pose [2 0 0 0] size [0.2 4 1] )"
+
+
+def stage_run(graph, tmp_path, laser):
+    """A second of a robot of Stage that stands 1.8 m before the middle of a wall."""
+    (tmp_path / "fan.world").write_text(FAN.format(laser))
+    stage = rosrun("stage_ros", "stageros", tmp_path / "fan.world", graph=graph)
+    recorder = Recorder(graph, stage, scan="base_scan")
+    graph.run(1.0)
+    return recorder.recording()
+
+
+def test_a_laser_that_looks_ahead_only_is_recorded_beam_by_beam(graph, tmp_path):
+    laser = "ranger( pose [0.1 0 0 0] sensor( range [0 5] fov 90 samples 3 ) )"
+    run = stage_run(graph, tmp_path, laser)
+    assert run.scans.shape == (len(run.scan_times), 3)
+    np.testing.assert_allclose(run.scans[-1], [1.8 * math.sqrt(2), 1.8, 1.8 * math.sqrt(2)], atol=1e-5)
+    beams = beams_of(run.scans[-1], run.model.laser)
+    np.testing.assert_allclose(beams.points(), [[1.8, -1.8], [1.8, 0], [1.8, 1.8]], atol=1e-5)
+    assert run.replay3d().extra["scan"]["step"] == pytest.approx(math.pi / 2)
+    assert run.replay3d().extra["scan"]["start"] == pytest.approx(-math.pi / 4)
+
+
+def test_a_robot_without_a_laser_is_recorded_without_scans(graph, tmp_path):
+    run = stage_run(graph, tmp_path, "")
+    assert run.scans.shape == (0, 0)
+    assert "0 scans" in run.show().text
+
+
+@pytest.mark.parametrize("changes", [{"angle_min": -0.7}, {"angle_increment": 0.8}])
+def test_a_fan_that_looks_elsewhere_than_the_laser_is_refused(changes):
+    scan = LaserScan(
+        angle_min=-math.pi / 4, angle_increment=math.pi / 4, range_max=5.0, ranges=[1.0, 2.0, 3.0]
+    )
+    lidar = replace(ROBOT.laser, beams=3, angle_min=-math.pi / 4, angle_max=math.pi / 4)
+    assert aligned(scan, lidar).tolist() == [1.0, 2.0, 3.0]
+    for name, value in changes.items():
+        setattr(scan, name, value)
+    with pytest.raises(
+        RecordingError, match=r"but the .* begins at -0\.7854 rad and goes on by 0\.785398 rad"
+    ):
+        aligned(scan, lidar)

@@ -341,7 +341,12 @@ def _scan_track(recording: Recording) -> dict[str, Any]:
     hit = np.isfinite(ranges)
     millimetres = np.where(hit, snap(np.where(hit, ranges, 0.0)) * 1000, 0.0)
     times = snap(recording.scan_times[::every] - recording.times[0])
+    lidar = recording.model.laser
+    fan = lidar.angle_max is not None or lidar.angle_min
     return {
+        **(
+            {"start": round(lidar.angle_min, 8), "step": round(BEAM_STEP * lidar.increment, 8)} if fan else {}
+        ),
         "path": f"/meshcat/{ROBOT}/scan",
         "beams": ranges.shape[1],
         "times": [round(t, 3) for t in times.tolist()],

@@ -204,7 +204,7 @@
     const ranges = new DataView((scan.bytes ??= bytes(scan.ranges)).buffer);
     for (let i = 0; i < scan.beams; i += 1) {
       const range = last < 0 ? 0 : ranges.getUint16(2 * (last * scan.beams + i), true) / 1000;
-      const angle = (2 * Math.PI * i) / scan.beams;
+      const angle = (scan.start ?? 0) + (scan.step ?? (2 * Math.PI) / scan.beams) * i;
       positions.setXYZ(i, range * Math.cos(angle), range * Math.sin(angle), range > 0 ? 0 : -100);
     }
     positions.needsUpdate = true;
