@@ -30,9 +30,15 @@ OPTIONAL = ("mode",)
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 
+LONGEST = 60
+"""So many characters of a wrong value are told."""
+
+SMALLEST, LARGEST = 1e-6, 1e9
+"""Of a cell and of a whole map [m]: what is beyond is a mistake, and cannot be calculated with."""
+
 
 class MapError(RosminiError, ValueError):
-    """A map cannot be read; the message names the file and the field at fault."""
+    """A map cannot be read; the message names the file, its line, and the field at fault."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,9 +92,14 @@ def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
     the image has no pixels or leaves every cell unknown.
     """
     path = Path(yaml_path)
-    fields = _fields(path)
+    document = _document(path)
+    fields = _fields(document)
     image = path.parent / fields.image
-    occupancy = _occupancy(_channels(image, path), fields)
+    occupancy = _occupancy(_channels(image, document.place("image")), fields)
+    side = max(occupancy.shape) * fields.resolution
+    if not SMALLEST <= fields.resolution <= side <= LARGEST:
+        wanted = f"the side of a cell in metres, {SMALLEST:g} or more, and with {max(occupancy.shape)} of them no more than {LARGEST:g}"
+        raise _wrong(document, "resolution", fields.resolution, wanted)
     if fields.mode != "raw" and (occupancy == UNKNOWN).all():
         raise MapError(
             f"{path}: every cell of the map is unknown, for no pixel of {image} is darker than occupied_thresh "
@@ -101,79 +112,102 @@ def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
 # ---- the YAML file ----
 
 
-def _fields(path: Path) -> _Fields:
-    found = _document(path)
+@dataclass(frozen=True)
+class _Document:
+    """A YAML file with a mapping in it."""
+
+    path: Path
+    fields: Mapping[Any, Any]
+    lines: Mapping[Any, int]
+    """Where each field stands."""
+
+    def place(self, name: str) -> str:
+        """The file, and the line of a field."""
+        return f"{self.path}:{self.lines[name]}" if name in self.lines else str(self.path)
+
+
+def _fields(document: _Document) -> _Fields:
+    found = document.fields
     missing = [name for name in REQUIRED if name not in found]
     if missing:
         unknown = [str(name) for name in found if name not in (*REQUIRED, *OPTIONAL)]
         hints = [hint for name in unknown if (hint := nearest(name, missing))]
         said = f" (it has {', '.join(unknown)}: {' '.join(hints)})" if hints else ""
-        raise MapError(f"{path}: the map has no field {missing[0]!r}{said}; it needs {', '.join(REQUIRED)}")
+        raise MapError(
+            f"{document.path}: the map has no field {missing[0]!r}{said}; it needs {', '.join(REQUIRED)}"
+        )
     image = found["image"]
     if not isinstance(image, str) or not image:
-        raise _wrong(path, "image", image, "the path of an image")
-    resolution = _number(path, "resolution", found["resolution"])
+        raise _wrong(document, "image", image, "the path of an image")
+    resolution = _number(document, "resolution", found["resolution"])
     if resolution <= 0:
-        raise _wrong(path, "resolution", resolution, "the side of a cell in metres, more than 0")
-    occupied, free = (_number(path, name, found[name]) for name in ("occupied_thresh", "free_thresh"))
+        raise _wrong(document, "resolution", resolution, "the side of a cell in metres, more than 0")
+    occupied, free = (_number(document, name, found[name]) for name in ("occupied_thresh", "free_thresh"))
     for name, value in (("occupied_thresh", occupied), ("free_thresh", free)):
         if not 0 <= value <= 1:
-            raise _wrong(path, name, value, "a probability, from 0 to 1")
+            raise _wrong(document, name, value, "a probability, from 0 to 1")
     if free > occupied:
         raise MapError(
-            f"{path}: free_thresh ({free:g}) is above occupied_thresh ({occupied:g}), so cells would be both; usual are 0.196 and 0.65"
+            f"{document.place('free_thresh')}: free_thresh ({free:g}) is above occupied_thresh ({occupied:g}), so cells would be both; "
+            "usual are 0.196 and 0.65"
         )
     negate = found["negate"]
     if isinstance(negate, bool) or negate not in (0, 1):
-        raise _wrong(path, "negate", negate, "0 or 1 (map_server does not read true and false)")
+        raise _wrong(document, "negate", negate, "0 or 1 (map_server does not read true and false)")
     mode = found.get("mode", "trinary")
     if mode not in MODES:
         hint = nearest(str(mode), MODES)
-        raise _wrong(path, "mode", mode, f"one of {', '.join(MODES)}{'; ' + hint if hint else ''}")
-    return _Fields(
-        image, resolution, _origin(path, found["origin"]), occupied, free, bool(negate), cast("Mode", mode)
-    )
+        raise _wrong(document, "mode", mode, f"one of {', '.join(MODES)}{'; ' + hint if hint else ''}")
+    origin = _origin(document, found["origin"])
+    return _Fields(image, resolution, origin, occupied, free, bool(negate), cast("Mode", mode))
 
 
-def _document(path: Path) -> Mapping[Any, Any]:
+def _document(path: Path) -> _Document:
     import yaml
 
     try:
-        found = yaml.safe_load(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        found = yaml.safe_load(text)
+        root = yaml.compose(text, Loader=yaml.SafeLoader)
     except FileNotFoundError as error:
         raise MapError(f"there is no map {path}: {_nearest_file(path)}".rstrip(": ")) from error
     except OSError as error:
         raise MapError(f"the map {path} cannot be read: {error.strerror}") from error
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
+    except (UnicodeDecodeError, yaml.YAMLError, RecursionError) as error:
         reason = " ".join(str(error).split())
+        mark = getattr(error, "problem_mark", None)
+        place = f"{path}:{mark.line + 1}: this" if mark is not None else str(path)
         raise MapError(
-            f"{path} is not YAML: {reason}. A map is the YAML file, which names the image"
+            f"{place} is not YAML: {reason}. A map is the YAML file, which names the image"
         ) from error
-    if not isinstance(found, dict):
+    if not isinstance(found, dict) or not isinstance(root, yaml.MappingNode):
         raise MapError(f"{path} is not a map: it has no fields; it needs {', '.join(REQUIRED)}")
-    return found
+    lines = {key.value: key.start_mark.line + 1 for key, _ in root.value if isinstance(key, yaml.ScalarNode)}
+    return _Document(path, found, lines)
 
 
-def _origin(path: Path, value: object) -> tuple[float, float, float]:
+def _origin(document: _Document, value: object) -> tuple[float, float, float]:
     if not isinstance(value, list) or len(value) != 3:
-        raise _wrong(path, "origin", value, "a list of x, y and yaw")
-    x, y, yaw = (_number(path, "origin", each) for each in value)
+        raise _wrong(document, "origin", value, "a list of x, y and yaw")
+    x, y, yaw = (_number(document, "origin", each) for each in value)
     return x, y, yaw
 
 
-def _number(path: Path, name: str, value: object) -> float:
+def _number(document: _Document, name: str, value: object) -> float:
     try:
         # PyYAML takes 5e-2 for a string, map_server does not.
         number = math.nan if isinstance(value, bool) else float(cast("float", value))
     except (TypeError, ValueError, OverflowError) as error:
-        raise _wrong(path, name, value, "a number") from error
+        raise _wrong(document, name, value, "a number") from error
     if not math.isfinite(number):
-        raise _wrong(path, name, value, "a finite number")
+        raise _wrong(document, name, value, "a finite number")
     return number
 
 
-def _wrong(path: Path, name: str, value: object, wanted: str) -> MapError:
-    return MapError(f"{path}: the field {name!r} is {value!r}; it has to be {wanted}")
+def _wrong(document: _Document, name: str, value: object, wanted: str) -> MapError:
+    shown = repr(value)
+    shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST]}..."
+    return MapError(f"{document.place(name)}: the field {name!r} is {shown}; it has to be {wanted}")
 
 
 def _nearest_file(path: Path) -> str:
@@ -187,7 +221,7 @@ def _nearest_file(path: Path) -> str:
 # ---- the image ----
 
 
-def _channels(image: Path, path: Path) -> NDArray[np.uint8]:
+def _channels(image: Path, place: str) -> NDArray[np.uint8]:
     """The pixels (h, w, channels), row 0 at the bottom."""
     from PIL import Image, UnidentifiedImageError
 
@@ -195,13 +229,13 @@ def _channels(image: Path, path: Path) -> NDArray[np.uint8]:
         with Image.open(image) as opened:
             pixels = _eight_bits(opened)
     except FileNotFoundError as error:
-        raise MapError(f"{path}: the field 'image' names {image}, which is not there") from error
+        raise MapError(f"{place}: the field 'image' names {image}, which is not there") from error
     except (UnidentifiedImageError, Image.DecompressionBombError) as error:
-        raise MapError(f"{path}: the field 'image' names {image}, which is no image: {error}") from error
+        raise MapError(f"{place}: the field 'image' names {image}, which is no image: {error}") from error
     except (OSError, SyntaxError, ValueError) as error:  # what Pillow raises for a broken one
-        raise MapError(f"{path}: the image {image} cannot be read: {error}") from error
+        raise MapError(f"{place}: the image {image} cannot be read: {error}") from error
     if not pixels.size:
-        raise MapError(f"{path}: the image {image} has no pixels")
+        raise MapError(f"{place}: the image {image} has no pixels")
     return pixels[::-1]
 
 

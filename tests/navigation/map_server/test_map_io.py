@@ -147,6 +147,9 @@ def test_a_text_pgm_a_palette_16_bits_and_1_bit_are_read(write, tmp_path):
         ("resolution", "-0.05", "'resolution' is -0.05"),
         ("resolution", ".nan", "'resolution' is nan"),
         ("resolution", ".inf", "'resolution' is inf"),
+        ("resolution", "1.0e-320", "'resolution' is 1e-320; it has to be .* 1e-06 or more"),
+        ("resolution", "1.0e+308", r"'resolution' is 1e\+308; .* no more than 1e\+09"),
+        ("resolution", f"'{'x' * 100}'", f"'resolution' is '{'x' * 59}[.][.][.]; it has"),
         ("resolution", "fine", "'resolution' is 'fine'"),
         ("resolution", "[0.05]", "'resolution' is"),
         ("resolution", "true", "'resolution' is True"),
@@ -171,11 +174,21 @@ def test_an_error_names_the_file_and_the_field(write, name, value, part):
     with pytest.raises(MapError, match=part) as caught:
         load_map(path)
     assert str(path) in str(caught.value)
+    if value is not None:
+        line = path.read_text().splitlines().index(f"{name}: {value}") + 1
+        assert str(caught.value).startswith(f"{path}:{line}: ")
 
 
 def test_a_misspelt_field_is_named(write):
     path = write(occupied_thresh=None, ocupied_thresh="0.65")
     with pytest.raises(MapError, match="ocupied_thresh: did you mean occupied_thresh"):
+        load_map(path)
+
+
+def test_a_line_that_is_not_yaml_is_named(write):
+    path = write()
+    path.write_text(path.read_text() + "mode: [trinary\n")
+    with pytest.raises(MapError, match=rf"{path}:8: this is not YAML: "):
         load_map(path)
 
 
