@@ -85,8 +85,10 @@ class SimulationView(View):
             self._require()
             body = self.watch.body(name)
             heading = to[2] if len(to) == 3 else self.watch.pose(body)[2]
-            self._try(lambda: self.watch.simulation.drag(name, (float(to[0]), float(to[1]), float(heading))))
-            self.message = f"{name} is at {pose_text(self.watch.pose(body))}"
+            self._try(
+                lambda: self.watch.simulation.drag(body.name, (float(to[0]), float(to[1]), float(heading)))
+            )
+            self.message = f"{body.name} is at {pose_text(self.watch.pose(body))}"
 
         self._on_hub(put)
 
@@ -99,17 +101,17 @@ class SimulationView(View):
 
     def pause(self) -> None:
         """Let the world's time stand. Harmless when repeated."""
-        self._do(self.watch.host.pause, "time stands")
+        self._do(self.watch.pause, "time stands")
 
     def unpause(self) -> None:
         """Let the world's time go on. Harmless when repeated."""
-        self._do(self.watch.host.unpause, "time goes on")
+        self._do(self.watch.unpause, "time goes on")
 
     def step(self, seconds: float = STEP_S) -> None:
         """Let so much of the world's time pass, and stand then. Raises `RosminiError` for what is no positive number."""
         if not self.paused:
             self.pause()
-        self._do(lambda: self.watch.host.step(seconds), f"{seconds:g} s have passed")
+        self._do(lambda: self.watch.step(seconds), f"{seconds:g} s have passed")
 
     def reset(self) -> None:
         """Put everything back to where it began, as the simulation's own `reset` does."""

@@ -61,6 +61,18 @@ def module() -> str:
     return "\n".join([*texts, "export default { render: globalThis.rosminiViewKernel.render };\n"])
 
 
+class _Same:
+    """Equal to nothing but what holds the very same thing."""
+
+    def __init__(self, thing: object) -> None:
+        self.thing = thing
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and other.thing is self.thing
+
+    __hash__ = None  # type: ignore[assignment]  # it is only compared
+
+
 class ViewLink:
     """Takes what the page of a view sends, and sends it what it shows. `clock` is the wall's, in seconds."""
 
@@ -181,7 +193,7 @@ class ViewLink:
     def _present(self) -> tuple[Any, ...]:
         """What has to be the same for what the page knows of the world still to hold."""
         engine, host = self.watch.engine, self.watch.host
-        return (id(engine.world), tuple(engine.robots), len(host.devices))
+        return (_Same(engine.world), tuple(engine.robots), len(host.devices))
 
     def _survey(self) -> NDArray[np.float32]:
         lasers = self.watch.lasers(self._bodies)

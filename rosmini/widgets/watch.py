@@ -134,6 +134,18 @@ class Watch:
             return f"the simulation has ended: the node {self.node.name} was shut down"
         return None
 
+    def pause(self) -> None:
+        """Let time stand, as the simulation itself does it if it has more to do than its host."""
+        getattr(self.simulation, "pause", self.host.pause)()
+
+    def unpause(self) -> None:
+        """Let time go on."""
+        getattr(self.simulation, "unpause", self.host.unpause)()
+
+    def step(self, seconds: float) -> None:
+        """Let so much time pass while it stands."""
+        getattr(self.simulation, "step", self.host.step)(seconds)
+
     def bodies(self) -> list[Body]:
         """All that is in the world and need not stay where it is: robots first, in the sequence of their coming."""
         axle = getattr(self.simulation, "axle", None)
@@ -155,6 +167,9 @@ class Watch:
     def body(self, name: str) -> Body:
         """The one of this name. Raises `ViewError`, with the nearest."""
         bodies = {body.name: body for body in self.bodies()}
+        titled = [body for body in bodies.values() if body.model is not None and body.model.title == name]
+        if name not in bodies and len(titled) == 1:  # Stage's robots have names in their file too
+            return titled[0]
         if name not in bodies:
             hint = nearest(name, bodies) or f"there are: {', '.join(bodies) or 'none'}"
             raise ViewError(

@@ -107,6 +107,28 @@ def test_a_dragged_robot_of_stage_forgets_its_command(stage, graph):
     assert stage.truth() == pytest.approx((-2.0, 0.0, 0.0), abs=1e-6)
 
 
+def test_a_robot_of_stage_has_its_name_in_the_file_too(four):
+    view = four.view()
+    view.drag("era2", (2.5, 1.5))
+    assert view.message == "robot_1 is at (2.50, 1.50, 0.0 deg)"
+    assert view.pose("robot_1") == view.pose("era2") == (2.5, 1.5, 0.0)
+
+
+def test_time_of_gazebo_is_stopped_as_its_services_do_it(server, graph):
+    heard: list = []
+    server.world.on_time.append(lambda: heard.append(server.world.paused))
+    view = server.view()
+    view.pause()
+    graph.run(1.0)
+    before = server.world.now
+    view.step()
+    assert server.world.now == pytest.approx(before + 0.1)
+    view.unpause()
+    assert heard == [True, True, False]
+    with pytest.raises(RosminiError, match="not 0 times"):
+        view.step(1e-9)
+
+
 def test_models_of_gazebo_are_dragged(server, graph):
     view = server.view()
     assert view.names == ("mover", "crate")

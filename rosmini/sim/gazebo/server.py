@@ -11,6 +11,7 @@ Gazebo without that parameter does so in each step of its physics, 1000 times, w
 from __future__ import annotations
 
 import argparse
+import math
 from typing import Any, NoReturn
 
 from rosmini.dynamic_reconfigure import Server as ReconfigureServer
@@ -183,6 +184,19 @@ class GazeboServer:
         """Where the engine has the middle of a model's wheels, seen from the model: x [m], y [m], heading [rad]. Raises `UnknownEntity`."""
         body = self.world.model(name).body
         return (0.0, 0.0, 0.0) if body is None else body.axle
+
+    def pause(self) -> None:
+        """Let the world's time stand. Harmless when repeated."""
+        self.node.scheduler.on_hub(self.world.pause)
+
+    def unpause(self) -> None:
+        """Let the world's time go on. Harmless when repeated."""
+        self.node.scheduler.on_hub(self.world.unpause)
+
+    def step(self, seconds: float) -> None:
+        """Let so much of the world's time pass, in whole steps of the physics, and stand then. Raises `GazeboError` for less than one."""
+        count = round(seconds / self.world.physics.time_step) if math.isfinite(seconds) else 0
+        self.node.scheduler.on_hub(lambda: self.world.step(count))
 
     def reset(self) -> None:
         """Put every model back to where it came into the world; time goes on."""
