@@ -6,6 +6,7 @@ myst-nb writes an `image/png` output as an image without alt text. It loads this
 
 from __future__ import annotations
 
+from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar
 
 if TYPE_CHECKING:
@@ -31,10 +32,13 @@ class AltText:
         )
         for image in rendered:
             image.setdefault("alt", alt)
-        return [_figure(rendered, caption)] if caption and not inline else rendered
+        return _figure(rendered, caption) if caption and not inline else rendered
 
 
-def _figure(images: list[nodes.Element], caption: str) -> nodes.Element:
+def _figure(images: list[nodes.Element], caption: str) -> list[nodes.Element]:
+    """A figure as SVG pictures have one: not one of Sphinx's, which would count it itself."""
     from docutils import nodes
 
-    return nodes.figure("", *images, nodes.caption("", caption), classes=["rosmini-figure"])
+    begin = nodes.raw("", '<figure class="rosmini-figure">', format="html")
+    end = nodes.raw("", f"<figcaption>{escape(caption)}</figcaption></figure>", format="html")
+    return [begin, *images, end]

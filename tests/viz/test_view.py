@@ -209,7 +209,7 @@ def built_page(tmp_path_factory) -> str:
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_markdown_cell("# Page"), cell])
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
     nbformat.write(notebook, source / "index.ipynb")
-    confoverrides = {"extensions": ["myst_nb"], "nb_execution_mode": "off"}
+    confoverrides = {"extensions": ["myst_nb"], "nb_execution_mode": "off", "numfig": True}
     with pytest.MonkeyPatch.context() as patch, docutils_namespace():
         patch.setattr(render, "load_mime_renders", lambda: [AltText])  # as its entry point makes it
         app = Sphinx(
@@ -235,4 +235,4 @@ def test_the_built_page_gives_a_png_its_alt_text(built_page):
 def test_the_built_page_gives_a_png_its_caption(built_page):
     (figure,) = re.findall(r"<figure[^>]*>\s*<img [^>]*\.png.*?</figure>", built_page, re.DOTALL)
     assert "rosmini-figure" in figure
-    assert "One &lt;pixel&gt;" in re.search(r"<figcaption>(.*?)</figcaption>", figure, re.DOTALL)[1]
+    assert "<figcaption>One &lt;pixel&gt;</figcaption>" in figure  # and no number of Sphinx's
