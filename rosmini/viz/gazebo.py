@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike
 
 from rosmini.sim.gazebo.snapshot import Robot, Snapshot, place_of
 from rosmini.sim.models import RobotModel
+from rosmini.sim.world import Pose
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.rounding import fixed
 from rosmini.viz.view import Picture
-from rosmini.viz.world import HEIGHT, Other, Scene, contents, pose_text
+from rosmini.viz.world import HEIGHT, Other, Scene, contents, pose_of, pose_text
 
 MANY = 12
 """Of more models than this only the first are named."""
@@ -53,19 +54,20 @@ def gazebo_picture(
 
     """
     driven = list(snapshot.robots)
-    first = _first(driven, robot, name)
+    at = None if robot is None else pose_of(robot, "the robot's pose")
+    first = _first(driven, at, name)
     if first is not None:
         driven.remove(first)
-        robot, model, name = robot or first.pose, model or first.model, first.name
+        at, model, name = at or first.pose, model or first.model, first.name
     beside = [Other(each.name, each.model, each.pose) for each in driven]
     scene = _Scene(snapshot)
     scene.fill(
-        robot=robot, model=model, scan=scan, scan_from=scan_from, trail=trail, odom=odom, others=[*beside, *others], name=name
+        robot=at, model=model, scan=scan, scan_from=scan_from, trail=trail, odom=odom, others=[*beside, *others], name=name
     )  # fmt: skip
     return scene.picture(title, size)
 
 
-def _first(driven: list[Robot], pose: Sequence[float] | None, name: str) -> Robot | None:
+def _first(driven: list[Robot], pose: Pose | None, name: str) -> Robot | None:
     """The robot that is drawn first: that of the name, that at the pose, or the first there is."""
     if pose is not None:
         return next(

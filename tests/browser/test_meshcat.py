@@ -12,10 +12,13 @@ from PIL import Image
 
 pytest.importorskip("meshcat")
 
+from rosmini import Graph
+from rosmini.sim.gazebo import GazeboServer
 from rosmini.sim.models import BURGER
 from rosmini.sim.recording import Recording
 from rosmini.sim.worlds import world
 from rosmini.urdf import load
+from rosmini.urdf.xacro import expand
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d, world_3d
 
@@ -33,6 +36,16 @@ def run():
     return Recording(world("room"), BURGER, times, truth, truth, np.zeros((0, 3)), scan_times, scans)
 
 
+def two_in_gazebo():
+    """Two equal robots in an empty world of Gazebo."""
+    burger = expand("package://turtlebot3_description/urdf/turtlebot3_burger.urdf.xacro")
+    with Graph() as graph:
+        server = GazeboServer(graph.node("gazebo"), world="empty")
+        for i, name in enumerate(("a", "b")):
+            server.spawn(burger, name, (0.0, 0.3 * i, 0.0), namespace=name)
+        return server.show3d(focus="a", distance=1.2)
+
+
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     """A piece of a book: a nested page with three pictures, two of them the same, and its scripts; beside it, live forms."""
@@ -45,6 +58,7 @@ def site(tmp_path_factory):
         "world": world_3d(world("room")),
         "replay": replay_3d(run()),
         "urdf": urdf_3d(load("package://turtlebot3_description/urdf/turtlebot3_waffle.urdf.xacro")),
+        "gazebo": two_in_gazebo(),
     }
     head = '<head><meta charset="utf-8"><title>t</title><link rel="stylesheet" href="{}_static/rosmini.css"></head>'
     for name, chosen in {**{n: [n] for n in views}, "three": ["robot", "replay", "robot"]}.items():
@@ -125,6 +139,20 @@ def test_the_drawing_is_what_the_viewer_shows_first(open_page, path, shared_tmp)
         dark = np.argwhere(picture.max(axis=2) < 110)
         middles.append(dark.mean(axis=0) / picture.shape[0])
     assert middles[0] == pytest.approx(middles[1], abs=0.04)
+
+
+@pytest.mark.parametrize("path", ["deep/er/gazebo.html", "alone_gazebo.html"])
+def test_equal_robots_share_their_geometry(open_page, path):
+    page = open_page(path)
+    first, second = (f"meshcat/models/{name}/base_footprint/0/<object>" for name in ("a", "b"))
+    assert viewer(
+        page, f"{node(first)} !== {node(second)} && {node(first)}.geometry === {node(second)}.geometry"
+    )
+    assert viewer(
+        page, f"{node(second)}.castShadow && {node(second)}.geometry.attributes.position.count > 100"
+    )
+    apart = viewer(page, f"(viewer.set_dirty(), {node(second)}.parent.parent.parent.matrix.elements[13])")
+    assert apart == pytest.approx(0.3)
 
 
 def test_the_page_follows_the_readers_change_of_theme(open_page):

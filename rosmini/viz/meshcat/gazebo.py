@@ -81,10 +81,10 @@ def _add(scene: Scene3D, model: Model, *, collisions: bool) -> None:
     """Add a model; what equal ones consist of is there once."""
     node = "models/" + model.name.replace("/", " ")
     there = transform(model.pose) if model.pose is not None else np.eye(4)
-    scene.place(node, there)
     for link in model.link:
         parts = surfaces(link, there @ transform(link.pose), collisions=collisions, without=TINY)
         if parts:
+            scene.place(node, there)
             below = f"{node}/{link.name.partition('::')[2].replace('/', ' ')}"
             scene.place(below, transform(link.pose))
             for part in link_parts(below, parts):
