@@ -252,6 +252,13 @@
     context.setLineDash([]);
   }
 
+  /* The largest radius of a rounded corner that leaves half of each side to the next one. */
+  function roundest([ax, ay], [x, y], [bx, by]) {
+    const side = Math.min(Math.hypot(ax - x, ay - y), Math.hypot(bx - x, by - y));
+    const angle = Math.abs(Math.atan2((ax - x) * (by - y) - (ay - y) * (bx - x), (ax - x) * (bx - x) + (ay - y) * (by - y)));
+    return (side / 2) * Math.tan(angle / 2);
+  }
+
   /* Plate, wheels, laser and a nose, to scale but never under 16 pixels long, where none of them could be seen. */
   function robot(view, model, pose, { ghost = false, colour = "blue" } = {}) {
     const { context, theme: colours } = view;
@@ -271,8 +278,8 @@
     const [last, first] = [corners.at(-1), corners[0]];
     plate.moveTo((last[0] + first[0]) / 2, (last[1] + first[1]) / 2);
     corners.forEach(([x, y], i) => {
-      const next = corners[(i + 1) % corners.length];
-      plate.arcTo(x, y, (x + next[0]) / 2, (y + next[1]) / 2, 0.2 * length);
+      const [next, before] = [corners[(i + 1) % corners.length], corners.at(i - 1)];
+      plate.arcTo(x, y, (x + next[0]) / 2, (y + next[1]) / 2, Math.min(0.2 * length, roundest(before, [x, y], next)));
     });
     plate.closePath();
     const nose = new Path2D();
