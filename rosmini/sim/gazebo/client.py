@@ -113,8 +113,7 @@ class GazeboClient:
 
     def _moved(self, message: PosesStamped) -> None:
         self.time = message.time
-        for pose in message.pose:
-            self._poses[pose.name] = pose
+        self._poses.update((pose.name, pose) for pose in message.pose)
 
     def _told(self, message: WorldStatistics) -> None:
         self.statistics = message

@@ -74,7 +74,9 @@ class ServerTopics:
         node.subscribe("~/physics", self._set_physics)
         self._numbers: dict[str, int] = {}
         self._wheels: dict[str, tuple[Wheel, ...]] = {}
-        self._told: dict[str, tuple[Pose6, Pose]] = {}
+        self._told: dict[
+            str, tuple[Pose6, Pose]
+        ] = {}  # of each model its last pose, which is told again if it stands
         host = world.host
         for name, rate, publication, tell in (
             ("~/world_stats", STATISTICS_RATE, self._statistics, self.tell_statistics),
@@ -110,19 +112,16 @@ class ServerTopics:
         """Where all models are, and, seen from their models, the links that turn."""
         there: list[Pose] = []
         for name, model in self.world.models.items():
-            there.append(self._pose(name, model.pose))
+            told = self._told.get(name)
+            at = model.pose if model.fixed is None else model.fixed
+            if told is None or (told[0] is not at and told[0] != at):
+                told = self._told[name] = (at, Pose.of(name, self.number(name), model.pose))
+            there.append(told[1])
             if model.body is not None:
                 if name not in self._wheels:
                     self._wheels[name] = wheels(model, self.number)
                 there += [wheel.pose for wheel in self._wheels[name]]
         return PosesStamped(Time.of(self.world.now), tuple(there))
-
-    def _pose(self, name: str, pose: Pose6) -> Pose:
-        """A pose as a message; that of what has not moved is the last one."""
-        told = self._told.get(name)
-        if told is None or told[0] != pose:
-            told = self._told[name] = (pose, Pose.of(name, self.number(name), pose))
-        return told[1]
 
     def tell_poses(self) -> None:
         """Say where all models are."""

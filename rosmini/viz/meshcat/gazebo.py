@@ -19,7 +19,7 @@ from .links import link_parts
 from .scene import TINY, Camera, Scene3D
 from .solids import Floats
 from .view import HEIGHT, MeshcatView, camera_for, free_sight
-from .visuals import is_plain, surfaces, transform
+from .visuals import SOLID, is_plain, surfaces, transform
 
 CLOSE = 1.7
 """How far the camera is from a model by its size."""
@@ -59,7 +59,7 @@ def gazebo_3d(
     scene = Scene3D(camera)
     obstacles = [each for model in plain for each in solids_of(model)]
     if collisions:
-        obstacles = [replace(each, colour="orange") for each in obstacles]
+        obstacles = [replace(each, colour=SOLID) for each in obstacles]
     scene.add_world(replace(world, obstacles=tuple(obstacles)), bounds=world.bounds)
     for model in drawn:
         _add(scene, model, collisions=collisions)

@@ -16,7 +16,7 @@ from rosmini.urdf.meshes import Surface, read
 from .links import hex_colour, merged, surfaces_of
 from .solids import Facets, Floats, Prism, mesh, triangulate
 
-COLLISION = (0.9, 0.62, 0.0, 1.0)
+SOLID = "#e69e00"
 """The colour of what is solid, as Gazebo's View menu shows it."""
 SAME = 1e-6
 FLAT = 0.01
@@ -40,7 +40,7 @@ def surfaces(
     left_out = frozenset(without)
     pieces: tuple[Visual | Collision, ...] = link.collision if collisions else link.visual
     for piece in pieces:
-        colour = COLLISION if collisions else colour_of(piece)
+        colour = _rgba(SOLID) if collisions else colour_of(piece)
         if _is_ground(piece, place):
             continue
         for surface in _shape(piece.geometry):
@@ -50,6 +50,11 @@ def surfaces(
             moved = replace(moved, colour=colour or moved.colour)
             found.setdefault(hex_colour(moved), []).append(moved)
     return [merged(several) for several in found.values()]
+
+
+def _rgba(colour: str) -> tuple[float, float, float, float]:
+    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return (red, green, blue, 1.0)
 
 
 def colour_of(piece: Visual | Collision) -> tuple[float, float, float, float] | None:
