@@ -140,7 +140,7 @@ class Stageros:
         for note in self.file.notes:
             node.loginfo(note)
         self.engine = Engine(self.world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=0.0)
-        self.host = Host(node, self.engine, from_zero=True, speed=self.file.speedup, paused=self.file.paused)
+        self.host = Host(node, self.engine, from_zero=True, speed=self.file.speedup, paused=True)
         rate = 1 / self.file.interval
         self._ended = False
         node.set_param("/use_sim_time", True)
@@ -156,6 +156,8 @@ class Stageros:
             "reset_positions", service_class("std_srvs/Empty"), self._reset_positions
         )
         node.on_shutdown(self._end)
+        if not self.file.paused:
+            self.host.unpause()  # only now: a kernel may have had to be compiled meanwhile
 
     def __repr__(self) -> str:
         return f"<Stageros {self.node.name}: {_count(len(self.robots), 'robot')} in {self.file.name}>"

@@ -7,6 +7,7 @@ import math
 import pickle
 import subprocess
 import sys
+import time
 from collections import defaultdict
 from pathlib import Path
 from typing import Any
@@ -615,3 +616,19 @@ def test_rosmini_run(tmp_path: Path):
 
 def test_an_error_of_a_file_is_one_of_rosminis():
     assert issubclass(StageError, RosminiError)
+
+
+def test_time_begins_when_all_is_there(tmp_path, monkeypatch):
+    from rosmini.sim.engine import Engine
+
+    taken = Engine.scan
+
+    def slow(*args: Any, **options: Any) -> Any:
+        time.sleep(0.3)
+        return taken(*args, **options)
+
+    monkeypatch.setattr(Engine, "scan", slow)
+    (tmp_path / "w.world").write_text(ROBOT % "")
+    with Graph(simulated=False) as graph:
+        there = Stageros(graph.node("stageros"), str(tmp_path / "w.world"))
+        assert there.host.now < 0.2
