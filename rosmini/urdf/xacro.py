@@ -10,19 +10,22 @@ import re
 import sys
 import threading
 import xml.dom.minidom
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
 from rosmini.errors import RosminiError, nearest
-from rosmini.markup import parse, parse_file
+from rosmini.markup import Element, parse, parse_file
 from rosmini.packages import SCHEME, PackageIndex
 
 from .errors import UrdfError
 
 USAGE = "usage: xacro [-o FILE] INPUT [name:=value ...]"
+
+MOST_MACROS = 5
+"""So many macros, one in another, an error names."""
 
 _one_at_a_time = threading.Lock()
 """xacro keeps what it works on in its module."""
@@ -72,19 +75,24 @@ def _process(file: Path, mappings: dict[str, str], index: PackageIndex) -> xml.d
     with _lent(xacro, substitution_args, index, known):
         try:
             document: xml.dom.minidom.Document = xacro.process_file(str(file), mappings=dict(mappings))
-        except RosminiError:
-            raise
         # Expressions are Python: whatever they raise, the description is broken.
         except Exception as error:
             cause = _cause(error)
-            if isinstance(cause, UrdfError):
+            if isinstance(cause, UrdfError) and (
+                cause.file in (None, str(file)) or Path(str(cause.file)).exists()
+            ):
+                if cause is error:
+                    raise
                 raise cause from error
-            stack = [name for name in xacro.filestack or [] if name]
-            where = stack[-1] if stack else str(file)
+            stack = [name for name in reversed(xacro.filestack or []) if name and Path(name).exists()]
+            known = [name for name in known if Path(name).exists()]
+            where = stack[0] if stack else str(file)
             message = _message(error, mappings, known)
-            line = _line(error, [where, *reversed(stack), *known])
+            line = _line(error, [*stack, *known])
             macros = [each.body.getAttribute("name") for each in reversed(xacro.macrostack or [])]
-            inside = f" (in the macro {', called by '.join(macros)})" if macros else ""
+            line = line or _call(message, macros, known)
+            told = [*macros[:MOST_MACROS], *(["..."] if len(macros) > MOST_MACROS else [])]
+            inside = f" (in the macro {', called by '.join(told)})" if macros else ""
             raise UrdfError(message + inside, *(line or (where, None))) from error
     return document
 
@@ -158,7 +166,7 @@ def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]
         return str(cause)
     if isinstance(cause, RecursionError):
         return "macros call or include one another without end"
-    return said
+    return re.sub(r"<class '[\w.]+'>: ", "", said)
 
 
 def _text(files: Sequence[str]) -> str:
@@ -175,7 +183,17 @@ def _line(error: Exception, files: Sequence[str]) -> tuple[str, int] | None:
         (r"there is no package '(\S+)'", "$(find {})"),
         (r'Undefined block "(\S+)"', "{}"),
         (r"No such file or directory: (\S+)", "{}"),
+        (r"([^/\s]+): cannot be read", "/{}"),
+        (r"Unknown substitution command \[(.+?)\]", "$({}"),
+        (r"accepts exactly one argument \[(.+?)\]", "$({}"),
+        (r"invalid expression: (.+)", "{}"),
     )
+    unbound = re.search(r"unbound prefix: line (\d+)", said)
+    if unbound:
+        return files[-1], int(unbound[1])
+    lacking = re.search(r"(xacro:\w+): missing attribute '(\w+)'", said)
+    if lacking:
+        return _element(files, lacking[1], lambda found: lacking[2] not in found.attributes)
     for pattern, wanted in patterns:
         found = re.search(pattern, said)
         if found:
@@ -184,6 +202,28 @@ def _line(error: Exception, files: Sequence[str]) -> tuple[str, int] | None:
                 for number, line in enumerate(_text([name]).splitlines(), start=1):
                     if text in line:
                         return name, number
+    return None
+
+
+def _call(message: str, macros: Sequence[str], files: Sequence[str]) -> tuple[str, int] | None:
+    """File and line of the call of a macro that lacks parameters, or that has one too many."""
+    lacking = re.search(r"Undefined parameters \[(.+?)\]", message)
+    wrong = re.search(r'Invalid parameter "(.+?)"', message)
+    if not macros or not (lacking or wrong):
+        return None
+    tag = f"xacro:{macros[0]}"
+    if wrong:
+        return _element(files, tag, lambda found: wrong[1] in found.attributes)
+    names = lacking[1].split(",") if lacking else []
+    return _element(files, tag, lambda found: not any(name in found.attributes for name in names))
+
+
+def _element(files: Sequence[str], tag: str, wanted: Callable[[Element], bool]) -> tuple[str, int] | None:
+    """File and line of the first element of this tag that is as wanted."""
+    for name in dict.fromkeys(files):
+        for found in parse_file(name, UrdfError).walk():
+            if found.tag == tag and wanted(found):
+                return name, found.line
     return None
 
 
