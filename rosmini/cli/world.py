@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
     from rosmini.sim.world import World
 
+LONG = 1e6
+"""From so many metres on decimals say nothing."""
+
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
     """Add `world` to the parser of `rosmini`."""
@@ -148,8 +151,17 @@ def _measures(world: World) -> str:
     moves = [f"{moving} of them moving"] if moving else []
     things = [_count(len(world.obstacles), "obstacle"), *moves]
     return ", ".join(
-        [*walls, *things, _count(len(world.starts), "start"), f"{x1 - x0:.1f} m by {y1 - y0:.1f} m"]
+        [
+            *walls,
+            *things,
+            _count(len(world.starts), "start"),
+            f"{_metres(x1 - x0)} m by {_metres(y1 - y0)} m",
+        ]
     )
+
+
+def _metres(length: float) -> str:
+    return f"{length:.1f}" if length < LONG else f"{length:.3g}"
 
 
 def _occupied(world: World, place: str) -> list[str]:

@@ -92,6 +92,18 @@ def test_what_a_file_is_hangs_on_what_stands_in_it(tmp_path):
     assert world(tmp_path / "c").walls.shape == world("floor").walls.shape
     assert world("package://rosmini_sim/worlds/maze.world").bounds == world("maze").bounds
     assert kind_of("package://rosmini_sim/worlds/maze.world") == "sdf"
+    (tmp_path / "wide.txt").write_text("<?xml version='1.0' encoding='utf-16'?><robot name='r'/>", "utf-16")
+    assert kind_of(tmp_path / "wide.txt") == "urdf"
+    for name, kind in (
+        ("a.urdf", "urdf"),
+        ("a.xacro", "urdf"),
+        ("a.sdf", "sdf"),
+        ("a.world", "stage"),
+        ("a.yaml", "map"),
+    ):
+        for data in (b"", b"\0\xff\x12 what is this"):
+            (tmp_path / name).write_bytes(data)
+            assert kind_of(tmp_path / name) == kind
     (tmp_path / "m.sdf").write_text("<sdf version='1.7'><model name='m'><link name='l'/></model></sdf>")
     with pytest.raises(SdfError, match=r"no <world> .* the model 'm'"):
         world(tmp_path / "m.sdf")

@@ -89,8 +89,9 @@ class Resources:
         for folder in self._all_folders():
             if (folder / name).exists():
                 return _there(folder / rest, uri, asked)
-        names = {each.name for folder in self._all_folders() if folder.is_dir() for each in folder.iterdir()}
-        searched = ", ".join(str(folder) for folder in self._all_folders() if folder.is_dir())
+        folders = list(dict.fromkeys(folder for folder in self._all_folders() if folder.is_dir()))
+        names = {each.name for folder in folders for each in folder.iterdir()}
+        searched = ", ".join(map(str, folders))
         hint = nearest(name, names)
         raise asked.error(
             f"there is no model {name!r}{'; ' + hint if hint else ''}; searched: {searched}; put its folder on {MODEL_PATH}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 import re
 from dataclasses import replace
@@ -23,28 +24,32 @@ SCHEME = "package://"
 def kind_of(path: str | os.PathLike[str]) -> Kind:
     """What a file is, told from what stands in it: XML by its first element, a map by its suffix or fields, else it is taken for a Stage world.
 
-    The file is given by its path or its `package://` address. Raises `UnknownPackage` or `RosminiError` for an address that leads nowhere.
+    In a file that says nothing the suffix is believed. The file is given by its path or its `package://` address. Raises `UnknownPackage` or
+    `RosminiError` for an address that leads nowhere.
     """
     text = os.fspath(path)
     path = Path(PackageIndex().resolve(text)) if text.startswith(SCHEME) else Path(text)
     try:
-        head = path.read_bytes()[:50_000].decode("utf-8", "replace").lstrip("\ufeff")
+        start = path.read_bytes()[:50_000]
     except OSError:
-        head = ""
-    if head.lstrip().startswith("<"):
+        start = b""
+    wide = start.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    head = start.decode("utf-16" if wide else "utf-8", "replace").lstrip("\ufeff").lstrip()
+    if head.startswith("<"):
         first = re.search(
             r"<([A-Za-z_][\w:.-]*)",
             re.sub(r"<!--.*?(-->|$)|<[?].*?[?]>|<!DOCTYPE[^>]*>", "", head, flags=re.DOTALL),
         )
         tag = first[1] if first else ""
         return "sdf" if tag in ("sdf", "gazebo") else "urdf" if tag == "robot" else "xml"
-    if path.suffix.lower() in (".yaml", ".yml", ".pgm", ".png") or not head:
-        return (
-            "sdf" if path.suffix.lower() == ".sdf" else "stage" if path.suffix.lower() == ".world" else "map"
-        )
-    if re.search(r"^(image|resolution|origin)\s*:", head, flags=re.MULTILINE):
+    suffix = path.suffix.lower()
+    if suffix in (".yaml", ".yml", ".pgm", ".png"):
         return "map"
-    return "stage"
+    if suffix in (".sdf", ".urdf", ".xacro"):
+        return "sdf" if suffix == ".sdf" else "urdf"
+    if head and re.search(r"^(image|resolution|origin)\s*:", head, flags=re.MULTILINE):
+        return "map"
+    return "stage" if head or suffix == ".world" else "map"
 
 
 def world_from_file(path: str | os.PathLike[str]) -> World:
