@@ -11,7 +11,8 @@
 0.2
 
 Time goes on from event to event, not in steps: what touches nothing moves in closed form, so a pose does not depend on how often it was
-asked for. Only where a robot touches something, or an obstacle slides, time is cut into steps of `STEP`, which are the same whoever asks.
+asked for, but for the last digits of its numbers. Only where a robot touches something, or an obstacle slides, time is cut into steps of `STEP`; who asks
+between two of them cuts one in two. So while something is pushed, a sensor of another rate may change by a millimetre or so where it gets to.
 """
 
 from __future__ import annotations

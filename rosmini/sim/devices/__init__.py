@@ -6,7 +6,7 @@ from .camera import CameraDevice
 from .clock import ClockDevice
 from .drive import DifferentialDrive, GroundTruth, JointStates, OdometryTransforms, PlanarMove
 from .names import one_of, order, prefixed, within
-from .sensors import ImuDevice, Laser
+from .sensors import ImuDevice, Laser, RangeDevice
 
 __all__ = [
     "BatteryDevice",
@@ -20,6 +20,7 @@ __all__ = [
     "Laser",
     "OdometryTransforms",
     "PlanarMove",
+    "RangeDevice",
     "SensorStateDevice",
     "Switches",
     "contacts",

@@ -20,20 +20,18 @@ from .names import order
 Floats = NDArray[np.float64]
 
 
-class Laser(Device):
-    """`sensor_msgs/LaserScan` of a laser on a robot.
+class RangeDevice(Device):
+    """What publishes a laser's `sensor_msgs/LaserScan`, whichever simulator's it is. Derive from it, and override `due`.
 
     Args:
         host: where it happens.
         robot: the engine's name of the robot.
-        lidar: which laser, and where it sits; without it the one of the robot's model.
+        name: the device's.
+        lidar: which laser, and where it sits.
         topic: where it is published.
-        frame: what the header says; without it what the laser's model says.
+        frame: what the header says.
         rate: how often; without it as often as the laser's model says [Hz].
-        noise: scales the noise of the laser's model; 0: none.
-        rep_117: tell inf of what is too far and -inf of what is too near; else 0.0, as a real LDS-01 does.
-        always: measure even if nobody listens, so that `last` is there.
-        name: the device's; without it robot/lidar.
+        queue_size: the publisher's.
 
     """
 
@@ -43,53 +41,26 @@ class Laser(Device):
         self,
         host: Host,
         robot: str,
-        lidar: LidarModel | None = None,
+        name: str,
+        lidar: LidarModel,
         *,
-        topic: str = "scan",
-        frame: str | None = None,
+        topic: str,
+        frame: str,
         rate: float | None = None,
-        noise: float = 1.0,
-        rep_117: bool = True,
-        always: bool = False,
-        name: str | None = None,
+        queue_size: int = 5,
     ) -> None:
+        super().__init__(host, name, rate or lidar.rate)
         self.robot = host.engine.robot(robot)
-        self.lidar = self.robot.model.laser if lidar is None else lidar
-        super().__init__(host, name or f"{robot}/lidar", rate or self.lidar.rate)
-        self.measures = always
+        self.lidar = lidar
         self.pose: Pose = self.robot.pose
         """Where the robot was when it measured last."""
         self.ranges: Floats | None = None
         """What it measured last, as it was published; None before the first time."""
-        self._deviation = self.lidar.noise * noise
-        self._rep_117 = rep_117
-        self._rng = host.rng(self.name)
-        self._told = ScanMessage(self.lidar, frame or self.lidar.frame, self.rate)
-        self._publisher = host.node.publisher(topic, type(self._told.message), queue_size=5)
+        self._rng = host.rng(name)
+        self._told = ScanMessage(lidar, frame, self.rate)
+        self._publisher = host.node.publisher(topic, type(self._told.message), queue_size=queue_size)
         self.topic: str = self._publisher.topic
         """Where it is published, as a global name."""
-
-    def due(self, stamp: Stamp, _: int, /) -> None:
-        """Measure. Noise is drawn even if nobody listens, so that it does not depend on who does."""
-        noise = None
-        if self._deviation:
-            noise = self._rng.standard_normal(self.lidar.beams) * self._deviation
-        heard = self._publisher.num_connections()
-        if not heard and not self.measures:
-            return
-        own = self.lidar is self.robot.model.lidar
-        engine = self.host.engine
-        ranges = (
-            engine.scan(self.robot.name, noise)
-            if own
-            else engine.scan(self.robot.name, noise, lidar=self.lidar)
-        )
-        self.pose = self.robot.pose
-        self.ranges = ranges if self._rep_117 else unmeasured(ranges)
-        message = self._told.fill(self.ranges)
-        self._told.stamp(*stamp)
-        if heard:
-            self._publisher.publish(message)
 
     @property
     def message(self) -> Any:
@@ -113,6 +84,69 @@ class Laser(Device):
     def close(self) -> None:
         """End the topic."""
         self._publisher.unregister()
+
+
+class Laser(RangeDevice):
+    """`sensor_msgs/LaserScan` of a laser on a robot.
+
+    Args:
+        host: where it happens.
+        robot: the engine's name of the robot.
+        lidar: which laser, and where it sits; without it the one of the robot's model.
+        topic: where it is published.
+        frame: what the header says; without it what the laser's model says.
+        rate: how often; without it as often as the laser's model says [Hz].
+        noise: scales the noise of the laser's model; 0: none.
+        rep_117: tell inf of what is too far and -inf of what is too near; else 0.0, as a real LDS-01 does.
+        always: measure even if nobody listens, so that `last` is there.
+        name: the device's; without it robot/lidar.
+
+    """
+
+    def __init__(
+        self,
+        host: Host,
+        robot: str,
+        lidar: LidarModel | None = None,
+        *,
+        topic: str = "scan",
+        frame: str | None = None,
+        rate: float | None = None,
+        noise: float = 1.0,
+        rep_117: bool = True,
+        always: bool = False,
+        name: str | None = None,
+    ) -> None:
+        if lidar is None:
+            lidar = host.engine.robot(robot).model.laser
+        super().__init__(
+            host, robot, name or f"{robot}/lidar", lidar, topic=topic, frame=frame or lidar.frame, rate=rate
+        )
+        self.measures = always
+        self._deviation = lidar.noise * noise
+        self._rep_117 = rep_117
+
+    def due(self, stamp: Stamp, _: int, /) -> None:
+        """Measure. Noise is drawn even if nobody listens, so that it does not depend on who does."""
+        noise = None
+        if self._deviation:
+            noise = self._rng.standard_normal(self.lidar.beams) * self._deviation
+        heard = self._publisher.num_connections()
+        if not heard and not self.measures:
+            return
+        own = self.lidar is self.robot.model.lidar
+        engine = self.host.engine
+        ranges = (
+            engine.scan(self.robot.name, noise)
+            if own
+            else engine.scan(self.robot.name, noise, lidar=self.lidar)
+        )
+        self.pose = self.robot.pose
+        self.ranges = ranges if self._rep_117 else unmeasured(ranges)
+        message = self._told.fill(self.ranges)
+        self._told.stamp(*stamp)
+        if heard:
+            self._publisher.publish(message)
 
 
 class ImuDevice(Device):

@@ -5,13 +5,13 @@ They print as `gz topic -e` does: field by field, in Protocol Buffers' text form
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar
 
 from rosmini.sim.models import RobotModel
 from rosmini.sim.sdf import Pose6
 from rosmini.sim.world import Obstacle, World
+from rosmini.tf.rigid import from_rpy
 
 
 @dataclass(frozen=True)
@@ -373,15 +373,7 @@ class Physics(Message):
 
 def quaternion(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
     """x, y, z and w of a rotation by yaw after pitch after roll about fixed axes."""
-    cr, sr = math.cos(roll / 2), math.sin(roll / 2)
-    cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
-    cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
-    return (
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
-    )
+    return from_rpy((0.0, 0.0, 0.0), roll, pitch, yaw)[3:]
 
 
 def _lines(message: Message, indent: str) -> list[str]:

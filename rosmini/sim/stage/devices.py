@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from rosmini.geometry.angles import normalize_angle
 from rosmini.geometry.poses import Pose
 from rosmini.msgs import message_class
-from rosmini.sim.devices import DifferentialDrive, GroundTruth, order
+from rosmini.sim.devices import DifferentialDrive, GroundTruth, RangeDevice, order
 from rosmini.sim.devices.drive import Reckoned
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.lidar import unmeasured
-from rosmini.sim.messages import ScanMessage, TransformMessage
+from rosmini.sim.messages import TransformMessage
 from rosmini.sim.models import LidarModel
 
 from .names import Names
@@ -137,14 +137,12 @@ class StageTruth(GroundTruth):
         self._before = state
 
 
-class StageLaserDevice(Device):
+class StageLaserDevice(RangeDevice):
     """`base_scan`. A ray that hits nothing has the largest range, as in Stage, and what is too near has its own.
 
     Stage's noise: a range r becomes r + r p u + n, with u even between -1 and 1 and n normal, where `noise [n p ..]` in the file gives p, and the standard
     deviation of n, which Stage 4.3's code takes as a variance. Intensities are 1 where something was hit, Stage's `ranger_return` if none is given.
     """
-
-    order = order("laser")
 
     def __init__(
         self,
@@ -157,25 +155,14 @@ class StageLaserDevice(Device):
         topic: str,
         frame: str,
     ) -> None:
-        super().__init__(host, name, model.rate)
-        self.robot = host.engine.robot(robot)
-        self.model = model
-        self.pose: Pose = self.robot.pose
-        """Where the robot was when it measured last."""
-        self.ranges: Floats | None = None
-        """What it measured last, as it was published; None before the first time."""
+        super().__init__(host, robot, name, model, topic=topic, frame=frame, queue_size=10)
         self._noise = laser.noise
         self._far = laser.range_max
-        self._rng = host.rng(name)
-        self._told = ScanMessage(model, frame, self.rate)
         self._told.message.range_min = laser.range_min
-        self._publisher = host.node.publisher(topic, type(self._told.message), queue_size=10)
-        self.topic: str = self._publisher.topic
-        """Where it is published, as a global name."""
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Measure. Noise is drawn even if nobody listens, so that it does not depend on who does."""
-        engine, model = self.host.engine, self.model
+        engine, model = self.host.engine, self.lidar
         exact = engine.scan(self.robot.name, lidar=model)
         hit = np.isfinite(exact)
         ranges = unmeasured(exact, self._far)
@@ -190,27 +177,6 @@ class StageLaserDevice(Device):
         self._told.stamp(*stamp)
         if self._publisher.num_connections():
             self._publisher.publish(message)
-
-    @property
-    def message(self) -> Any:
-        """A copy of the last message, whether anybody heard it or not; None before the first."""
-        if self.ranges is None:
-            return None
-        cls = type(self._told.message)
-        return cls._thaw_numpy(cls._freeze(self._told.message))
-
-    def state(self) -> Any:
-        """The noise that is still to come, and what was measured last."""
-        return copy.deepcopy(self._rng), self.pose, self.ranges
-
-    def restore(self, state: Any) -> None:
-        """Draw the noise that was drawn after that."""
-        rng, self.pose, self.ranges = state
-        self._rng = copy.deepcopy(rng)
-
-    def close(self) -> None:
-        """End the topic."""
-        self._publisher.unregister()
 
 
 class StageTransforms(Device):
