@@ -36,7 +36,8 @@ def main(args: argparse.Namespace) -> int:
     try:
         if nodes:
             return _on_server(own, nodes)
-        if own and own[0] in ("topic", "model", "world", "stats"):
+        helps = {"-h", "--help"} & set(own)
+        if own and own[0] in ("topic", "model", "world", "stats") and not helps:
             parser(own[0]).parse_args(own[1:])
             raise GazeboError(
                 "an instance of Gazebo is not running in this process: name it after a +, for example "

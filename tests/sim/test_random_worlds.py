@@ -103,6 +103,8 @@ def test_it_can_be_written_for_gazebo():
     [
         ({"size": (1, 5)}, "size"),
         ({"size": (math.nan, 5)}, "size"),
+        ({"seed": -1}, "seed is -1"),
+        ({"seed": "one"}, "seed is 'one'; it has to be a whole number, 0 or more"),
         ({"rooms": 0}, "rooms is 0"),
         ({"obstacles": -1}, "obstacles is -1"),
         ({"starts": 1.5}, "starts is 1.5"),
@@ -111,4 +113,4 @@ def test_it_can_be_written_for_gazebo():
 )
 def test_what_makes_no_sense_is_refused(arguments, part):
     with pytest.raises(WorldError, match=part):
-        random_world(1, **arguments)
+        random_world(**{"seed": 1, **arguments})

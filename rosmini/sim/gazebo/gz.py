@@ -135,6 +135,8 @@ class Gz:
                 else [f"  {verb:8}{what}" for verb, what in VERBS.items()]
             )
         verb, rest = text[0], text[1:]
+        if {"-h", "--help"} & set(rest):
+            return [parser(verb).format_help()]
         options = parser(verb).parse_args(rest)
         getattr(self, f"_do_{verb}")(options)
         return self._lines

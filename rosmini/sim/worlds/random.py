@@ -47,7 +47,7 @@ def random_world(
     people walk up and down. Where there is no room for as many rooms, things or walkers as were asked for, there are fewer; `starts` there are as many
     as asked for, or a `WorldError` is raised, as it is for a floor narrower than 2 m and for numbers that make no sense.
     """
-    _check(size, rooms=rooms, obstacles=obstacles, movable=movable, walkers=walkers, starts=starts)
+    _check(size, seed=seed, rooms=rooms, obstacles=obstacles, movable=movable, walkers=walkers, starts=starts)
     plan = _Plan(np.random.default_rng(seed), (-size[0] / 2, -size[1] / 2, size[0] / 2, size[1] / 2))
     plan.split(rooms)
     for i in range(obstacles + movable):

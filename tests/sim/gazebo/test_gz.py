@@ -172,3 +172,6 @@ def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert "did you mean topic?" in capsys.readouterr().err
     assert main(["gz", "help"]) == 0
     assert "stats" in capsys.readouterr().out
+    for verb, word in (("topic", "--list"), ("model", "--spawn-file"), ("world", "--pause")):
+        assert main(["gz", verb, "--help"]) == 0
+        assert word in capsys.readouterr().out
