@@ -143,11 +143,15 @@ class Leaf:
         return (self.body.position.x, self.body.position.y, self.body.angle)
 
 
+# straight to these: at each `body.angle = ...` pymunk asks first whether there is such a name, which takes as long as the rest
+_turn_to, _move_to = vars(pymunk.Body)["angle"].fset, vars(pymunk.Body)["position"].fset
+
+
 def put(body: pymunk.Body, pose: Pose) -> None:
     """Place a body's origin."""
     # in this order: pymunk turns a body about its centre of mass, which takes its origin elsewhere
-    body.angle = pose[2]
-    body.position = (pose[0], pose[1])
+    _turn_to(body, pose[2])
+    _move_to(body, (pose[0], pose[1]))
 
 
 def make_crate(obstacle: Obstacle) -> Crate:

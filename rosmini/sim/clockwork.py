@@ -248,7 +248,9 @@ class Clockwork:
         for robot in robots:
             if not robot.touching:
                 contacts.speed(robot.name, robot.world_velocity())
-        watched = None if self.moving or len(robots) < FEW else self._watched(robots, ways)
+        watched = None
+        if not self.moving and len(robots) >= FEW:
+            watched = set(ways) if contacts.quick else self._watched(robots, ways)
         for name, (pose, touching) in contacts.step(ways, dt, watched).items():
             robot = engine.robots[name]
             robot.carried(pose, dt, touching=touching)
@@ -272,7 +274,8 @@ class Clockwork:
 
     def _keep_apart(self, robots: list[Robot]) -> None:
         """Let nobody else come nearer to those that went in steps than they are now, by circles; they themselves look before they move."""
-        others: list[Robot | Mover] = [each for each in self.drivers if each not in robots]
+        steppers = set(robots)
+        others: list[Robot | Mover] = [each for each in self.drivers if each not in steppers]
         others += self.engine.movers.values()
         for robot in robots:
             robot.room = 0.0
@@ -318,7 +321,8 @@ class Clockwork:
             self.engine.contacts.crowd.look(
                 self.engine.contacts, self.engine.robots, [robot.name for robot in short], SAFE
             )
-            ways = [(robot, moved) for robot, moved in ways if robot not in short]
+            looked = set(short)
+            ways = [(robot, moved) for robot, moved in ways if robot not in looked]
         for robot, moved in ways:
             if robot.room <= moved:
                 self.look(robot)

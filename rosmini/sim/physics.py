@@ -331,9 +331,14 @@ class Contacts:
         return self._crowd
 
     @property
+    def quick(self) -> bool:
+        """True if `crowd` brings many robots out of each other: with numba."""
+        return fast()
+
+    @property
     def at_once(self) -> bool:
-        """True if `crowd` can look around many robots at once: with numba, and if nothing moves by itself but robots."""
-        return not self.leaves and fast()
+        """True if `crowd` can look around many robots at once: with numba, if nothing moves by itself but robots."""
+        return not self.leaves and self.quick
 
     def around(self, name: str) -> list[tuple[float, str, bool]]:
         """What is within VIEW of a robot: how far away [m], whose it is, and whether that moves by itself.
