@@ -7,7 +7,7 @@ import math
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose
 
-from .engine import Engine, RobotGone
+from .engine.engine import Engine, RobotGone
 from .models import hull
 from .shapes import ROUND, outline_at, simple_parts
 from .world import Obstacle, WorldError

@@ -15,7 +15,7 @@ from rosmini.errors import RosminiError, nearest
 from rosmini.graph.clock import GraphClock
 from rosmini.time import Time
 
-from .engine import Engine
+from .engine.engine import Engine
 
 if TYPE_CHECKING:
     import numpy as np

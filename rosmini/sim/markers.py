@@ -15,7 +15,7 @@ from rosmini.geometry.angles import yaw_from_quaternion
 from rosmini.geometry.poses import Pose, compose, inverse
 from rosmini.msgs import message_class
 
-from .scene import rgb
+from .sensors.scene import rgb
 from .shapes import Box, Compound, Cylinder, Polygon, Simple, Sphere, simple_parts
 from .world import Obstacle
 

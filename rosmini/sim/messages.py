@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from rosmini.geometry.poses import Pose
 from rosmini.msgs import message_class
 
-from .imu import Imu
+from .engine.odometry import Odometry
+from .engine.robot import Robot
 from .models import LidarModel
-from .odometry import Odometry
-from .robot import Robot
+from .sensors.imu import Imu
 
 Floats = NDArray[np.float64]
 

@@ -23,7 +23,7 @@ from rosmini.msgs import service_class
 
 from .devices.obstacles import ObstacleMarkers
 from .dragging import drag
-from .engine import Engine, RobotGone
+from .engine.engine import Engine, RobotGone
 from .host import Host, HostState
 from .models import RobotModel
 from .models import model as model_called

@@ -19,8 +19,8 @@ from .world import World
 if TYPE_CHECKING:
     from rosmini.graph import Node
 
-    from .engine import Engine
-    from .robot import Robot
+    from .engine.engine import Engine
+    from .engine.robot import Robot
 
 KEYS = ("name", "model", "x", "y", "yaw", "namespace", "tf_prefix")
 """What an entry of the parameter `~robots` may say."""

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, TypeVar
 
 from rosmini.geometry.poses import Pose
 
-from .battery import BURGER_BATTERY, WAFFLE_BATTERY, Battery
 from .devices import (
     BatteryDevice,
     CameraDevice,
@@ -25,9 +24,10 @@ from .devices import (
 from .host import Device, Host
 from .messages import BASE, BASE_LINK, MAP, ODOM
 from .models import BURGER, CameraModel, RobotModel
+from .sensors.battery import BURGER_BATTERY, WAFFLE_BATTERY, Battery
 
 if TYPE_CHECKING:
-    from .robot import Robot
+    from .engine.robot import Robot
 
 D = TypeVar("D", bound=Device)
 

@@ -18,9 +18,9 @@ from rosmini.graph import Graph
 from rosmini.graph.byte_transport import ByteTransport
 from rosmini.msgs import message_class, service_class
 from rosmini.scripts import run_source
-from rosmini.sim.engine import RobotGone
-from rosmini.sim.imu import GRAVITY
+from rosmini.sim.engine.engine import RobotGone
 from rosmini.sim.models import BURGER, UnknownModel
+from rosmini.sim.sensors.imu import GRAVITY
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import World, WorldError
 from rosmini.sim.worlds import world
@@ -552,7 +552,7 @@ def test_importing_rosmini_loads_no_physics():
 
 def test_without_pymunk_the_error_says_what_to_install(graph, monkeypatch):
     monkeypatch.setitem(sys.modules, "pymunk", None)
-    monkeypatch.delitem(sys.modules, "rosmini.sim.physics", raising=False)
+    monkeypatch.delitem(sys.modules, "rosmini.sim.engine.physics", raising=False)
     with pytest.raises(RosminiError, match="pip install pymunk"):
         start(graph)
 

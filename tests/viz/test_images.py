@@ -9,8 +9,8 @@ import pytest
 from PIL import Image
 
 from rosmini.msgs import message_class
-from rosmini.sim.camera import capture
 from rosmini.sim.models import CameraModel
+from rosmini.sim.sensors.camera import capture
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, image_picture
 from rosmini.viz.images import ENCODINGS, pixels_of

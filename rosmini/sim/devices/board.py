@@ -8,16 +8,16 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rosmini.msgs import message_class
-from rosmini.sim.battery import Battery, Charge
-from rosmini.sim.contact_sensor import TURTLEBOT3_BUMPER, BumperModel, bits, pressed
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.messages import Headed
+from rosmini.sim.sensors.battery import Battery, Charge
+from rosmini.sim.sensors.contact_sensor import TURTLEBOT3_BUMPER, BumperModel, bits, pressed
 
 from .drive import DifferentialDrive
 from .names import order
 
 if TYPE_CHECKING:
-    from rosmini.sim.robot import Robot
+    from rosmini.sim.engine.robot import Robot
 
 BOARD_RATE = 30.0
 """So often TurtleBot3's firmware tells its state [Hz]: DRIVE_INFORMATION_PUBLISH_FREQUENCY."""

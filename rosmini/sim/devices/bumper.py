@@ -11,7 +11,7 @@ from rosmini.sim.messages import Headed
 from .names import order
 
 if TYPE_CHECKING:
-    from rosmini.sim.robot import Robot
+    from rosmini.sim.engine.robot import Robot
 
 
 class Bumper(Device):

@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 
 from rosmini.graph import Publisher
 from rosmini.msgs import message_class
-from rosmini.sim.camera import camera_info, camera_noise, capture
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.messages import Headed
 from rosmini.sim.models import CameraModel
-from rosmini.sim.scene import Scene, parts_of
+from rosmini.sim.sensors.camera import camera_info, camera_noise, capture
+from rosmini.sim.sensors.scene import Scene, parts_of
 
 from .names import order
 
 if TYPE_CHECKING:
-    from rosmini.sim.robot import Robot
+    from rosmini.sim.engine.robot import Robot
     from rosmini.sim.world import World
 
 Image = NDArray[np.uint8]

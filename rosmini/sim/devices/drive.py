@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from rosmini.geometry.poses import Pose, compose, inverse
 from rosmini.graph import Publisher
 from rosmini.msgs import message_class
+from rosmini.sim.engine.odometry import Odometry
+from rosmini.sim.engine.robot import HolonomicRobot
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.messages import (
     BASE,
@@ -22,13 +24,11 @@ from rosmini.sim.messages import (
     OdometryMessage,
     TransformMessage,
 )
-from rosmini.sim.odometry import Odometry
-from rosmini.sim.robot import HolonomicRobot
 
 from .names import one_of, order
 
 if TYPE_CHECKING:
-    from rosmini.sim.robot import Robot
+    from rosmini.sim.engine.robot import Robot
 
 SOURCES = ("encoder", "world", "start")
 """From where a drive takes its odometry: the encoders of its wheels; the truth in the frame of the world; the truth seen from where it started."""

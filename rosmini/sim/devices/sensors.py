@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from rosmini.geometry.poses import Pose
 from rosmini.sim.host import Device, Host, Stamp
-from rosmini.sim.imu import Imu
-from rosmini.sim.lidar import unmeasured
 from rosmini.sim.messages import ImuMessage, ScanMessage
 from rosmini.sim.models import ImuModel, LidarModel
+from rosmini.sim.sensors.imu import Imu
+from rosmini.sim.sensors.lidar import unmeasured
 
 from .names import order
 

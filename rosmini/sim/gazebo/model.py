@@ -17,7 +17,7 @@ import numpy as np
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose, compose, inverse
 from rosmini.markup import Element
-from rosmini.sim.robot import Robot
+from rosmini.sim.engine.robot import Robot
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfModel, SdfSensor
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.sdf.poses import pose6

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry.poses import compose
-from rosmini.sim.camera import axes_of, capture
 from rosmini.sim.devices.camera import CameraDevice, heard, image_message
 from rosmini.sim.host import Host, Stamp
 from rosmini.sim.models import CameraModel
-from rosmini.sim.raster import Eye, Lens
+from rosmini.sim.sensors.camera import axes_of, capture
+from rosmini.sim.sensors.raster import Eye, Lens
 
 from .names import Names
 from .robots import StageCamera

@@ -16,9 +16,9 @@ from rosmini.msgs import message_class
 from rosmini.sim.devices import DifferentialDrive, GroundTruth, RangeDevice, order
 from rosmini.sim.devices.drive import Reckoned
 from rosmini.sim.host import Device, Host, Stamp
-from rosmini.sim.lidar import unmeasured
 from rosmini.sim.messages import TransformMessage
 from rosmini.sim.models import LidarModel
+from rosmini.sim.sensors.lidar import unmeasured
 
 from .names import Names
 from .odometry import STILL, StageOdometry, Velocity

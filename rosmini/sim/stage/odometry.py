@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.sim.drive import glide
+from rosmini.sim.engine.drive import glide
 
 from .robots import StageRobot
 

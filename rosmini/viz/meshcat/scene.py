@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.models import Part as SimplePart
-from rosmini.sim.scene import trapezia
+from rosmini.sim.sensors.scene import trapezia
 from rosmini.sim.shapes import Cylinder, Simple, Sphere, outline_at, simple_parts
 from rosmini.sim.world import Obstacle, Pose, World
 from rosmini.urdf.meshes.turtlebot3 import HOLE

@@ -1,0 +1,1 @@
+"""What a robot measures: lasers, cameras, inertial units, bumpers, batteries and their errors. Numbers in, numbers out."""

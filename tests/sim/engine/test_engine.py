@@ -1,0 +1,428 @@
+"""Motion through the engine: exact where nothing is in the way, and stopped, slid or pushed where something is."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from rosmini.errors import RosminiError
+from rosmini.geometry.poses import arc
+from rosmini.sim.engine.engine import Engine, RobotGone
+from rosmini.sim.models import BURGER
+from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, WorldError
+from rosmini.sim.worlds import world
+
+FRONT = 0.041
+"""How far the Burger's footprint reaches ahead of its axle."""
+RAMP = 0.2**2 / 2
+"""What a start to 0.2 m/s at 1 m/s2 is behind one that needs no time."""
+
+
+def generator(name: str) -> np.random.Generator:
+    return np.random.default_rng(sum(name.encode()))
+
+
+def make(where: World | str = "empty", pose=(0.0, 0.0, 0.0), *, noise: float = 0.0) -> Engine:
+    engine = Engine(world(where) if isinstance(where, str) else where, generator, noise=noise)
+    engine.add("burger", BURGER, pose)
+    return engine
+
+
+def walls(*segments) -> World:
+    return World("walls", walls=np.array(segments, dtype=float))
+
+
+BEHIND = walls((1.0, -3.0, 1.0, 3.0))
+"""A wall across x = 1."""
+
+
+# -- free motion -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("step", [0.0013, 0.005, 0.0333, 0.7, 100.0])
+def test_a_straight_way_is_exact_whatever_the_step(step):
+    engine = make()
+    engine.command("burger", 0.2, 0.0)
+    while engine.now < 10.0:
+        engine.advance(min(engine.now + step, 10.0))
+    assert engine.robots["burger"].pose == pytest.approx((0.2 * 10 - RAMP, 0.0, 0.0), abs=1e-9)
+
+
+@pytest.mark.parametrize("step", [0.0013, 0.005, 0.0333, 0.7, 100.0])
+@pytest.mark.parametrize("place", ["empty", "arena"])
+def test_a_circle_closes_whatever_the_step(step, place):
+    engine = make(place)
+    robot = engine.robots["burger"]
+    engine.command("burger", 0.2, 0.5)
+    engine.advance(1.0)
+    begin, turn = robot.pose, 2 * math.pi / 0.5
+    while engine.now < 1.0 + turn - 1e-12:
+        engine.advance(min(engine.now + step, 1.0 + turn))
+    assert robot.pose[:2] == pytest.approx(begin[:2], abs=1e-9)
+    assert robot.pose[2] == pytest.approx(begin[2] + 2 * math.pi, abs=1e-9)
+
+
+def test_at_constant_speed_the_way_is_an_arc():
+    engine = make()
+    robot = engine.robots["burger"]
+    engine.command("burger", 0.15, -0.8)
+    engine.advance(0.5)
+    expected = arc(robot.pose, 0.15, -0.8, 3.7)
+    engine.advance(4.2)
+    assert robot.pose == pytest.approx(expected, abs=1e-9)
+
+
+def test_braking_takes_the_way_v_squared_by_two_a():
+    engine = make()
+    robot = engine.robots["burger"]
+    engine.command("burger", 0.22, 0.0)
+    engine.advance(1.0)
+    before = robot.pose[0]
+    engine.command("burger", 0.0, 0.0)
+    engine.advance(5.0)
+    assert robot.pose[0] - before == pytest.approx(0.22**2 / 2, abs=1e-9)
+    assert robot.standing
+
+
+def test_a_turn_in_place_stays_in_place():
+    engine = make("arena")
+    robot = engine.robots["burger"]
+    engine.command("burger", 0.0, 1.0)
+    engine.advance(10.0)
+    # the rims go to 0.08 m/s, which takes 0.08 s
+    assert robot.pose == pytest.approx((0.0, 0.0, 10.0 - 0.04), abs=1e-9)
+
+
+def test_commands_are_cut_to_what_the_robot_can_do():
+    engine = make()
+    engine.command("burger", 5.0, 0.0)
+    engine.advance(2.0)
+    assert engine.robots["burger"].motion() == (0.22, 0.0, 0.0, 0.0)
+    engine.command("burger", 0.0, -50.0)
+    engine.advance(6.0)
+    assert engine.robots["burger"].motion().w == pytest.approx(-2.84)
+
+
+def test_a_command_that_is_too_old_stops_the_robot():
+    engine = make()
+    engine.command("burger", 0.2, 0.0, timeout=0.5)
+    engine.advance(9.0)
+    assert engine.robots["burger"].pose[0] == pytest.approx(0.2 * 0.5 - RAMP + RAMP, abs=1e-9)
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(19.0)
+    assert engine.robots["burger"].pose[0] > 2.0
+
+
+def test_encoders_count_what_the_wheels_turn():
+    engine = make()
+    engine.command("burger", 0.1, 0.5)
+    engine.advance(8.0)
+    ways = [(0.1 + side * 0.04) * 8 - (0.1 + side * 0.04) ** 2 / 2 for side in (-1, 1)]
+    assert engine.robots["burger"].ticks == tuple(
+        math.floor(way / 0.033 / (2 * math.pi) * 4096) for way in ways
+    )
+
+
+# -- walls -----------------------------------------------------------------------------------------------------------
+
+
+def test_a_wall_stops_the_robot_exactly_at_contact_and_the_wheels_slip():
+    engine = make(BEHIND)
+    robot = engine.robots["burger"]
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(20.0)
+    assert robot.pose == pytest.approx((1.0 - FRONT, 0.0, 0.0), abs=1e-8)
+    assert robot.touching
+    assert robot.motion().v == pytest.approx(0.0, abs=1e-6)
+    assert robot.ticks[0] == math.floor((0.2 * 20 - RAMP) / 0.033 / (2 * math.pi) * 4096 + 1e-6)
+
+
+def test_up_to_the_contact_the_motion_is_exact():
+    engine = make(BEHIND)
+    engine.command("burger", 0.2, 0.0)
+    reached = (1.0 - FRONT + RAMP) / 0.2
+    engine.advance(reached - 1e-3)
+    assert engine.robots["burger"].pose[0] == pytest.approx(1.0 - FRONT - 0.2e-3, abs=1e-9)
+
+
+def test_a_robot_drives_away_from_a_wall():
+    engine = make(BEHIND)
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(20.0)
+    engine.command("burger", -0.2, 0.0)
+    engine.advance(20.2)  # the wheels still turn ahead for 0.2 s
+    assert engine.robots["burger"].pose[0] == pytest.approx(1.0 - FRONT, abs=1e-8)
+    engine.advance(21.2)
+    assert engine.robots["burger"].pose[0] == pytest.approx(1.0 - FRONT - (0.2 - RAMP), abs=1e-6)
+
+
+def test_a_robot_that_meets_a_wall_aslant_turns_along_it():
+    engine = make(BEHIND)
+    robot = engine.robots["burger"]
+    engine.place("burger", (0.6, 0.0, 0.9))
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(10.0)
+    assert robot.corners()[:, 0].max() < 1.0 + 1e-6
+    assert robot.pose[1] > 0.2
+
+
+def test_a_corner_holds_the_robot():
+    engine = make("arena", (1.5, 1.5, math.pi / 4))
+    robot = engine.robots["burger"]
+    engine.command("burger", 0.22, 0.0)
+    engine.advance(30.0)
+    assert robot.corners().max() < 2.0 + 1e-6
+    assert robot.touching
+
+
+def test_no_wall_is_too_thin_and_no_way_too_long():
+    # whatever it does for an hour, it stays within four walls without thickness
+    engine = make(walls((-1, -1, 1, -1), (1, -1, 1, 1), (1, 1, -1, 1), (-1, 1, -1, -1)))
+    robot, rng = engine.robots["burger"], np.random.default_rng(4)
+    for _ in range(120):
+        engine.command("burger", *rng.uniform((-0.22, -2.84), (0.22, 2.84)).tolist())
+        engine.advance(engine.now + 1.0)
+        assert abs(robot.corners()).max() < 1.0 + 1e-5
+
+
+def test_a_sofa_with_an_inner_corner_is_solid_there_and_hollow_where_it_is_open():
+    outline = ((0.0, 0.0), (1.0, 0.0), (1.0, 0.3), (0.3, 0.3), (0.3, 1.0), (0.0, 1.0))
+    engine = make(World("sofa", (Obstacle("sofa", Polygon(outline)),)), (0.7, 0.7, math.pi))
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(10.0)
+    assert engine.robots["burger"].pose == pytest.approx((0.3 + FRONT, 0.7, math.pi), abs=1e-6)
+    with pytest.raises(WorldError, match="'sofa'"):
+        engine.place("burger", (0.15, 0.15, 0.0))
+
+
+# -- things that give way --------------------------------------------------------------------------------------------
+
+
+def crate(mass: float) -> World:
+    return World("crate", (Obstacle("crate", Box(0.2, 0.2), (0.5, 0.0, 0.0), mass=mass),))
+
+
+def test_a_light_crate_is_pushed_at_the_robots_speed_and_stays_where_it_is_left():
+    engine = make(crate(0.5))
+    robot = engine.robots["burger"]
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(10.0)
+    x, y, theta = engine.obstacles()[0].pose
+    assert robot.pose[0] == pytest.approx(0.2 * 10 - RAMP, abs=0.005)
+    assert x == pytest.approx(robot.pose[0] + FRONT + 0.1, abs=1e-3)
+    assert (y, theta) == pytest.approx((0.0, 0.0), abs=1e-3)
+    engine.command("burger", 0.0, 0.0)
+    engine.advance(11.0)
+    rest = engine.obstacles()[0].pose
+    assert rest[0] - x == pytest.approx(RAMP, abs=5e-3)
+    engine.advance(20.0)
+    assert engine.obstacles()[0].pose == rest
+
+
+def test_a_heavy_crate_stays_and_the_wheels_slip():
+    # the wheels' grip, 0.7 * 1 kg, is less than the drag of 0.5 * 5 kg
+    engine = make(crate(5.0))
+    robot = engine.robots["burger"]
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(20.0)
+    assert engine.obstacles()[0].pose == pytest.approx((0.5, 0.0, 0.0), abs=2e-3)
+    assert robot.pose[0] == pytest.approx(0.4 - FRONT, abs=2e-3)
+    assert robot.left_way == pytest.approx(0.2 * 20 - RAMP)
+
+
+def test_a_crate_against_a_wall_stops_the_robot():
+    things = World(
+        "crate and wall",
+        (Obstacle("crate", Box(0.2, 0.2), (0.5, 0.0, 0.0), mass=0.3),),
+        np.array([(1.0, -1.0, 1.0, 1.0)]),
+    )
+    engine = make(things)
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(30.0)
+    assert engine.obstacles()[0].pose[0] == pytest.approx(0.9, abs=2e-3)
+    assert engine.robots["burger"].pose[0] == pytest.approx(0.8 - FRONT, abs=4e-3)
+
+
+def test_a_round_thing_is_pushed_aside():
+    engine = make(World("bin", (Obstacle("bin", Cylinder(0.1), (0.5, 0.17, 0.0), mass=0.3),)))
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(6.0)
+    x, y, _ = engine.obstacles()[0].pose
+    assert 0.2 < y < 0.22  # it has rolled off the corner, 0.105 m aside
+    assert x < engine.robots["burger"].pose[0]
+
+
+def test_robots_meet_and_stop_each_other():
+    engine = make()
+    engine.add("other", BURGER, (1.0, 0.0, math.pi))
+    for name in ("burger", "other"):
+        engine.command(name, 0.2, 0.0)
+    engine.advance(10.0)
+    one, other = engine.robots["burger"], engine.robots["other"]
+    assert one.pose[0] + FRONT == pytest.approx(other.pose[0] - FRONT, abs=1e-3)
+    assert one.pose[0] + FRONT == pytest.approx(0.5, abs=0.01)
+
+
+def test_reset_puts_everything_back():
+    engine = make(crate(0.3))
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(5.0)
+    engine.reset()
+    engine.advance(6.0)
+    assert engine.robots["burger"].pose == (0.0, 0.0, 0.0)
+    assert engine.robots["burger"].ticks == (0, 0)
+    assert engine.obstacles()[0].pose == (0.5, 0.0, 0.0)
+
+
+# -- the same again --------------------------------------------------------------------------------------------------
+
+
+def course(engine: Engine, look: float = 0.1) -> list:
+    """A drive through the room that bumps into things; the engine is asked every `look` seconds."""
+    rng = np.random.default_rng(8)
+    poses = []
+    for _ in range(60):
+        engine.command("burger", *rng.uniform((0.0, -1.5), (0.22, 1.5)).tolist())
+        until = round(engine.now + 0.5, 6)
+        while engine.now < until:
+            engine.advance(min(round(engine.now + look, 6), until))
+        poses.append((engine.robots["burger"].pose, [o.pose for o in engine.obstacles()]))
+    return poses
+
+
+def test_two_runs_are_equal_to_the_last_bit():
+    assert course(make("room", noise=1.0)) == course(make("room", noise=1.0))
+
+
+def test_who_looks_more_often_sees_the_same():
+    seldom, often = course(make("room", noise=1.0), 0.5), course(make("room", noise=1.0), 0.005)
+    for (one, _), (other, _) in zip(seldom, often, strict=True):
+        assert one == pytest.approx(other, abs=1e-6)
+
+
+def test_another_robot_changes_no_ones_errors():
+    alone, company = make(noise=1.0), make(noise=1.0)
+    company.add("other", BURGER, (5.0, 5.0, 0.0))
+    for engine in (alone, company):
+        engine.command("burger", 0.2, 0.3)
+        engine.advance(7.0)
+    assert alone.robots["burger"].pose == company.robots["burger"].pose
+    assert company.robots["other"].wheels.left != company.robots["burger"].wheels.left
+
+
+def test_a_peek_tells_the_future_and_changes_nothing():
+    engine, other = make("room", noise=1.0), make("room", noise=1.0)
+    for each in (engine, other):
+        each.command("burger", 0.2, 0.4)
+        each.advance(1.5)
+    seen = engine.peek("burger", 1.52)
+    engine.advance(1.52)
+    assert engine.robots["burger"].pose == seen
+    other.advance(1.52)
+    assert other.robots["burger"].pose == seen
+
+
+# -- what is refused -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("where", "pose", "culprit"),
+    [
+        (BEHIND, (0.97, 0.0, 0.0), r"the wall from \(1.00, -3.00\) to \(1.00, 3.00\)"),
+        (
+            World("p", (Obstacle("pillar", Cylinder(0.1), (2.0, 0.0, 0.0)),)),
+            (1.9, 0.0, 0.0),
+            "the obstacle 'pillar'",
+        ),
+        (World("h", (Obstacle("house", Box(4.0, 4.0)),)), (0.3, 0.0, 0.0), "the obstacle 'house'"),
+        (crate(1.0), (0.5, 0.0, 0.0), "the obstacle 'crate'"),
+    ],
+)
+def test_a_robot_is_not_placed_in_something(where, pose, culprit):
+    engine = Engine(where, generator)
+    with pytest.raises(WorldError, match=culprit):
+        engine.add("burger", BURGER, pose)
+    assert engine.robots == {}
+    engine.add("burger", BURGER, (-3.0, 0.0, 0.0))
+    with pytest.raises(WorldError, match=culprit):
+        engine.place("burger", pose)
+    assert engine.robots["burger"].pose == (-3.0, 0.0, 0.0)
+
+
+def test_who_is_refused_hears_where_there_is_room():
+    with pytest.raises(WorldError, match=r"There is room at \(1\.93, 0\.00\)"):
+        make("arena", (1.98, 0.0, 0.0))
+
+
+def test_in_a_map_a_robot_is_not_placed_inside_of_a_wall():
+    outline = np.array(
+        [(0.0, 0.0, 2.0, 0.0), (2.0, 0.0, 2.0, 2.0), (2.0, 2.0, 0.0, 2.0), (0.0, 2.0, 0.0, 0.0)]
+    )
+    block = World("block", walls=outline, solid=True)
+    with pytest.raises(WorldError, match="wall"):
+        make(block, (1.0, 1.0, 0.0))
+    make(World("yard", walls=outline), (1.0, 1.0, 0.0))
+
+
+def test_a_robot_is_not_placed_on_another_even_if_that_has_moved():
+    engine = make()
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(10.0)
+    with pytest.raises(WorldError, match="the robot 'burger'"):
+        engine.add("other", BURGER, engine.robots["burger"].pose)
+    engine.add("other", BURGER, (0.0, 0.0, 0.0))
+
+
+def test_a_robot_may_be_placed_where_it_stands_and_where_it_just_touches():
+    engine = make(BEHIND)
+    engine.place("burger", (0.02, 0.0, 0.1))
+    engine.place("burger", (1.0 - FRONT, 0.0, 0.0))
+    engine.place("burger", (0.5, 0.0, 0.7))
+    engine.command("burger", 0.2, 0.0)
+    engine.advance(10.0)
+    assert engine.robots["burger"].touching
+    engine.place("burger", engine.robots["burger"].pose)
+
+
+@pytest.mark.parametrize("pose", [(math.nan, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 0.0, math.nan)])
+def test_a_robot_is_not_placed_nowhere(pose):
+    with pytest.raises(WorldError, match="finite"):
+        make().place("burger", pose)
+
+
+@pytest.mark.parametrize(("v", "w"), [(math.nan, 0.0), (0.0, math.inf), (-math.inf, 0.0)])
+def test_what_is_no_velocity_is_refused(v, w):
+    engine = make()
+    with pytest.raises(RosminiError, match="finite"):
+        engine.command("burger", v, w)
+    engine.advance(1.0)
+    assert engine.robots["burger"].pose == (0.0, 0.0, 0.0)
+
+
+def test_robots_are_known_by_name():
+    engine = make()
+    with pytest.raises(RosminiError, match="already"):
+        engine.add("burger", BURGER, (3.0, 0.0, 0.0))
+    with pytest.raises(RobotGone, match="did you mean burger"):
+        engine.command("burgr", 0.1, 0.0)
+    engine.remove("burger")
+    with pytest.raises(RobotGone, match="robots: none"):
+        engine.command("burger", 0.1, 0.0)
+    engine.advance(10.0)
+    engine.add("burger", BURGER, (0.0, 0.0, 0.0))
+
+
+def test_without_a_pose_robots_take_the_worlds_starts_in_order():
+    engine = Engine(world("arena"), generator)
+    first, second = engine.add("one", BURGER), engine.add("two", BURGER)
+    assert (first.pose, second.pose) == engine.world.starts[:2]
+
+
+def test_a_world_without_walls_is_a_world():
+    engine = make(World("void"))
+    assert not np.isfinite(engine.scan("burger")).any()
+    engine.command("burger", 0.22, 0.0)
+    engine.advance(3600.0)
+    assert engine.robots["burger"].pose[0] == pytest.approx(0.22 * 3600, rel=1e-4)

@@ -1,0 +1,124 @@
+"""The laser against exact geometry, and its noise against its stated distribution."""
+
+from __future__ import annotations
+
+import math
+from statistics import NormalDist
+
+import numpy as np
+import pytest
+
+from rosmini.geometry.raycast import raycast
+from rosmini.sim.engine.engine import Engine
+from rosmini.sim.models import BURGER
+from rosmini.sim.sensors import lidar
+from rosmini.sim.world import Box, Cylinder, Obstacle, World
+from rosmini.sim.worlds import world
+
+LDS = BURGER.lidar
+NOTHING = np.empty((0, 3))
+
+
+def square(half: float) -> np.ndarray:
+    h = half
+    return np.array([(-h, -h, h, -h), (h, -h, h, h), (h, h, -h, h), (-h, h, -h, -h)])
+
+
+def distances_in_square(x: float, y: float, theta: float, half: float) -> np.ndarray:
+    """How far it is from a point in a square around the origin to its walls, in 360 directions from theta on."""
+    angles = theta + np.arange(360) * 2 * math.pi / 360
+    with np.errstate(divide="ignore"):
+        to_x = np.where(np.cos(angles) > 0, half - x, -half - x) / np.cos(angles)
+        to_y = np.where(np.sin(angles) > 0, half - y, -half - y) / np.sin(angles)
+    return np.minimum(np.where(to_x > 0, to_x, np.inf), np.where(to_y > 0, to_y, np.inf))
+
+
+@pytest.mark.parametrize("pose", [(0.0, 0.0, 0.0), (0.7, -0.4, 0.0), (-0.9, 0.9, 2.1), (0.3, 0.3, -11.0)])
+def test_ranges_in_a_square_are_exact(pose):
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    eye = (pose[0] - 0.032 * c, pose[1] - 0.032 * s)
+    exact = distances_in_square(*eye, pose[2], 2.0)
+    exact[exact > LDS.range_max] = np.inf
+    np.testing.assert_allclose(lidar.scan(LDS, pose, square(2.0), NOTHING), exact, atol=1e-9)
+
+
+def test_the_arena_through_the_engine():
+    engine = Engine(world("arena"), lambda name: np.random.default_rng(0), noise=0.0)
+    engine.add("burger", BURGER, (0.5, -0.25, 0.6))
+    eye = (0.5 - 0.032 * math.cos(0.6), -0.25 - 0.032 * math.sin(0.6))
+    exact = distances_in_square(*eye, 0.6, 2.0)
+    exact[exact > LDS.range_max] = np.inf
+    np.testing.assert_allclose(engine.scan("burger"), exact, atol=1e-9)
+
+
+def test_a_pillar_is_seen_where_it_is():
+    discs = np.array([[1.0, 0.0, 0.2]])
+    ranges = lidar.scan(LDS, (0.0, 0.0, 0.0), np.empty((0, 4)), discs)
+    assert ranges[0] == pytest.approx(0.832)
+    half = math.degrees(math.asin(0.2 / 1.032))
+    hit = np.isfinite(ranges)
+    assert list(np.flatnonzero(hit)) == [i for i in range(360) if min(i, 360 - i) < half]
+
+
+def test_what_cannot_be_measured_is_infinite_as_in_rep_117():
+    measured = lidar.measured(LDS, np.array([0.05, 0.12, 1.0, 3.5, 3.6, np.inf]))
+    assert measured.tolist() == [-math.inf, 0.12, 1.0, 3.5, math.inf, math.inf]
+    assert lidar.unmeasured(measured).tolist() == [0.0, 0.12, 1.0, 3.5, 0.0, 0.0]
+
+
+def test_what_is_lower_than_the_laser_is_not_seen():
+    def seen(height: float) -> float:
+        things = (
+            Obstacle("box", Box(0.2, 0.2), (1.0, 0.0, 0.0), height=height),
+            Obstacle("disc", Cylinder(0.1), (2.0, 0.0, 0.0), height=0.5),
+        )
+        engine = Engine(World("heights", things), lambda name: np.random.default_rng(0), noise=0.0)
+        engine.add("burger", BURGER, (0.0, 0.0, 0.0))
+        return float(engine.scan("burger")[0])
+
+    assert seen(0.15) == pytest.approx(1.9 + 0.032)
+    assert seen(0.25) == pytest.approx(0.9 + 0.032)
+
+
+def test_robots_see_one_another_at_the_height_of_the_laser():
+    engine = Engine(world("empty"), lambda name: np.random.default_rng(0), noise=0.0)
+    engine.add("one", BURGER, (0.0, 0.0, 0.0))
+    engine.add("two", BURGER, (1.0, 0.0, math.pi))
+    # the other's laser is a disc of 55 mm, 17 mm behind its axle; from the own laser to its middle it is 1.049 m
+    assert engine.scan("one")[0] == pytest.approx(1.049 - 0.055)
+    assert engine.scan("two")[0] == pytest.approx(1.049 - 0.055)
+    engine.remove("two")
+    assert not np.isfinite(engine.scan("one")).any()
+
+
+def test_noise_over_fifty_seeds_has_the_stated_distribution():
+    exact = distances_in_square(-0.032, 0.0, 0.0, 2.0)
+    residuals = []
+    for seed in range(50):
+        noise = np.random.default_rng(seed).standard_normal(360) * LDS.noise
+        residuals.append(lidar.scan(LDS, (0.0, 0.0, 0.0), square(2.0), NOTHING, noise) - exact)
+    found = np.sort(np.concatenate(residuals))
+    n = len(found)
+    assert n == 18_000
+    assert abs(found.mean()) < 4 * LDS.noise / math.sqrt(n)
+    assert found.std() == pytest.approx(LDS.noise, rel=0.03)
+    # Kolmogorov and Smirnov: the largest distance of the two distribution functions, 1.95 / sqrt(n) at the level 0.001
+    expected = np.array([NormalDist(0, LDS.noise).cdf(value) for value in found])
+    steps = np.arange(n + 1) / n
+    assert max((steps[1:] - expected).max(), (expected - steps[:-1]).max()) < 1.95 / math.sqrt(n)
+
+
+def test_noise_does_not_bring_back_what_is_far_away():
+    noise = np.full(360, -0.5)
+    ranges = lidar.scan(LDS, (0.0, 0.0, 0.0), square(5.0), NOTHING, noise)
+    assert not np.isfinite(ranges).any()
+
+
+def test_without_numba_the_ranges_are_the_same(monkeypatch):
+    pose = (0.2, 0.1, 0.7)
+    with_numba = lidar.scan(LDS, pose, square(2.0), np.array([[1.0, 1.0, 0.2]]))
+    monkeypatch.setenv("ROSMINI_RAYCAST", "numpy")
+    without = lidar.scan(LDS, pose, square(2.0), np.array([[1.0, 1.0, 0.2]]))
+    np.testing.assert_allclose(without, with_numba, atol=1e-9)
+    forced = raycast(square(2.0), NOTHING, 0.0, 0.0, 0.0, 0.1, 3, 3.5, backend="numpy")
+    assert forced[0] == 2.0
