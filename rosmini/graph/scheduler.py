@@ -213,8 +213,11 @@ class Scheduler(EventQueue):
     def _start_drive(self, waiter: Waiter) -> None:
         with self._owner_lock:
             if not self.is_hub_thread():
-                msg = "two threads began to drive the graph at the same moment; let one of them drive, and the others call it"
-                raise RosminiError(msg)
+                if self._root_waiter is not None or self._parked:
+                    msg = "two threads began to drive the graph at the same moment; let one of them drive, and the others call it"
+                    raise RosminiError(msg)
+                self._idle.clear()  # the other one only looked at something
+                self.thread = threading.get_ident()
             self._root_waiter = waiter
         self._interrupts.arm()
         if self._output is not None:

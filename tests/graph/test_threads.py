@@ -282,3 +282,19 @@ def test_a_thread_that_waits_for_a_driver_says_so(
         graph.run(0.1)
     thread.join()
     graph.shutdown()
+
+
+def test_a_look_from_another_thread_just_before_a_drive_does_not_stop_it(graph):
+    looks = []
+
+    def look_from_another_thread():
+        if not looks:  # asked once before the drive begins, when the hub is free to move
+            looker = threading.Thread(target=lambda: looks.append(graph.scheduler.on_hub(lambda: "seen")))
+            looker.start()
+            looker.join(10)
+            return False
+        return True
+
+    graph.node("clockwork").timer(0.01, lambda _: None)
+    assert graph.run(1.0, until=look_from_another_thread).reason == "condition"
+    assert looks == ["seen"]
