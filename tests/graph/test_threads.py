@@ -284,17 +284,17 @@ def test_a_thread_that_waits_for_a_driver_says_so(
     graph.shutdown()
 
 
-def test_a_look_from_another_thread_just_before_a_drive_does_not_stop_it(graph):
-    looks = []
+def test_a_look_from_another_thread_just_before_a_drive_does_not_stop_it(graph, monkeypatch):
+    scheduler = graph.scheduler
+    call_at, looks = scheduler.call_at, []
 
-    def look_from_another_thread():
-        if not looks:  # asked once before the drive begins, when the hub is free to move
-            looker = threading.Thread(target=lambda: looks.append(graph.scheduler.on_hub(lambda: "seen")))
-            looker.start()
-            looker.join(10)
-            return False
-        return True
+    def look_first(when_ns, callback):  # the last moment at which the hub is free to move to another thread
+        monkeypatch.undo()
+        looker = threading.Thread(target=lambda: looks.append(scheduler.on_hub(lambda: "seen")))
+        looker.start()
+        looker.join(10)
+        return call_at(when_ns, callback)
 
-    graph.node("clockwork").timer(0.01, lambda _: None)
-    assert graph.run(1.0, until=look_from_another_thread).reason == "condition"
+    monkeypatch.setattr(scheduler, "call_at", look_first)
+    scheduler.sleep_until(scheduler.now_ns() + 10**8)
     assert looks == ["seen"]
