@@ -114,3 +114,10 @@ def test_it_can_be_written_for_gazebo():
 def test_what_makes_no_sense_is_refused(arguments, part):
     with pytest.raises(WorldError, match=part):
         random_world(**{"seed": 1, **arguments})
+
+
+def test_a_seed_may_come_from_numpy():
+    assert random_world(np.int64(4)).walls.tolist() == random_world(4).walls.tolist()
+    assert [o.pose for o in random_world(np.int64(4)).obstacles] == [
+        o.pose for o in random_world(4).obstacles
+    ]

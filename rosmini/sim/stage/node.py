@@ -52,7 +52,7 @@ class StageParameters(Parameters):
     """The private parameters of `stage_ros/stageros`."""
 
     base_watchdog_timeout: float = parameter(
-        WATCHDOG, "without a command for so long all robots stop; 0: never", unit="s"
+        WATCHDOG, "without a command for so long all robots stop; 0: never", unit="s", minimum=0.0
     )
     is_depth_canonical: bool = parameter(
         True, "publish depth as 32FC1 in metres (REP 118); else as 16UC1 in millimetres"

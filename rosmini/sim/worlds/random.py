@@ -73,7 +73,7 @@ def _check(size: tuple[float, float], **counts: int) -> None:
         raise WorldError(f"size is {size!r}; it has to be a length and a width of {NARROWEST:g} m or more")
     for name, value in counts.items():
         least = 1 if name in ("rooms", "starts") else 0
-        if not isinstance(value, int) or isinstance(value, bool) or value < least:
+        if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
             raise WorldError(f"{name} is {value!r}; it has to be a whole number, {least} or more")
 
 
