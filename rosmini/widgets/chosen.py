@@ -8,7 +8,7 @@ from typing import Any
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose
 from rosmini.sim.devices import DifferentialDrive
-from rosmini.sim.engine.engine import Engine, RobotGone
+from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.engine.robot import Robot
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import World

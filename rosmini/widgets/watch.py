@@ -16,7 +16,7 @@ from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose, compose, inverse
 from rosmini.graph import Node
 from rosmini.sim.devices import Laser
-from rosmini.sim.engine.engine import Engine
+from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.world import Obstacle, World

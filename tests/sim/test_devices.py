@@ -27,7 +27,7 @@ from rosmini.sim.devices import (
     prefixed,
     within,
 )
-from rosmini.sim.engine.engine import Engine
+from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host
 from rosmini.sim.models import BURGER, WAFFLE_PI, CameraModel, LidarModel
 from rosmini.sim.world import Box, Obstacle, World

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.sim.dragging import drag
-from rosmini.sim.engine.engine import Engine, RobotGone
+from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.models import BURGER
 from rosmini.sim.motion import Walk
 from rosmini.sim.shapes import Compound

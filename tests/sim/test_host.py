@@ -9,7 +9,7 @@ import pytest
 
 from rosmini.errors import CallbackError, RosminiError
 from rosmini.graph import Graph
-from rosmini.sim.engine.engine import Engine
+from rosmini.sim.engine import Engine
 from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import World

@@ -9,7 +9,7 @@ import pytest
 
 from rosmini.graph import Graph
 from rosmini.msgs import message_class
-from rosmini.sim.engine.engine import Engine
+from rosmini.sim.engine import Engine
 from rosmini.sim.markers import ADD, DELETE, Markers, MarkersError, first_poses, obstacles_of
 from rosmini.sim.models import BURGER, model
 from rosmini.sim.recorder import Recorder

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.sim.engine.engine import Engine
+from rosmini.sim.engine import Engine
 from rosmini.sim.models import BURGER
 from rosmini.sim.motion import Door, Walk
 from rosmini.sim.world import Box, Cylinder, Obstacle, World, WorldError

@@ -16,7 +16,7 @@ from rosmini.errors import IllegalName, ParameterError, RosminiError
 from rosmini.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.packages import assets_dir
-from rosmini.sim.engine.engine import RobotGone
+from rosmini.sim.engine import RobotGone
 from rosmini.sim.models import BURGER, WAFFLE, UnknownModel
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Obstacle, World, WorldError

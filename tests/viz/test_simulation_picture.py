@@ -10,7 +10,7 @@ import pytest
 
 from rosmini.graph import Graph
 from rosmini.msgs import message_class
-from rosmini.sim.engine.engine import RobotGone
+from rosmini.sim.engine import RobotGone
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Cylinder, Obstacle, Walk, World

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rosmini import rosrun
-from rosmini.sim.engine.engine import RobotGone
+from rosmini.sim.engine import RobotGone
 from rosmini.widgets import Limits, TeleopError
 from rosmini.widgets.live import Link
 from rosmini.widgets.page import pad_data

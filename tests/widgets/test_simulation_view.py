@@ -12,7 +12,7 @@ import pytest
 from rosmini import Graph, rosrun
 from rosmini.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
-from rosmini.sim.engine.engine import RobotGone
+from rosmini.sim.engine import RobotGone
 from rosmini.sim.gazebo.errors import UnknownEntity
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import WorldError

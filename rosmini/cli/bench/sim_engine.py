@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from rosmini.geometry.poses import Pose
-from rosmini.sim.engine.engine import Engine
+from rosmini.sim.engine import Engine
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import World
 

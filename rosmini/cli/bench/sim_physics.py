@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rosmini.errors import RosminiError
 from rosmini.geometry.poses import arc
-from rosmini.sim.engine.engine import Engine
+from rosmini.sim.engine import Engine
 from rosmini.sim.models import BURGER
 from rosmini.sim.sensors.imu import GRAVITY, Imu
 from rosmini.sim.world import Cylinder, Obstacle, World

@@ -1,1 +1,5 @@
-"""The engine: what moves, touches and pushes, with no node in it. `engine.py` is its front; the rest is behind that."""
+"""The engine: what moves, touches and pushes, with no node in it."""
+
+from .engine import Engine, RobotGone
+
+__all__ = ["Engine", "RobotGone"]

@@ -27,7 +27,7 @@ class RobotState:
 
 @dataclass(frozen=True)
 class EngineState:
-    """An engine: see `rosmini.sim.engine.engine.Engine.state`."""
+    """An engine: see `rosmini.sim.engine.Engine.state`."""
 
     now: float
     world: World
@@ -48,7 +48,7 @@ class EngineState:
 
 
 def taken(engine: Engine) -> EngineState:
-    """The state of an engine; see `rosmini.sim.engine.engine.Engine.state`."""
+    """The state of an engine; see `rosmini.sim.engine.Engine.state`."""
     if engine.contacts.pruned:
         _rebuild(engine)
     things, bodies = engine.contacts.things(), engine.contacts.memory()
@@ -69,7 +69,7 @@ def taken(engine: Engine) -> EngineState:
 
 
 def bring_back(engine: Engine, state: EngineState) -> None:
-    """Let an engine be as it was; see `rosmini.sim.engine.engine.Engine.restore`."""
+    """Let an engine be as it was; see `rosmini.sim.engine.Engine.restore`."""
     there = {(each.name, each.model) for each in engine.robots.values()}
     same = there == {(each.name, each.model) for each in state.robots} and state.world is engine.world
     engine.now, engine.world, engine.noise, engine.step = state.now, state.world, state.noise, state.step

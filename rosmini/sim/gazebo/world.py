@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from rosmini.errors import RosminiError, nearest
 from rosmini.geometry.poses import Pose, compose
 from rosmini.markup import Element
-from rosmini.sim.engine.engine import Engine
+from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host, HostState
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfLink, SdfModel, SdfPlugin, SdfWorld, converted, to_obstacles
 from rosmini.sim.sdf.poses import compose as compose6

@@ -29,7 +29,7 @@ from rosmini.graph.show import show
 from rosmini.msgs import service_class
 from rosmini.sim.devices.clock import ClockDevice
 from rosmini.sim.dragging import drag
-from rosmini.sim.engine.engine import Engine, RobotGone
+from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.host import Host, HostState
 from rosmini.sim.models import RobotModel
 from rosmini.sim.parameters import Parameters, parameter

@@ -10,9 +10,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from rosmini.sim.engine import crowd, crowd_numba, physics, pushing
+from rosmini.sim.engine import Engine, crowd, crowd_numba, physics, pushing
 from rosmini.sim.engine.bodies import VIEW, depths_of, put
-from rosmini.sim.engine.engine import Engine
 from rosmini.sim.engine.physics import Contacts
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, WorldError

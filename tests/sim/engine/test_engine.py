@@ -9,7 +9,7 @@ import pytest
 
 from rosmini.errors import RosminiError
 from rosmini.geometry.poses import arc
-from rosmini.sim.engine.engine import Engine, RobotGone
+from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, WorldError
 from rosmini.sim.worlds import world

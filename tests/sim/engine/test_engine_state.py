@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rosmini.sim.engine.engine import Engine
+from rosmini.sim.engine import Engine
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.motion import Walk
 from rosmini.sim.world import Box, Cylinder, Obstacle, World

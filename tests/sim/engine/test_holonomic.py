@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.errors import RosminiError
+from rosmini.sim.engine import Engine
 from rosmini.sim.engine.drive import glide, limited_phases, ramps
-from rosmini.sim.engine.engine import Engine
 from rosmini.sim.models import BURGER, WAFFLE, ModelError, RobotModel
 from rosmini.sim.world import Box, Obstacle, World
 

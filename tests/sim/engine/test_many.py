@@ -10,9 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rosmini.geometry import polygons
+from rosmini.sim.engine import Engine, RobotGone, physics
 from rosmini.sim.engine import crowd as crowd_of_robots
-from rosmini.sim.engine import physics
-from rosmini.sim.engine.engine import Engine, RobotGone
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.world import Box, Cylinder, Obstacle, World, WorldError
 

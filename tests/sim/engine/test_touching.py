@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.sim.engine.engine import Engine, RobotGone
+from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.models import BURGER, WAFFLE, RobotModel
 from rosmini.sim.shapes import Part
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World, WorldError

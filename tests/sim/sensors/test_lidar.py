@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rosmini.geometry.raycast import raycast
-from rosmini.sim.engine.engine import Engine
+from rosmini.sim.engine import Engine
 from rosmini.sim.models import BURGER
 from rosmini.sim.sensors import lidar
 from rosmini.sim.world import Box, Cylinder, Obstacle, World

@@ -21,7 +21,7 @@ from rosmini.geometry.angles import yaw_from_quaternion
 from rosmini.graph import Graph
 from rosmini.msgs import message_class, service_class
 from rosmini.scripts import run_source
-from rosmini.sim.engine.engine import RobotGone
+from rosmini.sim.engine import RobotGone
 from rosmini.sim.stage import StageError
 from rosmini.sim.stage.node import Stageros
 from rosmini.sim.world import WorldError
@@ -621,7 +621,7 @@ def test_an_error_of_a_file_is_one_of_rosminis():
 
 
 def test_time_begins_when_all_is_there(tmp_path, monkeypatch):
-    from rosmini.sim.engine.engine import Engine
+    from rosmini.sim.engine import Engine
 
     taken = Engine.scan
 
