@@ -12,6 +12,9 @@ from .errors import GazeboError
 
 Vector = tuple[float, float, float]
 
+TIME_STEPS = (1e-6, 1.0)
+"""The shortest and the longest step of the physics that makes sense [s]."""
+
 
 @dataclass(frozen=True)
 class Ode:
@@ -34,7 +37,8 @@ class PhysicsProperties:
     """How a world is stepped.
 
     `time_step` [s] is what one step of `gz world -s` takes and `max_update_rate` [Hz] how many of them are made in a second of the wall's time, so their
-    product is the speed of the world; a rate of 0 means as fast as it can, which a graph in simulated time does anyhow. Raises `GazeboError`.
+    product is the speed of the world; a rate of 0 means as fast as it can, which a graph in simulated time does anyhow. `gravity` [m/s2] points down, or
+    is zero. Raises `GazeboError` for numbers that make no sense.
     """
 
     time_step: float = 0.001
@@ -49,11 +53,16 @@ class PhysicsProperties:
             if not math.isfinite(value):
                 msg = f"{name} is {value}; it has to be a finite number"
                 raise GazeboError(msg)
-        if not self.time_step > 0:
-            msg = f"time_step is {self.time_step} s; it has to be more than 0"
+        shortest, longest = TIME_STEPS
+        if not shortest <= self.time_step <= longest:
+            msg = f"time_step is {self.time_step} s; it has to be from {shortest:g} to {longest:g} s"
             raise GazeboError(msg)
         if self.max_update_rate < 0:
             msg = f"max_update_rate is {self.max_update_rate} Hz; it has to be 0 (as fast as it can) or more"
+            raise GazeboError(msg)
+        x, y, z = self.gravity
+        if x or y or z > 0:
+            msg = f"gravity is ({x}, {y}, {z}) m/s2; the ground is level here, so it has to point down (0, 0, -9.8), or be zero"
             raise GazeboError(msg)
 
     @property
@@ -79,7 +88,7 @@ class PhysicsProperties:
 class PhysicsConfig(Parameters):
     """The same as parameters that are changed while the server runs, by the names of gazebo_ros/Physics."""
 
-    time_step: float = parameter(0.001, "time step of the physics", unit="s", minimum=1e-6, maximum=10.0)
+    time_step: float = parameter(0.001, "time step of the physics", unit="s", minimum=1e-6, maximum=1.0)
     max_update_rate: float = parameter(
         1000.0, "steps a second; 0: as fast as it can", unit="Hz", minimum=0.0, maximum=1e6
     )

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
+from rosmini.dynamic_reconfigure import Client
+from rosmini.errors import RosminiError
 from rosmini.msgs import message_class
 from rosmini.time import Duration, Time
 
@@ -299,9 +302,71 @@ def test_physics_can_be_changed(bench: Start) -> None:
     assert "time_step is 0.0 s" in answer.status_message
 
 
-def test_physics_can_be_turned_while_it_runs(bench: Start) -> None:
-    from rosmini.dynamic_reconfigure import Client
+@pytest.mark.parametrize(
+    ("field", "value", "why"),
+    [
+        ("time_step", math.nan, "time_step is nan"),
+        ("time_step", math.inf, "time_step is inf"),
+        ("time_step", -0.001, r"time_step is -0\.001 s; it has to be from 1e-06 to 1 s"),
+        ("time_step", 1e-7, "from 1e-06 to 1 s"),
+        ("time_step", 2.0, "from 1e-06 to 1 s"),
+        ("max_update_rate", -1.0, "max_update_rate is -1.0 Hz"),
+        ("max_update_rate", math.nan, "max_update_rate is nan"),
+        ("gravity.z", 9.8, r"gravity is \(0\.0, 0\.0, 9\.8\) m/s2"),
+        ("gravity.x", 1.0, "point down"),
+        ("gravity.y", -1.0, "point down"),
+        ("gravity.z", -math.inf, "gravity.z is -inf"),
+        ("gravity.x", math.nan, "gravity.x is nan"),
+    ],
+)
+def test_physics_that_make_no_sense_are_refused(bench: Start, field: str, value: float, why: str) -> None:
+    there = bench()
+    before = there.server.world.physics
+    now = there.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties")
+    request = {name: getattr(now, name) for name in ("time_step", "max_update_rate", "gravity", "ode_config")}
+    if field.startswith("gravity"):
+        setattr(request["gravity"], field[-1], value)
+    else:
+        request[field] = value
+    answer = there.call("set_physics_properties", "gazebo_msgs/SetPhysicsProperties", **request)
+    assert not answer.success
+    assert answer.status_message.startswith("physics engine not updated: ")
+    assert re.search(why, answer.status_message)
+    assert there.server.world.physics == before
 
+
+@pytest.mark.parametrize(
+    ("name", "value", "why"),
+    [
+        ("time_step", math.nan, "time_step is nan"),
+        ("max_update_rate", math.nan, "max_update_rate is nan"),
+        ("gravity_z", 9.8, "point down"),
+        ("gravity_x", 1.0, "point down"),
+        ("gravity_y", math.nan, "gravity.y is nan"),
+    ],
+)
+def test_parameters_of_the_physics_that_make_no_sense_are_refused(
+    bench: Start, name: str, value: float, why: str
+) -> None:
+    there = bench()
+    before, told = there.server.world.physics, there.node.get_param(f"/gazebo/{name}")
+    with pytest.raises(RosminiError, match=why):
+        Client(there.node, "gazebo", timeout=1.0).update_configuration({name: value})
+    assert there.server.world.physics == before
+    assert there.node.get_param(f"/gazebo/{name}") == told
+
+
+def test_parameters_of_the_physics_are_limited(bench: Start) -> None:
+    there = bench()
+    client = Client(there.node, "gazebo", timeout=1.0)
+    for value, limited in ((100.0, 1.0), (-1.0, 1e-6), (0.0, 1e-6)):
+        client.update_configuration({"time_step": value})
+        assert there.server.world.physics.time_step == there.node.get_param("/gazebo/time_step") == limited
+    client.update_configuration({"time_step": 0.001, "max_update_rate": -5.0})
+    assert there.server.world.physics.max_update_rate == 0.0
+
+
+def test_physics_can_be_turned_while_it_runs(bench: Start) -> None:
     there = bench()
     client = Client(there.node, "gazebo", timeout=1.0)
     client.update_configuration({"gravity_z": -1.6})
