@@ -441,7 +441,10 @@ class Host:
         )
 
     def restore(self, state: HostState) -> None:
-        """Go on from there as it went on then. Raises `RosminiError` if there are other devices now than there were."""
+        """Go on from there as it went on then. Raises `RosminiError` for no state, and if there are other devices now than there were."""
+        if not isinstance(state, HostState):
+            msg = f"the host {self.node.name} can only be restored from what its save() returned, not from a {type(state).__name__}"
+            raise RosminiError(msg)
         if set(state.devices) != set(self._devices):
             gone = sorted(set(state.devices) - set(self._devices))
             new = sorted(set(self._devices) - set(state.devices))
@@ -450,6 +453,12 @@ class Host:
                 f"(missing: {', '.join(gone) or 'none'}; additional: {', '.join(new) or 'none'})"
             )
             raise RosminiError(msg)
+        if set(state.beats) != set(self._groups):
+            then, now = (
+                ", ".join(f"{rate:g}" for rate in sorted(each)) for each in (state.beats, self._groups)
+            )
+            msg = f"the devices of the host {self.node.name} have other rates ({now} Hz) than in the state that is to be restored ({then} Hz)"
+            raise RosminiError(msg)
         self.engine.restore(state.engine)
         self._time_ns, self._zero_ns = state.time_ns, state.zero_ns
         self._clock_ns = self.clock.now_ns()
@@ -457,10 +466,14 @@ class Host:
             device = self._devices[name]
             self._groups[device.rate].before[name] = before
             device.restore(own)
+        self._devices = {name: self._devices[name] for name in state.devices}  # in the sequence of then
+        self._groups = {rate: self._groups[rate] for rate in state.beats}
         for rate, group in self._groups.items():
             group.start_ns, number = state.beats[rate]
             group.to(number)
+            group.devices = [each for each in self._devices.values() if each.rate == rate]
             group.sort()
+        self._order = tuple(sorted(self._groups.values(), key=lambda group: group.devices[0].order))
         if state.next_ns is None or self._paused or self._ended:
             self._plan()
         else:

@@ -279,7 +279,10 @@ class Simulator:
         return self.node.scheduler.on_hub(copy)
 
     def save(self) -> SimulatorState:
-        """Everything that it will go on from: robots, odometry, batteries, movable obstacles, time, random generators. It can be pickled."""
+        """Everything that it will go on from: robots, odometry, batteries, movable obstacles, time, random generators. It can be pickled.
+
+        Messages that are on their way are no part of it: who saves at the very moment of a scan hears that one after restoring too.
+        """
 
         def take() -> SimulatorState:
             self._open()
@@ -294,11 +297,14 @@ class Simulator:
     def restore(self, state: SimulatorState) -> None:
         """Go on from there, to the last bit as it went on then: robots that have come since go, those that have gone come back.
 
-        Stamps follow the node's clock, which does not go back. Raises `RosminiError` for the state of another world.
+        Stamps follow the node's clock, which does not go back. Raises `RosminiError` for what is no state of a simulator, or that of another world.
         """
 
         def become() -> None:
             self._open()
+            if not isinstance(state, SimulatorState):
+                msg = f"the simulator {self.node.name} can only be restored from what its save() returned, not from a {type(state).__name__}"
+                raise RosminiError(msg)
             if state.world != self.world.name:
                 msg = f"a state of the world {state.world!r} cannot be restored in the world {self.world.name!r}"
                 raise RosminiError(msg)

@@ -291,6 +291,16 @@ class OdometryTransforms(Device):
                 message.fill(drive.reckoned.pose)
             self._publisher.publish(self._list)
 
+    def state(self) -> Any:
+        """In which sequence it tells of them."""
+        return tuple(drive.name for drive in self._drives)
+
+    def restore(self, state: Any) -> None:
+        """Tell of them in that sequence."""
+        place = {name: i for i, name in enumerate(state)}
+        self._drives = dict(sorted(self._drives.items(), key=lambda item: place[item[0].name]))
+        self._gather()
+
     def close(self) -> None:
         """End the topic."""
         self._publisher.unregister()

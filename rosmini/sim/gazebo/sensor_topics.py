@@ -5,7 +5,8 @@ It is measured only while somebody hears it, and has noise of its own: what ROS 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import copy
+from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
 from rosmini.sim.host import Device, Stamp
@@ -83,6 +84,12 @@ class _Scan(Device):
             ranges=tuple(ranges.tolist()),
         )
         self._publication.publish(LaserScanStamped(Time.of(model.world.now), scan))
+
+    def state(self) -> Any:
+        return copy.deepcopy(self._rng)
+
+    def restore(self, state: Any) -> None:
+        self._rng = copy.deepcopy(state)
 
     def close(self) -> None:
         self._publication.close()

@@ -36,6 +36,7 @@ from .spawning import spawn_text
 from .states import StateTopics
 from .topics import ServerTopics
 from .world import GazeboWorld
+from .world_state import WorldState
 
 CLOCK_RATE = 100.0
 """How often /clock ticks if the parameter ~pub_clock_frequency does not say [Hz]."""
@@ -201,6 +202,25 @@ class GazeboServer:
     def reset(self) -> None:
         """Put every model back to where it came into the world; time goes on."""
         self.node.scheduler.on_hub(self.world.reset_models)
+
+    def save(self) -> WorldState:
+        """Everything that the world will go on from: models, odometry, noise, forces, physics, time. It can be pickled.
+
+        Messages that are on their way are no part of it, nor is what a plugin remembers elsewhere than in a device.
+        """
+        return self.node.scheduler.on_hub(self.world.save)
+
+    def restore(self, state: WorldState) -> None:
+        """Go on from there, to the last bit as it went on then: models that have come since go, those that have gone come back.
+
+        Time goes back too, and with it /clock. Raises `GazeboError` for what is no state of this world.
+        """
+
+        def become() -> None:
+            self.world.restore(state)
+            self.reconfigure.update_configuration(PhysicsConfig.values(self.world.physics))
+
+        self.node.scheduler.on_hub(become)
 
     @property
     def gz(self) -> Gz:

@@ -23,7 +23,6 @@ from .msgs import quaternion
 from .physics import PhysicsProperties
 from .spawning import spawn_text
 from .world import GazeboWorld
-from .wrenches import Wrenches
 
 Reply = dict[str, Any]
 
@@ -46,7 +45,6 @@ class Services:
     def __init__(self, world: GazeboWorld, set_physics: Callable[[PhysicsProperties], object]) -> None:
         self.world = world
         self._set_physics = set_physics
-        self.wrenches = Wrenches(world)
         self._counts: dict[str, int] = {}
         for name, kind, handler in (
             ("spawn_urdf_model", "gazebo_msgs/SpawnModel", self.spawn_urdf),
@@ -343,14 +341,14 @@ class Services:
         except UnknownEntity as error:
             return refused(f"ApplyBodyWrench: reference_frame not found: {error}")
         try:
-            self.wrenches.apply(model, link, frame, request)
+            self.world.wrenches.apply(model, link, frame, request)
         except RosminiError as error:
             return refused(f"ApplyBodyWrench: {error}")
         return done("")
 
     def clear_body_wrenches(self, request: Any) -> Reply:
         """Stop pushing a thing."""
-        self.wrenches.clear(request.body_name)
+        self.world.wrenches.clear(request.body_name)
         return {}
 
 

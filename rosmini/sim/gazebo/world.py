@@ -8,14 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError, nearest
 from rosmini.geometry.poses import Pose, compose
 from rosmini.markup import Element
 from rosmini.sim.engine import Engine
-from rosmini.sim.host import Host, HostState
+from rosmini.sim.host import Host
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfLink, SdfModel, SdfPlugin, SdfWorld, converted, to_obstacles
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.world import Obstacle, World, WorldError
@@ -25,6 +25,8 @@ from .errors import GazeboError, SpawnError, UnknownEntity, UnknownPlugin
 from .model import STILL, Model, Sensor, Velocity
 from .physics import PhysicsProperties
 from .plugins import ModelPlugin, Plugin, SensorPlugin, WorldPlugin, plugin_class
+from .world_state import ModelState, WorldState, bring_back
+from .wrenches import Wrenches
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -33,16 +35,6 @@ if TYPE_CHECKING:
 
 WORLD_FRAMES = ("", "world", "map", "/map")
 """What stands for the world where the name of a model or a link is asked for."""
-
-
-@dataclass(frozen=True)
-class WorldState:
-    """All that a world will go on from."""
-
-    host: HostState
-    fixed: dict[str, Pose6 | None]
-    """Where the models are that stand fast."""
-    physics: PhysicsProperties
 
 
 class GazeboWorld:
@@ -66,6 +58,8 @@ class GazeboWorld:
         self.plugins: list[Plugin] = []
         self.on_change: list[Callable[[str, Model], object]] = []
         """Called with "insert", "delete" or "move", and the model."""
+        self.wrenches = Wrenches(self)
+        """The forces that act on things."""
         self.on_time: list[Callable[[], object]] = []
         """Called when time was stopped, let go on, stepped, or set back with or without the models."""
         if isinstance(source, SdfWorld):
@@ -191,24 +185,19 @@ class GazeboWorld:
         self.engine.gravity = max(0.0, -physics.gravity[2])
 
     def save(self) -> WorldState:
-        """Everything of now: where all is, how fast it goes, what the noise will be. Nothing changes by it; it can be pickled."""
-        return WorldState(
-            self.host.save(), {name: model.fixed for name, model in self.models.items()}, self.physics
-        )
+        """Everything of now: where all is, how fast it goes, what the noise will be. Nothing changes by it; it can be pickled.
+
+        Messages that are on their way are no part of it, nor is what a plugin remembers elsewhere than in a device.
+        """
+        return WorldState.of(self)
 
     def restore(self, state: WorldState) -> None:
-        """Go on from there as it went on then. Raises `RosminiError` if there are other models now than there were."""
-        if set(state.fixed) != set(self.models):
-            gone, new = set(state.fixed) - set(self.models), set(self.models) - set(state.fixed)
-            msg = (
-                f"the world {self.name!r} has other models than the state that is to be restored (missing: {', '.join(sorted(gone)) or 'none'}; "
-                f"additional: {', '.join(sorted(new)) or 'none'})"
-            )
-            raise GazeboError(msg)
-        self.set_physics(state.physics)
-        self.host.restore(state.host)
-        for name, pose in state.fixed.items():
-            self.models[name].fixed = pose
+        """Go on from there, to the last bit as it went on then: models that have come since go, those that have gone come back.
+
+        Raises `GazeboError` for what is no state of this world, and `RosminiError` if there are other devices now than there were.
+        """
+        bring_back(self, state)
+        self._tell_time()
 
     # -- models --------------------------------------------------------------------------------------------------
 
@@ -267,6 +256,13 @@ class GazeboWorld:
         self._tell("insert", model)
         return model
 
+    def bring_back(self, name: str, state: ModelState) -> None:
+        """Take in again, with its topics, a model that was deleted, and that a restored engine has already. For `restore`."""
+        self._bring(
+            state.sdf, name, state.start, state.namespace, state.frames, check=False, there=state.obstacles
+        )
+        self._tell("insert", self.models[name])
+
     def _bring(
         self,
         sdf: SdfModel,
@@ -276,7 +272,9 @@ class GazeboWorld:
         frames: Mapping[str, tuple[str, Pose6]] | None = None,
         *,
         check: bool,
+        there: tuple[str, ...] | None = None,
     ) -> Model:
+        """Let a model come, as what the engine has already if `there` names its obstacles."""
         self._check_new(name, pose)
         if check and not sdf.static:
             above = lowest(sdf, pose)
@@ -290,7 +288,10 @@ class GazeboWorld:
         sensors = [
             Sensor(model, each, link) for link, there, _ in placed_links(sdf) for each in there.sensors
         ]
-        if body.drive or sensors or any(getattr(cls, "needs_robot", False) for cls, _ in found):
+        is_robot = body.drive or sensors or any(getattr(cls, "needs_robot", False) for cls, _ in found)
+        if there is not None:
+            model.body, model.obstacles = body if is_robot else None, there
+        elif is_robot:
             self._add_robot(model, body)
         else:
             self._add_things(model)

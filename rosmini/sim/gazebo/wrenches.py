@@ -37,6 +37,18 @@ class Wrench:
     inertia: float
 
 
+@dataclass(frozen=True)
+class WrenchState:
+    """The same of a moment, with the name of its model."""
+
+    model: str
+    body: str
+    force: tuple[float, float]
+    torque: float
+    start: float
+    end: float
+
+
 class Wrenches:
     """All that act in a world."""
 
@@ -66,9 +78,16 @@ class Wrenches:
         mass, inertia = model.weight
         end = math.inf if lasting < 0 else start + lasting
         self._acting.append(Wrench(model, f"{model.name}::{link}", (fx, fy), turn, start, end, mass, inertia))
-        if self._update is None:
-            host = self._world.host
+        self._look()
+
+    def _look(self) -> None:
+        """Be called while something acts."""
+        host = self._world.host
+        if self._acting and self._update is None:
             self._update = host.add(Update(host, "forces on bodies", RATE, self._push))
+        elif not self._acting and self._update is not None:
+            host.remove(self._update)
+            self._update = None
 
     def clear(self, body: str) -> None:
         """Let nothing act on a body any more."""
@@ -92,6 +111,22 @@ class Wrenches:
                         w + each.torque * span / each.inertia,
                     )
                 )
-        if not self._acting and self._update is not None:
-            self._world.host.remove(self._update)
-            self._update = None
+        self._look()
+
+    def state(self) -> tuple[WrenchState, ...]:
+        """All that act, as plain data."""
+        there = self._world.models
+        return tuple(
+            WrenchState(each.model.name, each.body, each.force, each.torque, each.start, each.end)
+            for each in self._acting
+            if there.get(each.model.name) is each.model
+        )
+
+    def restore(self, state: tuple[WrenchState, ...]) -> None:
+        """Let those act that acted then."""
+        models = [self._world.model(each.model) for each in state]
+        self._acting = [
+            Wrench(model, each.body, each.force, each.torque, each.start, each.end, *model.weight)
+            for model, each in zip(models, state, strict=True)
+        ]
+        self._look()

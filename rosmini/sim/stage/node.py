@@ -272,12 +272,27 @@ class Stageros:
         self.node.scheduler.on_hub(self.host.unpause)
 
     def save(self) -> HostState:
-        """All that goes on from here: poses, velocities, odometry, noise that is to come, and the time. It can be pickled."""
+        """All that goes on from here: poses, velocities, odometry, noise that is to come, and the time. It can be pickled.
+
+        Messages that are on their way are no part of it. What was published in a step is heard right after that step: whoever saves between the two
+        hears it before what follows, and whoever restores then hears first what was published last before, with its later stamp.
+        """
         return self.node.scheduler.on_hub(self.host.save)
 
     def restore(self, state: HostState) -> None:
-        """Go on as it went on after `save`."""
-        self.node.scheduler.on_hub(lambda: self.host.restore(state))
+        """Go on, to the last bit, as it went on after `save`; time goes back too, and with it /clock.
+
+        Raises `RosminiError` for what is no state of a stageros, or that of another world.
+        """
+
+        def become() -> None:
+            if isinstance(state, HostState) and state.engine.world.name != self.world.name:
+                there = state.engine.world.name
+                msg = f"a state of the world {there!r} cannot be restored in the world {self.world.name!r}"
+                raise RosminiError(msg)
+            self.host.restore(state)
+
+        self.node.scheduler.on_hub(become)
 
     @property
     def speedup(self) -> float:

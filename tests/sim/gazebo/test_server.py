@@ -164,9 +164,6 @@ def test_a_state_is_saved_and_all_goes_on_from_it_as_it_did(bench: Start) -> Non
     first = goes_on()
     world.restore(state)
     assert goes_on() == first
-    there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="crate")
-    with pytest.raises(GazeboError, match="missing: crate"):
-        world.restore(state)
 
 
 def test_from_python_without_services(bench: Start) -> None:

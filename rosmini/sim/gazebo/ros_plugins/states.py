@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -163,6 +164,12 @@ class _Truth(Device):
         way.linear.x, way.linear.y, way.linear.z = vx + error[0], vy + error[1], float(error[2])
         way.angular.x, way.angular.y, way.angular.z = float(error[3]), float(error[4]), w + error[5]
         self._publisher.publish(message)
+
+    def state(self) -> Any:
+        return copy.deepcopy(self._rng)
+
+    def restore(self, state: Any) -> None:
+        self._rng = copy.deepcopy(state)
 
     def close(self) -> None:
         self._publisher.unregister()
