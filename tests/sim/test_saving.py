@@ -235,3 +235,18 @@ def test_physics_of_gazebo_come_back_with_their_parameters(graph: Graph) -> None
     server.restore(state)
     assert (server.world.physics.time_step, server.engine.gravity) == (0.001, 9.8)
     assert server.node.get_param("~gravity_z") == -9.8
+
+
+@pytest.mark.parametrize("kind", NODES)
+def test_a_state_is_restored_in_another_graph(graph: Graph, tmp_path: Path, kind: str) -> None:
+    there = Bench(graph, kind, tmp_path)
+    there.drive(0.8)
+    graph.run(0.1421)
+    state = pickle.dumps(there.sim.save())
+    first = there.goes_on()
+    with Graph(seed=3) as other:
+        again = Bench(other, kind, tmp_path)
+        other.run(0.0021)
+        again.sim.restore(pickle.loads(state))
+        again.heard = []
+        assert again.goes_on() == first
