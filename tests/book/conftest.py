@@ -27,6 +27,15 @@ def figure_numbers(chapter: str) -> list[int]:
     return [int(number) for source in code for number in title.findall(source)]
 
 
+def assert_figures_are_numbered(chapter: str, makers: tuple[str, ...]) -> None:
+    """The figures of a chapter have the numbers 1, 2, 3...; so many of them as there are calls of their `makers` in its cells."""
+    cells = notebooks.read(NOTEBOOKS / f"{chapter}.ipynb").cells
+    calls = sum(cell.source.count(word) for cell in cells if cell.cell_type == "code" for word in makers)
+    numbers = figure_numbers(chapter)
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert calls == len(numbers) > 0
+
+
 def write_scripts(prose: str, folder: Path) -> set[str]:
     """Write the scripts that a page lists to a folder; their names."""
     scripts = dict(re.findall(r"^`(\w+\.py)`:\n\n```python\n(.*?)^```", prose, re.DOTALL | re.MULTILINE))

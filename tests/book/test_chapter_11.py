@@ -6,9 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.book import notebooks
-
-from .conftest import assert_scripts_print_what_is_shown, figure_numbers, prose_of
+from .conftest import assert_figures_are_numbered, assert_scripts_print_what_is_shown, prose_of
 
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "11_nodes_and_master.ipynb"
 
@@ -22,8 +20,5 @@ def test_the_listed_scripts_print_what_is_shown(prose, tmp_path):
     assert_scripts_print_what_is_shown(prose, tmp_path, {"talker.py", "listener.py"})
 
 
-def test_every_figure_is_numbered_in_order(prose):
-    code = [cell.source for cell in notebooks.read(CHAPTER).cells if cell.cell_type == "code"]
-    numbers = figure_numbers(CHAPTER.stem)
-    assert numbers == list(range(1, len(numbers) + 1))
-    assert sum(source.count("rqt_graph(") for source in code) == len(numbers) > 0
+def test_every_figure_is_numbered_in_order():
+    assert_figures_are_numbered(CHAPTER.stem, ("rqt_graph(",))

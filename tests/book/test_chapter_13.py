@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.book import notebooks
 from rosmini.msgs import service_class
 
-from .conftest import assert_scripts_print_what_is_shown, figure_numbers, prose_of
+from .conftest import assert_figures_are_numbered, assert_scripts_print_what_is_shown, prose_of
 
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "13_services.ipynb"
 
@@ -25,10 +24,7 @@ def test_the_listed_scripts_print_what_is_shown(prose, tmp_path):
 
 
 def test_every_figure_is_numbered_in_order():
-    code = [cell.source for cell in notebooks.read(CHAPTER).cells if cell.cell_type == "code"]
-    numbers = figure_numbers(CHAPTER.stem)
-    assert numbers == list(range(1, len(numbers) + 1))
-    assert sum(source.count(".show(") for source in code) == len(numbers) > 0
+    assert_figures_are_numbered(CHAPTER.stem, (".show(",))
 
 
 def test_the_answers_of_rossrv_are_true(prose):

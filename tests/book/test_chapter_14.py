@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.book import notebooks
 from rosmini.rosparam import load_str
 
-from .conftest import figure_numbers, prose_of, run_rosmini
+from .conftest import assert_figures_are_numbered, prose_of, run_rosmini
 
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "14_parameter_server.ipynb"
 
@@ -41,8 +40,4 @@ def test_the_files_in_the_boxes_are_what_is_got(prose):
 
 
 def test_every_figure_is_numbered_in_order():
-    code = [cell.source for cell in notebooks.read(CHAPTER).cells if cell.cell_type == "code"]
-    numbers = figure_numbers(CHAPTER.stem)
-    assert numbers == list(range(1, len(numbers) + 1))
-    pictures = sum(source.count("parameter_tree(") + source.count("console.show(") for source in code)
-    assert pictures == len(numbers) > 0
+    assert_figures_are_numbered(CHAPTER.stem, ("parameter_tree(", "console.show("))

@@ -9,7 +9,7 @@ import pytest
 
 from rosmini.book import notebooks
 
-from .conftest import figure_numbers, run_rosmini
+from .conftest import assert_figures_are_numbered, run_rosmini
 
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "17_names.ipynb"
 
@@ -42,8 +42,5 @@ def test_the_exercise_starts_the_same_talker(talker):
         assert line in TALKER
 
 
-def test_every_figure_is_numbered_in_order(cells):
-    code = [cell.source for cell in cells if cell.cell_type == "code"]
-    numbers = figure_numbers(CHAPTER.stem)
-    assert numbers == list(range(1, len(numbers) + 1))
-    assert sum(source.count("rqt_graph(") for source in code) == len(numbers) > 0
+def test_every_figure_is_numbered_in_order():
+    assert_figures_are_numbered(CHAPTER.stem, ("rqt_graph(",))

@@ -13,7 +13,7 @@ from rosmini.book import notebooks, solutions
 from rosmini.msgs import message_class
 from rosmini.sim.stage import load
 
-from .conftest import figure_numbers
+from .conftest import assert_figures_are_numbered
 
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "20_simulation_and_stage.ipynb"
 
@@ -30,11 +30,8 @@ def prose(chapter):
     return "\n\n".join(cell.source for cell in chapter.cells if cell.cell_type == "markdown")
 
 
-def test_every_figure_is_numbered_in_order(chapter):
-    code = [cell.source for cell in chapter.cells if cell.cell_type == "code"]
-    numbers = figure_numbers(CHAPTER.stem)
-    assert numbers == list(range(1, len(numbers) + 1))
-    assert sum(source.count(word) for source in code for word in FIGURES) == len(numbers) > 0
+def test_every_figure_is_numbered_in_order():
+    assert_figures_are_numbered(CHAPTER.stem, FIGURES)
 
 
 def test_a_page_holds_few_moving_pictures(chapter):

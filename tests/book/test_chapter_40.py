@@ -9,7 +9,7 @@ import pytest
 
 from rosmini.book import notebooks
 
-from .conftest import assert_scripts_print_what_is_shown, figure_numbers
+from .conftest import assert_figures_are_numbered, assert_scripts_print_what_is_shown
 
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "40_turtlebot3.ipynb"
 
@@ -33,11 +33,8 @@ def test_the_listed_script_prints_what_is_shown(prose, tmp_path):
     assert_scripts_print_what_is_shown(prose, tmp_path, {"square.py"})
 
 
-def test_every_figure_is_numbered_in_order(chapter):
-    code = [cell.source for cell in chapter.cells if cell.cell_type == "code"]
-    numbers = figure_numbers(CHAPTER.stem)
-    assert numbers == list(range(1, len(numbers) + 1))
-    assert sum(source.count(word) for source in code for word in FIGURES) == len(numbers) > 0
+def test_every_figure_is_numbered_in_order():
+    assert_figures_are_numbered(CHAPTER.stem, FIGURES)
 
 
 def test_a_page_holds_few_moving_pictures(chapter):

@@ -14,7 +14,7 @@ from defusedxml import ElementTree
 from rosmini.book import notebooks
 from rosmini.packages import assets_dir
 
-from .conftest import figure_numbers
+from .conftest import assert_figures_are_numbered
 
 CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "73_many_turtlebots.ipynb"
 LAUNCH = assets_dir() / "ros" / "turtlebot3_gazebo" / "launch" / "two_turtlebot3.launch"
@@ -60,10 +60,8 @@ def printed(chapter) -> str:
     )
 
 
-def test_every_figure_is_numbered_in_order(code):
-    numbers = figure_numbers(CHAPTER.stem)
-    assert numbers == list(range(1, len(numbers) + 1))
-    assert sum(source.count(word) for source in code for word in FIGURES) == len(numbers) > 0
+def test_every_figure_is_numbered_in_order():
+    assert_figures_are_numbered(CHAPTER.stem, FIGURES)
 
 
 def test_a_page_holds_few_moving_pictures(code):
