@@ -11,7 +11,7 @@ from rosmini.book import notebooks
 
 from .conftest import assert_figures_are_numbered, run_rosmini
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "17_names.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "17_names.ipynb"
 
 
 @pytest.fixture(scope="module")

@@ -36,7 +36,7 @@ from rosmini.viz.meshcat.scene import keyframes, planar, ribbon
 from rosmini.viz.meshcat.solids import Ball, Prism, Rod, triangulate
 from rosmini.viz.meshcat.view import camera_for
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 POSE = (0.5, -0.25, math.pi / 2)
 SMALL = World(
     "small",

@@ -11,7 +11,7 @@ from rosmini.book import notebooks
 
 from .conftest import assert_figures_are_numbered, assert_scripts_print_what_is_shown
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "40_turtlebot3.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "40_turtlebot3.ipynb"
 
 FIGURES = (
     "rqt_graph(", "scan_picture(", ".show(", ".show3d(", ".plots(", ".replay(", ".replay3d(", "matplotlib_picture(",

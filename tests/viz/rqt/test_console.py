@@ -185,6 +185,6 @@ def test_a_graph_shows_its_log() -> None:
         graph.run(0.1)
         shown = console.show(title="Log")
     assert re.fullmatch(
-        r"Log: 1 message\n  1000\.100  INFO  /node  hello  test_rqt_console\.py:\d+ test_a_graph_shows_its_log",
+        r"Log: 1 message\n  1000\.100  INFO  /node  hello  test_console\.py:\d+ test_a_graph_shows_its_log",
         shown.text,
     )

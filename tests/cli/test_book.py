@@ -20,7 +20,7 @@ from rosmini.book.build import BookError, build_book, has_display
 from rosmini.book.checkout import NoCheckout, find_checkout
 from rosmini.cli import book, lab, main
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def test_the_checkout_is_found_from_below(monkeypatch):

@@ -16,7 +16,7 @@ from rosmini.packages import assets_dir
 
 from .conftest import assert_figures_are_numbered
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "73_many_turtlebots.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "73_many_turtlebots.ipynb"
 LAUNCH = assets_dir() / "ros" / "turtlebot3_gazebo" / "launch" / "two_turtlebot3.launch"
 SYSTEM_PYTHON = "/usr/bin/python3"
 

@@ -8,7 +8,7 @@ import pytest
 
 from .conftest import assert_figures_are_numbered, assert_scripts_print_what_is_shown, prose_of
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "11_nodes_and_master.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "11_nodes_and_master.ipynb"
 
 
 @pytest.fixture(scope="module")

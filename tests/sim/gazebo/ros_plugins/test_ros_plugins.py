@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from .conftest import DIFF_DRIVE, LASER, Bench, box, urdf
+from ..conftest import DIFF_DRIVE, LASER, Bench, box, urdf
 
 Start = Callable[..., Bench]
 

@@ -8,7 +8,7 @@ from rosmini.book import notebooks
 
 from .conftest import figure_numbers
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "31_frames.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "31_frames.ipynb"
 
 
 def test_every_figure_is_numbered_in_order():

@@ -257,7 +257,7 @@ def test_a_start_is_where_there_is_room(tmp_path):
 
 
 def test_a_real_map_becomes_a_world():
-    default = Path(__file__).resolve().parents[3] / "shared" / "data"
+    default = Path(__file__).resolve().parents[4] / "shared" / "data"
     path = Path(os.environ.get("ROSMINI_SHARED_DATA", default)) / "depot.yaml"
     if not path.is_file():
         pytest.skip(f"{path} is not there")

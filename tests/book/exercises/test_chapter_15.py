@@ -13,7 +13,7 @@ from rosmini.time import Time
 
 from .conftest import figure_numbers
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "15_bags.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "15_bags.ipynb"
 
 
 def test_every_figure_is_numbered_in_order():

@@ -14,7 +14,7 @@ from rosmini.book import notebooks
 
 from .conftest import assert_figures_are_numbered
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "41_teleoperation.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "41_teleoperation.ipynb"
 
 FIGURES = ("rqt_graph(", ".pad(title=", ".show(", ".plots(", ".replay(", "plot(\n")
 

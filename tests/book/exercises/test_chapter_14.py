@@ -11,7 +11,7 @@ from rosmini.rosparam import load_str
 
 from .conftest import assert_figures_are_numbered, prose_of, run_rosmini
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "14_parameter_server.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "14_parameter_server.ipynb"
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from rosmini.msgs import message_class
 
 from .conftest import figure_numbers, prose_of
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "12_topics_and_messages.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "12_topics_and_messages.ipynb"
 
 
 @pytest.fixture(scope="module")

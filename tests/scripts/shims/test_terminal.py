@@ -17,7 +17,7 @@ if sys.platform == "win32":
 
 import pty
 
-HERE = Path(__file__).parent / "rospy"
+HERE = Path(__file__).parents[1] / "rospy"
 LIMIT = 60
 
 

@@ -11,7 +11,7 @@ from rosmini.book import notebooks
 
 from .conftest import figure_numbers
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "93_publish_subscribe.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "93_publish_subscribe.ipynb"
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import pytest
 
 from .conftest import assert_scripts_print_what_is_shown, figure_numbers, prose_of
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "91_actionlib.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "91_actionlib.ipynb"
 
 
 @pytest.fixture(scope="module")

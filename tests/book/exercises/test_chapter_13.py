@@ -11,7 +11,7 @@ from rosmini.msgs import service_class
 
 from .conftest import assert_figures_are_numbered, assert_scripts_print_what_is_shown, prose_of
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "13_services.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "13_services.ipynb"
 
 
 @pytest.fixture(scope="module")

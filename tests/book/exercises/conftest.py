@@ -10,7 +10,7 @@ from pathlib import Path
 
 from rosmini.book import notebooks
 
-NOTEBOOKS = Path(__file__).resolve().parents[2] / "notebooks"
+NOTEBOOKS = Path(__file__).resolve().parents[3] / "notebooks"
 
 
 def prose_of(chapter: str) -> str:

@@ -15,7 +15,7 @@ from rosmini.sim.stage import load
 
 from .conftest import assert_figures_are_numbered
 
-CHAPTER = Path(__file__).resolve().parents[2] / "notebooks" / "20_simulation_and_stage.ipynb"
+CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "20_simulation_and_stage.ipynb"
 
 FIGURES = ("rqt_graph(", "world_picture(", ".show(", ".show3d(", ".replay(")
 
