@@ -3,7 +3,7 @@
 Catch :class:`RosminiError` to catch them all. Where ROS has a name for an error, ours has the same name and the
 same relatives (an ``except rospy.ROSInterruptException`` or an ``except KeyError`` in a script written for rospy
 works as it does there); the others are ours. A message says what happened, what was found instead, and what to do
-next: :func:`nearest` writes the "did you mean" part.
+next: :func:`nearest` writes the "did you mean" part, :func:`shown` the value that was found.
 """
 
 from __future__ import annotations
@@ -42,6 +42,7 @@ __all__ = [
     "UnknownPackage",
     "UnknownType",
     "nearest",
+    "shown",
 ]
 
 
@@ -200,6 +201,59 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
     found = [candidate for score, candidate in ranked if score <= min(-0.7, best + 0.1)][:limit]
     listed = found[0] if len(found) == 1 else f"{', '.join(found[:-1])} or {found[-1]}"
     return f"did you mean {listed}?"
+
+
+def shown(value: object, limit: int = 60) -> str:
+    """``repr(value)`` for an error message: one line of at most ``limit`` characters, and cut before it is made.
+
+    Of a text, a list or a message only as much is looked at as is shown, so a value of a gigabyte costs nothing. Large numbers and
+    arrays are described. What cannot say what it is, because its ``__repr__`` fails, is shown by its class.
+
+    >>> shown("a" * 10**6, 20)
+    "'aaaaaaaaaaaaaaaa..."
+    >>> shown({"ranges": [1.5] * 10**6}, 30)
+    "{'ranges': [1.5, 1.5, 1.5, ..."
+    """
+    text = _repr(value, limit + 1)
+    return text if len(text) <= limit else f"{text[: max(limit - 3, 0)]}..."
+
+
+def _repr(value: Any, room: int) -> str:
+    """``repr(value)``, right in its first ``room`` characters; longer than that if anything was left out."""
+    if isinstance(value, (str, bytes, bytearray)):
+        return repr(value[:room])
+    if isinstance(value, int) and value.bit_length() > 256:
+        return f"<an integer of {value.bit_length()} bits>"
+    cls = type(value)
+    parts = getattr(cls, "__match_args__", ())  # messages, data classes and named tuples name their parts
+    if parts:
+        named = ((f"{part}=", getattr(value, part, None)) for part in parts)
+        return _joined(f"{cls.__name__}(", named, ")", room)
+    if isinstance(value, dict):
+        return _joined("{", ((f"{_repr(key, room)}: ", each) for key, each in value.items()), "}", room)
+    if isinstance(value, list):
+        return _joined("[", (("", each) for each in value), "]", room)
+    if isinstance(value, tuple):
+        return _joined("(", (("", each) for each in value), ",)" if len(value) == 1 else ")", room)
+    if isinstance(value, set) and value:
+        return _joined("{", (("", each) for each in value), "}", room)
+    if hasattr(cls, "dtype") and (value.size > room or value.dtype.itemsize > room or value.dtype.hasobject):
+        return f"<an array of {value.dtype} of the shape {value.shape}>"
+    try:
+        return " ".join(repr(value).split())
+    except Exception:
+        return f"<{cls.__name__} object>"
+
+
+def _joined(start: str, entries: Iterable[tuple[str, object]], end: str, room: int) -> str:
+    text, comma = start, ""
+    for label, each in entries:
+        text += comma + label
+        if len(text) > room:
+            return text
+        text += _repr(each, room - len(text))
+        comma = ", "
+    return text + end
 
 
 def short_traceback(error: BaseException) -> list[str]:

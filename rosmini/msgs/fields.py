@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.errors import DeserializationError, SerializationError
+from rosmini.errors import DeserializationError, SerializationError, shown
 
 from .definition import BYTES, INTEGER_RANGES
 
@@ -266,8 +266,7 @@ def _shown(value: Any) -> str:
     """A value and its type, short enough for one line."""
     if value is None:
         return "None"
-    text = " ".join(repr(value).split())
-    return f"{text if len(text) <= 60 else text[:57] + '...'} ({type(value).__name__})"
+    return f"{shown(value)} ({type(value).__name__})"
 
 
 # ---- bytes from outside ----
