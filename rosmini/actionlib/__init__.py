@@ -9,11 +9,14 @@ from __future__ import annotations
 from .client import ActionClient, ClientGoalHandle
 from .client_machine import CLIENT_TRANSITIONS, ClientMachine
 from .errors import ActionException, IllegalTransition
-from .server import ActionServer, ServerGoalHandle
+from .goal_id_generator import GoalIDGenerator
+from .server import ActionServer
+from .server_goal_handle import ServerGoalHandle
 from .server_machine import SERVER_TRANSITIONS, GoalEvent, next_status
 from .simple_client import SimpleActionClient
 from .simple_server import SimpleActionServer
 from .states import CommState, SimpleGoalState, Status, TerminalState
+from .status_tracker import StatusTracker
 
 __all__ = [
     "CLIENT_TRANSITIONS",
@@ -25,12 +28,14 @@ __all__ = [
     "ClientMachine",
     "CommState",
     "GoalEvent",
+    "GoalIDGenerator",
     "IllegalTransition",
     "ServerGoalHandle",
     "SimpleActionClient",
     "SimpleActionServer",
     "SimpleGoalState",
     "Status",
+    "StatusTracker",
     "TerminalState",
     "next_status",
 ]

@@ -7,7 +7,6 @@ A client talks to its server over five topics under the action's name: it publis
 from __future__ import annotations
 
 from functools import partial
-from itertools import count
 from typing import TYPE_CHECKING, Any
 
 from rosmini.msgs import message_class
@@ -15,12 +14,13 @@ from rosmini.time import Time
 
 from .client_machine import CANCELLABLE, ClientMachine
 from .errors import ActionException, IllegalTransition
+from .goal_id_generator import numbers_of
 from .spec import ActionTypes
 from .states import CommState, Status
 from .waiting import Timeout, wait_on
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
     from rosmini.graph import Node
 
@@ -29,8 +29,7 @@ __all__ = ["ActionClient", "ClientGoalHandle"]
 
 def new_goal_id(node: Node, now: Time) -> str:
     """Return a goal id in rospy's form, ``/node-number-seconds``: the goals of a node are numbered, whichever of its clients sends them."""
-    numbers: Iterator[int] = vars(node).setdefault("_goal_numbers", count(1))
-    return f"{node.name}-{next(numbers)}-{now.to_sec():.3f}"
+    return f"{node.name}-{next(numbers_of(node, 'goal'))}-{now.to_sec():.3f}"
 
 
 def queue_size_of(node: Node, parameter: str, default: int | None) -> int | None:
@@ -175,6 +174,8 @@ class ActionClient:
     def __init__(self, node: Node, ns: str, ActionSpec: Any, *, numpy: bool = True) -> None:
         self.node = node
         self.types = ActionTypes.of(ActionSpec)
+        self.ActionSpec = ActionSpec
+        self.ActionGoal, self.ActionResult, self.ActionFeedback = self.types[:3]
         self.ns = node.resolve(ns)
         self._goals: dict[str, ClientGoalHandle] = {}
         self._server = ""

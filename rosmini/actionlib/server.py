@@ -9,18 +9,21 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rosmini.msgs import message_class
-from rosmini.time import Time
+from rosmini.time import Duration, Time
 
-from .client import new_goal_id, queue_size_of
-from .errors import IllegalTransition
-from .server_machine import GoalEvent, next_status
+from .client import queue_size_of
+from .goal_id_generator import GoalIDGenerator
+from .server_goal_handle import ServerGoalHandle
 from .spec import ActionTypes
 from .states import Status
+from .status_tracker import StatusTracker
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rosmini.graph import Node, Publisher
+
+    from .errors import ActionException
 
 __all__ = ["ActionServer", "ServerGoalHandle"]
 
@@ -32,125 +35,6 @@ STATUS_LIST_TIMEOUT = 5.0
 
 STALE = "it was sent at or before the time up to which goals were cancelled"
 """Why a goal is refused that arrives after its own cancellation."""
-
-
-class ServerGoalHandle:
-    """One goal at the server: its message, its status, and what to make of it.
-
-    A step that the machine does not have (:mod:`rosmini.actionlib.server_machine`) raises ``IllegalTransition``; at a server of rospy's
-    style it is logged as an error and nothing happens, as there.
-    """
-
-    def __init__(self, server: ActionServer, goal_id: Any, goal: Any) -> None:
-        self.server = server
-        self.status = message_class("actionlib_msgs/GoalStatus")(goal_id=goal_id)
-        self._goal = goal
-        self._holders = 0
-        self.free_since: int | None = None
-        """Since when nothing needs the status any more [ns]; None while something does."""
-
-    @property
-    def id(self) -> str:
-        """The goal's id."""
-        return str(self.status.goal_id.id)
-
-    def __repr__(self) -> str:
-        return f"<goal {self.id}: {self.state.name}>"
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, ServerGoalHandle) and self.id == other.id
-
-    def __hash__(self) -> int:
-        return hash(self.id)
-
-    @property
-    def state(self) -> Status:
-        """The status as a name."""
-        return Status(self.status.status)
-
-    def get_goal(self) -> Any:
-        """Return the goal, a message such as ``FibonacciGoal``."""
-        return self._goal
-
-    def get_goal_id(self) -> Any:
-        """Return the ``actionlib_msgs/GoalID``."""
-        return self.status.goal_id
-
-    def get_goal_status(self) -> Any:
-        """Return the ``actionlib_msgs/GoalStatus``."""
-        return self.status
-
-    def get_default_result(self) -> Any:
-        """Return an empty result."""
-        return self.server.types.result()
-
-    # -- what the server decides ---------------------------------------------------------------------------------
-
-    def set_accepted(self, text: str = "") -> None:
-        """Begin with the goal: it is ``ACTIVE``, or ``PREEMPTING`` if its client wants it back already."""
-        self._step(GoalEvent.ACCEPT, text)
-
-    def set_rejected(self, result: Any = None, text: str = "") -> None:
-        """Refuse the goal before having begun."""
-        self._step(GoalEvent.REJECT, text, result)
-
-    def set_succeeded(self, result: Any = None, text: str = "") -> None:
-        """Say that the goal is reached."""
-        self._step(GoalEvent.SUCCEED, text, result)
-
-    def set_aborted(self, result: Any = None, text: str = "") -> None:
-        """Give the goal up."""
-        self._step(GoalEvent.ABORT, text, result)
-
-    def set_canceled(self, result: Any = None, text: str = "") -> None:
-        """Stop as asked: ``RECALLED`` if it had not begun, else ``PREEMPTED``."""
-        self._step(GoalEvent.CANCEL, text, result)
-
-    def set_cancel_requested(self) -> bool:
-        """Note that a client wants the goal cancelled; False where that changes nothing. For the server."""
-        try:
-            self.status.status = next_status(self.state, GoalEvent.CANCEL_REQUEST)
-        except IllegalTransition:
-            return False
-        self.server.publish_status()
-        return True
-
-    def _step(self, event: GoalEvent, text: str, result: Any = None) -> None:
-        self.server.node.scheduler.on_hub(lambda: self._go(event, text, result))
-
-    def _go(self, event: GoalEvent, text: str, result: Any) -> None:
-        server = self.server
-        try:
-            state = next_status(self.state, event)
-        except IllegalTransition as error:
-            server.complain(IllegalTransition(f"goal {self.id} of {server.ns}: {error}"))
-            return
-        self.status.status, self.status.text = state, str(text)
-        if state.is_terminal:
-            self._note_use()
-            server.publish_result(self.status, self.get_default_result() if result is None else result)
-        else:
-            server.publish_status()
-
-    def publish_feedback(self, feedback: Any) -> None:
-        """Tell how far the goal has come: a message such as ``FibonacciFeedback``."""
-        self.server.publish_feedback(self.status, feedback)
-
-    # -- how long it is listed -----------------------------------------------------------------------------------
-
-    def hold(self) -> None:
-        """Keep the goal in the list of goals also when it is over, until :meth:`release`."""
-        self._holders += 1
-        self._note_use()
-
-    def release(self) -> None:
-        """Undo one :meth:`hold`."""
-        self._holders -= 1
-        self._note_use()
-
-    def _note_use(self) -> None:
-        free = self.state.is_terminal and not self._holders
-        self.free_since = self.server.node.clock.now_ns() if free else None
 
 
 class ActionServer:
@@ -165,12 +49,12 @@ class ActionServer:
         auto_start: start at once; else :meth:`start` does.
         numpy: how numeric arrays in goals arrive: as numpy arrays, or as rospy's tuples.
         strict: whether illegal steps raise; as the graph if not given.
+        handle_class: of which class the handles are.
 
     Parameters (http://wiki.ros.org/actionlib): ``actionlib_status_frequency``, searched upwards from the node [Hz, 5; 0 for changes only];
     ``<ns>/status_list_timeout`` [s, 5]. Raises ``ActionException`` for what is no action type.
 
-    A goal that is over leaves the list ``status_list_timeout`` after its end. In rospy this time begins when Python has collected the
-    last handle, so when exactly is chance; here it is not.
+    A goal that is over leaves the list ``status_list_timeout`` after its end.
 
     """
 
@@ -185,17 +69,24 @@ class ActionServer:
         *,
         numpy: bool = True,
         strict: bool | None = None,
+        handle_class: type[ServerGoalHandle] = ServerGoalHandle,
     ) -> None:
         self.node = node
         self.types = ActionTypes.of(ActionSpec)
+        self.ActionSpec, self.ActionResultType = ActionSpec, self.types.result
+        self.ActionGoal, self.ActionResult, self.ActionFeedback = self.types[:3]
         self.ns = node.resolve(ns)
         self.strict = node.graph.strict if strict is None else strict
         self.started = False
-        self._goal_cb = goal_cb
-        self._cancel_cb = cancel_cb
+        self.handle_class = handle_class
+        self.goal_callback = goal_cb
+        self.cancel_callback = cancel_cb
         self._numpy = numpy
-        self._goals: dict[str, ServerGoalHandle] = {}
-        self._last_cancel = Time()
+        self.status_list: list[StatusTracker] = []
+        self.status_list_timeout = Duration()
+        self.last_cancel = Time()
+        """Up to which stamp goals were cancelled: one that comes later with an older stamp is cancelled, too."""
+        self.id_generator = GoalIDGenerator(node)
         if auto_start:
             self.start()
 
@@ -204,16 +95,20 @@ class ActionServer:
 
     def register_goal_callback(self, cb: Callable[[ServerGoalHandle], object]) -> None:
         """Hand new goals to ``cb`` from now on."""
-        self._goal_cb = cb
+        self.goal_callback = cb
 
     def register_cancel_callback(self, cancel_cb: Callable[[ServerGoalHandle], object]) -> None:
         """Hand cancellations to ``cancel_cb`` from now on."""
-        self._cancel_cb = cancel_cb
+        self.cancel_callback = cancel_cb
 
     @property
     def goals(self) -> tuple[ServerGoalHandle, ...]:
         """The goals in the list, in the order of their arrival."""
-        return tuple(self._goals.values())
+        return tuple(self._handle(tracker) for tracker in self.status_list if tracker.goal is not None)
+
+    def get_default_result(self) -> Any:
+        """Return an empty result."""
+        return self.types.result()
 
     # -- beginning and end ---------------------------------------------------------------------------------------
 
@@ -228,16 +123,18 @@ class ActionServer:
         out = queue_size_of(node, "actionlib_server_pub_queue_size", 50)
         into = queue_size_of(node, "actionlib_server_sub_queue_size", None)
         statuses = message_class("actionlib_msgs/GoalStatusArray")
-        self._status = node.publisher(f"{ns}/status", statuses, queue_size=out, latch=True)
-        self._result = node.publisher(f"{ns}/result", types.action_result, queue_size=out)
-        self._feedback = node.publisher(f"{ns}/feedback", types.action_feedback, queue_size=out)
+        self.status_pub = node.publisher(f"{ns}/status", statuses, queue_size=out, latch=True)
+        self.result_pub = node.publisher(f"{ns}/result", types.action_result, queue_size=out)
+        self.feedback_pub = node.publisher(f"{ns}/feedback", types.action_feedback, queue_size=out)
         hear = partial(node.subscriber, queue_size=into, numpy=self._numpy)
-        self._goal = hear(f"{ns}/goal", types.action_goal, self._take_goal)
-        self._cancel = hear(f"{ns}/cancel", message_class("actionlib_msgs/GoalID"), self._take_cancel)
+        self.goal_sub = hear(f"{ns}/goal", types.action_goal, self.internal_goal_callback)
+        self.cancel_sub = hear(
+            f"{ns}/cancel", message_class("actionlib_msgs/GoalID"), self.internal_cancel_callback
+        )
         keep = node.get_param(f"{ns}/status_list_timeout", STATUS_LIST_TIMEOUT, expect=float)
-        self._keep_ns = int(keep * 1e9)
+        self.status_list_timeout = Duration.from_sec(keep)
         frequency = self._status_frequency()
-        self._timer = (
+        self.status_timer = (
             node.timer(1 / frequency, lambda _: self.publish_status(), reset=True) if frequency > 0 else None
         )
         self.started = True
@@ -260,14 +157,14 @@ class ActionServer:
         if not self.started:
             return
         self.started = False
-        if self._timer is not None:
-            self._timer.shutdown()
-        for end in (self._goal, self._cancel, self._status, self._feedback, self._result):
+        if self.status_timer is not None:
+            self.status_timer.shutdown()
+        for end in (self.goal_sub, self.cancel_sub, self.status_pub, self.feedback_pub, self.result_pub):
             end.unregister()
 
     # -- what is said --------------------------------------------------------------------------------------------
 
-    def complain(self, error: IllegalTransition) -> None:
+    def complain(self, error: ActionException) -> None:
         """Raise an error of whoever uses the server, or log it in rospy's style. For the handles."""
         if self.strict:
             raise error
@@ -275,14 +172,16 @@ class ActionServer:
 
     def publish_status(self) -> None:
         """Publish the list of goals now; those that are over for long enough leave it."""
-        now = self.node.clock.now_ns()
-        for key, goal in list(self._goals.items()):
-            if goal.free_since is not None and now > goal.free_since + self._keep_ns:
-                del self._goals[key]
+        now = self.node.now()
+        self.status_list[:] = [tracker for tracker in self.status_list if not self._is_stale(tracker, now)]
         if self._open:
-            message = self._status.message_class(status_list=[goal.status for goal in self._goals.values()])
-            message.header.stamp = self.node.now()
-            self._status.publish(message)
+            message = self.status_pub.message_class(status_list=[one.status for one in self.status_list])
+            message.header.stamp = now
+            self.status_pub.publish(message)
+
+    def _is_stale(self, tracker: StatusTracker, now: Time) -> bool:
+        over = tracker.handle_destruction_time
+        return bool(over) and over + self.status_list_timeout < now
 
     def publish_result(self, status: Any, result: Any) -> None:
         """Publish a result, and the list of goals after it. For the handles."""
@@ -296,7 +195,7 @@ class ActionServer:
     def _say(self, part: str, status: Any, content: Any) -> None:
         if not self._open:
             return
-        end: Publisher = self._result if part == "result" else self._feedback
+        end: Publisher = self.result_pub if part == "result" else self.feedback_pub
         message = end.message_class(status=status, **{part: content})
         message.header.stamp = self.node.now()
         if end.num_connections():  # a client that has gone is no reason to warn of lost messages
@@ -308,47 +207,59 @@ class ActionServer:
 
     # -- what arrives --------------------------------------------------------------------------------------------
 
-    def _take_goal(self, action_goal: Any) -> None:
-        goal_id = action_goal.goal_id
-        known = self._goals.get(goal_id.id)
-        if known is not None:
-            self._take_again(known)
+    def _handle(self, tracker: StatusTracker) -> ServerGoalHandle:
+        return self.handle_class(tracker, self, tracker.handle_tracker)
+
+    def internal_goal_callback(self, action_goal: Any) -> None:
+        """Take what arrives on ``goal``."""
+        known = [one for one in self.status_list if one.status.goal_id.id == action_goal.goal_id.id]
+        if known:
+            self._take_again(known[0])
             return
-        handle = self._add(goal_id, action_goal.goal)
-        if goal_id.stamp and goal_id.stamp <= self._last_cancel:
+        tracker = StatusTracker(self.id_generator, self.node.now(), goal=action_goal)
+        self.status_list.append(tracker)
+        handle = tracker.handle_tracker = self._handle(tracker)
+        stamp = action_goal.goal_id.stamp
+        if stamp and stamp <= self.last_cancel:
             handle.set_canceled(None, STALE)
         else:
-            self.node.guarded(self._goal_cb, handle, what=f"a goal of {self.ns}")
+            self.node.guarded(self.goal_callback, handle, what=f"a goal of {self.ns}")
 
-    def _take_again(self, known: ServerGoalHandle) -> None:
+    def _take_again(self, known: StatusTracker) -> None:
         """Take a goal whose id is in the list: sent twice, or cancelled before it came."""
-        if known.state is Status.RECALLING and known.get_goal() is None:
-            known.set_canceled(None, "it was cancelled before it arrived")
-        elif known.free_since is not None:
-            known.free_since = self.node.clock.now_ns()
+        if known.status.status == Status.RECALLING:
+            known.status.status = Status.RECALLED
+            known.handle_destruction_time = (
+                self.node.now()
+            )  # actionlib forgets to, and lists the goal for ever
+            self.publish_result(known.status, self.get_default_result())
+        elif known.handle_tracker is None:
+            known.handle_destruction_time = self.node.now()
 
-    def _add(self, goal_id: Any, goal: Any) -> ServerGoalHandle:
-        if not goal_id.id:  # sent by hand, with `rostopic pub`: actionlib names it then
-            goal_id.id = new_goal_id(self.node, self.node.now())
-        if not goal_id.stamp:
-            goal_id.stamp = self.node.now()
-        handle = self._goals[goal_id.id] = ServerGoalHandle(self, goal_id, goal)
-        return handle
-
-    def _take_cancel(self, request: Any) -> None:
+    def internal_cancel_callback(self, request: Any) -> None:
+        """Take what arrives on ``cancel``."""
         everything = not request.id and not request.stamp
-        for handle in self.goals:
-            before = request.stamp and handle.get_goal_id().stamp <= request.stamp
-            meant = everything or before or handle.id == request.id
-            if meant and handle.set_cancel_requested() and self._cancel_cb is not None:
-                self.node.guarded(self._cancel_cb, handle, what=f"a cancellation of {self.ns}")
-        if request.id and request.id not in self._goals:
+        found = False
+        for tracker in list(self.status_list):
+            goal_id = tracker.status.goal_id
+            before = request.stamp and goal_id.stamp <= request.stamp
+            if everything or before or goal_id.id == request.id:
+                found = found or goal_id.id == request.id
+                self._request_cancel(tracker)
+        if request.id and not found:
             self._note_early(request)
-        if request.stamp > self._last_cancel:
-            self._last_cancel = Time(request.stamp.secs, request.stamp.nsecs)
+        self.last_cancel = max(self.last_cancel, request.stamp)
+
+    def _request_cancel(self, tracker: StatusTracker) -> None:
+        handle = self._handle(tracker)
+        if tracker.handle_tracker is None:
+            tracker.handle_tracker = handle
+            tracker.handle_destruction_time = self.node.now()
+        if handle.set_cancel_requested() and self.cancel_callback is not None:
+            self.node.guarded(self.cancel_callback, handle, what=f"a cancellation of {self.ns}")
 
     def _note_early(self, request: Any) -> None:
         """Remember the cancellation of a goal that has not arrived yet: topics may overtake one another."""
-        handle = self._add(request, None)
-        handle.status.status = Status.RECALLING
-        handle.free_since = self.node.clock.now_ns()
+        note = StatusTracker(self.id_generator, self.node.now(), request, Status.RECALLING)
+        note.handle_destruction_time = self.node.now()
+        self.status_list.append(note)

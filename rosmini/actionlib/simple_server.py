@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import ROSInterruptException
 
 from .errors import ActionException
-from .server import ActionServer, ServerGoalHandle
+from .server import ActionServer
+from .server_goal_handle import ServerGoalHandle
 from .states import Status
 
 if TYPE_CHECKING:
@@ -43,10 +44,9 @@ class SimpleActionServer:
         *,
         numpy: bool = True,
         strict: bool | None = None,
+        handle_class: type[ServerGoalHandle] = ServerGoalHandle,
     ) -> None:
         self.node = node
-        self.current_goal: ServerGoalHandle | None = None
-        self.next_goal: ServerGoalHandle | None = None
         self.new_goal = False
         self.preempt_request = False
         self.new_goal_preempt_request = False
@@ -57,12 +57,16 @@ class SimpleActionServer:
             node,
             name,
             ActionSpec,
-            self._take_goal,
-            self._take_cancel,
+            self.internal_goal_callback,
+            self.internal_preempt_callback,
             auto_start=False,
             numpy=numpy,
             strict=strict,
+            handle_class=handle_class,
         )
+        self.current_goal = handle_class(None, self.action_server)
+        self.next_goal = self.current_goal
+        """The goal that arrived last: one that waits, or the current one itself."""
         self._lane = node.spawn(f"{node.name} execute {self.action_server.ns}")
         if auto_start:
             self.start()
@@ -103,7 +107,7 @@ class SimpleActionServer:
 
     def is_active(self) -> bool:
         """Tell whether a goal is being worked on."""
-        return self.current_goal is not None and self.current_goal.state in (Status.ACTIVE, Status.PREEMPTING)
+        return self.current_goal.state in (Status.ACTIVE, Status.PREEMPTING)
 
     def accept_new_goal(self) -> Any:
         """Begin with the goal that waits, and return it; a goal that is still being worked on is preempted.
@@ -114,16 +118,14 @@ class SimpleActionServer:
 
     def _accept(self) -> Any:
         new, old = self.next_goal, self.current_goal
-        if not self.new_goal or new is None:
+        if not self.new_goal:
             self._complain(
                 "accept_new_goal() was called, and no new goal is there: ask is_new_goal_available()"
             )
             return None
-        if old is not None and old != new:
-            if self.is_active():
-                old.set_canceled(None, BUMPED)
-            old.release()
-        self.current_goal, self.next_goal, self.new_goal = new, None, False
+        if old != new and self.is_active():
+            old.set_canceled(None, BUMPED)
+        self.current_goal, self.new_goal = new, False
         self.preempt_request, self.new_goal_preempt_request = self.new_goal_preempt_request, False
         new.set_accepted("accepted")
         return new.get_goal()
@@ -148,10 +150,10 @@ class SimpleActionServer:
 
     def get_default_result(self) -> Any:
         """Return an empty result."""
-        return self.action_server.types.result()
+        return self.action_server.get_default_result()
 
     def _current(self, step: str, *arguments: Any) -> None:
-        if self.current_goal is None:
+        if self.current_goal.goal is None:
             self._complain(f"{step}() was called, and no goal was accepted")
         else:
             getattr(self.current_goal, step)(*arguments)
@@ -164,16 +166,15 @@ class SimpleActionServer:
 
     # -- what arrives --------------------------------------------------------------------------------------------
 
-    def _take_goal(self, goal: ServerGoalHandle) -> None:
+    def internal_goal_callback(self, goal: ServerGoalHandle) -> None:
+        """Take a goal that arrives."""
         stamp = goal.get_goal_id().stamp
-        rivals = [other for other in (self.current_goal, self.next_goal) if other is not None]
+        rivals = [other for other in (self.current_goal, self.next_goal) if other.goal is not None]
         if any(stamp < other.get_goal_id().stamp for other in rivals):
             goal.set_canceled(None, BUMPED)  # it was sent before what is here, and overtaken
             return
-        if self.next_goal is not None:
+        if self.next_goal.goal is not None and self.next_goal != self.current_goal:
             self.next_goal.set_canceled(None, BUMPED)
-            self.next_goal.release()
-        goal.hold()
         self.next_goal, self.new_goal, self.new_goal_preempt_request = goal, True, False
         if self.is_active():
             self._request_preemption()
@@ -182,7 +183,8 @@ class SimpleActionServer:
         if self.execute_callback is not None:
             self._lane.submit(self._execute)
 
-    def _take_cancel(self, goal: ServerGoalHandle) -> None:
+    def internal_preempt_callback(self, goal: ServerGoalHandle) -> None:
+        """Take a cancellation that arrives."""
         if goal == self.current_goal:
             self._request_preemption()
         elif goal == self.next_goal:
@@ -221,6 +223,6 @@ class SimpleActionServer:
             )
             self._abort(handle, "the execute callback did not say how the goal ended")
 
-    def _abort(self, handle: ServerGoalHandle | None, text: str) -> None:
-        if handle is not None and not handle.state.is_terminal:
+    def _abort(self, handle: ServerGoalHandle, text: str) -> None:
+        if not handle.state.is_terminal:
             handle.set_aborted(None, text)

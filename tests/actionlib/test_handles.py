@@ -10,6 +10,7 @@ from rosmini.actionlib import (
     ActionServer,
     CommState,
     IllegalTransition,
+    ServerGoalHandle,
     Status,
 )
 from rosmini.msgs import message_class
@@ -199,6 +200,41 @@ def test_a_goal_that_arrives_after_its_cancellation(sim):
     assert [(one.status.goal_id.id, one.status.status) for one in results] == [("stale", 8), ("mine", 8)]
 
 
+def test_a_cancellation_of_an_unknown_goal_cancels_no_other(sim):
+    """It has no stamp, so no goal is older than it, whenever it came."""
+    desk, client = pair(sim)
+    cancel = sim.node("early").publisher("/work/cancel", GoalID)
+    cancel.wait_for_subscribers()
+    cancel.publish(GoalID(id="unknown"))
+    sim.run(0.1)
+    late = sim.node("late").publisher("/work/goal", FibonacciActionGoal)
+    late.wait_for_subscribers()
+    late.publish(FibonacciActionGoal(goal_id=GoalID(Time(500), "sent long ago")))
+    handle, _ = send(client)
+    sim.run(0.1)
+    assert [goal.id for goal in desk.goals] == ["sent long ago", handle.id]
+    assert [(one.status.goal_id.id, one.status.goal_id.stamp, one.goal) for one in desk.server.status_list][
+        :1
+    ] == [("unknown", Time(), None)]
+    assert desk.server.last_cancel == Time()
+
+
+def test_a_handle_without_a_goal_says_so(sim):
+    desk = Desk(sim)
+    empty = ServerGoalHandle(None, desk.server)
+    assert (empty.get_goal(), empty.id, empty == empty, empty.set_cancel_requested()) == (
+        None,
+        "",
+        False,
+        False,
+    )
+    for step in (empty.set_accepted, empty.get_goal_id, lambda: empty.publish_feedback(FibonacciFeedback())):
+        with pytest.raises(ActionException, match=r"goal handle .*has no goal"):
+            step()
+    with pytest.raises(ActionException, match="has no server"):
+        ServerGoalHandle().get_default_result()
+
+
 def test_a_goal_sent_by_hand_is_named_and_one_sent_twice_is_taken_once(sim):
     desk, _ = pair(sim)
     publisher = sim.node("hand").publisher("/work/goal", FibonacciActionGoal)
@@ -208,7 +244,7 @@ def test_a_goal_sent_by_hand_is_named_and_one_sent_twice_is_taken_once(sim):
     publisher.publish(FibonacciActionGoal(goal_id=GoalID(id="twice")))
     publisher.publish(FibonacciActionGoal(goal_id=GoalID(id="twice")))
     sim.run(0.1)
-    assert [goal.id for goal in desk.goals] == ["/server-1-1000.000", "/server-2-1000.000", "twice"]
+    assert [goal.id for goal in desk.goals] == ["/server-1-1000.0", "/server-2-1000.0", "twice"]
     assert all(goal.get_goal_id().stamp == Time(1000) for goal in desk.goals)
 
 

@@ -468,3 +468,14 @@ def test_a_namespace_and_a_remapping(sim):
     assert client.gh.id.startswith("/robot1/client-1-")
     assert repr(client) == "<SimpleActionClient of /fibonacci in /robot1/client>"
     assert repr(served.server) == "<SimpleActionServer of /fibonacci in /server>"
+
+
+def test_the_last_goal_leaves_the_list_though_the_server_keeps_it(sim):
+    served, diary = start(sim)
+    diary.send(1)
+    assert diary.client.wait_for_result(5)
+    (listed,) = served.server.action_server.status_list
+    assert served.server.current_goal.status_tracker is listed
+    sim.run(5.3)
+    assert served.server.action_server.status_list == []
+    assert served.server.current_goal.state is Status.SUCCEEDED

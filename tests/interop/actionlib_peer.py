@@ -230,6 +230,7 @@ for status, path in sorted(PATHS.items()):
 told = []
 plan = {}
 sent = set()
+active = set()
 fed = []
 
 
@@ -243,7 +244,7 @@ def execute(goal):
     for number in range(3):
         simple.publish_feedback(TestFeedback(10 * goal.goal + number))
     if goal.goal < 6:
-        wait(lambda: 10 * goal.goal + 2 in fed, "the feedback")
+        wait(lambda: goal.goal in active and 10 * goal.goal + 2 in fed, "the status and the feedback")
     while plan.get(goal.goal) == "wait" and not simple.is_preempt_requested():
         rospy.sleep(0.01)
     if simple.is_preempt_requested():
@@ -274,7 +275,7 @@ def run(client, number, what="", cancel=False):
     client.send_goal(
         TestGoal(number),
         lambda state, result: said.append(["done", state, result.result]),
-        lambda: said.append("active"),
+        lambda: (said.append("active"), active.add(number)),
         lambda feedback: fed.append(feedback.feedback),
     )
     sent.add(number)

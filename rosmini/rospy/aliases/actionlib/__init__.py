@@ -10,7 +10,8 @@ from rosmini.actionlib.errors import ActionException
 from rosmini.msgs.actionlib import msg
 
 from .action_client import ActionClient, ClientGoalHandle, CommState, GoalStatus, TerminalState
-from .action_server import ActionServer, ServerGoalHandle
+from .action_server import ActionServer
+from .server_goal_handle import ServerGoalHandle
 from .simple_action_client import SimpleActionClient, SimpleGoalState
 from .simple_action_server import SimpleActionServer
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rosmini import actionlib
-from rosmini.actionlib.server import ServerGoalHandle
 from rosmini.rospy.session import require_node
+
+from .server_goal_handle import ServerGoalHandle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["ActionServer", "ServerGoalHandle", "nop_cb", "warn_of_auto_start"]
 
 
-def nop_cb(goal_handle: ServerGoalHandle) -> None:
+def nop_cb(goal_handle: actionlib.ServerGoalHandle) -> None:
     """Do nothing: what a server does about cancellations that it is not told to heed."""
 
 
@@ -35,11 +36,21 @@ class ActionServer(actionlib.ActionServer):
         self,
         ns: str,
         ActionSpec: Any,
-        goal_cb: Callable[[ServerGoalHandle], object],
-        cancel_cb: Callable[[ServerGoalHandle], object] = nop_cb,
+        goal_cb: Callable[[actionlib.ServerGoalHandle], object],
+        cancel_cb: Callable[[actionlib.ServerGoalHandle], object] = nop_cb,
         auto_start: bool = True,
     ) -> None:
         node = require_node(f"an action server of {ns}")
         if auto_start:
             warn_of_auto_start(node, ns)
-        super().__init__(node, ns, ActionSpec, goal_cb, cancel_cb, auto_start, numpy=False, strict=False)
+        super().__init__(
+            node,
+            ns,
+            ActionSpec,
+            goal_cb,
+            cancel_cb,
+            auto_start,
+            numpy=False,
+            strict=False,
+            handle_class=ServerGoalHandle,
+        )

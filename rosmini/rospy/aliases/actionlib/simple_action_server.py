@@ -8,6 +8,7 @@ from rosmini import actionlib
 from rosmini.rospy.session import require_node
 
 from .action_server import warn_of_auto_start
+from .server_goal_handle import ServerGoalHandle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,4 +29,13 @@ class SimpleActionServer(actionlib.SimpleActionServer):
         node = require_node(f"an action server of {name}")
         if auto_start:
             warn_of_auto_start(node, name)
-        super().__init__(node, name, ActionSpec, execute_cb, auto_start, numpy=False, strict=False)
+        super().__init__(
+            node,
+            name,
+            ActionSpec,
+            execute_cb,
+            auto_start,
+            numpy=False,
+            strict=False,
+            handle_class=ServerGoalHandle,
+        )
