@@ -1,7 +1,8 @@
 """Python source for the fast paths of one message class: making, freezing, thawing, writing and reading it.
 
 Nested messages are flattened, so that neighbouring numbers cross :mod:`struct` in one call (the three integers of a
-``Header``, the seven floats of a ``Pose``). ``print(source(cls, "freeze"))`` shows what is run.
+``Header``, the seven floats of a ``Pose``). ``print(source(cls, "freeze"))`` shows what is run, with ``f0``, ``f1`` ... for
+the names of fields: no name from outside is in the source that is compiled. They are put into the finished code, where names are data.
 
 Why this is not rosbags' ROS 1 serde, which the tests compare it with: rospy replaces text that is not UTF-8 where
 rosbags raises, an array of empty messages lets rosbags loop for as long as a hostile length says, byte arrays have to
@@ -12,6 +13,7 @@ same struct calls, so that reading and writing come out of them nearly for free.
 from __future__ import annotations
 
 import struct
+from types import CodeType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,11 +21,13 @@ import numpy as np
 from rosmini.time import Duration, Time
 
 from . import fields
-from .definition import BYTES
-from .fields import DTYPES, FORMATS
+from .definition import BYTES, FORMATS
+from .fields import DTYPES
+from .limits import MAX_EMPTY, measured
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from types import FunctionType
 
     from .definition import Field
     from .message import Message
@@ -32,15 +36,18 @@ __all__ = ["compile_function", "source"]
 
 _LENGTH, _READ_LENGTH = struct.Struct("<I").pack, struct.Struct("<I").unpack_from
 _TIME, _DURATION = struct.Struct("<II"), struct.Struct("<ii")
-MAX_EMPTY_ELEMENTS = 256  # elements that take no bytes are not bounded by the data, and may be nested
 
 
 def compile_function(cls: type[Message], purpose: str) -> Callable[..., Any]:
     """Compile one function of ``cls``: init, freeze, thaw, thaw_numpy, thaw_genpy_numpy, encode or read."""
     generator = _Generator(cls, purpose)
     code = generator.source()
-    exec(compile(code, f"<{purpose} of {cls._type}>", "exec"), generator.globals)  # noqa: S102
-    function: Callable[..., Any] = generator.globals[purpose]
+    exec(compile(code, f"<{purpose} of a message>", "exec"), generator.globals)  # noqa: S102
+    function: FunctionType = generator.globals[purpose]
+    names = {slot: name for name, slot in generator.slots.items()}
+    function.__code__ = _named(function.__code__, names)
+    if function.__kwdefaults__:
+        function.__kwdefaults__ = {names[slot]: value for slot, value in function.__kwdefaults__.items()}
     return function
 
 
@@ -49,14 +56,27 @@ def source(cls: type[Message], purpose: str) -> str:
     return _Generator(cls, purpose).source()
 
 
+def _named(code: CodeType, names: dict[str, str]) -> CodeType:
+    """The code with the names of fields in place of their slots, comprehensions in it included."""
+
+    def named(slots: tuple[str, ...]) -> tuple[str, ...]:
+        return tuple(names.get(slot, slot) for slot in slots)
+
+    return code.replace(
+        co_names=named(code.co_names),
+        co_varnames=named(code.co_varnames),
+        co_consts=tuple(
+            _named(each, names) if isinstance(each, CodeType) else each for each in code.co_consts
+        ),
+    )
+
+
 class _Node:
     """One message or time in the flattened tree: the variables that hold it, and its class."""
 
     def __init__(self, path: str, cls: type[Any], parent: _Node | None, name: str, number: int) -> None:
         self.path, self.cls, self.parent, self.name = path, cls, parent, name
-        # the number keeps "a.b" and a field called "a_b" apart
-        suffix = f"{number}_{name}" if number else ""
-        self.source, self.target = f"m{suffix}", f"o{suffix}"
+        self.source, self.target = (f"m{number}", f"o{number}") if number else ("m", "o")
         self.is_time = issubclass(cls, (Time, Duration))
 
     def field_path(self, name: str) -> str:
@@ -68,7 +88,11 @@ class _Generator:
         self.cls, self.purpose = cls, purpose
         self.lines: list[str] = []
         self.globals: dict[str, Any] = {"__builtins__": __builtins__}
+        self.used: dict[tuple[str, int], str] = {}
+        self.slots: dict[str, str] = {}
+        """What stands for the name of a field in the source."""
         self.nodes: list[_Node] = []
+        self.nested: dict[str, type[Message]] = {}
         self.leaves: list[
             tuple[_Node, str, Field | None, str]
         ] = []  # node, attribute, field (None in a time), kind
@@ -80,6 +104,7 @@ class _Generator:
             kind = "uint32" if node.cls is Time else "int32"
             self.leaves += [(node, part, None, kind) for part in ("secs", "nsecs")]
             return
+        self.nested |= node.cls._nested
         for field in node.cls._spec.fields:
             if field.size is not None or (field.builtin and field.base not in ("time", "duration")):
                 self.leaves.append((node, field.name, field, field.base))
@@ -96,13 +121,17 @@ class _Generator:
     # ---- pieces ----
 
     def use(self, name: str, value: Any) -> str:
-        """Give the generated code a global; the name is made unique if another value has it."""
-        unique, number = name, 1
-        while unique in self.globals and self.globals[unique] is not value:
-            number += 1
-            unique = f"{name}_{number}"
-        self.globals[unique] = value
+        """Give the generated code a global; each value has a name of its own."""
+        unique = self.used.get((name, id(value)))
+        if unique is None:
+            unique = f"{name}_{len(self.used)}"
+            self.used[name, id(value)] = unique
+            self.globals[unique] = value
         return unique
+
+    def slot(self, name: str) -> str:
+        """What stands in the source for the name of an attribute."""
+        return self.slots.setdefault(name, f"f{len(self.slots)}")
 
     def emit(self, line: str, depth: int = 1) -> None:
         self.lines.append("    " * depth + line)
@@ -138,29 +167,23 @@ class _Generator:
     def emit_sources(self, depth: int) -> None:
         for node in self.nodes:
             if node.parent is not None:
-                self.emit(f"{node.source} = {node.parent.source}.{node.name}", depth)
+                self.emit(f"{node.source} = {node.parent.source}.{self.slot(node.name)}", depth)
 
     def emit_targets(self, depth: int) -> None:
         """Make the objects, as instances of the classes without ``__setattr__`` for speed (see message.py)."""
         for node in self.nodes:
             if node.is_time:
-                self.emit(
-                    f"{node.target} = {self.use('new', object.__new__)}({self.use(f'class_{node.cls.__name__}', node.cls)})",
-                    depth,
-                )
+                new = self.use("new", object.__new__)
+                self.emit(f"{node.target} = {new}({self.use('made', node.cls)})", depth)
             else:
-                self.emit(
-                    f"{node.target} = {self.use(f'new_{node.cls.__name__}', node.cls._fields_class)}()", depth
-                )
+                self.emit(f"{node.target} = {self.use('fields', node.cls._fields_class)}()", depth)
 
     def emit_finish(self, depth: int) -> None:
         for node in reversed(self.nodes):
             if node.parent is not None:
-                self.emit(f"{node.parent.target}.{node.name} = {node.target}", depth)
+                self.emit(f"{node.parent.target}.{self.slot(node.name)} = {node.target}", depth)
             if not node.is_time:
-                self.emit(
-                    f"{node.target}.__class__ = {self.use(f'class_{node.cls.__name__}', node.cls)}", depth
-                )
+                self.emit(f"{node.target}.__class__ = {self.use('made', node.cls)}", depth)
             elif node.parent is self.nodes[0]:
                 # genpy brings the times that are fields of the message itself to canonical form
                 wrong = f"{node.target}.nsecs > 999999999"
@@ -169,7 +192,7 @@ class _Generator:
                 self.emit(f"{node.target}.canon()", depth + 1)
 
     def emit_unpacked(self, run: list[tuple[_Node, str, Field | None, str]], values: str, depth: int) -> None:
-        targets = [f"{node.target}.{name}" for node, name, _, _ in run]
+        targets = [f"{node.target}.{self.slot(name)}" for node, name, _, _ in run]
         self.emit(
             f"{', '.join(targets)}, = {values}" if len(targets) == 1 else f"{', '.join(targets)} = {values}",
             depth,
@@ -181,7 +204,7 @@ class _Generator:
     def packed(self, run: list[tuple[_Node, str, Field | None, str]], name: str) -> str:
         arguments = []
         for node, attribute, _, kind in run:
-            value = f"{node.source}.{attribute}"
+            value = f"{node.source}.{self.slot(attribute)}"
             arguments.append(f"{self.use('as_bool', fields.as_bool)}({value})" if kind == "bool" else value)
         return f"{name}.pack({', '.join(arguments)})"
 
@@ -189,17 +212,17 @@ class _Generator:
         """The name of the function that freezes (or thaws) one array field."""
         size = -1 if field.size is None else field.size
         if field.base in BYTES:
-            return self.use(f"freeze_{field.base}s_{field.name}", fields.freeze_bytes(size))
+            return self.use("array", fields.freeze_bytes(size))
         if field.base in FORMATS:
-            return self.use(f"freeze_{field.base}s_{field.name}", fields.array_freezer(field.base, size))
+            return self.use("array", fields.array_freezer(field.base, size))
         element: Callable[[Any], Any]
         if field.base == "string":
             element = fields.checked_text
         elif field.base in ("time", "duration"):
             element = _freeze_time if field.base == "time" else _freeze_duration
         else:
-            element = getattr(self.cls_of_field(field), f"_{verb}")
-        return self.use(f"freeze_{field.name}", _list_freezer(element, size))
+            element = getattr(self.nested[field.base], f"_{verb}")
+        return self.use("array", _list_freezer(element, size))
 
     def not_frozen(self, field: Field) -> str:
         """The condition under which the array `v` is not yet one over bytes, which nobody can write to, as it is to be."""
@@ -213,25 +236,19 @@ class _Generator:
         wrong += [f"len(v) != {field.size}"] if field.size != -1 else []
         return " or ".join(wrong)
 
-    def cls_of_field(self, field: Field) -> type[Message]:
-        for node in self.nodes:
-            if not node.is_time and field.base in node.cls._nested:
-                found: type[Message] = node.cls._nested[field.base]
-                return found
-        raise KeyError(field.base)
-
     # ---- functions ----
 
     def _init(self) -> None:
-        names = [field.name for field in self.cls._spec.fields]
-        self.emit(f"def init(self, /, *_args, {''.join(f'{name}=None, ' for name in names)}**_unknown):", 0)
+        names = tuple(field.name for field in self.cls._spec.fields)
+        slots = [self.slot(name) for name in names]
+        listed = "".join(f"{slot}, " for slot in slots)
+        self.emit(f"def init(self, /, *_args, {''.join(f'{slot}=None, ' for slot in slots)}**_unknown):", 0)
         self.emit("if _args or _unknown:")
-        given = "{" + ", ".join(f"{name!r}: {name}" for name in names) + "}"
-        names_and_values = f"{self.use('_arguments', _arguments)}(self, _args, {given}, _unknown)"
-        self.emit(f"{''.join(f'{name}, ' for name in names) or '_'} = {names_and_values}", 2)
-        for field in self.cls._spec.fields:
-            setter = self.use(f"_set_{field.name}", getattr(self.cls._fields_class, field.name).__set__)
-            self.emit(f"{setter}(self, {self.default(field)} if {field.name} is None else {field.name})")
+        values = f"{self.use('_arguments', _arguments)}(self, _args, {self.use('_names', names)}, ({listed}), _unknown)"
+        self.emit(f"{listed or '_'} = {values}", 2)
+        for field, slot in zip(self.cls._spec.fields, slots, strict=True):
+            setter = self.use("_set", getattr(self.cls._fields_class, field.name).__set__)
+            self.emit(f"{setter}(self, {self.default(field)} if {slot} is None else {slot})")
 
     def default(self, field: Field) -> str:
         if field.size == -1:
@@ -244,7 +261,7 @@ class _Generator:
             )
             return single if field.size is None else f"[{single}] * {field.size}"
         cls = self.class_of(self.cls, field.base)
-        single = f"{self.use(f'_{cls.__name__}', cls)}()"
+        single = f"{self.use('_class', cls)}()"
         return (
             single if field.size is None else f"[{single} for _ in {self.use('_range', range)}({field.size})]"
         )
@@ -262,18 +279,19 @@ class _Generator:
             node, name, field, kind = leaf
             if self.is_number(leaf):
                 continue
-            self.emit(f"v = {node.source}.{name}", 2)
+            target = f"{node.target}.{self.slot(name)}"
+            self.emit(f"v = {node.source}.{self.slot(name)}", 2)
             if field is not None and field.size is not None:
                 freeze, depth = self.array_function(field, verb="freeze"), 2
                 if kind in FORMATS and kind not in BYTES and kind != "bool":
                     self.emit(f"if {self.not_frozen(field)}:", 2)
                     depth = 3
                 self.emit(f"v = {freeze}(v)", depth)
-                self.emit(f"{node.target}.{name} = v", 2)
+                self.emit(f"{target} = v", 2)
             else:
                 self.emit("if v.__class__ is not str or not v.isascii():", 2)
                 self.emit(f"v = {self.use('checked_text', fields.checked_text)}(v)", 3)
-                self.emit(f"{node.target}.{name} = v", 2)
+                self.emit(f"{target} = v", 2)
         self.emit_explained()
         self.emit_finish(1)
         self.emit("return o")
@@ -290,10 +308,10 @@ class _Generator:
         self.emit_sources(1)
         self.emit_targets(1)
         for node, name, field, kind in self.leaves:
-            value = f"{node.source}.{name}"
+            value = f"{node.source}.{self.slot(name)}"
             if field is not None and field.size is not None:
                 value = self.thawed(field, kind, value)
-            self.emit(f"{node.target}.{name} = {value}")
+            self.emit(f"{node.target}.{self.slot(name)} = {value}")
         self.emit_finish(1)
         self.emit("return o")
 
@@ -315,8 +333,8 @@ class _Generator:
         if kind in ("time", "duration"):
             element: Callable[[Any], Any] = _freeze_time if kind == "time" else _freeze_duration
         else:
-            element = getattr(self.cls_of_field(field), f"_{self.purpose}")
-        return f"[{self.use(f'thaw_{field.name}', element)}(v) for v in {value}]"
+            element = getattr(self.nested[field.base], f"_{self.purpose}")
+        return f"[{self.use('thaw_element', element)}(v) for v in {value}]"
 
     def _encode(self) -> None:
         length = self.use("length", _LENGTH)
@@ -326,7 +344,7 @@ class _Generator:
         self.emit("parts = []", 2)
         for run in self.runs():
             node, name, field, kind = run[0]
-            value = f"{node.source}.{name}"
+            value = f"{node.source}.{self.slot(name)}"
             if self.is_number(run[0]):
                 packer, _struct = self.struct_for(run)
                 self.emit(f"parts.append({self.packed(run, packer)})", 2)
@@ -366,37 +384,38 @@ class _Generator:
             elif field is not None and field.size is not None:
                 self.emit_array_read(node, field)
             else:
-                self.emit_text_read(f"{node.target}.{name}", repr(node.field_path(name)), 1)
+                self.emit_text_read(f"{node.target}.{self.slot(name)}", self.place(node, name), 1)
         self.emit_finish(1)
         self.emit("return o, pos")
+
+    def place(self, node: _Node, name: str) -> str:
+        """The arguments that tell an error in which type and field it is."""
+        return f"{self.use('type', self.cls._type)}, {self.use('path', node.field_path(name))}"
 
     def emit_length(self, variable: str, depth: int) -> None:
         self.emit(f"{variable}, = {self.use('length', _READ_LENGTH)}(data, pos)", depth)
         self.emit("pos += 4", depth)
 
-    def emit_text_read(self, target: str, path: str, depth: int) -> None:
+    def emit_text_read(self, target: str, place: str, depth: int) -> None:
         self.emit_length("n", depth)
         self.emit("stop = pos + n", depth)
         self.emit("if stop > end:", depth)
-        self.emit(
-            f"raise {self.use('short', fields.short)}({self.cls._type!r}, {path}, n, end - pos)", depth + 1
-        )
+        self.emit(f"raise {self.use('short', fields.short)}({place}, n, end - pos)", depth + 1)
         # as in rospy, what is not UTF-8 becomes U+FFFD
         self.emit(f"{target} = str(data[pos:stop], 'utf-8', 'replace')", depth)
         self.emit("pos = stop", depth)
 
     def emit_array_read(self, node: _Node, field: Field) -> None:
-        path, target, kind = repr(node.field_path(field.name)), f"{node.target}.{field.name}", field.base
+        place, target = self.place(node, field.name), f"{node.target}.{self.slot(field.name)}"
+        kind = field.base
         if field.size == -1:
             self.emit_length("count", 1)
         else:
             self.emit(f"count = {field.size}")
-        smallest = _smallest(self.cls_of_field(field)) if not field.builtin else _smallest_builtin(kind)
-        limit = f"count * {smallest} > end - pos" if smallest else f"count > {MAX_EMPTY_ELEMENTS}"
+        smallest = measured(field).wire if field.builtin else self.nested[field.base]._measure.wire
+        limit = f"count * {smallest} > end - pos" if smallest else f"count > {MAX_EMPTY}"
         self.emit(f"if {limit}:")
-        self.emit(
-            f"raise {self.use('too_many', fields.too_many)}({self.cls._type!r}, {path}, count, end - pos)", 2
-        )
+        self.emit(f"raise {self.use('too_many', fields.too_many)}({place}, count, end - pos)", 2)
         if kind in FORMATS:
             size = struct.calcsize("<" + FORMATS[kind])
             self.emit(f"stop = pos + count * {size}")
@@ -414,37 +433,18 @@ class _Generator:
         self.emit("found = []")
         self.emit("for _ in range(count):")
         if kind == "string":
-            self.emit_text_read("v", path, 2)
+            self.emit_text_read("v", place, 2)
         elif kind in ("time", "duration"):
             unpack = self.use(f"unpack_{kind}", struct.Struct("<II" if kind == "time" else "<ii").unpack_from)
             cls = self.class_of(self.cls, kind)
-            self.emit(f"v = {self.use('new', object.__new__)}({self.use(f'class_{cls.__name__}', cls)})", 2)
+            self.emit(f"v = {self.use('new', object.__new__)}({self.use('made', cls)})", 2)
             self.emit(f"v.secs, v.nsecs = {unpack}(data, pos)", 2)
             self.emit("pos += 8", 2)
         else:
-            reader = self.cls_of_field(field)._read
-            self.emit(f"v, pos = {self.use(f'read_{field.name}', reader)}(data, pos, end)", 2)
+            reader = self.nested[field.base]._read
+            self.emit(f"v, pos = {self.use('read_element', reader)}(data, pos, end)", 2)
         self.emit("found.append(v)", 2)
         self.emit(f"{target} = found")
-
-
-def _smallest_builtin(kind: str) -> int:
-    """The fewest bytes that a value of this builtin type takes on the wire."""
-    if kind in FORMATS:
-        return struct.calcsize("<" + FORMATS[kind])
-    return 4 if kind == "string" else 8
-
-
-def _smallest(cls: type[Message]) -> int:
-    """The fewest bytes that a message of this class takes on the wire."""
-    total = 0
-    for field in cls._spec.fields:
-        if field.size == -1:
-            total += 4
-            continue
-        one = _smallest_builtin(field.base) if field.builtin else _smallest(cls._nested[field.base])
-        total += one * (1 if field.size is None else field.size)
-    return total
 
 
 def _list_freezer(element: Callable[[Any], Any], size: int) -> Callable[[Any], list[Any]]:
@@ -471,7 +471,11 @@ def _freeze_duration(value: Any) -> Duration:
 
 
 def _arguments(
-    message: Message, args: tuple[Any, ...], given: dict[str, Any], unknown: dict[str, Any]
+    message: Message,
+    args: tuple[Any, ...],
+    names: tuple[str, ...],
+    values: tuple[Any, ...],
+    unknown: dict[str, Any],
 ) -> Any:
     """The values for the fields when a constructor was called by position, or wrongly."""
-    return message._positional(args, given, unknown)
+    return message._positional(args, dict(zip(names, values, strict=True)), unknown)

@@ -8,6 +8,7 @@ from rosmini.errors import UnknownPackage, UnknownType, nearest
 
 from .definition import BUILTIN_TYPES, parse_message, parse_service, split_action
 from .fingerprint import full_text, message_md5, service_md5
+from .limits import measure
 from .message import make_message_class
 from .registry import MODULE_PREFIX, make_service_class, registry
 
@@ -69,6 +70,9 @@ def _class_of(
         except (UnknownType, UnknownPackage) as error:
             hint = nearest(field.base.removeprefix(f"{spec.package}/"), BUILTIN_TYPES)
             raise spec.error(field.line, f"unknown type '{field.base}': {hint or error}") from error
+    measure(
+        spec, lambda base: nested[base]._measure
+    )  # before the md5 sum, which takes as long as the type is large
     return make_message_class(
         spec,
         nested,

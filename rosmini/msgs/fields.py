@@ -15,7 +15,7 @@ import numpy as np
 
 from rosmini.errors import DeserializationError, SerializationError, shown
 
-from .definition import BYTES, INTEGER_RANGES
+from .definition import BYTES, FORMATS, INTEGER_RANGES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 __all__ = [
     "DTYPES",
     "ERRORS",
-    "FORMATS",
     "array_freezer",
     "as_bool",
+    "check",
     "checked_text",
     "explain",
     "freeze_bytes",
@@ -39,21 +39,6 @@ __all__ = [
 # What a wrong value can raise in generated code; AttributeError: None or a number where a message belongs.
 ERRORS = (struct.error, TypeError, ValueError, OverflowError, AttributeError, SerializationError)
 
-FORMATS = {
-    "bool": "B",
-    "int8": "b",
-    "byte": "b",
-    "uint8": "B",
-    "char": "B",
-    "int16": "h",
-    "uint16": "H",
-    "int32": "i",
-    "uint32": "I",
-    "int64": "q",
-    "uint64": "Q",
-    "float32": "f",
-    "float64": "d",
-}
 DTYPES = {
     name: np.dtype(
         "?"
@@ -172,10 +157,18 @@ def _array_bytes(values: NDArray[Any], dtype: np.dtype[Any]) -> bytes:
 def explain(cls: type[Message], message: Any, cause: Exception) -> SerializationError:
     """The error for a message that could not be converted: which field, what it holds, what its ROS type is."""
     try:
+        check(cls, message)
+    except SerializationError as error:
+        return error
+    return SerializationError(f"{cls._type}: {cause}")
+
+
+def check(cls: type[Message], message: Any) -> None:
+    """Raise ``SerializationError`` for the first field that holds what its type cannot: also for what the wire would take (2 in a bool)."""
+    try:
         _check(cls, message, "")
     except SerializationError as error:
-        return SerializationError(f"{cls._type}: {error}")
-    return SerializationError(f"{cls._type}: {cause}")
+        raise SerializationError(f"{cls._type}: {error}") from None
 
 
 def _check(cls: type[Message], message: Any, prefix: str) -> None:
@@ -247,7 +240,8 @@ def _check_number(kind: str, path: str, value: Any) -> None:
     except (struct.error, TypeError, ValueError, OverflowError):
         pass
     else:
-        return
+        if kind != "bool" or value in (0, 1):
+            return
     if kind == "bool":
         problem = "is not a bool:"
     elif kind in ("float32", "float64"):

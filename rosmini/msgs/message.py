@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 from rosmini.errors import DeserializationError, SerializationError, nearest
 
 from .definition import BYTES, NUMBERS
+from .limits import Measure, measure
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -60,6 +61,7 @@ class Message:
     _nested: ClassVar[dict[str, type[Message]]]
     _registry: ClassVar[Registry]
     _fields_class: ClassVar[type[Message]]
+    _measure: ClassVar[Measure]
     _plain: ClassVar[bool]
     """A frozen message is what a receiver gets: there are no arrays of numbers in it, which rospy gives as tuples and bytes."""
     _plain_numpy: ClassVar[bool]
@@ -134,7 +136,11 @@ class Message:
 
     def _check_types(self, exc: Exception | None = None) -> None:
         """Raise :class:`SerializationError` if a field is wrong, or with the text of ``exc`` if that is given."""
-        type(self)._freeze(self)
+        from .fields import check
+
+        cls = type(self)
+        cls._freeze(self)
+        check(cls, self)
         if exc is not None:
             raise SerializationError(str(exc)) from exc
 
@@ -236,7 +242,10 @@ def make_message_class(
     text: str,
     module: str,
 ) -> type[Message]:
-    """Make the class for ``spec``; ``nested`` has the classes of its fields by type name."""
+    """Make the class for ``spec``; ``nested`` has the classes of its fields by type name.
+
+    Raises :class:`~rosmini.errors.DefinitionError` if it is too large: see :mod:`rosmini.msgs.limits`.
+    """
     names = [field.name for field in spec.fields]
     fields_class = type(
         f"_{spec.short_name}Fields", (Message,), {"__slots__": tuple(names), "__module__": module}
@@ -258,6 +267,7 @@ def make_message_class(
         "_nested": nested,
         "_registry": registry,
         "_fields_class": fields_class,
+        "_measure": measure(spec, lambda name: nested[name]._measure),
         "_plain": not any(field.size is not None and field.base in NUMBERS for field in spec.fields)
         and all(cls._plain for cls in nested.values()),
         "_plain_numpy": not any(field.size is not None and field.base in BYTES for field in spec.fields)

@@ -5,18 +5,20 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from rosmini.errors import UnknownPackage, UnknownType, nearest
+from rosmini.errors import UnknownPackage, UnknownType, nearest, shown
 
 from .definition import (
     ACTION_SUFFIXES,
     BUILTIN_TYPES,
     MessageSpec,
     ServiceSpec,
+    is_type_name,
     parse_message,
     parse_service,
     split_action,
 )
 from .fingerprint import full_text, message_md5, service_md5
+from .limits import MAX_DEPTH, Measure, measure
 from .message import Message, make_message_class
 from .sources import PackageSource
 
@@ -66,6 +68,7 @@ class Registry:
         self._messages: dict[str, type[Message]] = {}
         self._services: dict[str, type[Service]] = {}
         self._specs: dict[str, MessageSpec] = {}
+        self._measures: dict[str, Measure] = {}
 
     # ---- classes ----
 
@@ -194,6 +197,8 @@ class Registry:
             if field.base in (*within, name):
                 circle = " -> ".join((*within, name, field.base))
                 raise spec.error(field.line, f"a message cannot contain itself: {circle}")
+            if len(within) >= MAX_DEPTH:
+                raise spec.error(field.line, f"more than {MAX_DEPTH} levels of messages in messages")
             try:
                 self._load(field.base, (*within, name))
             except UnknownType as error:
@@ -206,6 +211,7 @@ class Registry:
                 ) from error
             except UnknownPackage as error:
                 raise spec.error(field.line, str(error)) from error
+        self._measures[name] = measure(spec, self._measures.__getitem__)
         self._specs[name] = spec
         return spec
 
@@ -229,11 +235,11 @@ class Registry:
 
     @staticmethod
     def _split(name: str, what: str) -> tuple[str, str]:
-        package, slash, short = name.partition("/")
-        if not (package and slash and short) or "/" in short:
+        if not is_type_name(name):
             raise UnknownType(
-                f"'{name}' is no {what} type: it is written package/Type, as in std_msgs/String"
+                f"{shown(name)} is no {what} type: it is written package/Type, as in std_msgs/String"
             )
+        package, _, short = name.partition("/")
         return package, short
 
     def _type_names(self, package: str) -> list[str]:

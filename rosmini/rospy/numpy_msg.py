@@ -5,18 +5,23 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
+import numpy as np
+
 __all__ = ["numpy_msg"]
 
 
 @cache
 def numpy_msg(msg_type: Any) -> Any:
-    """Return a class of ``msg_type`` that subscribers get with numpy arrays (read-only ones) where there are numbers."""
+    """Return a class of ``msg_type`` that has numpy arrays (read-only ones) where there are numbers when it was received or deserialized."""
     thaw = msg_type._thaw_genpy_numpy  # noqa: SLF001 - the contract of message classes
 
     def receive(frozen: Any) -> Any:
         message = thaw(frozen)
         message.__class__ = made
         return message
+
+    def deserialize(self: Any, str: bytes) -> Any:
+        return self.deserialize_numpy(str, np)
 
     made: Any = type(
         "Numpy_" + msg_type._type.replace("/", "__"),
@@ -27,6 +32,7 @@ def numpy_msg(msg_type: Any) -> Any:
             "__module__": __name__,
             "_plain_type": msg_type,
             "_receive": staticmethod(receive),
+            "deserialize": deserialize,
         },
     )
     made.__slots__ = msg_type.__slots__  # scripts expect to find the field names here

@@ -264,6 +264,18 @@ def test_a_wrong_value_is_reported_with_its_path_value_and_type(message: Any, wo
         built.serialize(io.BytesIO())
 
 
+@pytest.mark.parametrize("value", [2, 255, np.uint8(7)])
+def test_a_bool_that_is_none_is_written_and_found_by_the_check_as_in_genpy(value: Any) -> None:
+    wrong = message_class("std_msgs/Bool")(value)
+    buffer = io.BytesIO()
+    wrong.serialize(buffer)
+    assert buffer.getvalue() == bytes([value])
+    with pytest.raises(SerializationError, match="std_msgs/Bool: field data is not a bool: "):
+        wrong._check_types()
+    for right in (True, False, 0, 1, np.bool_(True)):
+        message_class("std_msgs/Bool")(right)._check_types()
+
+
 def _pose_with_x(value: Any) -> Any:
     pose = PoseStamped()
     pose.pose.position.x = value

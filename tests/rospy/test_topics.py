@@ -234,6 +234,19 @@ def test_numpy_msg_gives_arrays(programs):
     assert waited.data.dtype == np.float32
 
 
+def test_numpy_msg_deserializes_arrays():
+    data = Floats._encode(Floats([1.0, 2.0]))
+    arrays = numpy_msg(Floats)()
+    assert arrays.deserialize(data) is arrays
+    assert isinstance(arrays.data, np.ndarray)
+    assert (arrays.data.dtype, arrays.data.tolist(), arrays.data.flags.writeable) == (
+        np.float32,
+        [1.0, 2.0],
+        False,
+    )
+    assert Floats().deserialize(data).data == (1.0, 2.0)
+
+
 def test_any_msg_takes_everything(programs):
     def main():
         rospy.init_node("main")

@@ -1,0 +1,85 @@
+"""How large a message type may be: a definition comes from outside, and a line such as ``float64[99999999999] x`` costs nothing to write.
+
+No type of ROS comes near these limits. They are looked at before anything is made of a definition, so that neither md5 sums nor classes nor
+default values can take longer, or more memory, than they allow.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from .definition import BYTES, FORMATS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .definition import Field, MessageSpec
+
+__all__ = ["MAX_DEPTH", "MAX_EMPTY", "Measure", "measure", "measured"]
+
+MAX_DEPTH = 64
+"""So deep can messages be in messages."""
+MAX_FIELDS = 4096
+"""So many fields can a message have, those of the messages in it included."""
+MAX_MEMORY = 64 * 1024 * 1024
+"""So much can a message with default values need [bytes]."""
+MAX_EMPTY = 16
+"""So many values that take no bytes (empty messages) can be in a message, or in an array on the wire: no data bounds their number."""
+
+_OBJECT = 64  # what an object takes in memory, roughly
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """How large a message is: levels, fields (arrays count as one), fewest bytes on the wire, bytes in memory by default, empty messages in it."""
+
+    depth: int = 0
+    fields: int = 0
+    wire: int = 0
+    memory: int = _OBJECT
+    empty: int = 0
+
+
+def measure(spec: MessageSpec, of: Callable[[str], Measure]) -> Measure:
+    """Measure a definition; ``of`` gives the measures of nested types by name.
+
+    Raises :class:`~rosmini.errors.DefinitionError` at the field with which the type becomes too large.
+    """
+    depth = fields = wire = empty = 0
+    memory = _OBJECT
+    for field in spec.fields:
+        one = measured(field) if field.builtin else of(field.base)
+        count = 1 if field.size is None else max(field.size, 0)
+        depth = max(depth, one.depth + 1)
+        fields += one.fields if field.size is None else 1
+        wire += 4 if field.size == -1 else count * one.wire
+        memory += _OBJECT + count * one.memory
+        empty += count * (one.empty + (one.wire == 0))
+        problem = _problem(depth, fields, memory, empty)
+        if problem:
+            raise spec.error(field.line, f"field '{field.name}' makes the message too large: {problem}")
+    return Measure(depth, fields, wire, memory, empty)
+
+
+def measured(field: Field) -> Measure:
+    """The measure of one value of a type that needs no definition."""
+    if field.base in FORMATS:
+        size = struct.calcsize("<" + FORMATS[field.base])
+        return Measure(fields=1, wire=size, memory=1 if field.base in BYTES else 8)
+    if field.base == "string":
+        return Measure(fields=1, wire=4, memory=8)
+    return Measure(fields=1, wire=8, memory=_OBJECT)
+
+
+def _problem(depth: int, fields: int, memory: int, empty: int) -> str:
+    if depth > MAX_DEPTH:
+        return f"more than {MAX_DEPTH} levels of messages in messages"
+    if fields > MAX_FIELDS:
+        return f"more than {MAX_FIELDS:,} fields"
+    if memory > MAX_MEMORY:
+        return f"its default value alone would take {memory:,} bytes of memory, at most {MAX_MEMORY:,} are allowed"
+    if empty > MAX_EMPTY:
+        return f"more than {MAX_EMPTY} empty messages in one"
+    return ""
