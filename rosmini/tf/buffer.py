@@ -95,8 +95,8 @@ class BufferCore:
         )
 
     def get_latest_common_time(self, source_frame: str, dest_frame: str) -> Time:
-        """The newest time for which the way between two frames is known; 0 if nothing on it moves."""
-        return Time.from_nsec(self.tree.latest_common_time(dest_frame, source_frame))
+        """The oldest of the newest stamps on the way between two frames; 0 if nothing on it moves. Raises as `FrameTree.lookup` does."""
+        return Time.from_nsec(self.tree.latest_common_time(source_frame, dest_frame))
 
     # -- what is there -------------------------------------------------------------------------------------------
 

@@ -179,14 +179,10 @@ class FrameTree:
 
         """
         if target == source and target:
-            history = self.edges.get(target)
-            newest = history.stamps[-1] if history is not None and not history.static else 0
-            return Found(IDENTITY, stamp_ns or newest)
+            return Found(IDENTITY, stamp_ns or self._newest(target))
         path = self._paths.get((target, source)) or self._path(target, source, stamp_ns)
         if stamp_ns == LATEST:
-            stamp_ns = min(
-                [edge.stamps[-1] for part in path for edge in part if not edge.static], default=LATEST
-            )
+            stamp_ns = _common(path)
             if self._wandering:
                 path = self._path(target, source, stamp_ns)
         edge = None
@@ -218,8 +214,17 @@ class FrameTree:
         return Found(compose(then.transform, seen.transform), then.stamp_ns)
 
     def latest_common_time(self, target: str, source: str) -> int:
-        """The newest time [ns] at which every edge between two frames is known; 0 if none of them moves. Raises as `lookup` does."""
-        return self.lookup(target, source, LATEST).stamp_ns
+        """The oldest of the newest samples [ns] between two frames; 0 if nothing on the way moves.
+
+        Not every edge need be known then: one whose only sample is newer is not. Raises as `lookup` does for the names and the way.
+        """
+        if target == source and target in self:
+            return self._newest(target)
+        return _common(self._path(target, source, LATEST))
+
+    def _newest(self, frame: str) -> int:
+        history = self.edges.get(frame)
+        return history.stamps[-1] if history is not None and not history.static else 0
 
     def why_not(self, target: str, source: str, stamp_ns: int = LATEST) -> TransformException | None:
         """The error that `lookup` would raise; None if it would answer."""
@@ -268,3 +273,11 @@ class FrameTree:
                 raise LookupException(self._words.loop())
             found[frame] = None
         return list(found)
+
+
+def _common(path: Path) -> int:
+    """The oldest of the newest samples [ns] on a way. A sample stamped 0 counts as one for all times, as in tf2."""
+    return min(
+        [edge.stamps[-1] for part in path for edge in part if not edge.static and edge.stamps[-1]],
+        default=LATEST,
+    )

@@ -53,6 +53,9 @@ def world(seed: int, *, wander: bool) -> dict[str, list]:
         if rng.random() < 0.25:
             told.append((parent, frames[number], pose(), 0, True))
             continue
+        if rng.random() < 0.05:
+            told.append((parent, frames[number], pose(), 0, False))
+            continue
         for _ in range(rng.randrange(1, 30)):
             if wander and rng.random() < 0.1:
                 parent = frames[rng.randrange(first, number)]
@@ -65,7 +68,8 @@ def world(seed: int, *, wander: bool) -> dict[str, list]:
             rng.choice([0, rng.randrange(500, 17000) * MS, rng.randrange(1000, 16000, 50) * MS]) for _ in "12"
         )
         asked.append((target, when, source, then, rng.choice(["", "", rng.choice(frames)])))
-    return {"cache": 6, "told": told, "asked": asked}
+    latest = [(target, source) for target in [*frames, "nobody"] for source in [*frames, "/f1", "nobody"]]
+    return {"cache": 6, "told": told, "asked": asked, "latest": latest}
 
 
 def real_answers(task: dict[str, list]) -> dict[str, object]:
@@ -105,7 +109,7 @@ def better(real: str, ours: str) -> bool:
 
 
 @pytest.mark.parametrize("wander", [False, True], ids=["steady", "wandering"])
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(8))
 def test_the_same_answers(seed: int, wander: bool) -> None:
     task = world(seed, wander=wander)
     real = real_answers(task)
@@ -121,4 +125,13 @@ def test_the_same_answers(seed: int, wander: bool) -> None:
             assert np.allclose(matrix(tuple(mine)), matrix(tuple(theirs)), atol=1e-9), question
             assert my_stamp == their_stamp, question
     assert numbers > 40
+    for (target, source), theirs in zip(task["latest"], real["latest"], strict=True):
+        try:
+            mine: object = core.get_latest_common_time(target, source).to_nsec()
+        except TransformException as error:
+            mine = type(error).__name__
+        assert mine == theirs or theirs == "TransformException" and mine == "ConnectivityException", (
+            target,
+            source,
+        )
     assert yaml.safe_load(core.all_frames_as_yaml()) == yaml.safe_load(real["yaml"])

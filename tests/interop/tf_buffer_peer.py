@@ -32,7 +32,13 @@ def main():
             answers.append([numbers, found.header.stamp.to_nsec()])
         except tf2_py.TransformException as error:
             answers.append([type(error).__name__, 0])
-    json.dump({"answers": answers, "yaml": buffer.all_frames_as_yaml()}, sys.stdout)
+    latest = []
+    for target, source in task["latest"]:
+        try:
+            latest.append(buffer.get_latest_common_time(target, source).to_nsec())
+        except tf2_py.TransformException as error:
+            latest.append(type(error).__name__)
+    json.dump({"answers": answers, "latest": latest, "yaml": buffer.all_frames_as_yaml()}, sys.stdout)
 
 
 main()

@@ -56,6 +56,22 @@ def test_the_latest_common_time(tree):
     assert tree.lookup("base", "laser", 77 * S).stamp_ns == 77 * S
 
 
+def test_the_latest_common_time_of_frames_that_were_never_known_together():
+    """As tf2 computes it: the oldest of the newest stamps, whether or not a lookup then would answer."""
+    tree = FrameTree()
+    tree.set("map", "odom", rigid(), 5 * S)
+    tree.set("odom", "base", rigid(), 9 * S)
+    tree.set("base", "laser", rigid(), 0, static=True)
+    tree.set("base", "arm", rigid(), 0)  # said to move, and stamped 0: that counts as always
+    assert tree.latest_common_time("map", "laser") == 5 * S
+    assert tree.latest_common_time("odom", "arm") == 9 * S
+    assert tree.latest_common_time("odom", "odom") == 5 * S
+    with pytest.raises(ExtrapolationException):
+        tree.lookup("map", "base")
+    with pytest.raises(LookupException):
+        tree.latest_common_time("map", "nobody")
+
+
 def test_a_frame_in_itself(tree):
     assert tree.lookup("odom", "odom") == (rigid(), 2 * S)
     assert tree.lookup("nobody", "nobody", 5) == (rigid(), 5)  # as tf answers
