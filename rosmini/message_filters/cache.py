@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
 from typing import TYPE_CHECKING, Any
 
 from rosmini.time import Time
@@ -33,7 +32,10 @@ class Cache(StampingFilter):
     ) -> None:
         super().__init__([f], allow_headerless=allow_headerless, node=node)
         self.cache_size = check_size("cache_size", cache_size)
-        self._kept: deque[tuple[Time, Any]] = deque(maxlen=cache_size)
+        self.cache_msgs: list[Any] = []
+        """The messages that are kept, the oldest first."""
+        self.cache_times: list[Time] = []
+        """Their stamps."""
         self.connectInput(f)
 
     def connectInput(self, f: SimpleFilter) -> None:
@@ -44,8 +46,14 @@ class Cache(StampingFilter):
         """Take a message and pass it on."""
         stamp = self._stamp(msg)
         if stamp is not None:
-            self._kept.append((type(stamp)(stamp.secs, stamp.nsecs), msg))
+            self.cache_times.append(type(stamp)(stamp.secs, stamp.nsecs))
+            self.cache_msgs.append(msg)
+            if len(self.cache_msgs) > self.cache_size:
+                del self.cache_msgs[0], self.cache_times[0]
             self.signalMessage(msg)
+
+    def _pairs(self) -> list[tuple[Time, Any]]:
+        return list(zip(self.cache_times, self.cache_msgs, strict=True))
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:
         """Return the messages between two times, and at them. Raises ``MessageFilterError`` if the first is the later one."""
@@ -53,19 +61,19 @@ class Cache(StampingFilter):
             raise MessageFilterError(
                 f"the interval begins at {from_stamp.to_sec()} s and ends before that, at {to_stamp.to_sec()} s: give the earlier time first"
             )
-        return [message for stamp, message in self._kept if from_stamp <= stamp <= to_stamp]
+        return [message for stamp, message in self._pairs() if from_stamp <= stamp <= to_stamp]
 
     def getElemAfterTime(self, stamp: Time) -> Any:
         """Return the first message at or after this time, or None."""
-        return next((message for when, message in self._kept if when >= stamp), None)
+        return next((message for when, message in self._pairs() if when >= stamp), None)
 
     def getElemBeforeTime(self, stamp: Time) -> Any:
         """Return the last message at or before this time, or None."""
-        return next((message for when, message in reversed(self._kept) if when <= stamp), None)
+        return next((message for when, message in reversed(self._pairs()) if when <= stamp), None)
 
     def getLatestTime(self) -> Time | None:
         """Return the stamp of the message that came last, or None."""
-        return self._kept[-1][0] if self._kept else None
+        return self.cache_times[-1] if self.cache_times else None
 
     def getLastestTime(self) -> Time | None:
         """Return the same as :meth:`getLatestTime`: ROS's old name."""
@@ -73,8 +81,8 @@ class Cache(StampingFilter):
 
     def getOldestTime(self) -> Time | None:
         """Return the stamp of the message that came first of those that are kept, or None."""
-        return self._kept[0][0] if self._kept else None
+        return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:
-        """Return the message that came last, or None."""
-        return self._kept[-1][1] if self._kept else None
+        """Return the first of the messages whose stamps are not older than that of the one that came last, or None."""
+        return self.getElemAfterTime(self.cache_times[-1]) if self.cache_times else None

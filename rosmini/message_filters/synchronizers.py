@@ -3,20 +3,46 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import MutableMapping
 from typing import TYPE_CHECKING, Any
 
-from rosmini.time import Duration
+from rosmini.time import Duration, Time
 
 from .errors import MessageFilterError
 from .filters import SimpleFilter, StampingFilter
-from .policies import ApproximateTime, ExactTime, Policy
+from .policies import ApproximateTime, ExactTime, Policy, Queue
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from rosmini.graph import Node
 
 __all__ = ["ApproximateTimeSynchronizer", "TimeSynchronizer"]
+
+
+class StampedQueue(MutableMapping[Time, Any]):
+    """The messages of one input that wait for their partners, by stamp: the policy's own queue, under the keys of ROS's client."""
+
+    def __init__(self, kept: Queue) -> None:
+        self.kept = kept
+
+    def __getitem__(self, stamp: Time) -> Any:
+        return self.kept[stamp.to_nsec()]
+
+    def __setitem__(self, stamp: Time, message: Any) -> None:
+        self.kept[stamp.to_nsec()] = message
+
+    def __delitem__(self, stamp: Time) -> None:
+        del self.kept[stamp.to_nsec()]
+
+    def __iter__(self) -> Iterator[Time]:
+        return map(Time.from_nsec, list(self.kept))
+
+    def __len__(self) -> int:
+        return len(self.kept)
+
+    def __repr__(self) -> str:
+        return repr(dict(self))
 
 
 class TimeSynchronizer(StampingFilter):
@@ -45,6 +71,8 @@ class TimeSynchronizer(StampingFilter):
         StampingFilter.__init__(self, filters, allow_headerless=allow_headerless, node=node)
         self.policy = policy
         self.queue_size = policy.queue_size
+        self.queues = [StampedQueue(queue) for queue in policy.queues]
+        """What waits, an item for each input: messages by stamp."""
         self._ready: deque[tuple[Any, ...]] = deque()
         self._giving = False
         self.connectInput(filters)
@@ -56,15 +84,21 @@ class TimeSynchronizer(StampingFilter):
             raise MessageFilterError(
                 f"{type(self).__name__} was made for {len(self.policy.queues)} filters and cannot be connected to {len(filters)}"
             )
-        self.input_connections = [one.registerCallback(self.add, index) for index, one in enumerate(filters)]
+        self.input_connections = [
+            one.registerCallback(self.add, queue, index)
+            for index, (one, queue) in enumerate(zip(filters, self.queues, strict=True))
+        ]
 
-    def add(self, msg: Any, my_queue_index: int) -> None:
-        """Take a message of the input with this index; give out what it completes."""
+    def add(self, msg: Any, my_queue: StampedQueue, my_queue_index: int | None = None) -> None:
+        """Take a message for one of the queues, which may be named by its index, too; give out what it completes."""
+        index = my_queue_index
+        if index is None:
+            index = next(number for number, queue in enumerate(self.queues) if queue is my_queue)
         stamp = self._stamp(msg)
         if stamp is None:
             return
         now = self._now().to_nsec() if self._knows_time() or self.policy.reset else 0
-        self._ready.extend(self.policy.add(my_queue_index, stamp.to_nsec(), msg, now))
+        self._ready.extend(self.policy.add(index, stamp.to_nsec(), msg, now))
         self._give_out()
 
     def _give_out(self) -> None:

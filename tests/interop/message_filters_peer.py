@@ -36,12 +36,19 @@ def story(make, inputs, stamps):
     filters = [message_filters.SimpleFilter() for _ in range(inputs)]
     synchroniser = make(filters)
     found = []
+    waits = []
     synchroniser.registerCallback(
         lambda *args: found.append([int(msg.header.frame_id) for msg in args[:-1]] + [args[-1]]), "extra"
     )
     for number, (index, stamp) in enumerate(stamps):
         filters[index].signalMessage(stamped(stamp, number))
-    return found
+        waits.append(
+            [
+                sorted((stamp.to_nsec(), int(msg.header.frame_id)) for stamp, msg in queue.items())
+                for queue in synchroniser.queues
+            ]
+        )
+    return found + waits
 
 
 set_time(1000)
@@ -61,7 +68,27 @@ for _ in range(150):
             stamps,
         )
     )
-facts["sets"] = [sum(map(len, facts["exact"])), sum(map(len, facts["approximate"]))]
+facts["sets"] = [sum(map(len, facts[kind])) - 150 * 60 for kind in ("exact", "approximate")]
+
+
+class Own(message_filters.TimeSynchronizer):
+    """Takes a set as soon as two of its inputs have it: by the queues alone."""
+
+    def add(self, msg, my_queue, my_queue_index=None):
+        my_queue[msg.header.stamp] = msg
+        while len(my_queue) > self.queue_size:
+            del my_queue[min(my_queue)]
+        for stamp in sorted(set(self.queues[0]) & set(self.queues[1])):
+            self.signalMessage(self.queues[0].pop(stamp), self.queues[1].pop(stamp))
+
+
+stamps = [(dice.randrange(3), 100 + 40 * dice.randrange(12)) for n in range(60)]
+facts["own"] = story(lambda f: Own(f, 5), 3, stamps)
+plain = message_filters.TimeSynchronizer([message_filters.SimpleFilter()] * 2, 3)
+plain.add(stamped(100, 1), plain.queues[1])
+plain.queues[1].clear()
+plain.add(stamped(200, 1), plain.queues[1])
+facts["by hand"] = [[stamp.to_nsec() for stamp in queue] for queue in plain.queues]
 
 # ---- a clock that goes back ----
 
@@ -145,7 +172,10 @@ facts["empty cache"] = [
 ]
 for number, stamp in enumerate([100, 200, 300, 300, 500, 700]):
     source.signalMessage(stamped(stamp, number))
-facts["cache"] = {"passed": passed}
+facts["cache"] = {
+    "passed": passed,
+    "kept": [[time.to_nsec() for time in cache.cache_times], ids(cache.cache_msgs)],
+}
 for when in (50, 300, 400, 700, 900):
     time = stamped(when, 0).header.stamp
     facts["cache"][str(when)] = [
@@ -159,6 +189,23 @@ facts["cache"]["ends"] = [
     cache.getLastestTime().to_nsec(),
     ids(cache.getLast()),
 ]
+facts["caches"] = []
+for _ in range(40):
+    source = message_filters.SimpleFilter()
+    cache = message_filters.Cache(source, dice.choice([1, 2, 5, 9]))
+    for number in range(12):
+        source.signalMessage(stamped(100 * dice.randrange(1, 9), number))
+        begin, end = sorted(stamped(100 * dice.randrange(1, 9), 0).header.stamp for _ in "12")
+        facts["caches"].append(
+            [
+                ids(cache.getInterval(begin, end)),
+                ids(cache.getElemAfterTime(begin)),
+                ids(cache.getElemBeforeTime(begin)),
+                ids(cache.getLast()),
+                cache.getLatestTime().to_nsec(),
+                cache.getOldestTime().to_nsec(),
+            ]
+        )
 text = message_filters.SimpleFilter()
 kept = message_filters.Cache(text, 2, allow_headerless=True)
 refused = message_filters.Cache(text, 2)

@@ -130,7 +130,7 @@ def test_the_same_answers(seed: int, wander: bool) -> None:
             mine: object = core.get_latest_common_time(target, source).to_nsec()
         except TransformException as error:
             mine = type(error).__name__
-        assert mine == theirs or theirs == "TransformException" and mine == "ConnectivityException", (
+        assert mine == theirs or (theirs == "TransformException" and mine == "ConnectivityException"), (
             target,
             source,
         )
