@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from rosmini.book.checks import exercise, expect
+from rosmini.book.checks import Wrong, exercise, expect
 from rosmini.msgs import message_class
 from rosmini.tf import Buffer
-from rosmini.tf.messages import scan_points, to_stamped
+from rosmini.tf.messages import scan_points, to_stamped, transform_of
 from rosmini.tf.rigid import Rigid, compose, from_yaw, inverse, matrix
 from rosmini.time import Time
 
@@ -22,13 +22,18 @@ def _buffer(*told: tuple[str, str, Rigid, int]) -> Buffer:
     return buffer
 
 
-def _scan() -> Any:
+def _scan(*ranges: float) -> Any:
     scan = message_class("sensor_msgs/LaserScan")(
-        angle_increment=math.pi / 2, range_min=0.1, range_max=5.0, ranges=[1.0, 0.9, 0.8, math.inf]
+        angle_increment=math.pi / 2, range_min=0.1, range_max=5.0, ranges=ranges
     )
     scan.header.frame_id = "front_laser"
     scan.header.stamp = Time(5)
     return scan
+
+
+def _points(buffer: Buffer, scan: Any) -> Any:
+    header = scan.header
+    return buffer.transform_points(scan_points(scan), "base_link", header.frame_id, header.stamp)
 
 
 @exercise(
@@ -42,20 +47,26 @@ def _scan() -> Any:
                 for x, y, _ in buffer.transform_points(scan_points(scan), "front_laser", "base_link")
             )
         ),
-        lambda: lambda buffer, scan: buffer.transform_points(scan_points(scan), "base_link", "front_laser"),
+        lambda: _points,
+        lambda: lambda buffer, scan: min(math.hypot(x, y, z) for x, y, z in _points(buffer, scan)),
         lambda: (
             lambda buffer, scan: min(
-                math.hypot(x, y, z)
-                for x, y, z in buffer.transform_points(scan_points(scan), "base_link", "front_laser")
+                math.hypot(x, y)
+                for x, y, _ in buffer.transform_points(scan_points(scan), "base_link", "front_laser")
             )
+        ),
+        lambda: lambda buffer, scan: min(math.hypot(x, y) for x, y, _ in _points(buffer, scan)),
+        lambda: (
+            lambda buffer, scan: min((math.hypot(x, y) for x, y, _ in _points(buffer, scan)), default=0.0)
         ),
     ],
 )
 def nearest_to_base(answer: Any) -> None:
-    """The distance on the ground, in the frame base_link."""
+    """The distance on the ground, in the frame base_link, at the time of the scan."""
     # The laser is 0.5 m ahead and looks to the left: what is 0.9 m to its left is 0.4 m behind the robot's middle.
     mounted = from_yaw(0.5, 0.0, math.pi / 2, z=1.0)
-    found = answer(_buffer(("base_link", "front_laser", mounted, 5)), _scan())
+    scan, still = _scan(1.0, 0.9, 0.8, math.inf), ("base_link", "front_laser", mounted, 5)
+    found = answer(_buffer(still), scan)
     expect(
         isinstance(found, float),
         f"A {type(found).__name__} came back, not a number.",
@@ -66,31 +77,60 @@ def nearest_to_base(answer: Any) -> None:
         f"With a laser 0.5 m ahead that looks to the left, the nearest point is 0.40 m from base_link, not {found:.2f} m.",
         "transform the points of the scan to base_link, then take the smallest hypot(x, y)",
     )
+    turned = ("base_link", "front_laser", from_yaw(0.5, 0.0, -math.pi / 2, z=1.0), 6)
+    found = answer(_buffer(still, turned), scan)
+    expect(
+        abs(found - 0.4) < 1e-6,
+        f"The laser was turned after the scan, and you return {found:.2f} m: the transform is that of another time.",
+        "the time of the scan is scan.header.stamp",
+    )
+    try:
+        nothing = answer(_buffer(still), _scan(math.inf, math.inf))
+    except ValueError as error:
+        raise Wrong("It fails if the laser saw nothing.", "min(..., default=math.inf)") from error
+    expect(nothing == math.inf, f"The laser saw nothing, and you return {nothing!r}.", "return math.inf")
+
+
+def _correction(map_base: Rigid, buffer: Buffer, stamp: Time) -> Rigid:
+    return compose(map_base, inverse(transform_of(buffer.lookup_transform("odom", "base_footprint", stamp))))
 
 
 @exercise(
     "31.2",
     praise="This is all that amcl publishes on /tf.",
     mistakes=[
-        lambda: lambda map_base, odom_base: compose(inverse(odom_base), map_base),
-        lambda: lambda map_base, odom_base: compose(odom_base, inverse(map_base)),
-        lambda: lambda map_base, _odom_base: map_base,
-        lambda: lambda map_base, odom_base: matrix(compose(map_base, inverse(odom_base))),
+        lambda: (
+            lambda buffer, map_base, stamp: compose(
+                inverse(transform_of(buffer.lookup_transform("odom", "base_footprint", stamp))), map_base
+            )
+        ),
+        lambda: lambda buffer, map_base, stamp: inverse(_correction(map_base, buffer, stamp)),
+        lambda: lambda _buffer, map_base, _stamp: map_base,
+        lambda: lambda buffer, map_base, _stamp: _correction(map_base, buffer, Time(0)),
+        lambda: lambda buffer, map_base, stamp: matrix(_correction(map_base, buffer, stamp)),
     ],
 )
 def map_to_odom(answer: Any) -> None:
-    """The transform of odom in map."""
+    """The transform of odom in map, by the odometry of the time for which the place in map holds."""
     map_base, odom_base = from_yaw(2.0, 1.0, 0.7), from_yaw(1.5, -0.2, 0.4)
-    found = answer(map_base, odom_base)
+    then = ("odom", "base_footprint", odom_base, 5)
+    later = ("odom", "base_footprint", from_yaw(1.9, 0.1, 0.9), 6)
+    found = answer(_buffer(then, later), map_base, Time(5))
     expect(
         isinstance(found, tuple) and len(found) == 7,
         "A transform is a tuple of seven numbers.",
-        "compose and inverse give one",
+        "compose, inverse and transform_of give one",
+    )
+    late = compose(found, from_yaw(1.9, 0.1, 0.9))
+    expect(
+        any(abs(a - b) > 1e-6 for a, b in zip(late, map_base, strict=True)),
+        "It takes the odometry of now. The place in map is that of the time `stamp`, and the robot has driven on since.",
+        'buffer.lookup_transform("odom", "base_footprint", stamp)',
     )
     through = compose(found, odom_base)
     expect(
         all(abs(a - b) < 1e-6 for a, b in zip(through, map_base, strict=True)),
-        "Composed with the odometry, your transform does not give where the robot is in map.",
+        "Composed with the odometry of that time, your transform does not give where the robot was in map.",
         "map -> base is map -> odom followed by odom -> base: solve that for map -> odom",
     )
 
