@@ -25,6 +25,7 @@ from .shapes import Box, Cylinder, Part, is_finite
 
 __all__ = [
     "BURGER",
+    "GRAVITY",
     "MODELS",
     "WAFFLE",
     "WAFFLE_PI",
@@ -41,6 +42,9 @@ __all__ = [
 ]
 
 Point = tuple[float, float, float]
+
+GRAVITY = 9.80665
+"""Standard gravity [m/s2]."""
 
 VARIABLE = "TURTLEBOT3_MODEL"
 """The environment variable by which ROBOTIS's launch files choose a model."""
@@ -175,6 +179,8 @@ class ImuModel:
     """Standard deviation, from one unit to another, of the angular velocity it shows at rest [rad/s]."""
     accel_bias: float = 0.0
     """The same of a linear acceleration [m/s2]."""
+    gravity: float = GRAVITY
+    """What it shows upwards at rest [m/s2] (REP 145); 0: it does not feel gravity."""
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,7 @@ from rosmini.graph.byte_transport import ByteTransport
 from rosmini.msgs import message_class, service_class
 from rosmini.scripts import run_source
 from rosmini.sim.engine import RobotGone
-from rosmini.sim.models import BURGER, UnknownModel
-from rosmini.sim.sensors.imu import GRAVITY
+from rosmini.sim.models import BURGER, GRAVITY, UnknownModel
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import World, WorldError
 from rosmini.sim.worlds import world

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from rosmini.errors import RosminiError
 from rosmini.geometry.poses import arc
 from rosmini.sim.engine import Engine
-from rosmini.sim.models import BURGER
-from rosmini.sim.sensors.imu import GRAVITY, Imu
+from rosmini.sim.models import BURGER, GRAVITY
+from rosmini.sim.sensors.imu import Imu
 from rosmini.sim.world import Cylinder, Obstacle, World
 
 from . import Measure, sim_room

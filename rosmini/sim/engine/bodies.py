@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from pymunk import autogeometry
 
 from rosmini.geometry.poses import Pose
-from rosmini.sim.models import RobotModel
-from rosmini.sim.sensors.imu import GRAVITY
+from rosmini.sim.models import GRAVITY, RobotModel
 from rosmini.sim.shapes import ROUND, Compound, Simple, simple_parts
 from rosmini.sim.world import Obstacle
 

@@ -155,6 +155,13 @@ class Model:
         hint = nearest(link, there) or f"its links are: {', '.join(there)}"
         raise UnknownEntity(f"the model {self.name!r} has no link {link!r}; {hint}")
 
+    def on_robot(self, pose: Pose6) -> Pose6:
+        """A pose in the model, seen from the robot of the engine, which turns about the middle of its axle."""
+        if self.body is None or self.body.axle == (0.0, 0.0, 0.0):
+            return pose
+        x, y, yaw = inverse(self.body.axle)
+        return compose6((x, y, 0.0, 0.0, 0.0, yaw), pose)
+
     def link_in_model(self, link: str) -> Pose6:
         """Where a link is in the model now: wheels turn. Raises `UnknownEntity`."""
         frame = self.link_frame(link)
@@ -220,11 +227,7 @@ class Sensor:
     @property
     def mount(self) -> Pose6:
         """Where it sits, seen from the robot of the engine."""
-        at = compose6(self.model.link_frame(self.link), self.sdf.pose)
-        if self.model.body is None or self.model.body.axle == (0.0, 0.0, 0.0):
-            return at
-        x, y, yaw = inverse(self.model.body.axle)
-        return compose6((x, y, 0.0, 0.0, 0.0, yaw), at)
+        return self.model.on_robot(compose6(self.model.link_frame(self.link), self.sdf.pose))
 
 
 def _spin(axis: tuple[float, float, float], angle: float) -> Pose6:

@@ -16,9 +16,6 @@ import numpy as np
 
 from rosmini.sim.models import ImuModel
 
-GRAVITY = 9.80665
-"""Standard gravity [m/s2]."""
-
 BLOCK = 256
 """So many samples' noise is drawn at once."""
 
@@ -86,12 +83,12 @@ class Imu:
         x, y, _ = self._mount
         ax, ay = acceleration(x, y, v, w, dv, dw, aside)
         if not self._scale:
-            return (0.0, 0.0, w, ax, ay, GRAVITY, 0.0)
+            return (0.0, 0.0, w, ax, ay, self.model.gravity, 0.0)
         if number >= self._end:
             self._draw(number)
         place = number - self._first
         e = self._noise[place]
-        return (e[0], e[1], w + e[2], ax + e[3], ay + e[4], GRAVITY + e[5], self._drifts[place])
+        return (e[0], e[1], w + e[2], ax + e[3], ay + e[4], self.model.gravity + e[5], self._drifts[place])
 
     def heading_error(self, number: int) -> float:
         """By how much the integral of what the gyroscope showed, up to sample `number`, differs from the turn of the robot [rad]."""

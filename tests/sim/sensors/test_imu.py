@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.sim.models import BURGER, ImuModel
-from rosmini.sim.sensors.imu import BLOCK, GRAVITY, Imu, acceleration
+from rosmini.sim.models import BURGER, GRAVITY, ImuModel
+from rosmini.sim.sensors.imu import BLOCK, Imu, acceleration
 
 MODEL = BURGER.imu
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from .cameras import BumperPlugin, CameraPlugin, DepthCameraPlugin
 from .drives import DiffDrive, PlanarMove
-from .sensors import ImuModelPlugin, ImuSensorPlugin, LaserPlugin
+from .imus import ImuModelPlugin, ImuSensorPlugin
+from .sensors import LaserPlugin
 from .states import GroundTruthPlugin, JointStatePublisher
 
 __all__ = [

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -170,24 +172,128 @@ def test_frames_begin_with_tf_prefix_if_it_is_set(bench: Start) -> None:
 
 
 IMU = """<gazebo><plugin name="imu" filename="libgazebo_ros_imu.so"><bodyName>laser</bodyName><topicName>imu</topicName>
-  <serviceName>imu_service</serviceName><updateRate>50</updateRate><gaussianNoise>0.0</gaussianNoise></plugin></gazebo>"""
+  <serviceName>imu_service</serviceName><updateRate>50</updateRate><gaussianNoise>{noise}</gaussianNoise>{more}</plugin></gazebo>"""
+IMU_SENSOR = """<gazebo reference="laser"><sensor type="imu" name="imu"><pose>{pose}</pose>{own}<plugin name="imu" filename="libgazebo_ros_imu_sensor.so">
+  <topicName>imu</topicName><updateRateHZ>50</updateRateHZ><gaussianNoise>0</gaussianNoise>{more}</plugin></sensor></gazebo>"""
 
 
-def test_a_unit_tells_turning_acceleration_and_the_worlds_heading(bench: Start) -> None:
-    there = bench()
-    there.spawn(urdf(DIFF_DRIVE + IMU), "r", 0.0, 0.0, 1.0)
+def imu(noise: float = 0.0, more: str = "") -> str:
+    """A robot with the model's plugin."""
+    return urdf(DIFF_DRIVE + IMU.format(noise=noise, more=more))
+
+
+def imu_sensor(more: str = "", pose: str = "0 0 0 0 0 0", own: str = "") -> str:
+    """A robot with a sensor of type imu."""
+    return urdf(DIFF_DRIVE + IMU_SENSOR.format(more=more, pose=pose, own=own))
+
+
+def measured(there: Bench, robot: str, heading: float = 1.0, v: float = 0.2, w: float = 0.5) -> Any:
+    """What the unit of a robot shows after two seconds on a circle."""
+    assert there.spawn(robot, "r", 0.0, 0.0, heading).success
     heard = there.hear("/imu", "sensor_msgs/Imu")
-    there.drive("/cmd_vel", 0.2, 0.5)
+    there.drive("/cmd_vel", v, w)
     there.graph.run(2.0)
-    message = heard[-1]
     assert len(heard) in (99, 100)
+    return heard[-1]
+
+
+def vector(part: Any) -> tuple[float, float, float]:
+    return (part.x, part.y, part.z)
+
+
+def yaw(message: Any) -> float:
+    return 2 * math.atan2(message.orientation.z, message.orientation.w)
+
+
+def test_the_models_unit_tells_turning_and_heading_and_knows_no_gravity(bench: Start) -> None:
+    there = bench()
+    message = measured(there, imu())
     assert message.header.frame_id == "laser"
-    assert message.angular_velocity.z == pytest.approx(0.5)
-    assert message.linear_acceleration.y == pytest.approx(0.1)  # v w, to the middle of the circle
-    assert message.linear_acceleration.z == pytest.approx(9.8, abs=0.02)
-    heading = 2 * math.atan2(message.orientation.z, message.orientation.w)
-    assert heading == pytest.approx(there.pose("r")[2], abs=0.02)
+    assert vector(message.angular_velocity) == pytest.approx((0, 0, 0.5))
+    assert vector(message.linear_acceleration) == pytest.approx(
+        (0, 0.1, 0), abs=1e-6
+    )  # v w, to the middle of the circle
+    assert yaw(message) == pytest.approx(there.pose("r")[2], abs=0.02)
+    assert not any(message.linear_acceleration_covariance)
     there.node.service_client("/imu_service", __import__("rosmini").msgs.service_class("std_srvs/Empty"))()
+
+
+def test_the_models_unit_ignores_what_gazebos_ignores(bench: Start) -> None:
+    ignored = "<xyzOffset>0.5 0 0</xyzOffset><imu><noise><type>gaussian</type><rate><stddev>1</stddev></rate><accel><stddev>1</stddev></accel></noise></imu>"
+    message = measured(bench(), imu(more=ignored))
+    assert vector(message.angular_velocity) == pytest.approx((0, 0, 0.5))
+    assert vector(message.linear_acceleration) == pytest.approx((0, 0.1, 0), abs=1e-6)
+
+
+def test_the_models_unit_is_at_the_origin_of_the_link_that_its_own_became_part_of(bench: Start) -> None:
+    there = bench()
+    moved = imu().replace(
+        '<child link="laser"/><origin xyz="0 0 0.2"/>',
+        '<child link="laser"/><origin xyz="0.1 0 0.2" rpy="0 0 1.5708"/>',
+    )
+    message = measured(there, moved)
+    assert vector(message.linear_acceleration) == pytest.approx(
+        (0.1, 0, 0), abs=1e-5
+    )  # seen from a turned link; -x w w is missing
+    assert yaw(message) == pytest.approx(there.pose("r")[2] + math.pi / 2, abs=0.02)
+
+
+def test_the_noise_of_the_models_unit_is_on_all_that_it_measures_and_in_the_covariances(bench: Start) -> None:
+    there = bench()
+    there.spawn(imu(noise=0.2), "r")
+    heard = there.hear("/imu", "sensor_msgs/Imu")
+    there.graph.run(8.0)
+    for part in ("angular_velocity", "linear_acceleration"):
+        values = np.array([vector(getattr(message, part)) for message in heard])
+        assert values.std(axis=0) == pytest.approx([0.2] * 3, rel=0.2)
+        assert values.mean(axis=0) == pytest.approx([0.0] * 3, abs=0.05)
+        assert getattr(heard[0], f"{part}_covariance")[0] == pytest.approx(0.04)
+    assert {yaw(message) for message in heard} == {0.0}
+
+
+def test_the_sensors_unit_feels_the_gravity_of_its_world_and_where_it_sits(bench: Start) -> None:
+    there = bench()
+    message = measured(there, imu_sensor(pose="0.2 0 0 0 0 0"))
+    assert vector(message.linear_acceleration) == pytest.approx((-0.2 * 0.25, 0.1, 9.8), abs=1e-6)
+    assert yaw(message) == pytest.approx(there.pose("r")[2], abs=0.02)
+    physics = there.server.world.physics
+    there.server.set_physics(replace(physics, gravity=(0.0, 0.0, -1.6)))
+    heard = there.hear("/imu", "sensor_msgs/Imu")
+    there.graph.run(0.1)
+    assert heard[-1].linear_acceleration.z == pytest.approx(1.6)
+
+
+def test_the_sensors_unit_measures_in_its_own_axes(bench: Start) -> None:
+    message = measured(bench(), imu_sensor(pose="0 0 0 3.14159265 0 0"), heading=0.0)
+    assert vector(message.angular_velocity) == pytest.approx((0, 0, -0.5), abs=1e-6)
+    assert vector(message.linear_acceleration) == pytest.approx((0, -0.1, -9.8), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("tags", "first"),
+    [("", 1.0), ("<initialOrientationAsReference>true</initialOrientationAsReference>", 0.0)],
+)
+def test_the_sensors_unit_counts_the_heading_in_the_world_unless_told_otherwise(
+    bench: Start, tags: str, first: float
+) -> None:
+    message = measured(bench(), imu_sensor(tags), v=0.0, w=0.0)
+    assert yaw(message) == pytest.approx(first)
+
+
+def test_the_sensors_offset_turns_the_orientation_only(bench: Start) -> None:
+    message = measured(bench(), imu_sensor("<rpyOffset>0 0 0.5</rpyOffset>"), heading=0.0, v=0.2, w=0.0)
+    assert yaw(message) == pytest.approx(0.5)
+    assert vector(message.linear_acceleration) == pytest.approx((0, 0, 9.8), abs=1e-6)
+
+
+def test_the_sensors_own_noise_counts(bench: Start) -> None:
+    own = "<imu><angular_velocity><z><noise type='gaussian'><stddev>0.3</stddev></noise></z></angular_velocity></imu>"
+    there = bench()
+    there.spawn(imu_sensor(own=own), "r")
+    heard = there.hear("/imu", "sensor_msgs/Imu")
+    there.graph.run(8.0)
+    rates = np.array([message.angular_velocity.z for message in heard])
+    assert rates.std() == pytest.approx(0.3, rel=0.2)
 
 
 CAMERA = """<gazebo reference="laser"><sensor type="{type}" name="cam"><update_rate>5</update_rate><camera>
@@ -292,7 +398,7 @@ def test_a_plugin_in_the_wrong_place_is_left_out(bench: Start, capsys: pytest.Ca
 
 def test_a_model_that_goes_takes_its_topics_along_even_while_it_moves(bench: Start) -> None:
     there = bench()
-    there.spawn(urdf(DIFF_DRIVE + LASER + IMU + STATES), "r", robot_namespace="r")
+    there.spawn(urdf(DIFF_DRIVE + LASER + IMU.format(noise=0, more="") + STATES), "r", robot_namespace="r")
     there.drive("/r/cmd_vel", 0.2)
     there.graph.run(0.5)
     topics = {name for name, _ in there.graph.master.getTopicTypes("/x")[2]}
@@ -301,7 +407,9 @@ def test_a_model_that_goes_takes_its_topics_along_even_while_it_moves(bench: Sta
     there.graph.run(0.5)
     published = {name for name, _ in there.graph.master.getPublishedTopics("/x", "")[2]}
     assert not {name for name in published if name.startswith("/r/") and name != "/r/cmd_vel"}
-    assert there.spawn(urdf(DIFF_DRIVE + LASER + IMU + STATES), "r", robot_namespace="r").success
+    assert there.spawn(
+        urdf(DIFF_DRIVE + LASER + IMU.format(noise=0, more="") + STATES), "r", robot_namespace="r"
+    ).success
 
 
 def test_ten_robots_come_while_others_drive(bench: Start) -> None:

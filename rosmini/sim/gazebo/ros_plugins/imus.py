@@ -1,0 +1,218 @@
+"""Inertial measurement units: libgazebo_ros_imu.so, a plugin of a model, and libgazebo_ros_imu_sensor.so, a plugin of a sensor of type imu.
+
+The two differ in Gazebo, and so they do here (gazebo_ros_imu.cpp and gazebo_ros_imu_sensor.cpp of gazebo_plugins 2.9):
+
+- The model's plugin differentiates the velocity of its link: the acceleration at the origin of the link, *without gravity*, so that it shows 0 at rest, against
+  REP 145. A link that hangs on a fixed joint has become part of another one, and it is that one's origin. `<xyzOffset>` is read and never used, and an `<imu>`
+  with noise, which TurtleBot3's own files have in the tag, is not read at all.
+- The sensor's plugin tells what the sensor shows: where the sensor sits, in its own axes, *with gravity*, and with the noise of its `<imu>`.
+
+Both tell the heading of the world, count `<gaussianNoise>` for rates and accelerations alike, state its square as all covariances (0 without noise), and put
+`<rpyOffset>` before the orientation.
+
+What differs from there: the model's plugin turns accelerations from the world's axes by the heading instead of back by it, a slip that shows them in the
+wrong direction unless the robot looks along x; here they are in the link's own axes, turned by `<rpyOffset>`. The sensor's adds `<gaussianNoise>` to the four numbers of
+the orientation too; here the orientation is exact. And accelerations are those of the moment, and no differences from one message to the next.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
+
+from rosmini.markup import Element
+from rosmini.msgs import service_class
+from rosmini.sim.devices import ImuDevice
+from rosmini.sim.gazebo.model import Model, Sensor
+from rosmini.sim.gazebo.plugins import ModelPlugin, SensorPlugin
+from rosmini.sim.gazebo.tags import Tags, tag
+from rosmini.sim.host import Stamp
+from rosmini.sim.messages import diagonal
+from rosmini.sim.models import ImuModel
+from rosmini.sim.sdf import ORIGIN, Pose6
+from rosmini.tf import rigid
+from rosmini.tf.rigid import IDENTITY, Rigid
+
+from .drives import rate_of
+from .names import RosNames
+from .sensors import number
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImuTags(Tags):
+    """The tags of libgazebo_ros_imu.so."""
+
+    ignored: ClassVar[tuple[str, ...]] = ("imu", "xyzOffset")
+
+    topic: str = tag("topicName", "/default_imu", "where it is published")
+    service: str = tag("serviceName", "/default_imu", "a service that calibrates it, which it never needs")
+    body: str = tag("bodyName", meaning="the link that it sits on")
+    frame: str = tag("frameName", "", "the frame that it is told in; without it the link's")
+    noise: float = tag("gaussianNoise", 0.0, "standard deviation of rates and accelerations")
+    rate: float = tag("updateRate", 0.0, "how often; 0: in each step", unit="Hz")
+    rpy: str = tag("rpyOffset", "0 0 0", "how it is turned on the link", unit="rad")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImuSensorTags(Tags):
+    """The tags of libgazebo_ros_imu_sensor.so."""
+
+    ignored: ClassVar[tuple[str, ...]] = ("bodyName", "xyzOffset")
+
+    topic: str = tag("topicName", "imu_data", "where it is published")
+    frame: str = tag("frameName", "", "the frame that it is told in; without it the link's")
+    noise: float = tag(
+        "gaussianNoise", 0.0, "standard deviation of rates and accelerations, on top of the sensor's"
+    )
+    rate: float = tag("updateRateHZ", 1.0, "how often", unit="Hz")
+    rpy: str = tag("rpyOffset", "0 0 0", "how the orientation that it tells is turned", unit="rad")
+    from_start: bool = tag(
+        "initialOrientationAsReference", False, "count the orientation from where it started, against REP 145"
+    )
+
+
+class GazeboImu(ImuDevice):
+    """A unit as Gazebo's plugins tell it.
+
+    Args:
+        model: which model carries it.
+        place: where it sits, seen from the robot of the engine.
+        unit: its noise; its mount is that of `place`.
+        offset: a rotation that comes before the orientation.
+        axes: how the axes of what it measures are turned against those of its place.
+        deviation: that of `<gaussianNoise>`, whose square the covariances are.
+        feels_gravity: whether accelerations hold it.
+        from_start: count the orientation from where it started, and not in the world.
+        options: those of `ImuDevice`.
+
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        place: Pose6,
+        unit: ImuModel,
+        *,
+        offset: Rigid,
+        axes: Rigid = IDENTITY,
+        deviation: float,
+        feels_gravity: bool,
+        from_start: bool = False,
+        **options: Any,
+    ) -> None:
+        world = model.world
+        unit = replace(
+            unit, mount=place[:3], gravity=0.0
+        )  # gravity is added as the world has it at the moment
+        super().__init__(world.host, model.name, unit, noise=world.noise, **options)
+        self._world = world
+        self._feels_gravity = feels_gravity
+        self._place = turned(place[3:])
+        self._back = rigid.inverse(rigid.compose(self._place, axes))
+        start = rigid.from_yaw(0.0, 0.0, self.robot.start[2]) if from_start else IDENTITY
+        reference = rigid.compose(start, self._place) if from_start else IDENTITY
+        self._before = rigid.compose(offset, rigid.inverse(reference))
+        covariance = diagonal(((deviation * world.noise) ** 2,) * 3)
+        message = self._told.message
+        message.orientation_covariance = covariance
+        message.angular_velocity_covariance = covariance
+        message.linear_acceleration_covariance = covariance
+
+    def due(self, stamp: Stamp, number: int, /) -> None:
+        """Tell what the sample of this number shows."""
+        told = self._told
+        told.stamp(*stamp)
+        message = told.fill(self._imu, number, self.robot, 0.0)
+        gyro, accel, to = message.angular_velocity, message.linear_acceleration, message.orientation
+        if self._feels_gravity:
+            accel.z -= self._world.physics.gravity[2]
+        if self._back != IDENTITY:
+            for each in (gyro, accel):
+                each.x, each.y, each.z = rigid.compose(self._back, rigid.rigid((each.x, each.y, each.z)))[:3]
+        heading = rigid.from_yaw(0.0, 0.0, self.robot.pose[2])
+        *_, to.x, to.y, to.z, to.w = rigid.compose(rigid.compose(self._before, heading), self._place)
+        self._publisher.publish(message)
+
+
+def turned(rpy: Sequence[float]) -> Rigid:
+    """A rotation by roll, pitch and yaw [rad]."""
+    return rigid.from_rpy((0.0, 0.0, 0.0), *rpy)
+
+
+class ImuModelPlugin(ModelPlugin, filename="libgazebo_ros_imu.so"):
+    """Publishes how a link moves as `sensor_msgs/Imu`, without gravity."""
+
+    needs_robot = True
+
+    def load(self, model: Model, sdf: Element) -> None:
+        """Open its topic and its service. Raises `MarkupError` and `UnknownEntity`."""
+        tags = ImuTags.read(sdf, self.world.node.logwarn)
+        names = RosNames(model, sdf)
+        host, inside = model.frames.get(tags.body, (tags.body, ORIGIN))
+        offset = rigid.compose(turned(sdf.floats(tags.rpy, 3, "rpyOffset")), turned(inside[3:]))
+        rate = rate_of(tags.rate, self.world.physics.time_step)
+        self.device = self.add(
+            GazeboImu(
+                model,
+                model.on_robot(model.link_frame(host)),
+                ImuModel((0.0, 0.0, 0.0), rate, tags.noise, tags.noise, tags.frame or tags.body),
+                offset=offset,
+                axes=offset,
+                deviation=tags.noise,
+                feels_gravity=False,
+                topic=names.topic(tags.topic),
+                name=f"{self.name}/imu",
+            )
+        )
+        service = self.world.node.service(
+            names.topic(tags.service), service_class("std_srvs/Empty"), lambda _: {}
+        )
+        self.at_close(lambda: service.shutdown("the model was deleted"))
+
+
+class ImuSensorPlugin(SensorPlugin, filename="libgazebo_ros_imu_sensor.so"):
+    """Publishes a sensor of type imu as `sensor_msgs/Imu`, with gravity."""
+
+    def load(self, sensor: Sensor, sdf: Element) -> None:
+        """Open its topic. Raises `MarkupError`."""
+        tags = ImuSensorTags.read(sdf, self.world.node.logwarn)
+        names = RosNames(sensor.model, sdf)
+        if tags.from_start:
+            self.world.node.logwarn(
+                f"{sdf.path}:{sdf.line}: <initialOrientationAsReference> set to true, this behavior is deprecated as it does not comply with REP 145."
+            )
+        rate = rate_of(tags.rate, self.world.physics.time_step)
+        own = sensor.element.find("imu")
+        gyro, accel = (
+            (0.0, 0.0) if own is None else _noise(own, kind)
+            for kind in ("angular_velocity/z", "linear_acceleration/x")
+        )
+        unit = ImuModel(
+            (0.0, 0.0, 0.0),
+            rate,
+            math.hypot(tags.noise, gyro[0]),
+            math.hypot(tags.noise, accel[0]),
+            tags.frame or sensor.link,
+            gyro_bias=gyro[1],
+            accel_bias=accel[1],
+        )
+        self.device = self.add(
+            GazeboImu(
+                sensor.model,
+                sensor.mount,
+                unit,
+                offset=turned(sdf.floats(tags.rpy, 3, "rpyOffset")),
+                deviation=tags.noise,
+                feels_gravity=True,
+                from_start=tags.from_start,
+                topic=names.topic(tags.topic),
+                name=sensor.device_name,
+            )
+        )
+
+
+def _noise(imu: Element, way: str) -> tuple[float, float]:
+    """The standard deviation, and the mean of the bias, that an `<imu>` describes for one of its numbers."""
+    return number(imu, f"{way}/noise/stddev", 0.0), number(imu, f"{way}/noise/bias_mean", 0.0)
