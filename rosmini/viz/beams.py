@@ -104,6 +104,12 @@ def beams_of(scan: Any, lidar: LidarModel | None = None) -> Beams:
         return _from_ranges(scan, lidar)
     ranges = np.array(scan.ranges, dtype=float)
     first, step, last = (float(v) for v in (scan.angle_min, scan.angle_increment, scan.angle_max))
+    if len(ranges) == 1 and math.isfinite(first + last):
+        first, step = (
+            (first + last) / 2,
+            1.0,
+        )  # one beam needs no step: stageros says inf, and half its field of view to either side
+        last = first
     if not all(map(math.isfinite, (first, step, last))) or not step:
         raise ViewError(
             f"a scan needs an angle_min and an angle_increment, not {first} and {step} rad: without them nobody "

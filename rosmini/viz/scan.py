@@ -181,9 +181,15 @@ def _say_at(
     )
 
 
+ALONE = 15.0
+"""How far the axis goes to either side of a beam ahead that is the only one [deg]."""
+
+
 def _field(angles: Floats) -> tuple[float, float]:
     """From which angle to which the axis goes [deg]: what the beams span, and ahead."""
     low, high = min(angles.min(), 0.0), max(angles.max(), 0.0)
+    if low == high:
+        return (-ALONE, ALONE)
     return (-180.0, 180.0) if high - low > 300 else (float(low), float(high))
 
 

@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 
 TINT = 0.32
 """How strong the fill of an obstacle is."""
-SEEN = 0.11
+SEEN, ONE_BEAM = 0.11, 0.5
 """How strong the fill of what a laser sees is."""
 TRAIL_WIDTH = 2.0
 DASHES = (6.0, 4.0)
@@ -89,8 +89,18 @@ def _paint(colour: str) -> str:
 
 
 def draw_scan(axes: Axes, beams: Beams, laser: Pose, scale: float) -> None:
-    """What a laser at the pose `laser` sees: the area that its beams pass, and a point for each hit."""
+    """What a laser at the pose `laser` sees: the area that its beams pass, or the way of its only beam, and a point for each hit."""
     ends = snap(transform_points(laser, beams.points()))
+    if len(ends) == 1:
+        axes.plot(
+            *np.vstack([snap(laser[:2]), ends]).T,
+            color=_paint("vermilion"),
+            alpha=ONE_BEAM,
+            linewidth=1.2,
+            zorder=2.0,
+        )
+        draw_dots(axes, ends[beams.hits], "vermilion", 3.2)
+        return
     whole = len(ends) * float(np.diff(beams.angles[:2]).sum()) > 1.9 * math.pi
     outline = ends if whole else np.vstack([snap(laser[:2]), ends])
     _patch(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
@@ -14,6 +15,7 @@ from rosmini.msgs import message_class
 from rosmini.sim.models import BURGER
 from rosmini.viz import ViewError, scan_picture, style
 from rosmini.viz.beams import beams_of, direction
+from rosmini.viz.world_drawing import ONE_BEAM
 
 LaserScan = message_class("sensor_msgs/LaserScan")
 STEP = 2 * math.pi / 360
@@ -145,3 +147,26 @@ def test_what_is_too_near_ends_at_the_laser_and_is_no_free_space():
     reach = np.hypot(*beams.points().T)
     np.testing.assert_allclose(reach, [0.0, 0.0, 3.5, 1.0, 3.5, 3.5])
     assert beams.text().startswith("1 of 6 beams hit, nearest 1.00 m")
+
+
+@pytest.mark.parametrize(
+    ("first", "step", "last"), [(0.0, 0.0, 0.0), (-0.13, math.inf, 0.13)], ids=["ours", "of stageros"]
+)
+def test_a_single_beam_is_drawn_as_a_line(first: float, step: float, last: float) -> None:
+    angles = {"angle_min": first, "angle_increment": step, "angle_max": last}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        view, missed = (scan_picture(message([r], **angles)) for r in (2.7, math.inf))
+    assert view.text.splitlines() == [
+        "scan in base_scan: 1 of 1 beams hit, nearest 2.70 m ahead (0 deg)",
+        "beams ahead 2.70 m",
+    ]
+    assert "0 of 1 beams hit" in missed.text
+    assert view.alt.endswith("the nearest 2.70 m away ahead. Ahead 2.70 m.")
+    for each in (view, missed):
+        assert len(re.findall(rf'<path d="M\S+ \S+L\S+ \S+"[^>]*stroke-opacity="{ONE_BEAM}"', each.svg)) == 1
+
+
+def test_a_single_beam_of_which_the_angle_is_no_number_is_none() -> None:
+    with pytest.raises(ViewError, match="angle_min"):
+        beams_of(message([1.0], angle_min=math.nan, angle_max=math.nan))

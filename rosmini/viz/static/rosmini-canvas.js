@@ -217,7 +217,7 @@
     const [originX, originY] = [x + c * ahead - s * aside, y + s * ahead + c * aside];
     const hits = [];
     context.beginPath();
-    if (ranges.length * step < TURN - 1.5 * step) context.lineTo(view.x(originX), view.y(originY)); // a fan
+    if (ranges.length === 1 || ranges.length * step < TURN - 1.5 * step) context.lineTo(view.x(originX), view.y(originY)); // a fan
     for (let i = 0; i < ranges.length; i += 1) {
       const hit = ranges[i] > 0 && Number.isFinite(ranges[i]);
       const range = hit ? ranges[i] : ranges[i] < 0 ? 0 : max;
@@ -226,10 +226,17 @@
       context.lineTo(px, py);
       if (hit) hits.push(px, py);
     }
-    context.closePath();
     context.fillStyle = colours.vermilion;
-    context.globalAlpha = 0.11;
-    context.fill();
+    if (ranges.length === 1) { // one beam passes no area, but a line
+      context.strokeStyle = colours.vermilion;
+      context.lineWidth = 1.2;
+      context.globalAlpha = 0.5;
+      context.stroke();
+    } else {
+      context.closePath();
+      context.globalAlpha = 0.11;
+      context.fill();
+    }
     context.globalAlpha = 1;
     const size = Math.max(1, Math.min(1.8, 0.014 * scale));
     context.beginPath();
