@@ -151,7 +151,7 @@ class Sights:
         self.forget(world)
         self._templates: dict[tuple[int, float], tuple[RobotModel, Cut]] = {}
         self._things: dict[tuple[str, float], tuple[Obstacle, Pose, Cut]] = {}
-        self._crowd: tuple[Hashable, Crowd] | None = None
+        self._crowds: tuple[Hashable, dict[float, Crowd]] = (None, {})
 
     def forget(self, world: World) -> None:
         """Look at another world from now on."""
@@ -160,7 +160,7 @@ class Sights:
         self._nearby: dict[float, Nearby] = {}
         self._around: dict[tuple[str, float, float], tuple[float, float, Floats]] = {}
         self._things = {}
-        self._crowd = None
+        self._crowds = (None, {})
 
     def forget_viewer(self, name: str) -> None:
         """Forget what was around a laser that is gone."""
@@ -208,12 +208,14 @@ class Sights:
     def crowd(
         self, moment: Hashable, height: float, models: Sequence[RobotModel], poses: Sequence[Pose]
     ) -> Crowd:
-        """The robots at one moment; `moment` is another whenever any pose is."""
-        key = (moment, height)
-        if self._crowd is None or self._crowd[0] != key:
+        """The robots at one moment, made once for each height; `moment` is another whenever any pose is."""
+        if self._crowds[0] != moment:
+            self._crowds = (moment, {})
+        crowds = self._crowds[1]
+        if height not in crowds:
             places = np.array(poses).reshape(-1, 3)
-            self._crowd = (key, Crowd(models, places, lambda model: self.template(model, height)))
-        return self._crowd[1]
+            crowds[height] = Crowd(models, places, lambda model: self.template(model, height))
+        return crowds[height]
 
     def of(
         self,

@@ -77,6 +77,7 @@ class StageWorld:
     speedup: float
     """Seconds of the world in one second."""
     paused: bool
+    """Whether time stands at first in Stage's window; stageros here has none, and runs."""
     quit_time: float
     """When it all ends [s]; 0: never."""
     resolution: float
@@ -101,7 +102,8 @@ class _World:
     def __init__(self, parsed: Parsed) -> None:
         self.parsed = parsed
         self.units = units_of(parsed.root)
-        self.units.notes += parsed.notes
+        for place, what in parsed.notes:
+            self.units.note(place, what)
         self.names: Counter[str] = Counter()
         self.walls: list[tuple[Thing, NDArray[np.float64]]] = []
         self.obstacles: list[Obstacle] = []
@@ -112,7 +114,7 @@ class _World:
         reader = Reader(parsed.root, units)
         name = reader.text("name", parsed.path.stem)
         interval = reader.number("interval_sim", DEFAULT_INTERVAL * 1e3, above=0.0) / 1e3
-        speedup = reader.number("speedup", 1.0)
+        speedup = self._speedup(reader)
         things = Maker(parsed, units).things()
         for thing in things:
             self._take(thing)
@@ -130,20 +132,37 @@ class _World:
             world=self._world(name),
             robots=tuple(self.robots),
             interval=interval,
-            speedup=speedup if speedup > 0 else 1.0,
-            paused=reader.flag("paused", default=False),
+            speedup=speedup,
+            paused=self._paused(reader),
             quit_time=reader.number("quit_time", 0.0, minimum=0.0),
             resolution=resolution,
             window=_window(parsed.root, units),
             notes=(),
         )
-        if speedup <= 0:
-            units.note(
-                reader.place("speedup"), "a speedup of 0 or less is as fast as can be in Stage; here it is 1"
-            )
         reader.done((*WORLD, *IGNORED))
-        object.__setattr__(made, "notes", tuple(units.notes))
+        object.__setattr__(made, "notes", units.notes)
         return made
+
+    def _speedup(self, reader: Reader) -> float:
+        speedup = reader.number("speedup", 1.0)
+        if speedup <= 0:
+            what = "a speedup of 0 or less is as fast as can be in Stage's window; here it is 1"
+            self.units.note(reader.place("speedup"), what)
+            return 1.0
+        if speedup != 1:
+            what = (
+                f"speedup: {speedup:g} s of this world, and of /clock, pass in one second of the graph, as in Stage's window; a graph in simulated time is no "
+                "faster by it, for it goes as fast as it can"
+            )
+            self.units.note(reader.place("speedup"), what)
+        return speedup
+
+    def _paused(self, reader: Reader) -> bool:
+        paused = reader.flag("paused", default=False)
+        if paused:
+            what = "paused lets time stand in Stage's window, until somebody presses p there; without a window it changes nothing, and here neither"
+            self.units.note(reader.place("paused"), what)
+        return paused
 
     def _take(self, thing: Thing) -> None:
         """Take a model of the top into the world."""
@@ -155,7 +174,7 @@ class _World:
                 what = f"the position {each.name} is on the model {thing.name}, which does not move; give it a place of its own"
                 raise StageError(each.place, what)
             if each.kind in ("ranger", "laser", "camera"):
-                self.units.note(each.place, f"{each.name} is on no position: stageros does not find it")
+                self.units.note(each.place, "{} is on no position: stageros does not find it", each.name)
         bodies = [each for each in thing.family() if each.body is not None]
         if thing.pushable:
             self._push(thing, bodies)
@@ -195,7 +214,7 @@ class _World:
         solids = [solid(owner, each) for owner, each in blocks]
         low, high = min(each.bottom for each in solids), max(each.top for each in solids)
         if high <= 0:
-            self.units.note(thing.place, f"{thing.name} is below the ground and is left out")
+            self.units.note(thing.place, "{} is below the ground and is left out", thing.name)
         elif len(solids) == 1:
             self._add(thing, solids[0], mass)
         else:
@@ -209,26 +228,28 @@ class _World:
             return True
         if not thing.solid and thing.seen < 0:
             self.units.note(
-                thing.place, f"nothing bumps into {thing.name} and nothing sees it: it is left out"
+                thing.place, "nothing bumps into {} and nothing sees it: it is left out", thing.name
             )
             return False
         name = "obstacle_return" if not thing.solid else "ranger_return"
         what = "solid" if not thing.solid else "seen by lasers"
-        self.units.note(thing.reader.place(name), f"{name} changes nothing here: {thing.name} is {what}")
+        self.units.note(thing.reader.place(name), f"{name} changes nothing here: {{}} is {what}", thing.name)
         return True
 
     def _filled(self, thing: Thing) -> tuple[Block, ...]:
         """The blocks of a thing's body, without what is hollow in them."""
         found, holes = filled(thing)
         if holes:
-            what = f"of the bitmaps of a world one may have rooms in it; {holes} hollow parts of {thing.name} are filled"
-            self.units.note(thing.reader.place("bitmap"), what)
+            what = (
+                f"of the bitmaps of a world one may have rooms in it; {holes} hollow parts of {{}} are filled"
+            )
+            self.units.note(thing.reader.place("bitmap"), what, thing.name)
         return found
 
     def _obstacle(self, thing: Thing, block: Block) -> None:
         found = solid(thing, block)
         if found.top <= 0:
-            self.units.note(thing.place, f"{thing.name} is below the ground and is left out")
+            self.units.note(thing.place, "{} is below the ground and is left out", thing.name)
             return
         self._add(thing, found)
 

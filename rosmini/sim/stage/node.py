@@ -156,8 +156,7 @@ class Stageros:
             "reset_positions", service_class("std_srvs/Empty"), self._reset_positions
         )
         node.on_shutdown(self._end)
-        if not self.file.paused:
-            self.host.unpause()  # only now: a kernel may have had to be compiled meanwhile
+        self.host.unpause()  # only now: a kernel may have had to be compiled meanwhile
 
     def __repr__(self) -> str:
         return f"<Stageros {self.node.name}: {_count(len(self.robots), 'robot')} in {self.file.name}>"

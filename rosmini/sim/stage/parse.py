@@ -69,7 +69,7 @@ class Parsed:
 
     root: Entity
     path: Path
-    notes: list[str] = field(default_factory=list)
+    notes: list[tuple[Place, str]] = field(default_factory=list)
     macros: dict[str, Place] = field(default_factory=dict)
 
 
@@ -147,9 +147,8 @@ class _Parser:
         macro = _Macro(name.text, base.text, _between(words, name), define.place)
         if macro.name in self._macros:
             first = self._macros[macro.name].place
-            self._parsed.notes.append(
-                f"{define.place}: {macro.name} is defined already, in {first}, and stays what it is"
-            )
+            what = f"{macro.name} is defined already, in {first}, and stays what it is"
+            self._parsed.notes.append((define.place, what))
             return
         self._macros[macro.name] = macro
 

@@ -88,8 +88,8 @@ class StageRobot:
     localization: Literal["gps", "odom"]
     localization_origin: tuple[float, float, float]
     """The pose in the world where its odometry is 0."""
-    odom_error: tuple[float, float, float]
-    """Of how much, of each way ahead, to the left and around, the odometry may be wrong: by a half of this to either side."""
+    odom_error: tuple[float | None, float | None, float | None]
+    """By which part of each way ahead, to the left and around the odometry is wrong; None: the file does not say, and it is drawn."""
     mass: float
     body: tuple[Thing, ...]
     """All that has a body: the base, and what it carries."""
@@ -113,14 +113,14 @@ def robot(thing: Thing, number: int, units: Units) -> StageRobot:
                 lasers.append(_laser(each, thing, units))
             else:
                 units.note(
-                    each.place, f"{each.name} is not directly on a position: stageros does not find it"
+                    each.place, "{} is not directly on a position: stageros does not find it", each.name
                 )
         elif each.kind == "camera":
             if direct:
                 cameras.append(_camera(each, thing))
             else:
                 units.note(
-                    each.place, f"{each.name} is not directly on a position: stageros does not find it"
+                    each.place, "{} is not directly on a position: stageros does not find it", each.name
                 )
         if each.body is not None:
             body.append(each)
@@ -133,7 +133,6 @@ def robot(thing: Thing, number: int, units: Units) -> StageRobot:
         raise StageError(reader.place("wheelbase"), f"wheelbase is {wheelbase:g} m; it has to be more than 0")
     drive = reader.text("drive", "diff", ("diff", "omni", "car"))
     localization = reader.text("localization", "gps", ("gps", "odom"))
-    errors = reader.several("odom_error", "ffff", (0.03, 0.03, 0.0, 0.05))
     return StageRobot(
         number=number,
         name=thing.name,
@@ -145,13 +144,23 @@ def robot(thing: Thing, number: int, units: Units) -> StageRobot:
         velocity_bounds=bounds,
         localization=localization,  # type: ignore[arg-type]
         localization_origin=(origin[0], origin[1], origin[3]),
-        odom_error=(errors[0], errors[1], errors[3]),
+        odom_error=_odom_error(reader),
         mass=thing.mass or 1.0,
         body=tuple(body),
         lasers=tuple(lasers),
         cameras=tuple(cameras),
         place=thing.place,
     )
+
+
+def _odom_error(reader: Reader) -> tuple[float | None, float | None, float | None]:
+    """What the file says of odometry's errors. The turn's is an angle to Stage, so that it is in degrees like all angles of a file."""
+    found = reader.find("odom_error")
+    if found is None:
+        return (None, None, None)
+    ahead, left, _, turn = reader.several("odom_error", "fffa", (0.0, 0.0, 0.0, 0.0))
+    said = len(found.values)
+    return (ahead, left if said > 1 else None, turn if said > 3 else None)
 
 
 def _bounds(reader: Reader) -> tuple[Bounds, Bounds, Bounds]:
@@ -196,8 +205,8 @@ def _laser(thing: Thing, base: Thing, units: Units) -> StageLaser:
     if not sensors:
         raise StageError(thing.place, f"the ranger {thing.name} has no sensor( ... ), so it measures nothing")
     if len(sensors) > 1:
-        what = f"{thing.name} has {len(sensors)} sensors; stageros publishes the first alone"
-        units.note(sensors[1].place, what)
+        what = f"{{}} has {len(sensors)} sensors; stageros publishes the first alone"
+        units.note(sensors[1].place, what, thing.name)
     return _sensor(sensors[0], thing, base, units)
 
 

@@ -23,13 +23,19 @@ class Units:
 
     length: float = 1.0
     angle: float = DEGREE
-    notes: list[str] = field(default_factory=list)
+    _notes: dict[str, list[str]] = field(default_factory=dict)
 
-    def note(self, place: Place, what: str) -> None:
-        """Remember what is left out or not as it looks; the same thing at the same place only once."""
-        text = f"{place}: {what}"
-        if text not in self.notes:
-            self.notes.append(text)
+    def note(self, place: Place, what: str, who: str = "") -> None:
+        """Remember what is left out or not as it looks; in `what`, {} stands for the name of `who` it is said of."""
+        self._notes.setdefault(what, []).append(f"{place}: {what.replace('{}', who)}")
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What there is to say, each thing once, with the place where it was found first, and how often it was found."""
+        return tuple(
+            found[0] if len(found) == 1 else f"{found[0]} ({len(found)} times in this world)"
+            for found in self._notes.values()
+        )
 
 
 class Reader:

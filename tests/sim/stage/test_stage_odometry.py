@@ -33,10 +33,24 @@ class Fixed:
         return np.full(size, self.part)
 
 
-def test_errors_are_even_between_minus_and_plus_half(robot):
-    base = robot('localization "odom" odom_error [0.1 0.2 0 0.4]')
+@pytest.mark.parametrize(
+    ("said", "errors"),
+    [
+        ("odom_error [0.1 0.2 0 36]", (0.1, 0.2, math.pi / 5)),
+        ("odom_error [0.1 0.2]", (0.1, 0.2, 0.0125)),
+        ("odom_error [0 0 0 0]", (0.0, 0.0, 0.0)),
+        ("", (0.0075, 0.0075, 0.0125)),
+    ],
+)
+def test_what_a_file_says_are_the_errors_themselves_and_the_others_are_drawn(robot, said, errors):
+    base = robot(f'localization "odom" {said}')
+    assert StageOdometry(base, Fixed()).errors == pytest.approx(errors)
+
+
+def test_errors_that_are_drawn_are_even_between_minus_and_plus_half(robot):
+    base = robot('localization "odom"')
     errors = np.array([draw_errors(base, np.random.default_rng(seed)) for seed in range(4000)])
-    for column, largest in zip(errors.T, (0.1, 0.2, 0.4), strict=True):
+    for column, largest in zip(errors.T, (0.03, 0.03, 0.05), strict=True):
         assert -largest / 2 <= column.min() < -0.499 * largest
         assert 0.499 * largest < column.max() <= largest / 2
         # Kolmogorov and Smirnov: the distance from the even distribution, at a level of 0.001
@@ -47,7 +61,7 @@ def test_errors_are_even_between_minus_and_plus_half(robot):
 
 
 def test_a_wrong_turn_makes_another_circle(robot):
-    base = robot('localization "odom" odom_error [0.2 0 0 0.4]')
+    base = robot('localization "odom" odom_error [0.05 0 0 5.729577951308232]')
     odometry = StageOdometry(base, Fixed())
     odometry.told((0.5, 0.0, 0.3), 1.0)
     odometry.advance(3.0)
@@ -62,7 +76,7 @@ def test_a_wrong_turn_makes_another_circle(robot):
 
 
 def test_a_way_to_the_left_is_one_to_the_left(robot):
-    odometry = StageOdometry(robot('drive "omni" localization "odom" odom_error [0 0.4 0 0]'), Fixed())
+    odometry = StageOdometry(robot('drive "omni" localization "odom" odom_error [0 0.1 0 0]'), Fixed())
     odometry.told((0.0, 0.5, 0.0), 0.0)
     odometry.advance(2.0)
     assert odometry.belief == pytest.approx((0.0, 1.1, 0.0))

@@ -21,7 +21,7 @@ from rosmini.geometry.angles import yaw_from_quaternion
 from rosmini.graph import Graph
 from rosmini.msgs import message_class, service_class
 from rosmini.scripts import run_source
-from rosmini.sim.engine import RobotGone
+from rosmini.sim.engine import RobotGone, sights
 from rosmini.sim.stage import StageError
 from rosmini.sim.stage.node import Stageros
 from rosmini.sim.world import WorldError
@@ -166,12 +166,10 @@ def test_all_is_published_once_a_step_with_the_same_stamps(bench):
     assert ours.node.get_param("/use_sim_time") is True
 
 
-def test_pause_step_and_speed(bench):
-    ours = bench("paused 1 speedup 4\n" + ROBOT % "")
+def test_pause_and_speed(bench):
+    ours = bench("speedup 4\n" + ROBOT % "")
+    assert ["speedup: 4 s of this world" in note for note in ours.stage.file.notes] == [True]
     ours.listen("clock")
-    ours.graph.run(1.0)
-    assert ours.heard["clock"] == []
-    ours.stage.unpause()
     ours.graph.run(1.01)
     assert len(ours.heard["clock"]) == 40
     ours.stage.speedup = 1.0
@@ -180,6 +178,52 @@ def test_pause_step_and_speed(bench):
     ours.stage.pause()
     ours.graph.run(1.0)
     assert len(ours.heard["clock"]) == 50
+
+
+def test_a_world_that_is_paused_in_stages_window_runs_where_there_is_none(bench):
+    ours = bench("paused 1\n" + ROBOT % "")
+    assert ["paused lets time stand in Stage's window" in note for note in ours.stage.file.notes] == [True]
+    ours.listen("clock")
+    ours.graph.run(1.01)
+    assert len(ours.heard["clock"]) == 10
+
+
+def test_many_robots_with_many_lasers_are_made_a_crowd_once_a_height_and_step(bench, monkeypatch):
+    made = []
+
+    class Counted(sights.Crowd):
+        def __init__(self, models, *args):
+            made.append(len(models))
+            super().__init__(models, *args)
+
+    monkeypatch.setattr(sights, "Crowd", Counted)
+    rangers = "".join(
+        f"ranger( pose [0 0 {z} 0] sensor( range [0 8] samples 9 fov 90 ) )" for z in (-0.1, -0.1, -0.2, -0.2)
+    )
+    ours = bench(
+        "".join(f"position( size [0.3 0.3 0.3] pose [{i % 5} {i // 5} 0 0] {rangers} )" for i in range(20))
+    )
+    ours.command(0.2, 0.3, topic="/robot_0/cmd_vel")
+    made.clear()
+    ours.graph.run(0.5)
+    assert (
+        made == [20] * 2 * 5
+    )  # two heights, five steps; once it was one for each change of height from laser to laser, 40 a step
+
+
+def test_notes_come_once_with_their_number(bench):
+    laser = "ranger( sensor( range [0 8] samples 9 fov 90 ) sensor( range [0 4] ) )"
+    robots = "".join(
+        f"position( pose [{i} 0 0 0] acceleration_bounds [0 1 0 1 0 1 0 90] fiducial() {laser} )"
+        for i in range(20)
+    )
+    odd = "define bot position( velocity [1 0 0 0] ) " + "".join(f"bot( pose [{i} 2 0 0] )" for i in range(3))
+    notes = bench(f"{robots}\n{odd}").stage.file.notes
+    assert len(notes) == 4
+    for note, times in zip(notes, (20, 20, 20, 3), strict=True):
+        assert note.endswith(f"({times} times in this world)")
+    assert "a.world:1: a fiducial is not simulated" in notes[0]
+    assert "has 2 sensors" in notes[1]
 
 
 def test_it_ends_at_its_quit_time(bench):
@@ -237,7 +281,7 @@ def test_bounds_cut_a_command(bench):
 
 
 def test_odometry_with_errors_drifts_by_its_equation(bench):
-    ours = bench(ROBOT % 'pose [1 1 0 0] localization "odom" odom_error [0.2 0 0 0.2]')
+    ours = bench(ROBOT % 'pose [1 1 0 0] localization "odom" odom_error [0.08 0 0 4]')
     ours.listen("odom")
     ours.go(4.0, v=0.5, w=0.4)
     ours.graph.run(0.1)
