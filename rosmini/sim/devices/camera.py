@@ -25,6 +25,10 @@ Image = NDArray[np.uint8]
 Depths = NDArray[np.float32]
 
 
+DEAR = 20e6
+"""From so many pixels a second of the world's time on, drawing them is dear: with numba this number takes about a second, with numpy alone two or more."""
+
+
 class CameraDevice(Device):
     """`sensor_msgs/Image` and `sensor_msgs/CameraInfo` of a camera on a robot; and, if it measures that, depths and points.
 
@@ -70,6 +74,7 @@ class CameraDevice(Device):
         self.camera = camera
         self._noise = noise
         self._fixed: tuple[World, Scene] | None = None
+        self._warned = False
         frame = frame or camera.frame
         self._image = image_message(camera, frame, "rgb8", 3)
         self._depth = image_message(camera, frame, "32FC1", 4)
@@ -98,6 +103,7 @@ class CameraDevice(Device):
                 to.publish(self._info.message)  # type: ignore[union-attr]
         if not (heard(self._to_image) or heard(self._to_depth) or heard(self._to_points)):
             return
+        self.warn()
         image, depths = self.look(number)
         for to, told, data in ((self._to_image, self._image, image), (self._to_depth, self._depth, depths)):
             if to is not None and heard(to):
@@ -108,6 +114,19 @@ class CameraDevice(Device):
             self._points.message.data = cloud(self.camera, image, depths).tobytes()
             self._points.stamp(*stamp)
             self._to_points.publish(self._points.message)
+
+    def warn(self) -> None:
+        """Warn, once, if what is to be drawn costs more time than a second in each second of the world."""
+        width, height = self.camera.width, self.camera.height
+        pixels = width * height * self.rate
+        if self._warned or pixels < DEAR:
+            return
+        self._warned = True
+        self.host.node.logwarn(
+            f"the camera {self.name}, whose images somebody hears, draws {width} x {height} pixels {self.rate:g} times a second: {pixels / 1e6:.0f} million pixels for "
+            f"each second of the world, where {DEAR / 1e6:.0f} million take a computer about a second (with numba; without it two or more). Give it a smaller "
+            f"width and height, a lower rate (for example {DEAR / pixels * self.rate:.2g} Hz), or end the subscriptions that nobody needs"
+        )
 
     def look(self, number: int = 0) -> tuple[Image, Depths]:
         """The image (h, w, 3), red, green and blue, and the depths (h, w) [m] that it sees now, with the noise of image `number`."""
@@ -182,7 +201,8 @@ def points_message(camera: CameraModel, frame: str) -> Headed:
 def cloud(camera: CameraModel, image: Image, depths: Depths) -> NDArray[Any]:
     """The points (h, w) of type `POINT` that the pixels show, in the optical frame; nan where nothing is within reach."""
     k = camera_info(camera).K
-    v, u = np.indices(depths.shape)
+    height, width = depths.shape
+    u, v = np.arange(width), np.arange(height)[:, None]
     found = np.empty(depths.shape, dtype=POINT)
     z = np.where(np.isfinite(depths), depths, np.nan)
     found["x"], found["y"], found["z"] = (u - k[2]) / k[0] * z, (v - k[5]) / k[4] * z, z

@@ -221,13 +221,13 @@ def _image(
             inverse, shown, eye.position, eye.rays(), 1 / eye.lens.fx, shading.LOOKS, faces, rods, balls, paints, extra, image
         )  # fmt: skip
         return image
-    bright = shading.coloured(eye, scene, inverse, shown)
+    planes = shading.coloured(eye, scene, inverse, shown)
     if noise is not None:
-        bright += np.asarray(noise, dtype=np.float32)[..., None]
-    bright *= 255.0
-    np.clip(bright, 0.0, 255.0, out=bright)
-    bright += 0.5
-    return bright.astype(np.uint8)
+        planes += np.asarray(noise, dtype=np.float32)
+    planes *= 255.0
+    np.clip(planes, 0.0, 255.0, out=planes)
+    planes += 0.5
+    return np.ascontiguousarray(planes.astype(np.uint8).transpose(1, 2, 0))
 
 
 def _ground(eye: Eye, rays: Floats) -> Floats:
@@ -244,8 +244,8 @@ def _ground(eye: Eye, rays: Floats) -> Floats:
 
 def _depths(inverse: Floats, eye: Eye, far: float | None) -> Depths:
     far = eye.lens.far if far is None else min(far, eye.lens.far)
-    with np.errstate(divide="ignore"):
-        return np.where(inverse * far >= 1.0 - 1e-12, 1.0 / inverse, np.inf).astype(np.float32)
+    depths = np.full(inverse.shape, np.inf, dtype=np.float32)
+    return np.divide(1.0, inverse, out=depths, where=inverse * far >= 1.0 - 1e-12, casting="same_kind")
 
 
 def _scene(view: View) -> Scene:

@@ -6,6 +6,8 @@ above is brightest. The ground's squares are as large as a step, so that motion 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,6 +16,8 @@ from .scene import Floats, Rgb, Scene
 
 Pixels = NDArray[np.float32]
 Ints = NDArray[np.int64]
+Ways = tuple[Pixels, ...]
+"""Where the pixels look, along x, y and z, for one metre of depth."""
 
 LIGHT = np.array([0.36, 0.52, 0.775]) / np.linalg.norm([0.36, 0.52, 0.775])
 AMBIENT, DIFFUSE = 0.76, 0.26
@@ -31,21 +35,26 @@ LOOKS = np.array([LIGHT, GROUND_LIGHT, GROUND_DARK, HORIZON, ZENITH])
 
 
 def coloured(eye: Eye, scene: Scene, inverse: Floats, shown: Ints) -> Pixels:
-    """The image (h, w, 3), 0 to 1, of what `rosmini.sim.sensors.raster` drew."""
+    """The image, a plane for each of red, green and blue (3, h, w), 0 to 1, of what `rosmini.sim.sensors.raster` drew.
+
+    In planes numpy's loops run along many pixels, and not along three numbers.
+    """
     height, width = shown.shape
-    rays = eye.rays().astype(np.float32)
     u, v = np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32)
-    dx, dy, dz = ((a + c * v)[:, None] + b * u for a, b, c in rays)
-    near = inverse.astype(np.float32)
-    image = np.empty((height, width, 3), dtype=np.float32)
-    free = shown == GROUND
-    ground = free & (near > 0)
-    _sky(image, free & ~ground, dx, dy, dz)
-    _ground(image, ground, eye, near, dx, dy)
-    _faces(image, eye, scene, shown)
-    _round(image, eye, scene, near, shown, (dx, dy, dz))
-    _haze(image, near, shown != GROUND)
-    return image
+    ways = tuple(((a + c * v)[:, None] + b * u).ravel() for a, b, c in eye.rays().astype(np.float32))
+    near, number = inverse.astype(np.float32).ravel(), shown.ravel()
+    planes = np.empty((3, height * width), dtype=np.float32)
+    free = np.flatnonzero(number == GROUND)
+    onto = near[free] > 0
+    _sky(planes, free[~onto], ways)
+    _ground(planes, free[onto], eye, near, ways)
+    things = np.flatnonzero(number != GROUND)
+    if len(things):
+        colours = _colours(eye, scene, near, number, things, ways)
+        mist = np.exp(np.float32(-1 / HAZE) / near[things])
+        for plane, colour, horizon in zip(planes, colours, *_paints(HORIZON), strict=True):
+            plane[things] = colour * mist + horizon * (1 - mist)
+    return planes.reshape(3, height, width)
 
 
 def lit(normals: Floats) -> Floats:
@@ -54,30 +63,35 @@ def lit(normals: Floats) -> Floats:
     return bright
 
 
-def _sky(image: Pixels, where: NDArray[np.bool_], dx: Pixels, dy: Pixels, dz: Pixels) -> None:
-    if not where.any():
+def _paints(*colours: Rgb) -> Pixels:
+    """Colours (n, 3) in numbers of 32 bits."""
+    return np.array(colours, dtype=np.float32)
+
+
+def _sky(planes: Pixels, where: Ints, ways: Ways) -> None:
+    if not len(where):
         return
-    x, y, z = dx[where], dy[where], dz[where]
-    up = np.clip(z / np.sqrt(x * x + y * y + z * z), 0.0, 1.0)[:, None]
-    low, high = np.array(HORIZON, np.float32), np.array(ZENITH, np.float32)
-    image[where] = low + (high - low) * np.sqrt(up)
+    x, y, z = (way[where] for way in ways)
+    up = np.sqrt(np.clip(z / np.sqrt(x * x + y * y + z * z), 0.0, 1.0))
+    for plane, low, high in zip(planes, *_paints(HORIZON, ZENITH), strict=True):
+        plane[where] = low + (high - low) * up
 
 
-def _ground(image: Pixels, where: NDArray[np.bool_], eye: Eye, near: Pixels, dx: Pixels, dy: Pixels) -> None:
-    if not where.any():
+def _ground(planes: Pixels, where: Ints, eye: Eye, near: Pixels, ways: Ways) -> None:
+    if not len(where):
         return
     depth: Pixels = np.reciprocal(near[where])
-    x: Pixels = depth * dx[where] + np.float32(eye.position[0])
-    y: Pixels = depth * dy[where] + np.float32(eye.position[1])
+    x: Pixels = depth * ways[0][where] + np.float32(eye.position[0])
+    y: Pixels = depth * ways[1][where] + np.float32(eye.position[1])
     # a pixel covers so much of the ground: more along the way than across it
     stretch = np.maximum(np.float32(1.0), np.float32(0.35 / abs(eye.position[2])) * depth)
     step: Pixels = (depth * np.float32(1 / eye.lens.fx) * stretch).astype(np.float32)
     wave = (_wave(x, step) * _wave(y, step)).astype(np.float32, copy=False)
     wave *= np.clip(np.float32(1.6) - step / np.float32(SQUARE), 0.0, 1.0)
-    light, dark = np.array(GROUND_LIGHT, np.float32), np.array(GROUND_DARK, np.float32)
-    colour = (light + dark) / 2 + (light - dark) / 2 * wave[:, None]
-    mist = np.exp(depth * np.float32(-1 / HAZE))[:, None]
-    image[where] = colour * mist + np.array(HORIZON, np.float32) * (1 - mist)
+    mist = np.exp(depth * np.float32(-1 / HAZE))
+    clear = 1 - mist
+    for plane, light, dark, horizon in zip(planes, *_paints(GROUND_LIGHT, GROUND_DARK, HORIZON), strict=True):
+        plane[where] = ((light + dark) / 2 + (light - dark) / 2 * wave) * mist + horizon * clear
 
 
 def _wave(x: Pixels, step: Pixels) -> Pixels:
@@ -105,24 +119,26 @@ def looks_of(eye: Eye, scene: Scene) -> tuple[Floats, Floats, Floats, Floats]:
     return face_colours(eye, scene), scene.rods, scene.balls, paints
 
 
-def _faces(image: Pixels, eye: Eye, scene: Scene, shown: Ints) -> None:
-    count = len(scene.faces)
-    if count:
-        where = (shown >= 0) & (shown < count)
-        image[where] = face_colours(eye, scene).astype(np.float32)[shown[where]]
+def _colours(eye: Eye, scene: Scene, near: Pixels, number: Ints, things: Ints, ways: Ways) -> Pixels:
+    """The colours (3, n) of the pixels where something is shown, in the light."""
+    shown, faces = number[things], len(scene.faces)
+    table = np.zeros((faces + len(scene.rods) + len(scene.balls), 3), dtype=np.float32)
+    table[:faces] = face_colours(eye, scene)
+    colours: Pixels = np.stack([column[shown] for column in np.ascontiguousarray(table.T)])
+    bent = np.flatnonzero(shown >= faces)
+    if len(bent):
+        where = things[bent]
+        colours[:, bent] = _round(
+            eye, scene, near[where], shown[bent] - faces, [way[where] for way in ways]
+        ).T
+    return colours
 
 
-def _round(
-    image: Pixels, eye: Eye, scene: Scene, near: Pixels, shown: Ints, ways: tuple[Pixels, Pixels, Pixels]
-) -> None:
-    """Cylinders and balls: their normals follow from where they were met."""
-    faces, rods = len(scene.faces), len(scene.rods)
-    where = shown >= faces
-    number = shown[where] - faces
-    if not len(number):
-        return
-    depth = 1 / near[where]
-    x, y, z = (e + depth * way[where] for e, way in zip(eye.position, ways, strict=True))
+def _round(eye: Eye, scene: Scene, near: Pixels, number: Ints, ways: Sequence[Pixels]) -> Floats:
+    """The colours (n, 3) of cylinders and balls: their normals follow from where they were met."""
+    rods = len(scene.rods)
+    depth = 1 / near
+    x, y, z = (e + depth * way for e, way in zip(eye.position, ways, strict=True))
     normals = np.zeros((len(number), 3))
     rod = number < rods
     if rod.any():
@@ -136,10 +152,5 @@ def _round(
         cx, cy, cz, radius = scene.balls[number[~rod] - rods].T
         normals[~rod] = np.column_stack([x[~rod] - cx, y[~rod] - cy, z[~rod] - cz]) / radius[:, None]
     paints = np.concatenate([scene.rod_paints, scene.ball_paints])
-    image[where] = paints[number] * lit(normals)[:, None]
-
-
-def _haze(image: Pixels, near: Pixels, where: NDArray[np.bool_]) -> None:
-    mist = np.exp(np.float32(-1 / HAZE) / np.where(where, near, np.float32(np.inf)))[..., None]
-    image *= mist
-    image += np.array(HORIZON, np.float32) * (1 - mist)
+    colours: Floats = paints[number] * lit(normals)[:, None]
+    return colours

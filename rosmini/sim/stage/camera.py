@@ -90,6 +90,7 @@ class StageCameraDevice(CameraDevice):
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Take a picture."""
+        self.warn()
         image, depths = capture(self.eye(), self.robot.pose, self._scene())
         opaque = np.full((*image.shape[:2], 1), 255, dtype=np.uint8)
         pixels = np.concatenate([image, opaque], axis=2)

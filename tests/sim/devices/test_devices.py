@@ -402,3 +402,21 @@ def test_names_are_put_together():
     assert prefixed("/a", "/x") == "x"
     with pytest.raises(RosminiError, match="it is one of a, b"):
         one_of("letter", "q", ("a", "b"))
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "rate", "dear"), [(1920, 1080, 30.0, True), (640, 480, 30.0, False)]
+)
+def test_a_camera_that_is_dear_says_so_once_and_only_if_somebody_hears_it(
+    graph, capsys, width, height, rate, dear
+):
+    stand = Stand(graph, WALL)
+    camera = replace(CAMERA, width=width, height=height, rate=rate)
+    stand.host.add(CameraDevice(stand.host, "r", camera, image="image", depth="depth"))
+    graph.run(0.1)
+    assert "the camera" not in capsys.readouterr().err
+    stand.hear("image", "sensor_msgs/Image")
+    graph.run(0.1)
+    warned = capsys.readouterr().err
+    assert warned.count("draws 1920 x 1080 pixels 30 times a second: 62 million pixels") == dear
+    assert ("a lower rate (for example 9.6 Hz)" in warned) == dear
