@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape, quoteattr
 
 from rosmini.errors import DefinitionError, nearest
+from rosmini.files import read
 
 if TYPE_CHECKING:
     from xml.sax.xmlreader import AttributesImpl, Locator
@@ -198,8 +199,7 @@ def parse(
 def parse_file(path: str | PathLike[str], failure: type[MarkupError] = MarkupError) -> Element:
     """The root of an XML file. Raises as `parse` does, and if the file cannot be read."""
     try:
-        with open(path, "rb") as file:  # noqa: PTH123 (a path of any kind)
-            text = file.read()
+        text = read(path)
     except OSError as error:
         raise failure(f"cannot be read: {error.strerror}", fspath(path)) from error
     return parse(text, path, failure)

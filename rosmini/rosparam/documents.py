@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from rosmini.errors import ParameterError
+from rosmini.files import read
 from rosmini.graph.parameter_api import check_value
 from rosmini.names import join
+from rosmini.yaml_text import Loader, children, documents, line_of
 
 from .angles import degrees, radians
 from .errors import RosParamException
@@ -28,8 +30,8 @@ __all__ = ["NS", "Document", "assignments", "dumps", "load_file", "load_str", "p
 NS = "_ns"
 """A document with this key says itself into which namespace it goes."""
 
-_MOST = 100_000
-"""How many values a file may have; aliases (``*name``) can make a small file huge."""
+LARGEST = 4_000_000
+"""Bytes of a parameter file."""
 
 
 @dataclass(frozen=True)
@@ -113,14 +115,14 @@ def _checked(name: str, value: Any, place: str) -> Any:
 # ---- reading ----
 
 
-class _Loader(yaml.SafeLoader):
+class _Loader(Loader):
     """YAML with angles; a class of its own, so that nobody else's YAML gets them."""
 
     def angle(self, node: Any, read: Callable[[str], float]) -> float:
         try:
             return read(str(self.construct_scalar(node)))
         except RosParamException as error:
-            raise RosParamException(error.message, self.name, _line(node)) from error
+            raise RosParamException(error.message, self.name, line_of(node)) from error
 
 
 class _Dumper(yaml.SafeDumper):
@@ -137,10 +139,12 @@ def load_file(path: str | Path, namespace: str = "/") -> list[Document]:
     """Read a parameter file, for a namespace. Raises ``RosParamException``, which names file and line."""
     path = Path(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read(path, LARGEST).decode("utf-8")
     except FileNotFoundError as error:
         raise RosParamException(f"file [{path}] does not exist") from error
-    except (OSError, UnicodeDecodeError) as error:
+    except OSError as error:
+        raise RosParamException(f"cannot read this file: {error.strerror}", path) from error
+    except UnicodeDecodeError as error:
         raise RosParamException(f"cannot read this file: {error}", path) from error
     return load_str(text, str(path), namespace)
 
@@ -148,28 +152,14 @@ def load_file(path: str | Path, namespace: str = "/") -> list[Document]:
 def load_str(text: str, source: str = "", namespace: str = "/") -> list[Document]:
     """Read the documents of a YAML text; ``source`` is what errors call it. Raises ``RosParamException``."""
     found: list[Document] = []
-    loader: _Loader | None = None
-    try:
-        loader = _Loader(text)
-        loader.name = source
-        while loader.check_node():
-            node: Any = loader.get_node()
-            _refuse_endless(node, source)
-            values = loader.construct_document(node)
-            if values is None:
-                raise RosParamException("this document is empty (YAML's null)", source, _line(node))
-            ns = namespace
-            named = isinstance(values, dict) and NS in values
-            if named:
-                ns = join(namespace, str(values.pop(NS)))
-            found.append(Document(values, ns, source, dict(_lines(node, "")), named))
-    except (yaml.MarkedYAMLError, yaml.reader.ReaderError) as error:
-        raise _no_yaml(error, source) from error
-    except (ValueError, RecursionError, OverflowError) as error:  # 2026-13-45, .e999, thousands of brackets
-        raise RosParamException(f"this is not YAML: {error}", source) from error
-    finally:
-        if loader is not None:
-            loader.dispose()
+    for values, node in documents(text, source, RosParamException, _Loader):
+        if values is None:
+            raise RosParamException("this document is empty (YAML's null)", source, line_of(node))
+        ns = namespace
+        named = isinstance(values, dict) and NS in values
+        if named:
+            ns = join(namespace, str(values.pop(NS)))
+        found.append(Document(values, ns, source, dict(_lines(node, "")), named))
     return found
 
 
@@ -181,58 +171,11 @@ def parse(text: str) -> Any:
     return documents[0].values if documents else None
 
 
-def _no_yaml(error: yaml.MarkedYAMLError | yaml.reader.ReaderError, source: str) -> RosParamException:
-    if isinstance(error, yaml.MarkedYAMLError):
-        mark = error.problem_mark or error.context_mark
-        text = ", ".join(part for part in (error.context, error.problem) if part)
-        hint = " (indent with spaces, not with tabs)" if "'\\t'" in text else ""
-        return RosParamException(
-            f"this is not YAML: {text}{hint}", source, None if mark is None else mark.line + 1
-        )
-    return RosParamException(f"this is not YAML: {error.reason}, at character {error.position}", source)
-
-
-def _line(node: yaml.Node | None) -> int | None:
-    return None if node is None or node.start_mark is None else node.start_mark.line + 1
-
-
-def _children(node: yaml.Node) -> Iterator[tuple[str, yaml.Node, yaml.Node]]:
-    """Yield how each value in a node is reached, where that is written, and its node."""
-    if isinstance(node, yaml.MappingNode):
-        for key, value in node.value:
-            yield f"/{key.value if isinstance(key, yaml.ScalarNode) else '?'}", key, value
-    elif isinstance(node, yaml.SequenceNode):
-        for number, value in enumerate(node.value):
-            yield f"[{number}]", value, value
-
-
 def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
-    yield place or "/", _line(node) or 1
-    for step, written, value in _children(node):
+    yield place or "/", line_of(node) or 1
+    for step, written, value in children(node):
         yield from _lines(value, place + step)
-        yield place + step, _line(written) or 1
-
-
-def _refuse_endless(node: yaml.Node, source: str) -> None:
-    """Refuse a document that holds itself, or that grows out of all bounds through its aliases."""
-    sizes: dict[int, int] = {}
-    open_nodes: set[int] = set()
-
-    def size(part: yaml.Node) -> int:
-        if id(part) in open_nodes:
-            raise RosParamException("this value contains itself, through an alias", source, _line(part))
-        if id(part) not in sizes:
-            open_nodes.add(id(part))
-            sizes[id(part)] = 1 + sum(size(value) for _, _, value in _children(part))
-            open_nodes.discard(id(part))
-        return sizes[id(part)]
-
-    if size(node) > _MOST:
-        raise RosParamException(
-            f"this document has {size(node)} values with its aliases; {_MOST} are allowed",
-            source,
-            _line(node),
-        )
+        yield place + step, line_of(written) or 1
 
 
 # ---- writing ----

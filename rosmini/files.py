@@ -1,0 +1,63 @@
+"""Files from outside: looked at before they are read.
+
+Whatever a path from outside names, asking whether it is there raises nothing, and reading it blocks on no pipe and fills no memory.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+
+__all__ = ["LARGEST", "check", "exists", "is_file", "read"]
+
+LARGEST = 64_000_000
+"""Bytes of a file that is read at once."""
+
+KINDS = (
+    (stat.S_ISDIR, "it is a folder"),
+    (stat.S_ISFIFO, "it is a pipe"),
+    (stat.S_ISCHR, "it is a device"),
+    (stat.S_ISBLK, "it is a device"),
+    (stat.S_ISSOCK, "it is a socket"),
+)
+
+Path = str | os.PathLike[str]
+
+
+def exists(path: Path) -> bool:
+    """Tell whether there is something at a path; of a path that cannot be one there is nothing."""
+    return os.path.exists(path)  # noqa: PTH110 (Path.exists raises for a name that is too long)
+
+
+def is_file(path: Path) -> bool:
+    """Tell whether there is a regular file at a path."""
+    return os.path.isfile(path)  # noqa: PTH113 (Path.is_file raises for a name that is too long)
+
+
+def check(path: Path, largest: int = LARGEST) -> os.stat_result:
+    """What the system knows of a file that can be read. Raises `OSError`: it is not there, it is no regular file, it is too large."""
+    try:
+        found = os.stat(path)  # noqa: PTH116 (a path of any kind)
+    except ValueError as error:  # a NUL in it, or what the file system's encoding has not
+        raise OSError(errno.EINVAL, "its name holds what no name can hold", os.fspath(path)) from error
+    for is_kind, what in KINDS:
+        if is_kind(found.st_mode):
+            raise OSError(errno.EINVAL, what, os.fspath(path))
+    if found.st_size > largest:
+        raise _too_large(path, largest)
+    return found
+
+
+def read(path: Path, largest: int = LARGEST) -> bytes:
+    """The bytes of a file. Raises `OSError` as `check` does."""
+    check(path, largest)
+    with open(path, "rb") as file:  # noqa: PTH123 (a path of any kind)
+        data = file.read(largest + 1)  # some files of the system say that they are empty
+    if len(data) > largest:
+        raise _too_large(path, largest)
+    return data
+
+
+def _too_large(path: Path, largest: int) -> OSError:
+    return OSError(errno.EFBIG, f"it has more than {largest / 1e6:g} MB", os.fspath(path))
