@@ -7,10 +7,10 @@ import operator
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, ClassVar
 
-from rosmini.errors import nearest
+from rosmini.errors import nearest, shown
 
 from .budget import BITS, Budget
-from .errors import ExpressionError, NotAllowed, shown
+from .errors import ExpressionError, NotAllowed, cut
 from .functions import Function, Namespace, method
 from .operators import BINARY, COMPARE, UNARY, compute
 
@@ -88,8 +88,8 @@ class Compiler:
 
     def _spot(self, node: ast.AST) -> str:
         """Where in the text a node is, unless it is all of it."""
-        written = shown(ast.get_source_segment(self.text, node) or "")
-        return f" (in {written!r})" if written not in {"", shown(self.text)} else ""
+        written = cut(ast.get_source_segment(self.text, node) or "")
+        return f" (in {written!r})" if written not in {"", cut(self.text)} else ""
 
     def _refused(self, node: ast.AST, why: str) -> NotAllowed:
         return NotAllowed(f"{why}{self._spot(node)}")
@@ -99,7 +99,7 @@ class Compiler:
     def _constant(self, node: ast.Constant) -> Step:
         value = node.value
         if not isinstance(value, str | bytes | int | float | None):
-            raise self._refused(node, f"{shown(repr(value))} is not allowed")
+            raise self._refused(node, f"{shown(value)} is not allowed")
         if isinstance(value, int) and value.bit_length() > BITS:
             raise self._refused(node, f"a whole number of more than {BITS} bits")
         return lambda _: value

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from rosmini.errors import RosminiError
 
-__all__ = ["ExpressionError", "NotAllowed", "shown"]
+__all__ = ["ExpressionError", "NotAllowed", "cut"]
 
 SHOWN = 60
-"""So many characters of an expression or a value an error quotes."""
+"""So many characters of an expression an error quotes."""
 
 
 class ExpressionError(RosminiError):
@@ -21,6 +21,6 @@ class NotAllowed(ExpressionError):
     """An expression uses what a confined one may not use, or would cost more than it may."""
 
 
-def shown(text: str) -> str:
+def cut(text: str) -> str:
     """A text, cut if it is long."""
     return text if len(text) <= SHOWN else text[: SHOWN - 3] + "..."

@@ -10,7 +10,7 @@ from typing import Any
 
 from .budget import Budget
 from .compiler import Compiler, Fields, Run, no_fields
-from .errors import ExpressionError, NotAllowed, shown
+from .errors import ExpressionError, NotAllowed, cut
 from .functions import FUNCTIONS, MATH, METHODS, Namespace
 
 __all__ = ["Expression"]
@@ -53,7 +53,7 @@ class Expression:
         self._slots = compiler.slots
 
     def __repr__(self) -> str:
-        return f"Expression({shown(self.text)!r})"
+        return f"Expression({cut(self.text)!r})"
 
     def evaluate(self, names: Mapping[str, Any], budget: Budget | None = None) -> Any:
         """What the expression says of these values. Raises `ExpressionError`, which names the part that failed."""

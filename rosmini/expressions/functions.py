@@ -7,10 +7,10 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
-from rosmini.errors import nearest
+from rosmini.errors import nearest, shown
 
 from .budget import BITS, STEPS, Budget
-from .errors import NotAllowed, shown
+from .errors import NotAllowed
 
 __all__ = ["FUNCTIONS", "MATH", "METHODS", "Function", "Namespace", "method"]
 
@@ -94,14 +94,14 @@ def _range(*bounds: Any) -> range:
 
 def _map(budget: Budget, function: Any, *values: Iterable[Any]) -> list[Any]:
     if not isinstance(function, Function):
-        raise TypeError(f"map() takes a function, not {shown(repr(function))}")
+        raise TypeError(f"map() takes a function, not {shown(function)}")
     rows = zip(*(budget.collect(each) for each in values), strict=False)
     return [function.apply(budget, row, {}) for row in rows]
 
 
 def _filter(budget: Budget, function: Any, values: Iterable[Any]) -> list[Any]:
     if function is not None and not isinstance(function, Function):
-        raise TypeError(f"filter() takes a function, not {shown(repr(function))}")
+        raise TypeError(f"filter() takes a function, not {shown(function)}")
     found = budget.collect(values)
     return [each for each in found if (function.apply(budget, (each,), {}) if function else each)]
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .budget import BITS, Budget
-from .errors import NotAllowed, shown
+from .errors import NotAllowed, cut
 
 __all__ = ["BINARY", "COMPARE", "UNARY", "compute"]
 
@@ -84,4 +84,4 @@ def _check_format(text: str | bytes) -> None:
     found = text if isinstance(text, str) else text.decode("latin-1")
     for width in re.findall(r"%(?:\([^)]*\))?([^a-zA-Z%]*)", found):
         if "*" in width or re.search(r"\d{4}", width):
-            raise NotAllowed(f"the width of %{shown(width)}")
+            raise NotAllowed(f"the width of %{cut(width)}")

@@ -46,8 +46,6 @@ def test_arithmetic_is_pythons(left: float, right: float, sign: str) -> None:
         "open('/etc/passwd')",
         "math.__class__",
         "().__class__",
-        "[pi][0]",
-        "pi if pi else 0",
         "'a' * 9",
         "True",
         "lambda: 0",
