@@ -346,6 +346,12 @@ class Host:
             raise RosminiError(msg.rstrip())
         return self._devices[name]
 
+    def count(self, device: Device) -> int:
+        """How many instants of a device there have been until the engine's now, this one too: the number that the last one's `due` got."""
+        group = self._groups[device.rate]
+        # the engine may be a nanosecond short of an instant, whose number is a fraction of one
+        return group.after(round(self.engine.now * SECOND) + 1) - 1 - group.before[device.name]
+
     def rng(self, name: str) -> np.random.Generator:
         """Return the random generator for what is called `name`: the same on each run, and whoever else draws from another."""
         return self.node.graph.rng(f"{self.node.name}/{name}")

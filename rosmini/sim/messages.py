@@ -138,8 +138,8 @@ class ImuMessage(Headed):
         if robot.model.drive != "differential":
             aside = (robot.velocity[1], robot.acceleration_aside)
         gyro, accel = self._gyro, self._accel
-        gyro.x, gyro.y, gyro.z, accel.x, accel.y, accel.z, drift = imu.measure(number, v, w, dv, dw, aside)
-        half = (robot.pose[2] - heading + drift) / 2
+        gyro.x, gyro.y, gyro.z, accel.x, accel.y, accel.z = imu.read(number, v, w, dv, dw, aside)
+        half = imu.heading(number, robot.pose[2] - heading) / 2
         self._orientation.z, self._orientation.w = math.sin(half), math.cos(half)
         return self.message
 

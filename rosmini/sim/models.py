@@ -6,6 +6,7 @@ The numbers of a robot are the published ones, and each says where it was publis
 - *description*: the package `turtlebot3_description` of https://github.com/ROBOTIS-GIT/turtlebot3, its URDF;
 - *gazebo*: the same package's files `turtlebot3_*.gazebo.xacro`, which is what Gazebo simulates;
 - *firmware*: `turtlebot3_core` of https://github.com/ROBOTIS-GIT/OpenCR, what the robot's own controller runs;
+- *MPU-9250*: the gyroscope on its board, by the maker's product specification (PS-MPU-9250A-01, table 1); later boards have an ICM-20648;
 - *navigation*: the package `turtlebot3_navigation`, the costmaps' parameters;
 - *LDS-01*: https://emanual.robotis.com/docs/en/platform/turtlebot3/appendix_lds_01/.
 """
@@ -177,6 +178,10 @@ class ImuModel:
     frame: str = "imu_link"
     gyro_bias: float = 0.0
     """Standard deviation, from one unit to another, of the angular velocity it shows at rest [rad/s]."""
+    gyro_step: float = 0.0
+    """What one step of its converter is worth [rad/s]: a gyroscope whose zero is known in whole steps only shows up to one of them at rest."""
+    gyro_scale: float = 0.0
+    """Standard deviation, from one unit to another, of the part by which it shows too much, or too little, of a turn."""
     accel_bias: float = 0.0
     """The same of a linear acceleration [m/s2]."""
     gravity: float = GRAVITY
@@ -370,9 +375,12 @@ BURGER = RobotModel(
     imu=ImuModel(
         mount=(-0.032, 0.0, 0.078),  # description
         rate=200.0,  # firmware, gazebo
-        gyro_noise=2e-4,  # gazebo
+        gyro_noise=math.radians(
+            0.01 * math.sqrt(200.0 / 2)
+        ),  # MPU-9250: 0.01 deg/s a root of a hertz, up to half the rate
         accel_noise=1.7e-2,  # gazebo
-        gyro_bias=7.5e-6,  # gazebo
+        gyro_step=math.radians(2000.0 / 2**15),  # firmware: 16 bits for 2000 deg/s to either side
+        gyro_scale=0.01,  # MPU-9250: 3 % at the most, which we take for three standard deviations
         accel_bias=0.1,  # gazebo
     ),
     rate=30.0,  # firmware, gazebo

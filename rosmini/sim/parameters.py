@@ -27,14 +27,15 @@ def parameter(
     unit: str = "",
     minimum: float | None = None,
     maximum: float | None = None,
+    choices: tuple[str, ...] = (),
     level: int = 0,
     group: str = "",
 ) -> Any:
-    """One parameter of a class derived from `Parameters`; its name and its type are those of the field.
+    """One parameter of a class derived from `Parameters`; its name and its type are those of the field. Without `choices` any text will do.
 
     `level` and `group` are for those that are changed while the node runs: see `rosmini.dynamic_reconfigure`.
     """
-    about = {"meaning": meaning, "unit": unit, "minimum": minimum, "maximum": maximum}
+    about = {"meaning": meaning, "unit": unit, "minimum": minimum, "maximum": maximum, "choices": choices}
     return field(default=default, metadata={**about, "level": level, "group": group})
 
 
@@ -76,7 +77,8 @@ class Parameters:
         rows = []
         for declared in fields(cls):
             low, high = declared.metadata["minimum"], declared.metadata["maximum"]
-            span = "" if low is None and high is None else f"{_shown(low)} ... {_shown(high)}".strip()
+            span = ", ".join(declared.metadata["choices"])
+            span = span if low is None and high is None else f"{_shown(low)} ... {_shown(high)}".strip()
             default = "" if declared.default is None else str(declared.default)
             rows.append(
                 (
@@ -94,6 +96,10 @@ class Parameters:
 def _checked(node: Node, declared: Field[Any], kind: Any, value: Any) -> Any:
     name = node.resolve_parameter("~" + declared.name)
     value = node.get_param(name, expect=_kinds(kind))
+    choices = declared.metadata["choices"]
+    if choices and value not in choices:
+        hint = nearest(value, choices) or f"it has to be one of {', '.join(choices)}"
+        raise ParameterError(f"parameter {name} ({declared.metadata['meaning']}) is {value!r}; {hint}")
     low, high = declared.metadata["minimum"], declared.metadata["maximum"]
     if (low is not None and value < low) or (high is not None and value > high):
         unit = declared.metadata["unit"]

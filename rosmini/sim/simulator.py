@@ -29,7 +29,7 @@ from .models import RobotModel
 from .models import model as model_called
 from .parameters import Parameters, parameter
 from .starts import Start, add, read_starts, start_pose
-from .turtlebot import COMMAND_TIMEOUT, Options, TurtleBot
+from .turtlebot import COMMAND_TIMEOUT, ODOMETRY, Options, TurtleBot
 from .world import World
 from .worlds import world as world_called
 
@@ -48,6 +48,9 @@ class SimulatorParameters(Parameters):
     y: float | None = parameter(None, "where the robot starts", unit="m")
     yaw: float | None = parameter(None, "its heading there, counter-clockwise from the x axis", unit="rad")
     noise: float = parameter(1.0, "scales every error of wheels and sensors; 0: none", minimum=0.0)
+    odometry: str = parameter(
+        ODOMETRY[0], "what says how far a robot has turned, for its odometry", choices=ODOMETRY
+    )
     cmd_vel_timeout: float = parameter(
         COMMAND_TIMEOUT, "how long a command holds; 0: until the next", unit="s", minimum=0.0
     )
@@ -103,7 +106,7 @@ class Simulator:
         self.model = model if isinstance(model, RobotModel) else model_called(model)
         own = self.parameters
         self._options = Options(
-            own.noise, own.cmd_vel_timeout, own.tf, own.use_rep_117, own.board, own.battery
+            own.noise, own.cmd_vel_timeout, own.tf, own.use_rep_117, own.board, own.battery, own.odometry
         )
         self.engine = Engine(world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=own.noise)
         pose = start_pose(world, own.x, own.y, own.yaw)
@@ -241,7 +244,7 @@ class Simulator:
         return self._first.odometry
 
     def place(self, pose: Pose, robot: str = "") -> None:
-        """Lift the robot and put it down elsewhere, at rest; its odometry does not notice. Raises `WorldError` and `RobotGone`."""
+        """Lift the robot and put it down elsewhere, at rest; its wheels do not notice, but its IMU feels the turn. Raises `WorldError` and `RobotGone`."""
 
         def put() -> None:
             name = self.robot(robot).name

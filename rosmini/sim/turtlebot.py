@@ -35,6 +35,10 @@ COMMAND_TIMEOUT = 0.5
 """How long a command holds [s]: CONTROL_MOTOR_TIMEOUT of TurtleBot3's firmware."""
 
 
+ODOMETRY = ("imu", "wheels")
+"""What says how far a robot has turned, for its odometry: its IMU, as in TurtleBot3's firmware, or its wheels, as in Gazebo."""
+
+
 @dataclass(frozen=True)
 class Options:
     """How the robots of one simulator are set up."""
@@ -47,6 +51,8 @@ class Options:
     """With sensor_state, battery_state, motor_power and reset."""
     battery: float = 1.0
     """How full the battery is at first."""
+    odometry: str = ODOMETRY[0]
+    """One of `ODOMETRY`; of a robot without an IMU, or not on two wheels, it is always the wheels."""
 
 
 class TurtleBot:
@@ -100,6 +106,7 @@ class TurtleBot:
                 odom_frame=self.frame(ODOM),
                 base_frame=self.frame(BASE),
                 timeout=options.cmd_vel_timeout,
+                imu=self.imu if options.odometry == "imu" else None,
             )
         )
         self.truth = self._add(
@@ -151,7 +158,7 @@ class TurtleBot:
         self._switches = Switches(
             host,
             self.drive,
-            None if self.imu is None else self.imu.reset_heading,
+            None if self.imu is None else self.imu.calibrate,
             motor_power=self.topic("motor_power"),
             reset=self.topic("reset"),
         )

@@ -253,10 +253,12 @@ def test_a_command_that_is_no_number_stops_the_robot_with_one_warning(graph, cap
 # -- noise -----------------------------------------------------------------------------------------------------------
 
 
-def drive_with_noise(topics=tuple(TOPICS), *, seed: int = 0, company: bool = False) -> dict[str, list[Any]]:
+def drive_with_noise(
+    topics=tuple(TOPICS), *, seed: int = 0, company: bool = False, odometry: str = "imu"
+) -> dict[str, list[Any]]:
     """What is heard on a drive through the room, in the messages' bytes."""
     with Graph(seed=seed) as graph:
-        start(graph, parameters={"noise": 1.0}, world="arena")
+        start(graph, parameters={"noise": 1.0, "odometry": odometry}, world="arena")
         if company:
             start(graph, namespace="/other", parameters={"noise": 1.0, "tf": False}, world="arena")
         driver = Driver(graph, topics)
@@ -278,7 +280,12 @@ def test_another_seed_is_another_run():
     assert one["scan"] != other["scan"]
     assert one["base_pose_ground_truth"] != other["base_pose_ground_truth"]
     assert one["imu"] != other["imu"]
-    # what the encoders count follows from the commands alone: of its errors a robot knows nothing
+    assert one["odom"] != other["odom"]
+
+
+def test_what_the_encoders_count_follows_from_the_commands_alone():
+    one, other = (drive_with_noise(seed=seed, odometry="wheels") for seed in (1, 2))
+    assert one["base_pose_ground_truth"] != other["base_pose_ground_truth"]
     assert one["odom"] == other["odom"]
 
 
@@ -357,8 +364,9 @@ def test_a_world_and_a_model_can_be_given_as_they_are(graph):
 # -- looking, placing, resetting, removing ---------------------------------------------------------------------------
 
 
-def test_place_moves_the_truth_and_not_the_odometry(graph):
-    simulator = start(graph, world="arena")
+@pytest.mark.parametrize("odometry", ["imu", "wheels"])
+def test_place_moves_the_truth_and_not_the_wheels(graph, odometry):
+    simulator = start(graph, world="arena", parameters={"odometry": odometry})
     driver = Driver(graph)
     graph.run(0.1)
     driver.go(1.0, 0.2)
@@ -366,7 +374,9 @@ def test_place_moves_the_truth_and_not_the_odometry(graph):
     simulator.place((-1.0, 1.0, 0.5))
     graph.run(0.2)
     assert simulator.truth() == (-1.0, 1.0, 0.5)
-    assert simulator.odometry == pytest.approx(before, abs=3e-3)
+    x, y, theta = before
+    felt = 0.5 if odometry == "imu" else 0.0  # an IMU feels that it is turned while it is carried
+    assert simulator.odometry == pytest.approx((x, y, theta + felt), abs=3e-3)
     with pytest.raises(WorldError, match="'north wall'"):
         simulator.place((0.0, 2.0, 0.0))
     with pytest.raises(RobotGone, match="no robot 'tb3'"):

@@ -160,18 +160,19 @@ def check_frames(heard: Heard, model: RobotModel, name: str) -> None:
 
 
 def check_odometry(heard: Heard, truth: Floats, model: RobotModel) -> None:
-    """Odometry is off by no more than its wheels explain; the transform says the same, and the joints belong to it."""
+    """Odometry is off by no more than its wheels and its gyroscope explain; the transform says the same, and the joints belong to it."""
     expect([row[:4] for row in heard["odom"]] == [row[:4] for row in heard["tf"]], "odom and tf do not agree")
     odom = poses(heard["odom"])
     believed, really = (compose(inverse(_pose(track[0])), track) for track in (odom, truth))
     path, turned = _way(really), float(np.abs(np.diff(really[:, 2])).sum())
     errors = model.errors
     uneven = SIGMAS * (errors.radius + errors.slip) * path
-    bent = uneven / model.wheel_separation + SIGMAS * errors.separation * turned
+    bent = gyroscope_error(model, turned, (heard["odom"][-1][0] - heard["odom"][0][0]) * 1e-9)
     drift = float(np.hypot(*(believed - really)[:, :2].T).max())
     most = uneven + bent * path + 0.005
     expect(
-        0 < drift < most, f"odometry is {drift:.4f} m off after {path:.2f} m; its wheels explain {most:.4f} m"
+        0 < drift < most,
+        f"odometry is {drift:.4f} m off after {path:.2f} m; its wheels and its gyroscope explain {most:.4f} m",
     )
     rolled = np.diff([(row[3] + row[4]) / 2 for row in heard["joint_states"]]) * model.wheel_radius
     speeds = np.array([row[4] for row in heard["odom"]])[1:]
@@ -219,12 +220,20 @@ def check_imu(heard: Heard, truth: Floats, model: RobotModel) -> None:
     ends = [max(times[0], stamps[0]), min(times[-1], stamps[-1])]
     measured = float(np.diff(np.interp(ends, stamps, turn))[0])
     really = float(np.diff(np.interp(ends, times, truth[:, 2]))[0])
+    turned = float(np.abs(np.diff(truth[:, 2])).sum())
     expect(
-        abs(measured - really) < 0.005,
+        abs(measured - really) < gyroscope_error(model, turned, (ends[1] - ends[0]) * 1e-9),
         f"the gyroscope says {measured:.4f} rad, and the robot turned by {really:.4f}",
     )
     felt = float(gravity.mean())
     expect(abs(felt - 9.80665) < SIGMAS * model.unit.accel_bias, f"the imu feels {felt:.2f} m/s2 upwards")
+
+
+def gyroscope_error(model: RobotModel, turned: float, seconds: float) -> float:
+    """By how much the integral of a gyroscope may be off [rad] after a turn [rad] that took so long: its scale, its zero and its noise."""
+    unit = model.unit
+    walk = unit.gyro_noise * math.sqrt(seconds / unit.rate)
+    return SIGMAS * (unit.gyro_scale * turned + walk) + 1.2 * unit.gyro_step * seconds + 0.005
 
 
 def first_hit(world: World, x: float, y: float, angle: float) -> float:

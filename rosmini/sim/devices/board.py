@@ -187,12 +187,12 @@ class SensorStateDevice(Device):
 
 
 class Switches:
-    """TurtleBot3's topics `motor_power` (std_msgs/Bool) and `reset` (std_msgs/Empty): current for the motors, and odometry and heading at zero.
+    """TurtleBot3's topics `motor_power` (std_msgs/Bool) and `reset` (std_msgs/Empty): current for the motors; odometry at zero and a calibrated gyroscope.
 
     Args:
         host: where they are.
         drive: whose motors and odometry.
-        reset_heading: what else is to be done at a reset.
+        calibrate: what is done at a reset before the odometry begins at zero.
         motor_power: the topic that switches the motors.
         reset: the topic that resets.
 
@@ -202,12 +202,12 @@ class Switches:
         self,
         host: Host,
         drive: DifferentialDrive,
-        reset_heading: Callable[[], None] | None = None,
+        calibrate: Callable[[], None] | None = None,
         *,
         motor_power: str = "motor_power",
         reset: str = "reset",
     ) -> None:
-        self._drive, self._reset_heading = drive, reset_heading
+        self._drive, self._calibrate = drive, calibrate
         node = host.node
         self._host = host
         self._subscribers = [
@@ -220,9 +220,9 @@ class Switches:
 
     def _reset(self, _: Any) -> None:
         self._host.catch_up()
+        if self._calibrate is not None:
+            self._calibrate()
         self._drive.reset_odometry()
-        if self._reset_heading is not None:
-            self._reset_heading()
 
     def close(self) -> None:
         """End the topics."""

@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from rosmini.geometry.angles import normalize_angle
 from rosmini.geometry.poses import Pose, compose, inverse
 from rosmini.graph import Publisher
 from rosmini.msgs import message_class
@@ -29,6 +30,8 @@ from .names import one_of, order
 
 if TYPE_CHECKING:
     from rosmini.sim.engine.robot import Robot
+
+    from .sensors import ImuDevice
 
 SOURCES = ("encoder", "world", "start")
 """From where a drive takes its odometry: the encoders of its wheels; the truth in the frame of the world; the truth seen from where it started."""
@@ -57,6 +60,7 @@ class DifferentialDrive(Device):
         rate: how often; without it as often as the robot's model says [Hz].
         timeout: how long a command holds [s]; 0: until the next one, as in Gazebo. TurtleBot3 has 0.5, Stage 0.2.
         source: from where the odometry is taken: "encoder", "world" or "start", see `SOURCES`.
+        imu: what says how far the robot has turned, for an odometry from encoders: TurtleBot3's firmware asks its IMU. None: the wheels do.
         covariance: of x, y, z and the turns about them, as the odometry's messages state it.
         name: the device's; without it robot/drive.
 
@@ -79,6 +83,7 @@ class DifferentialDrive(Device):
         rate: float | None = None,
         timeout: float = 0.0,
         source: str = "encoder",
+        imu: ImuDevice | None = None,
         covariance: Sequence[float] = POSE_COVARIANCE,
         name: str | None = None,
     ) -> None:
@@ -89,7 +94,9 @@ class DifferentialDrive(Device):
         self.timeout = timeout
         self.odom_frame, self.base_frame = odom_frame, base_frame
         self.odometry = Odometry(self.model)
-        """What the encoders show, whatever is told of it."""
+        """What the encoders show, and the IMU if it is asked, whatever is told of it."""
+        self._imu = imu
+        self._heading = 0.0
         self.powered = True
         """False: the motors get no current, and commands have no effect."""
         self.reckoned = Reckoned((0.0, 0.0, 0.0), 0.0, 0.0, 0.0)
@@ -178,11 +185,18 @@ class DifferentialDrive(Device):
     def _update(self) -> None:
         robot = self.robot
         odometry = self.odometry
-        odometry.update(*robot.ticks, 1 / self.rate)
+        odometry.update(*robot.ticks, 1 / self.rate, self._turn())
         if self.source == "encoder":
             self.reckoned = Reckoned(odometry.pose, odometry.v, 0.0, odometry.w)
         else:
             self.reckoned = self._true()
+
+    def _turn(self) -> float | None:
+        """How far the robot has turned since the last time as the IMU has it [rad]; None if none is asked."""
+        if self._imu is None:
+            return None
+        before, self._heading = self._heading, self._imu.heading
+        return float(normalize_angle(self._heading - before))
 
     def _true(self) -> Reckoned:
         robot = self.robot
@@ -195,6 +209,7 @@ class DifferentialDrive(Device):
         self.odometry = Odometry(self.model)
         self.reckoned = Reckoned((0.0, 0.0, 0.0), 0.0, 0.0, 0.0)
         self._zero = self.robot.start
+        self._turn()
 
     def reset_odometry(self) -> None:
         """Let the odometry be zero here and now, with wheels turned as far as they are: TurtleBot3's topic `reset`."""
@@ -204,11 +219,11 @@ class DifferentialDrive(Device):
 
     def state(self) -> Any:
         """The odometry, and whether the motors have current."""
-        return copy.copy(self.odometry), self.reckoned, self._zero, self.powered
+        return copy.copy(self.odometry), self.reckoned, self._zero, self.powered, self._heading
 
     def restore(self, state: Any) -> None:
         """Believe what was believed then."""
-        odometry, self.reckoned, self._zero, self.powered = state
+        odometry, self.reckoned, self._zero, self.powered, self._heading = state
         self.odometry = copy.copy(odometry)
 
     def close(self) -> None:

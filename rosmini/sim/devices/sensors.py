@@ -197,9 +197,15 @@ class ImuDevice(Device):
         told.stamp(*stamp)
         self._publisher.publish(told.fill(self._imu, number, self.robot, self._heading))
 
-    def reset_heading(self) -> None:
-        """Let the heading be zero here and now: TurtleBot3's topic `reset`."""
-        self._heading = self.robot.pose[2]
+    @property
+    def heading(self) -> float:
+        """What the unit makes of the robot's heading now [rad, not wrapped], as far as its last sample shows it."""
+        turned = self.robot.pose[2] - self._heading
+        return self._imu.heading(self.host.count(self), turned)
+
+    def calibrate(self) -> None:
+        """Take for the gyroscope's zero what it shows here and now: TurtleBot3's topic `reset`. The heading stays what it is."""
+        self._imu.calibrate(self.host.count(self), self.robot.motion().w)
 
     def reset(self) -> None:
         """Count the heading from where the robot is put back to."""

@@ -159,7 +159,7 @@ class Engine:
         return self.robots[name]
 
     def place(self, name: str, pose: Pose) -> None:
-        """Lift a robot and put it down elsewhere, at rest; its odometry does not notice. Raises `WorldError` and `RobotGone`."""
+        """Lift a robot and put it down elsewhere, at rest; its wheels do not notice. Raises `WorldError` and `RobotGone`."""
         self.robot(name)
         self.put(name, pose)
 

@@ -1,14 +1,17 @@
-"""Odometry: where a robot believes to be when it counts the turns of its wheels.
+"""Odometry: where a robot believes to be when it counts the turns of its wheels, and perhaps asks a gyroscope where it heads.
 
 Each encoder counts ticks, N a turn. From the ticks since the last time the wheels' ways are d = r 2 pi ticks / N, and then
 
     ds = (d_left + d_right) / 2,   dtheta = (d_right - d_left) / b
     x += ds cos(theta + dtheta / 2),   y += ds sin(theta + dtheta / 2),   theta += dtheta
 
-which is what TurtleBot3's firmware computes 30 times a second (`turtlebot3_core` in https://github.com/ROBOTIS-GIT/OpenCR; it can take dtheta from
-the IMU as well, Gazebo and we from the wheels). r and b are the numbers on paper. The real wheels are a little larger, smaller or farther apart, and
-they slip: so the belief drifts away from the truth, without bound (Borenstein and Feng, Measurement and correction of systematic odometry
-errors in mobile robots, IEEE Transactions on Robotics and Automation, 1996).
+TurtleBot3's firmware does so 30 times a second (`calcOdometry` of `turtlebot3_core` in https://github.com/ROBOTIS-GIT/OpenCR), but for one thing: it takes
+dtheta from the orientation that its IMU tells, and the line with the wheels is commented out. Its v is ds / dt, and its w dtheta / dt. (It does not wrap the
+difference of two orientations, so one step goes wrong each time its heading passes 180 degrees; here none does.) Gazebo's plugin takes the wheels.
+
+r and b are the numbers on paper. The real wheels are a little larger, smaller or farther apart, and they slip: so the belief drifts away from the
+truth, without bound (Borenstein and Feng, Measurement and correction of systematic odometry errors in mobile robots, IEEE Transactions on Robotics and
+Automation, 1996). A gyroscope does not notice that wheels slip, but it drifts even while the robot stands: see `rosmini.sim.sensors.imu`.
 """
 
 from __future__ import annotations
@@ -32,10 +35,14 @@ def ticks(angle: float, ticks_per_turn: int) -> int:
     return math.floor(angle / (2 * math.pi) * ticks_per_turn)
 
 
-def dead_reckoning(pose: Pose, left: float, right: float, separation: float) -> Pose:
-    """The pose after the wheels have rolled `left` and `right` [m]: the equations above."""
+def dead_reckoning(
+    pose: Pose, left: float, right: float, separation: float, turn: float | None = None
+) -> Pose:
+    """The pose after the wheels have rolled `left` and `right` [m]: the equations above. `turn` [rad] is what something else says of dtheta."""
     x, y, theta = pose
-    ds, turn = (left + right) / 2, (right - left) / separation
+    ds = (left + right) / 2
+    if turn is None:
+        turn = (right - left) / separation
     middle = theta + turn / 2
     return (x + ds * math.cos(middle), y + ds * math.sin(middle), theta + turn)
 
@@ -58,15 +65,15 @@ class Odometry:
     _left_ticks: int = 0
     _right_ticks: int = 0
 
-    def update(self, left_ticks: int, right_ticks: int, dt: float) -> None:
-        """Learn what the encoders show `dt` seconds after the last time."""
+    def update(self, left_ticks: int, right_ticks: int, dt: float, turn: float | None = None) -> None:
+        """Learn what the encoders show `dt` seconds after the last time, and how far a gyroscope says that the robot has turned since [rad], if one does."""
         model = self.model
         tick = 2 * math.pi / model.ticks_per_turn
         left, right = (left_ticks - self._left_ticks) * tick, (right_ticks - self._right_ticks) * tick
         self._left_ticks, self._right_ticks = left_ticks, right_ticks
         before = self.pose[2]
         r = model.wheel_radius
-        self.pose = dead_reckoning(self.pose, left * r, right * r, model.wheel_separation)
+        self.pose = dead_reckoning(self.pose, left * r, right * r, model.wheel_separation, turn)
         self.left, self.right = left_ticks * tick, right_ticks * tick
         self.left_rate, self.right_rate = left / dt, right / dt
         self.v, self.w = (left + right) / 2 * r / dt, (self.pose[2] - before) / dt
