@@ -22,6 +22,8 @@ __all__ = [
     "check_base_name",
     "check_name",
     "is_global",
+    "is_legal_base_name",
+    "is_legal_name",
     "is_private",
     "is_remapping",
     "join",
@@ -58,6 +60,19 @@ def check_base_name(name: str, what: str = "node name") -> str:
     if isinstance(name, str) and BASE_NAME.fullmatch(name):
         return name
     raise _illegal(name, what, first="", rest="_", rule="a letter, then letters, digits and '_'")
+
+
+def is_legal_name(name: str | None) -> bool:
+    """Tell whether ``name`` is a legal graph resource name, by ``rosgraph.names``: with '//' in it, it works and is none.
+
+    Raises ``TypeError`` for what is no text.
+    """
+    return name is not None and GRAPH_NAME.fullmatch(name) is not None and "//" not in name
+
+
+def is_legal_base_name(name: str | None) -> bool:
+    """Tell whether ``name`` is a legal base name, one without a namespace. Raises ``TypeError`` for what is no text."""
+    return name is not None and BASE_NAME.fullmatch(name) is not None
 
 
 def split_resource_name(name: str, package: str | None = None) -> tuple[str, str]:
@@ -116,16 +131,23 @@ def _reason(char: str, at_start: bool, first: str, rest: str) -> str:
 
 def is_global(name: str) -> bool:
     """True for ``/scan``."""
-    return name.startswith("/")
+    return name[:1] == "/"
 
 
 def is_private(name: str) -> bool:
     """True for ``~scan``."""
-    return name.startswith("~")
+    return name[:1] == "~"
 
 
 def namespace(name: str) -> str:
-    """Return the namespace that ``name`` is in, with its closing slash: ``/robot1/`` for ``/robot1/talker``."""
+    """Return the namespace that ``name`` is in, with its closing slash: ``/robot1/`` for ``/robot1/talker``.
+
+    Raises ``ValueError`` for None and ``TypeError`` for anything else that is no text.
+    """
+    if name is None:
+        raise ValueError("None is no name: namespace() takes a text, such as '/robot1/talker'")
+    if not isinstance(name, str):
+        raise TypeError(f"a name is a str, not {type(name).__name__} ({name!r})")
     return name.removesuffix("/").rpartition("/")[0] + "/"
 
 

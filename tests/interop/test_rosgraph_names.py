@@ -5,16 +5,37 @@ import json
 import os
 import random
 import subprocess
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
-from rosmini.names import Remappings, canonicalize, is_remapping, join, namespace, resolve, resolve_for
+from rosmini.names import (
+    Remappings,
+    canonicalize,
+    is_legal_base_name,
+    is_legal_name,
+    is_remapping,
+    join,
+    namespace,
+    resolve,
+    resolve_for,
+)
+from rosmini.rospy.aliases.rosgraph.names import load_mappings
 
 THEIRS = """
 import json, sys
 import rosgraph.names, rospy.names, rospy.client
 job = json.load(sys.stdin)
-out = {"rospy": [], "rosgraph": [], "basic": [], "argv": []}
+out = {"rospy": [], "rosgraph": [], "basic": [], "argv": [], "legal": [], "wrong": []}
+def outcome(function, argument):
+    try:
+        return function(argument)
+    except Exception as error:
+        return type(error).__name__
+for name in job["odd"]:
+    out["legal"].append([outcome(f, name) for f in (rosgraph.names.is_legal_name, rosgraph.names.is_legal_base_name, rosgraph.names.namespace)])
+out["wrong"] = [rosgraph.names.load_mappings([word]) for word in job["wrong"]]
 for node, rules, name in job["names"]:
     rospy.names.reload_mappings(["%s:=%s" % rule for rule in rules.items()])
     rospy.names.initialize_mappings(node)
@@ -80,12 +101,47 @@ ARGVS = [
 ]
 
 
+ODD = [
+    *(
+        "f//b",
+        "/f//b",
+        "//f",
+        "~f//b",
+        "//",
+        "/f/",
+        "f/b/",
+        "~a~b",
+        "a b",
+        "1a",
+        "_a",
+        "\u00e9",
+        "a\n",
+        "b:=c",
+    ),
+    *(None, 1, []),
+]
+"""What is hardly a name, or none."""
+
+WRONG = [
+    *("foo:=bar:=baz", "-bar:=baz", "_x:=:=3", "/a:=b:=c", "__ns:=a:=b", "_p:=a:=b", "--x:=y", "a-b:=c"),
+    *("a:=b\nc", "_p:=[1", "__ns:=a", "a:=b c"),
+]
+"""Command-line arguments, most of which are no remappings."""
+
+
+def outcome(function: Callable[[Any], Any], argument: Any) -> Any:
+    try:
+        return function(argument)
+    except Exception as error:
+        return type(error).__name__
+
+
 def test_names_resolve_as_in_real_ros() -> None:
     rng = random.Random(1)
     made = ["".join(rng.choice("~/ab_") for _ in range(rng.randint(1, 8))) for _ in range(300)]
     made = [name for name in made if "~" not in name[1:] and name[0] != "_"]
     table = [list(row) for row in itertools.product(NODES, RULES, NAMES + made)]
-    job = json.dumps({"names": table, "argvs": ARGVS})
+    job = json.dumps({"names": table, "argvs": ARGVS, "odd": ODD, "wrong": WRONG})
     try:
         done = subprocess.run(
             ["/usr/bin/python3", "-c", THEIRS],
@@ -101,6 +157,11 @@ def test_names_resolve_as_in_real_ros() -> None:
         pytest.skip(f"real rospy is not installed: {error}")
     theirs = json.loads(done.stdout)
     ours: dict = {"rospy": [], "rosgraph": [], "basic": [], "argv": []}
+    ours["legal"] = [
+        [outcome(function, name) for function in (is_legal_name, is_legal_base_name, namespace)]
+        for name in ODD
+    ]
+    ours["wrong"] = [load_mappings([word]) for word in WRONG]
     for node, rules, name in table:
         ours["rospy"].append(resolve(name, namespace(node), node, Remappings(rules)))
         ours["rosgraph"].append(resolve_for(name, node))
@@ -117,7 +178,7 @@ def test_names_resolve_as_in_real_ros() -> None:
             ]
         )
     for kind, rows in theirs.items():
-        labels = ARGVS if kind == "argv" else table
+        labels = {"argv": ARGVS, "legal": ODD, "wrong": WRONG}.get(kind, table)
         assert [
             (kind, at, "real", a, "ours", b)
             for at, a, b in zip(labels, rows, ours[kind], strict=True)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Sequence
-from typing import Any
 
 from rosmini.errors import IllegalName
 from rosmini.graph import default_graph
 from rosmini.names import (
     Remappings,
-    check_base_name,
-    check_name,
     is_global,
+    is_legal_base_name,
+    is_legal_name,
     is_private,
     is_remapping,
     join,
@@ -49,24 +50,6 @@ ns_join = join
 is_legal_remap = is_remapping
 
 
-def is_legal_name(name: Any) -> bool:
-    """Tell whether ``name`` is a legal graph resource name."""
-    return name is not None and _passes(check_name, name)
-
-
-def is_legal_base_name(name: Any) -> bool:
-    """Tell whether ``name`` is a legal base name, one without a namespace."""
-    return name is not None and _passes(check_base_name, name)
-
-
-def _passes(check: Any, name: Any) -> bool:
-    try:
-        check(name)
-    except IllegalName:
-        return False
-    return True
-
-
 def resolve_name(name: str, namespace_: str, remappings: dict[str, str] | None = None) -> str:
     """Return the global name that ``name`` means for the node ``namespace_``; ``remappings`` are between global names."""
     resolved = resolve_for(name, namespace_)
@@ -74,8 +57,14 @@ def resolve_name(name: str, namespace_: str, remappings: dict[str, str] | None =
 
 
 def load_mappings(argv: Sequence[str]) -> dict[str, str]:
-    """Return the remappings among the arguments, without private parameters."""
-    found = Remappings.from_argv(argv)
+    """Return the remappings among the arguments, without private parameters; one with two ``:=`` is named on standard error and left out."""
+    kept = []
+    for argument in filter(is_remapping, argv):
+        if argument.count(REMAP) > 1:
+            sys.stderr.write(f"ERROR: Invalid remapping argument '{argument}'\n")
+        elif argument.startswith("__") or not argument.startswith("_"):
+            kept.append(argument)
+    found = Remappings.from_argv(kept)
     return {**found.names, **found.special}
 
 
@@ -89,9 +78,6 @@ def make_global_ns(name: str) -> str:
 
 def get_ros_namespace(env: dict[str, str] | None = None, argv: Sequence[str] | None = None) -> str:
     """Return the namespace that ``__ns:=`` or ``ROS_NAMESPACE`` gives, with a closing slash."""
-    import os
-    import sys
-
     given = Remappings.from_argv(sys.argv if argv is None else argv).namespace
     return make_global_ns(given or (os.environ if env is None else env).get("ROS_NAMESPACE", "/"))
 
