@@ -149,7 +149,8 @@ class TimerEvent(NamedTuple):
 class Timer:
     """Calls ``callback(event)`` every ``period`` seconds of the node's time, in a lane of its own.
 
-    A callback that takes longer than the period delays the next one; missed ones are not made up for.
+    A callback that takes longer than the period delays the next one; missed ones are not made up for. One that raises ends the timer, as it
+    ends the thread of a ``rospy.Timer``: that is reported, and the node goes on.
     """
 
     def __init__(
@@ -196,11 +197,12 @@ class Timer:
             if not self._running:
                 break
             real = self._node.now()
-            self._node.guarded(
-                self._callback,
-                TimerEvent(last_expected, last_real, expected, real, last_duration),
-                what="timer",
-            )
+            try:
+                self._callback(TimerEvent(last_expected, last_real, expected, real, last_duration))
+            except Exception as error:
+                self._running = False  # before the report, which may raise where the graph is driven
+                self._node.callback_failed(error, self._callback, "a timer, which ends with it", None)
+                break
             last_duration = (self._node.now() - real).to_sec()
             last_expected, last_real = expected, real
             if self._oneshot:

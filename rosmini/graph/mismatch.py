@@ -1,4 +1,4 @@
-"""Saying how two ends of a topic or service disagree."""
+"""Two ends of a topic or service with two types: what differs, or, where their md5 sums are the same, one message as the other."""
 
 from __future__ import annotations
 
@@ -56,3 +56,11 @@ def describe_mismatch(
         else "  Use the same version of the definition at both ends."
     )
     return "\n".join(lines)
+
+
+def recast(message: Any, message_class: Any) -> Any:
+    """Return ``message`` as a frozen one of another type with the same md5 sum, as it would come over the wire.
+
+    Raises ``DeserializationError`` where the types are not alike after all.
+    """
+    return message_class._decode(type(message)._encode(message))

@@ -41,6 +41,7 @@ from .rosout import LEVELS, Logger
 from .service import ServiceClient, ServiceServer, Session, timed_out
 from .slave import SlaveApi
 from .subscriber import Subscriber, Subscription
+from .transport import extra_fields
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -153,21 +154,29 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         latch: bool = False,
         on_connect: Callable[[str], object] | None = None,
         on_disconnect: Callable[[str], object] | None = None,
+        headers: Header | None = None,
     ) -> Publisher:
         """Publish ``message_class`` on ``topic``.
 
         ``queue_size`` bounds what waits for one subscriber between two turns of the queue (None: no bound); ``latch`` gives late
-        subscribers the last message. ``on_connect``/``on_disconnect`` are called with the other node's name.
-        Raises ``TypeMismatch`` when this node publishes the topic with another type.
+        subscribers the last message. ``on_connect``/``on_disconnect`` are called with the other node's name. ``headers`` are further
+        fields of the connection header, for subscribers that connect from now on.
+        Raises ``TypeMismatch`` when this node publishes the topic with a type of another md5 sum.
         """
         return self.scheduler.on_hub(
             lambda: self._publisher(
-                self.resolve(topic), message_class, queue_size, latch, on_connect, on_disconnect
+                self.resolve(topic), message_class, queue_size, latch, headers, on_connect, on_disconnect
             )
         )
 
     def _publisher(
-        self, topic: str, cls: Any, queue_size: int | None, latch: bool, *callbacks: Any
+        self,
+        topic: str,
+        cls: Any,
+        queue_size: int | None,
+        latch: bool,
+        headers: Header | None,
+        *callbacks: Any,
     ) -> Publisher:
         self._require_running(f"publish {topic}")
         publication = self.publications.get(topic)
@@ -176,12 +185,13 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
             publication.latch, publication.queue_size = latch, queue_size or None
             self._ask("registerPublisher", topic, cls._type, self.uri)
             self.graph.changed()
-        elif publication.message_class._type != cls._type:
+        elif publication.message_class._md5sum != cls._md5sum:
             msg = f"{self.name} already publishes {topic} as {publication.message_class._type}, not {cls._type}: use another topic."
             raise TypeMismatch(msg)
         else:
             publication.latch = publication.latch or latch
             publication.queue_size = queue_size or None
+        publication.headers.update(extra_fields(headers))
         return Publisher(publication, *callbacks)
 
     def subscriber(
@@ -200,7 +210,9 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         """Call ``callback(message, *arguments)`` for each message on ``topic``.
 
         ``queue_size`` bounds what waits while a callback blocks (None: no bound; the oldest are dropped). ``numpy`` gives numeric
-        arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both: see ``Subscriber.thaw_for``.
+        arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both: see ``Subscriber.thaw_for``. All
+        subscribers of this node to one topic get the same object, of the kind that the first asked for. Raises ``TypeMismatch`` for a
+        type with another md5 sum than that of the first.
         """
 
         def make() -> Subscriber:
@@ -210,11 +222,12 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
             fresh = subscription is None
             if subscription is None:
                 subscription = self.subscriptions[name] = Subscription(self, name, message_class)
-            elif message_class._type not in (subscription.message_class._type, "*"):
+            elif subscription.disagrees_with(message_class):
                 msg = f"{self.name} already subscribes to {name} as {subscription.message_class._type}, not {message_class._type}."
                 raise TypeMismatch(msg)
             handle = Subscriber(
                 subscription,
+                message_class,
                 callback,
                 arguments,
                 queue_size=queue_size,
@@ -283,10 +296,18 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         return self.scheduler.on_hub(make)
 
     def service_client(
-        self, name: str, service_class: Any, *, persistent: bool = False, numpy: bool = True
+        self,
+        name: str,
+        service_class: Any,
+        *,
+        persistent: bool = False,
+        numpy: bool = True,
+        headers: Header | None = None,
     ) -> ServiceClient:
-        """Return what calls a service, whether it is there yet or not."""
-        return ServiceClient(self, self.resolve(name), service_class, persistent=persistent, numpy=numpy)
+        """Return what calls a service, whether it is there yet or not. ``headers`` are further fields of the connection header."""
+        return ServiceClient(
+            self, self.resolve(name), service_class, persistent=persistent, numpy=numpy, headers=headers
+        )
 
     def drop_service(self, server: ServiceServer) -> None:
         """Withdraw a service. For the server only."""

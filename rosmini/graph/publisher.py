@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ROSException, TransportInitError, TypeMismatch
 
-from .mismatch import describe_mismatch
+from .mismatch import describe_mismatch, recast
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,6 +30,8 @@ class Publication:
         self.message_class = message_class
         self._latch = False
         self.queue_size: int | None = None
+        self.headers: Header = {}
+        """The user's own fields of the connection header; they replace ROS's of the same name, as in rospy."""
         self.handles: list[Publisher] = []
         self.senders: dict[int, Sender] = {}
         self.sent = 0
@@ -123,14 +125,14 @@ class Publication:
         )
 
     def accept(self, header: Header, sender: Sender) -> Header:
-        """Take a subscriber's connection. Raises ``TransportInitError`` for another type."""
+        """Take a subscriber's connection. Raises ``TransportInitError`` for another md5 sum: the type's name does not matter, as in ROS."""
         cls = self.message_class
         wanted = header.get("md5sum")
         if wanted is None:
             msg = "Missing required 'md5sum' field"
             raise TransportInitError(msg)
         mine, theirs = cls._type, header.get("type", "*")
-        if wanted not in ("*", cls._md5sum) or (theirs not in ("*", mine) and wanted != "*"):
+        if wanted not in ("*", cls._md5sum):
             caller = header.get("callerid", "unknown")
             self.node.graph.report(
                 TypeMismatch(
@@ -153,14 +155,16 @@ class Publication:
             )
             raise TransportInitError(msg)
         self.add(sender)
-        return {
+        fields = {
             "callerid": self.node.name,
             "latching": "1" if self.latch else "0",
             "md5sum": cls._md5sum,
             "message_definition": cls._full_text,
             "topic": self.topic,
             "type": mine,
+            **self.headers,
         }
+        return dict(sorted(fields.items()))
 
     def add(self, sender: Sender) -> None:
         """Add a connection and send it what is latched."""
@@ -250,6 +254,8 @@ class Publisher:
             given = args[0]
             if isinstance(given, cls):
                 return given
+            if getattr(given, "_md5sum", None) == cls._md5sum:
+                return recast(given, cls)
             if hasattr(given, "_md5sum"):
                 msg = (
                     f"{self.topic} carries {cls._type}, and publish() was given a {given._type}. "

@@ -144,10 +144,10 @@ class Logger:
         message.level = level
         message.name = node.name
         message.msg = text
-        message.file = source_of(frame.f_code.co_filename)
-        message.function = frame.f_code.co_name
+        message.file = os.path.basename(source_of(frame.f_code.co_filename))  # noqa: PTH119 - a frame's text
+        message.function = function_of(frame)
         message.line = frame.f_lineno
-        message.topics = list(node.publications)
+        message.topics = list(dict.fromkeys((*node.publications, *node.subscriptions)))
         return message
 
     def set_level(self, logger: str, level: str) -> None:
@@ -163,9 +163,17 @@ def _shown(when: Time) -> str:
     return f"{when.secs}.{when.nsecs // 1000:06d}"
 
 
+def function_of(frame: FrameType) -> str:
+    """Return what rospy calls the function of a frame: ``Class.method`` where there is a ``self``."""
+    name = frame.f_code.co_name
+    return f"{type(frame.f_locals['self']).__name__}.{name}" if "self" in frame.f_locals else name
+
+
 def caller(depth: int) -> FrameType:
-    """Return the frame ``depth`` calls up, leaving rosmini's own files out."""
-    frame = sys._getframe(depth)  # noqa: SLF001 - the documented way to find a caller
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(OWN):
+    """Return the frame ``depth`` calls up, leaving rosmini's own files out unless there are no others, as in a node of rosmini's."""
+    nearest = frame = sys._getframe(depth)  # noqa: SLF001 - the documented way to find a caller
+    while frame.f_code.co_filename.startswith(OWN):
+        if frame.f_back is None:
+            return nearest
         frame = frame.f_back
     return frame

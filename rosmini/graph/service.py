@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import (
+    DeserializationError,
     ROSException,
     ROSInterruptException,
     SerializationError,
@@ -13,6 +14,9 @@ from rosmini.errors import (
     TransportInitError,
     nearest,
 )
+
+from .mismatch import recast
+from .transport import extra_fields
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,7 +29,7 @@ class ServiceServer:
     """Answers calls of one service. Made by :meth:`Node.service <rosmini.graph.node.Node.service>`.
 
     The handler gets the request and returns a response, or what makes one: a tuple or list of its fields in order, a dictionary
-    of fields by name, or the value of its only field. Each client connection has a lane of its own, so a handler may block.
+    of fields by name, or the value of its only field. None is refused, also for a response without fields, as in rospy. Each client connection has a lane of its own, so a handler may block.
     """
 
     def __init__(
@@ -50,16 +54,23 @@ class ServiceServer:
         if wanted not in ("*", mine):
             msg = f"request from [{header.get('callerid', 'unknown')}]: md5sums do not match: [{wanted}] vs. [{mine}]"
             raise TransportInitError(msg)
-        session = Session(self, header.get("callerid", "unknown"))
+        session = Session(self, header)
         self.sessions.append(session)
         return session
 
-    def respond(self, request: Any) -> Any:
-        """Return the frozen response to a frozen request. Raises ``ServiceException`` with the text that the client gets."""
+    def respond(self, request: Any, header: Header) -> Any:
+        """Return the frozen response to a frozen request that came over a connection with this header of the client's.
+
+        Raises ``ServiceException`` with the text that the client gets.
+        """
         response_class = self.service_class._response_class
-        thaw = type(request)._thawer(numpy=self.numpy)
         try:
-            answer = self.handler(request if thaw is None else thaw(request))
+            received = receive(request, self.service_class._request_class, header, numpy=self.numpy)
+        except DeserializationError as error:
+            msg = f"error processing request: {error}"
+            raise ServiceException(msg) from error
+        try:
+            answer = self.handler(received)
         except ServiceException as error:  # how a handler refuses a request
             msg = f"service cannot process request: {error}"
             raise ServiceException(msg) from error
@@ -74,8 +85,13 @@ class ServiceServer:
             return response_class._freeze(_response_from(answer, response_class))
         except (ServiceException, SerializationError, TypeError, AttributeError) as error:
             msg = f"service cannot process request: {error}"
-            self.node.logerr(f"{self.name}: {msg}")
+            self.node.logerr(f"{self.name}: {msg}{self._hint(answer)}")
             raise ServiceException(msg) from error
+
+    def _hint(self, answer: Any) -> str:
+        if answer is not None or self.service_class._response_class.__slots__:
+            return ""
+        return ". For a response without fields return [] or the response itself, as rospy wants it"
 
     def shutdown(self, reason: str = "") -> None:
         """Stop to answer; callers that wait get an error. Harmless when repeated."""
@@ -90,13 +106,21 @@ class ServiceServer:
             session.abort(reason)
 
 
+def receive(frozen: Any, message_class: Any, header: Header, *, numpy: bool) -> Any:
+    """Return a frozen request or response as its receiver's own, which says from which connection it came."""
+    if type(frozen) is not message_class:
+        frozen = recast(frozen, message_class)
+    thaw = message_class._thawer(numpy=numpy)
+    message = frozen if thaw is None else thaw(frozen)
+    message._connection_header = header
+    return message
+
+
 def _response_from(answer: Any, response_class: Any) -> Any:
     """Make a response of what a handler returned, by rospy's rules."""
     slots = response_class.__slots__
     if isinstance(answer, response_class):
         return answer
-    if answer is None and not slots:
-        return response_class()
     if answer is None:
         msg = "service handler returned None"
         raise ServiceException(msg)
@@ -116,10 +140,10 @@ def _response_from(answer: Any, response_class: Any) -> Any:
 class Session:
     """The server's end of one client connection."""
 
-    def __init__(self, server: ServiceServer, client: str) -> None:
+    def __init__(self, server: ServiceServer, client_header: Header) -> None:
         node = server.node
         self.server = server
-        self.client = client
+        self._client_header = client_header
         self.header: Header = {
             "callerid": node.name,
             "md5sum": server.service_class._md5sum,
@@ -140,7 +164,7 @@ class Session:
 
     def _answer(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
         try:
-            response, problem = self.server.respond(request), None
+            response, problem = self.server.respond(request, self._client_header), None
         except ServiceException as error:
             response, problem = None, str(error)
         except ROSInterruptException as error:
@@ -172,12 +196,20 @@ class ServiceClient:
     """
 
     def __init__(
-        self, node: Node, name: str, service_class: Any, *, persistent: bool = False, numpy: bool = True
+        self,
+        node: Node,
+        name: str,
+        service_class: Any,
+        *,
+        persistent: bool = False,
+        numpy: bool = True,
+        headers: Header | None = None,
     ) -> None:
         self.node = node
         self.name = name
         self.service_class = service_class
         self.persistent = persistent
+        self.headers = extra_fields(headers)
         self._numpy = numpy
         self._link: ServiceLink | None = None
         self._closed = False
@@ -228,8 +260,7 @@ class ServiceClient:
                 else f"service [{self.name}] responded with an error: {problem}"
             )
             raise ServiceException(msg)
-        thaw = type(response)._thawer(numpy=self._numpy)
-        return response if thaw is None else thaw(response)
+        return receive(response, self.service_class._response_class, link.header, numpy=self._numpy)
 
     def _connect(self) -> ServiceLink:
         if self._closed:
@@ -246,18 +277,18 @@ class ServiceClient:
             msg = f"service [{self.name}] unavailable: no node offers it. {hint or 'Start its server, or call wait_for_service() first.'}"
             raise ServiceException(msg)
         cls = self.service_class
-        header = {
-            "callerid": node.name,
-            "md5sum": cls._md5sum,
-            "service": self.name,
-            "type": cls._type,
-            "persistent": "1" if self.persistent else "0",
-        }
+        fields = {"callerid": node.name, "md5sum": cls._md5sum, "service": self.name, **self.headers}
+        if self.persistent:
+            fields["persistent"] = "1"
+        header = dict(sorted(fields.items()))
         try:
             link = node.graph.transport.connect_service(node.uri, uri, header, cls)
         except TransportInitError as error:
             server = node.graph.service_class_at(uri, self.name)
             theirs = "another type" if server is None else server._type
+            if theirs == cls._type:  # it was refused for something else, such as a header of the user's
+                msg = f"unable to connect to service [{self.name}]: {error}"
+                raise ServiceException(msg) from error
             msg = f"service [{self.name}] is a {theirs}, and was called as a {cls._type}: {error}. Use the server's type."
             raise ServiceException(msg) from error
         except TransportException as error:

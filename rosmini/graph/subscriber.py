@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.errors import TransportException, TransportInitError, TypeMismatch
 from rosmini.msgs.message import Message
 
-from .mismatch import describe_mismatch
+from .mismatch import describe_mismatch, recast
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -27,7 +27,6 @@ def _assign_header(message: Any, header: Header) -> None:
 
 
 class _Callback(NamedTuple):
-    owner: Subscriber
     function: Callable[..., object]
     arguments: tuple[Any, ...]
 
@@ -37,15 +36,12 @@ class _Callback(NamedTuple):
         return (lambda message: function(message, *arguments)) if arguments else function
 
 
-class _Group(NamedTuple):
-    """Callbacks that get the same message: how it is made of a frozen one, what tells it where it is from, and what each is called by."""
+class _Way(NamedTuple):
+    """How a frozen message reaches the callbacks: what makes the message of it that they all get, what tells that where it is from, and what calls each."""
 
     thaw: Callable[[Any], Any] | None
     label: Callable[[Any, Header], None]
     callbacks: tuple[tuple[Callable[[Any], object], _Callback], ...]
-
-
-Groups: TypeAlias = tuple[_Group, ...]
 
 
 class Connection:
@@ -60,7 +56,7 @@ class Connection:
         self.message_class = subscription.message_class
         self.header: Header = {}
         self.received = 0
-        self.groups: Groups = ()
+        self.way: _Way | None = None
         self.dropped = 0
         self.is_open = False
         self._gone = False
@@ -68,6 +64,8 @@ class Connection:
         self._scheduled = False
         self._last: Any = None
         self._keep = False
+        cls = subscription.message_class
+        self._own_class = None if cls._type == "*" else cls
         self._drain_ref = self._drain
         self._close_link: Callable[[], None] | None = None
         self._lane = node.spawn(f"{node.name} <- {subscription.topic}", self._open)
@@ -172,34 +170,32 @@ class Connection:
     def _drain(self) -> None:
         """Call the callbacks for what is queued. In the connection's lane."""
         incoming = self._incoming
-        header, keep = self.header, self._keep
+        header, keep, own = self.header, self._keep, self._own_class
         try:
             while incoming:
                 frozen = incoming.popleft()
                 self.received += 1
+                thaw, label, callbacks = self.way or self._find_way()
+                if own is not None and frozen.__class__ is not own:
+                    frozen = recast(frozen, own)
+                message = frozen if thaw is None else thaw(frozen)
+                label(message, header)
                 if keep:
-                    self._last = self._private(frozen)
-                groups = self.groups or self._regroup()
-                for thaw, label, callbacks in groups:
-                    if thaw is not None:
-                        message = thaw(frozen)
-                    else:
-                        message = frozen if len(groups) == 1 else self._private(frozen)
-                    label(message, header)
-                    for call, callback in callbacks:
-                        try:
-                            call(message)
-                        except Exception as error:
-                            self._failed(error, callback, message)
+                    self._last = message
+                for call, callback in callbacks:
+                    try:
+                        call(message)
+                    except Exception as error:
+                        self._failed(error, callback, message)
         finally:
             self._scheduled = False
             if incoming and not self._gone:
                 self._scheduled = True
                 self._lane.post(self._drain_ref)
 
-    def _regroup(self) -> Groups:
-        self.groups = self.subscription.groups(self.message_class)
-        return self.groups
+    def _find_way(self) -> _Way:
+        self.way = self.subscription.way(self.message_class)
+        return self.way
 
     def _failed(self, error: Exception, callback: _Callback, message: Any) -> None:
         subscription = self.subscription
@@ -211,16 +207,10 @@ class Connection:
         except Exception as error:
             self._failed(error, callback, message)
 
-    def _private(self, frozen: Any) -> Any:
-        cls = type(frozen)
-        return cls._thaw_numpy(frozen) if cls._plain_numpy else frozen
-
-    def replay(self, callback: _Callback, thaw: Callable[[Any], Any] | None) -> None:
-        """Give a late callback the message that the publisher latched."""
+    def replay(self, callback: _Callback) -> None:
+        """Give a late callback the message that the publisher latched, as the others got it."""
         if self._last is not None:
-            frozen = self._private(self._last)
-            message = frozen if thaw is None else thaw(frozen)
-            message._connection_header = self.header
+            message = self._last
             self._lane.submit(lambda: self._call(callback, message))
 
     def closed(self) -> None:
@@ -255,7 +245,13 @@ class Subscription:
         self.handles: list[Subscriber] = []
         self.connections: dict[str, Connection] = {}
         self.queue_size: int | None = None
+        self._first: Subscriber | None = None
         self._wanted: tuple[str, ...] = ()
+
+    def disagrees_with(self, message_class: Any) -> bool:
+        """Tell whether a further subscriber of this node cannot be one with ``message_class``."""
+        sums = self.message_class._md5sum, message_class._md5sum
+        return "*" not in sums and sums[0] != sums[1]
 
     def update_publishers(self, uris: Iterable[str]) -> None:
         """Connect to new publishers: what ``publisherUpdate`` asks for.
@@ -283,12 +279,21 @@ class Subscription:
             self.connections[uri] = Connection(self, uri)
 
     def add(self, handle: Subscriber) -> None:
-        """Add a subscriber of this node; it gets what connected publishers latched."""
+        """Add a subscriber of this node; it gets what connected publishers latched.
+
+        All subscribers of a node get the same object, of the kind that the first asked for: one connection, one message, as in rospy.
+        """
+        first = self._first = self._first or handle
         self.handles.append(handle)
         self._changed()
+        if handle.wants_other_than(first):
+            self.node.logwarn(
+                f"{self.node.name} subscribes to {self.topic} already, as {first.wish}: this subscriber of {handle.wish} gets the same "
+                "messages, as in rospy. Subscribe in another node, or give both the same type."
+            )
         if handle.callback is not None:
             for connection in self.connections.values():
-                connection.replay(handle.callback, handle.thaw_for(connection.message_class))
+                connection.replay(handle.callback)
 
     def remove(self, handle: Subscriber) -> None:
         """Remove a subscriber; the last one leaves the topic."""
@@ -301,25 +306,16 @@ class Subscription:
         sizes = [handle.queue_size for handle in self.handles]
         self.queue_size = None if not all(sizes) else max((size for size in sizes if size), default=None)
         for connection in self.connections.values():
-            connection.groups = ()
+            connection.way = None
 
-    def groups(self, message_class: Any) -> Groups:
-        """Return the callbacks, each with what calls it, by the way in which they want their message."""
-        by_thaw: dict[Callable[[Any], Any] | None, list[_Callback]] = {}
-        made: set[Callable[[Any], Any] | None] = set()
-        for handle in self.handles:
-            if handle.callback is not None:
-                thaw = handle.thaw_for(message_class)
-                by_thaw.setdefault(thaw, []).append(handle.callback)
-                if handle.makes_its_own:
-                    made.add(thaw)
-        return tuple(
-            _Group(
-                thaw,
-                _assign_header if thaw in made else _set_header,
-                tuple((callback.caller(), callback) for callback in callbacks),
-            )
-            for thaw, callbacks in by_thaw.items()
+    def way(self, message_class: Any) -> _Way:
+        """Return how messages of a class reach the callbacks."""
+        first = self._first
+        callbacks = [handle.callback for handle in self.handles if handle.callback is not None]
+        return _Way(
+            None if first is None else first.thaw_for(message_class),
+            _set_header if first is None or first.receipt is None else _assign_header,
+            tuple((callback.caller(), callback) for callback in callbacks),
         )
 
     def close(self) -> None:
@@ -332,12 +328,14 @@ class Subscription:
 class Subscriber:
     """Receives messages of one type on one topic. Made by :meth:`Node.subscriber <rosmini.graph.node.Node.subscriber>`.
 
-    ``numpy`` chooses how numeric arrays arrive: as read-only numpy arrays, or as rospy's tuples and bytes.
+    ``numpy`` chooses how numeric arrays arrive: as read-only numpy arrays, or as rospy's tuples and bytes. What the first
+    subscriber of a node to a topic chose holds for all of that node's.
     """
 
     def __init__(
         self,
         subscription: Subscription,
+        message_class: Any,
         callback: Callable[..., object] | None,
         arguments: tuple[Any, ...] = (),
         *,
@@ -350,12 +348,11 @@ class Subscriber:
         self._subscription: Subscription | None = subscription
         self.node = subscription.node
         self.topic = subscription.topic
-        self.message_class = subscription.message_class
+        self.message_class = message_class
         self.queue_size = queue_size
-        self.callback = None if callback is None else _Callback(self, callback, arguments)
+        self.callback = None if callback is None else _Callback(callback, arguments)
         self._numpy = numpy
-        self._receipt = receipt
-        self.makes_its_own = receipt is not None
+        self.receipt = receipt
         self._on_connect = on_connect
         self._on_disconnect = on_disconnect
         subscription.add(self)
@@ -365,10 +362,23 @@ class Subscriber:
 
     def thaw_for(self, message_class: Any) -> Callable[[Any], Any] | None:
         """Return how a frozen message becomes this subscriber's own; None: as it is."""
-        if self._receipt is not None:
-            return self._receipt(message_class)
+        if self.receipt is not None:
+            return self.receipt(message_class)
         thaw: Callable[[Any], Any] | None = message_class._thawer(numpy=self._numpy)
         return thaw
+
+    @property
+    def wish(self) -> str:
+        """What this subscriber asked for, in words."""
+        if self.message_class._type == "*":
+            return "messages of any type"
+        arrays = " with numpy arrays" if self._numpy or self.receipt is not None else ""
+        return f"{self.message_class._type}{arrays}"
+
+    def wants_other_than(self, other: Subscriber) -> bool:
+        """Tell whether this one would get another object than ``other`` does for the same message."""
+        cls = other.message_class
+        return self.message_class._type != cls._type or self.thaw_for(cls) != other.thaw_for(cls)
 
     def num_connections(self) -> int:
         """Return the number of connected publishers."""

@@ -11,6 +11,7 @@ the bytes on real threads. Header fields are those of TCPROS (http://wiki.ros.or
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
 from rosmini.errors import TransportException, nearest
@@ -25,6 +26,18 @@ Triple = list[Any]
 
 Header = dict[str, str]
 """A connection header: the fields that two ends show each other before the first message."""
+
+
+def extra_fields(headers: Mapping[str, str] | None) -> Header:
+    """Return a user's own fields of a connection header. Raises ``ValueError`` for what the header's text cannot hold."""
+    if headers is not None and not isinstance(headers, Mapping):
+        raise ValueError(f"headers are a dictionary of texts, such as {{'cookie': 'abc'}}, not {headers!r}")
+    for key, value in (headers or {}).items():
+        if not isinstance(key, str) or not isinstance(value, str) or not key or "=" in key:
+            raise ValueError(
+                f"the header {key!r}: {value!r} does not fit into a connection header: both are texts, and the name has no '='"
+            )
+    return dict(headers or {})
 
 
 class Sender(Protocol):

@@ -15,7 +15,7 @@ from .core import add_client_shutdown_hook
 from .logs import DEBUG, ERROR, FATAL, INFO, WARN
 from .msproxy import MasterProxy, published_topics
 from .session import Session, answer_interrupt, any_node, current_node, current_session, require_node
-from .topics import check_message_class, receipt_of, registered_class
+from .topics import check_message_class, receipt_of, registered_class, resolve_early
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -214,11 +214,12 @@ def seconds(timeout: float | base.Duration | None) -> float | None:
 def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration | None = None) -> Any:
     """Block until one message arrives on ``topic`` and return it.
 
-    Raises ``ROSException`` after ``timeout`` seconds, ``ROSInterruptException`` at shutdown and ``ROSInitException`` before ``init_node``.
+    Raises ``ROSException`` after ``timeout`` seconds, ``ROSInterruptException`` at shutdown, ``ROSInitException`` before ``init_node`` and
+    ``ValueError`` for what is no name or no message class.
     """
     node = require_node(f"waiting for a message on {topic}")
     check_message_class(topic_type)
-    name = node.resolve(topic)
+    name = resolve_early(topic, "topic")
     if node.is_shutdown():
         raise ROSInterruptException(f"waiting for a message on {name}: node {node.name} was shut down")
     waiter = node.waiter(f"a message on {name}")

@@ -11,7 +11,7 @@ from typing import Any, Protocol, cast
 from rosmini.graph.rosout import LEVELS, NAMES
 
 from .rostime import Duration
-from .session import current_node, current_session
+from .session import current_node, current_session, require_node
 
 __all__ = ["DEBUG", "ERROR", "FATAL", "INFO", "WARN"]
 
@@ -106,10 +106,12 @@ def place() -> tuple[str, int, int]:
 
 
 def is_due(where: Any, period: float) -> bool:
-    """Tell whether ``period`` seconds of the node's time have passed since this place logged last."""
-    session, node = current_session(), current_node()
-    now = session.graph.scheduler.now_ns() if node is None else node.clock.now_ns()
-    return session.log_gates.is_due(where, now, Duration.from_sec(period).to_nsec())
+    """Tell whether ``period`` seconds of the node's time have passed since this place logged last.
+
+    Raises ``ROSInitException`` before ``init_node``, as rospy does.
+    """
+    now = require_node("a throttled log call, which asks for the time,").clock.now_ns()
+    return current_session().log_gates.is_due(where, now, Duration.from_sec(period).to_nsec())
 
 
 def is_new(where: Any, text: Any) -> bool:

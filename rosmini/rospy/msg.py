@@ -72,7 +72,7 @@ def _restore_any(data: bytes | None) -> AnyMsg:
 def args_kwds_to_message(data_class: Any, args: tuple[Any, ...], kwds: dict[str, Any]) -> Any:
     """Return the message that ``publish(*args, **kwds)`` means.
 
-    A message of ``data_class`` is taken as it is; else the arguments are all of its fields in order, or some by name. Raises
+    A message of ``data_class``, or of another type with its md5 sum, is taken as it is; else the arguments are all of its fields in order, or some by name. Raises
     ``TypeError`` for another message, or for both kinds of arguments at once.
     """
     if args and kwds:
@@ -80,7 +80,7 @@ def args_kwds_to_message(data_class: Any, args: tuple[Any, ...], kwds: dict[str,
     if kwds or len(args) != 1:
         return data_class(*args, **kwds)
     given = args[0]
-    if isinstance(given, data_class):
+    if isinstance(given, data_class) or getattr(given, "_md5sum", None) == data_class._md5sum:
         return given
     if isinstance(given, Message):
         types = data_class._slot_types

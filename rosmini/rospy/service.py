@@ -9,10 +9,9 @@ from rosmini import time as base
 from rosmini.errors import (
     ROSException,
     ROSInterruptException,
-    ROSSerializationException,
-    SerializationError,
     ServiceException,
 )
+from rosmini.graph.transport import extra_fields
 from rosmini.msgs.message import Message
 
 from .session import answer_interrupt, any_node, current_node, current_session
@@ -140,8 +139,9 @@ class Service(_Service):
 class ServiceProxy(_Service):
     """Calls a service like a function: ``proxy(request)``, ``proxy(1, 2)`` or ``proxy(a=1, b=2)``; works before ``init_node``, too.
 
-    A ``persistent`` proxy keeps its connection: faster, and deaf to a server that is replaced. ``headers`` are accepted and have no effect
-    in one process. Raises ``ValueError`` for an illegal name or for what is no service class.
+    A ``persistent`` proxy keeps its connection: faster, and deaf to a server that is replaced. ``headers`` are further fields of the
+    connection header, which the handler finds in ``request._connection_header``. Raises ``ValueError`` for an illegal name, for what is no
+    service class and for headers that are no texts.
     """
 
     def __init__(
@@ -149,7 +149,7 @@ class ServiceProxy(_Service):
     ) -> None:
         super().__init__(name, service_class)
         self.persistent = persistent
-        self.headers = headers
+        self.headers = extra_fields(headers)
         self._client: ServiceClient | None = None
 
     def wait_for_service(self, timeout: float | base.Duration | None = None) -> None:
@@ -164,19 +164,20 @@ class ServiceProxy(_Service):
         """Send a request and block until the response is there.
 
         Raises ``ServiceException`` when there is no server, its handler fails, or it goes away meanwhile; ``TypeError`` for a request of
-        another service; ``ROSSerializationException`` for a field of the wrong type.
+        another service; ``genpy.SerializationError`` for a field of the wrong type (rospy turns it into its own for topics only).
         """
         client = self._client
         if client is None or client.node is not any_node():
             client = self._client = any_node().service_client(
-                self.resolved_name, self.service_class, persistent=self.persistent, numpy=False
+                self.resolved_name,
+                self.service_class,
+                persistent=self.persistent,
+                numpy=False,
+                headers=self.headers,
             )
         if len(args) == 1 and not kwds:
             self._check_request(args[0])
-        try:
-            return client.call(*args, **kwds)
-        except SerializationError as error:
-            raise ROSSerializationException(str(error)) from error
+        return client.call(*args, **kwds)
 
     def _check_request(self, given: Any) -> None:
         cls = self.request_class

@@ -8,7 +8,9 @@ from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import IllegalName, ROSException, ROSSerializationException, SerializationError
+from rosmini.graph.transport import extra_fields
 from rosmini.msgs.message import Message
+from rosmini.names import is_legal_name
 
 from .msg import AnyMsg, args_kwds_to_message
 from .session import current_node, current_session
@@ -80,6 +82,11 @@ class Topic(ABC):
     def __init__(self, name: str, data_class: Any) -> None:
         check_message_class(data_class)
         self.resolved_name = self.name = resolve_early(name, "topic")
+        if not is_legal_name(name):
+            warnings.warn(
+                f"'{name}' is not a legal ROS graph resource name. This may cause problems with other ROS tools: write {self.resolved_name}",
+                stacklevel=3,
+            )
         self.data_class = data_class
         self.type = data_class._type
         self.md5sum = data_class._md5sum
@@ -137,11 +144,12 @@ class Publisher(Topic):
         name: the topic.
         data_class: the type of its messages.
         subscriber_listener: hears of subscribers.
-        tcp_nodelay, headers: accepted, as scripts give them; without effect in one process.
+        tcp_nodelay: accepted, as scripts give it; without effect in one process.
         latch: give late subscribers the last message.
+        headers: further fields of the connection header, which subscribers find in ``message._connection_header``.
         queue_size: how many messages wait for one subscriber before the oldest is dropped; 0: no bound.
 
-    Raises ``ValueError`` for an illegal name or for what is no message class.
+    Raises ``ValueError`` for an illegal name, for what is no message class and for headers that are no texts.
 
     """
 
@@ -152,7 +160,7 @@ class Publisher(Topic):
         subscriber_listener: SubscribeListener | None = None,
         tcp_nodelay: bool = False,  # noqa: ARG002 - rospy's signature
         latch: bool = False,
-        headers: dict[str, str] | None = None,  # noqa: ARG002 - rospy's signature
+        headers: dict[str, str] | None = None,
         queue_size: int | None = None,
     ) -> None:
         super().__init__(name, data_class)
@@ -167,6 +175,7 @@ class Publisher(Topic):
             raise ValueError(
                 f"{self.resolved_name}: a publisher needs the type of its topic, and AnyMsg stands for any"
             )
+        self._headers = extra_fields(headers)
         self._listener = subscriber_listener
         self._latch = latch
         self._queue_size = queue_size
@@ -180,6 +189,7 @@ class Publisher(Topic):
             registered_class(self.data_class),
             queue_size=self._queue_size,
             latch=self._latch,
+            headers=self._headers,
             on_connect=None if listener is None else self._peer_came,
             on_disconnect=None if listener is None else self._peer_went,
         )

@@ -13,8 +13,9 @@ from rosmini.errors import (
     SerializationError,
     ServiceException,
 )
+from rosmini.msgs import define_service
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
-from rosmini.msgs.std_msgs.msg import Int32
+from rosmini.msgs.std_msgs.msg import Int32, String
 from rosmini.msgs.std_srvs.srv import Empty, SetBool, Trigger
 
 from .conftest import settle, until
@@ -63,12 +64,91 @@ def test_several_fields_by_order_and_by_name(graph: Graph) -> None:
     assert (second.success, second.message) == (False, "as a dictionary")
 
 
-def test_an_empty_response_may_be_none(graph: Graph) -> None:
+@pytest.mark.parametrize(
+    "answer", [[], (), {}, Empty._response_class()], ids=["list", "tuple", "dict", "response"]
+)
+def test_a_response_without_fields(graph: Graph, answer: Any) -> None:
+    graph.node("server").service("reset", Empty, lambda _: answer)
+    assert graph.node("client").service_client("reset", Empty)()._type == "std_srvs/EmptyResponse"
+
+
+def test_a_handler_that_returns_none_fails_for_an_empty_response_too(
+    graph: Graph, capfd: pytest.CaptureFixture[str]
+) -> None:
     calls: list[Any] = []
     graph.node("server").service("reset", Empty, calls.append)
-    response = graph.node("client").service_client("reset", Empty)()
-    assert response._type == "std_srvs/EmptyResponse"
+    with pytest.raises(
+        ServiceException, match=r"service cannot process request: service handler returned None$"
+    ):
+        graph.node("client").service_client("reset", Empty)()
     assert len(calls) == 1
+    assert "return [] or the response itself" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("persistent", [False, True])
+def test_both_ends_see_the_connection_header(graph: Graph, persistent: bool) -> None:
+    requests: list[Any] = []
+
+    def handle(request: Any) -> Any:
+        requests.append(request._connection_header)
+        return True, "done"
+
+    graph.node("server").service("lamp", SetBool, handle)
+    client = graph.node("client").service_client(
+        "lamp", SetBool, persistent=persistent, headers={"cookie": "abc"}
+    )
+    responses = [client(True)._connection_header, client(False)._connection_header]
+    mine = {"callerid": "/client", "cookie": "abc", "md5sum": SetBool._md5sum, "service": "/lamp"}
+    assert requests == [mine | ({"persistent": "1"} if persistent else {})] * 2
+    theirs = {
+        "callerid": "/server",
+        "md5sum": SetBool._md5sum,
+        "service": "/lamp",
+        "type": "std_srvs/SetBool",
+    }
+    assert responses == [theirs] * 2
+
+
+@pytest.mark.parametrize("headers", [["a"], {"n": 1}, {1: "n"}, {"a=b": "c"}, {"": "x"}])
+def test_headers_that_are_no_texts_are_refused(graph: Graph, headers: Any) -> None:
+    node = graph.node("node")
+    with pytest.raises(ValueError, match="header"):
+        node.service_client("lamp", SetBool, headers=headers)
+    with pytest.raises(ValueError, match="header"):
+        node.publisher("t", String, headers=headers)
+
+
+def test_a_header_of_the_users_that_is_refused_is_told_as_it_is(graph: Graph) -> None:
+    graph.node("server").service("lamp", SetBool, lambda _: (True, ""))
+    client = graph.node("client").service_client("lamp", SetBool, headers={"md5sum": "12"})
+    with pytest.raises(
+        ServiceException, match=r"unable to connect to service \[/lamp\]: .* md5sums do not match: \[12\]"
+    ):
+        client(True)
+
+
+def test_two_types_of_one_md5_sum_meet(graph: Graph) -> None:
+    """As in rospy and roscpp, which compare the md5 sums only; each end has its own type."""
+    text = "bool data\n---\nbool success\nstring message\n"
+    twin = define_service("my_robot/Switch", text)
+    assert twin._md5sum == SetBool._md5sum
+    requests: list[Any] = []
+
+    def handle(request: Any) -> Any:
+        requests.append(request)
+        return True, "done"
+
+    graph.node("server").service("lamp", twin, handle)
+    response = graph.node("client").service_client("lamp", SetBool)(True)
+    assert type(requests[0]) is twin._request_class
+    assert (requests[0].data, type(response), response.message) == (True, SetBool._response_class, "done")
+
+
+def test_a_request_that_is_none_after_all_is_an_error_of_the_call(graph: Graph) -> None:
+    graph.node("server").service("lamp", SetBool, lambda _: (True, ""))
+    client = graph.node("client").service_client("lamp", Empty, headers={"md5sum": "*"})
+    with pytest.raises(ServiceException, match=r"error processing request|std_srvs/SetBoolRequest"):
+        client()
 
 
 @pytest.mark.parametrize(

@@ -116,8 +116,9 @@ def _counter(
             calls[0] += step
             return success, str(calls[0])
 
-        def clear(_: Any) -> None:
+        def clear(_: Any) -> list[Any]:
             calls[0] = cleared
+            return []
 
         node.service("count", _trigger(), count)
         if clears:
@@ -129,7 +130,7 @@ def _counter(
 def _number_as_message(graph: Graph) -> None:
     node = graph.node("counter")
     node.service("count", _trigger(), lambda _: (True, 1))
-    node.service("clear", _empty(), lambda _: None)
+    node.service("clear", _empty(), lambda _: [])
 
 
 @exercise(
