@@ -9,7 +9,7 @@ is not listed, a function that is not listed and a method that is not listed do 
 from __future__ import annotations
 
 from .budget import Budget
-from .compiler import Fields
+from .compiler import Fields, no_fields
 from .errors import ExpressionError, NotAllowed
 from .expression import Expression
 from .functions import FUNCTIONS, MATH, Function, Namespace
@@ -24,4 +24,5 @@ __all__ = [
     "Function",
     "Namespace",
     "NotAllowed",
+    "no_fields",
 ]

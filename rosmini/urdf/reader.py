@@ -52,6 +52,7 @@ def load(
     mappings: Mapping[str, str] | None = None,
     meshes: bool = True,
     path: str | PathLike[str] | None = None,
+    confined: bool = True,
 ) -> Robot:
     """The robot of a URDF text (what begins with ``<``), of a ``.urdf`` file, or of a ``.xacro`` file.
 
@@ -61,6 +62,7 @@ def load(
         mappings: arguments for a ``.xacro`` file.
         meshes: whether the files of meshes are looked for. Without, `Mesh.path` is None.
         path: what errors about a text call its file.
+        confined: False lets the expressions of a ``.xacro`` file do whatever Python can (see `rosmini.urdf.xacro.expand`).
 
     Raises:
         UrdfError: the file cannot be read, is not XML, is no tree of links, names what is not there or has numbers that are none.
@@ -74,7 +76,8 @@ def load(
         if file.suffix == ".xacro":
             from .xacro import expand
 
-            root = parse(expand(file, mappings, packages=index), f"{file} (expanded)", UrdfError)
+            text = expand(file, mappings, packages=index, confined=confined)
+            root = parse(text, f"{file} (expanded)", UrdfError)
         else:
             root = parse_file(file, UrdfError)
     return _Reader(root, index if meshes else None).robot()

@@ -1,7 +1,8 @@
 """xacro: macros of robot descriptions (http://wiki.ros.org/xacro), by ROS's own program of that name from PyPI.
 
 That package finds packages as ROS 2 does; here ``$(find ...)`` asks our `PackageIndex`. Each file is first read by
-`rosmini.markup`, so that what is not XML is told with its line and what is hostile is refused.
+`rosmini.markup`, so that what is not XML is told with its line and what is hostile is refused. Expressions are confined (see
+`rosmini.urdf.confined`) unless the caller says otherwise.
 """
 
 from __future__ import annotations
@@ -17,12 +18,20 @@ from pathlib import Path
 from typing import Any
 
 from rosmini.errors import RosminiError, nearest
+from rosmini.expressions import ExpressionError, NotAllowed
+from rosmini.files import exists
 from rosmini.markup import Element, parse, parse_file
 from rosmini.packages import SCHEME, PackageIndex
 
+from .confined import Confined
 from .errors import UrdfError
 
-USAGE = "usage: xacro [-o FILE] INPUT [name:=value ...]"
+USAGE = "usage: xacro [-o FILE] [--unconfined] INPUT [name:=value ...]"
+
+UNCONFINED = (
+    "in xacro's expressions rosmini allows what computes, and no more of it than a robot needs; if you trust this file with all that "
+    "Python can do on this computer, add --unconfined to the command, or confined=False to the call"
+)
 
 MOST_MACROS = 5
 """So many macros, one in another, an error names."""
@@ -36,6 +45,7 @@ def expand(
     mappings: Mapping[str, Any] | None = None,
     *,
     packages: PackageIndex | None = None,
+    confined: bool = True,
 ) -> str:
     """The URDF that a xacro file means.
 
@@ -43,9 +53,10 @@ def expand(
         path: the file; also ``package://...``.
         mappings: arguments by name, as ``name:=value`` on the command line.
         packages: where packages of ``$(find ...)`` are; by default `PackageIndex()`.
+        confined: False hands expressions to Python's ``eval``, as ROS does: they can do whatever you can do on this computer.
 
     Raises:
-        UrdfError: a file cannot be read or is not XML, a macro, property, argument or package is unknown, an expression fails.
+        UrdfError: a file cannot be read or is not XML, a macro, property, argument or package is unknown, an expression fails or is not allowed.
 
     """
     index = packages if packages is not None else PackageIndex()
@@ -55,7 +66,7 @@ def expand(
         raise UrdfError(str(error)) from error
     given = {name: _written(value) for name, value in (mappings or {}).items()}
     with _one_at_a_time:
-        document = _process(file, given, index)
+        document = _process(file, given, index, confined=confined)
     root = document.documentElement
     assert root is not None  # noqa: S101 (a document has one)
     return f'<?xml version="1.0" ?>\n{root.toprettyxml(indent="  ")}'
@@ -66,26 +77,26 @@ def _written(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _process(file: Path, mappings: dict[str, str], index: PackageIndex) -> xml.dom.minidom.Document:
+def _process(
+    file: Path, mappings: dict[str, str], index: PackageIndex, *, confined: bool
+) -> xml.dom.minidom.Document:
     """What xacro makes of a file, with our eyes for packages and for XML."""
     import xacro
     from xacro import substitution_args
 
     known: list[str] = []
-    with _lent(xacro, substitution_args, index, known):
+    with _lent(xacro, substitution_args, file if confined else None, index, known):
         try:
             document: xml.dom.minidom.Document = xacro.process_file(str(file), mappings=dict(mappings))
         # Expressions are Python: whatever they raise, the description is broken.
         except Exception as error:
             cause = _cause(error)
-            if isinstance(cause, UrdfError) and (
-                cause.file in (None, str(file)) or Path(str(cause.file)).exists()
-            ):
+            if isinstance(cause, UrdfError) and (cause.file in (None, str(file)) or exists(str(cause.file))):
                 if cause is error:
                     raise
                 raise cause from error
-            stack = [name for name in reversed(xacro.filestack or []) if name and Path(name).exists()]
-            known = [name for name in known if Path(name).exists()]
+            stack = [name for name in reversed(xacro.filestack or []) if name and exists(name)]
+            known = [name for name in known if exists(name)]
             where = stack[0] if stack else str(file)
             message = _message(error, mappings, known)
             line = _line(error, [*stack, *known])
@@ -98,24 +109,42 @@ def _process(file: Path, mappings: dict[str, str], index: PackageIndex) -> xml.d
 
 
 @contextmanager
-def _lent(xacro: Any, substitution: Any, index: PackageIndex, known: list[str]) -> Iterator[None]:
-    """While it lasts, xacro finds packages by our index, and reads files as we do; what it keeps in its modules is put back."""
+def _lent(
+    xacro: Any, substitution: Any, confined: Path | None, index: PackageIndex, known: list[str]
+) -> Iterator[None]:
+    """While it lasts, xacro finds packages by our index, reads files as we do, and is confined; what it keeps in its modules is put back.
+
+    `confined` is the file that is expanded, or None if it may do what it likes.
+    """
 
     def find(name: str) -> str:
         return str(index.path(name))
+
+    limits = None if confined is None else Confined(xacro, substitution, confined, find)
 
     def read(text: Any, filename: str | None = None) -> xml.dom.minidom.Document:
         if text is not None or filename is None:
             source = text if isinstance(text, str | bytes) else text.read()
             parse(source, "<text>", UrdfError)
             return xml.dom.minidom.parseString(source)  # noqa: S318 (found harmless in the line above)
+        if not exists(filename):  # xacro lets it pass where an include is optional
+            xacro.filestack.pop()
+            missing = OSError(f"{filename}: cannot be read: No such file or directory")
+            raise xacro.XacroException(exc=missing)
         known.append(filename)
+        if limits is not None:
+            limits.opened(filename)
         parse_file(filename, UrdfError)
         return xml.dom.minidom.parse(filename)  # noqa: S318 (found harmless in the line above)
 
     arguments, symbols = xacro.substitution_args_context, substitution._eval_dict  # noqa: SLF001 (there is no other way in)
     kept = dict(arguments), symbols["find"]
-    with _set(substitution, _eval_find=find), _set(xacro, parse=read, filestack=None, macrostack=None):
+    for_xacro = {} if limits is None else limits.for_xacro()
+    for_substitution = {} if limits is None else limits.for_substitution()
+    with (
+        _set(substitution, _eval_find=find, **for_substitution),
+        _set(xacro, parse=read, filestack=None, macrostack=None, all_includes=[], **for_xacro),
+    ):
         try:
             symbols["find"] = find
             arguments.clear()
@@ -146,6 +175,15 @@ def _cause(error: BaseException) -> BaseException:
     return error
 
 
+def _is_refused(error: BaseException | None) -> bool:
+    """Tell whether something was not allowed, at the bottom of it all."""
+    while error is not None:
+        if isinstance(error, NotAllowed):
+            return True
+        error = getattr(error, "exc", None) or error.__cause__
+    return False
+
+
 def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]) -> str:
     """What xacro says, with what helps."""
     said = " ".join(str(error).split()) or repr(error)
@@ -162,7 +200,9 @@ def _message(error: Exception, mappings: Mapping[str, str], files: Sequence[str]
             f'<xacro:arg name="{argument[1]}" default="..."/>{f"; {hint}" if hint else ""}'
         )
     cause = _cause(error)
-    if isinstance(cause, RosminiError):
+    if _is_refused(error):
+        return f"{said}: {UNCONFINED}"
+    if isinstance(cause, RosminiError) and not isinstance(cause, ExpressionError):
         return str(cause)
     if isinstance(cause, RecursionError):
         return "macros call or include one another without end"
@@ -235,11 +275,14 @@ def main(arguments: Sequence[str]) -> int:
     mappings: dict[str, str] = {}
     files: list[str] = []
     output = None
+    confined = True
     rest = list(arguments)
     while rest:
         word = rest.pop(0)
         if word == "-o" and rest:
             output = Path(rest.pop(0))
+        elif word == "--unconfined":
+            confined = False
         elif ":=" in word:
             name, _, value = word.partition(":=")
             mappings[name] = value
@@ -249,7 +292,7 @@ def main(arguments: Sequence[str]) -> int:
         print(f"xacro takes one file, not {' '.join(files) or 'none'}\n{USAGE}", file=sys.stderr)
         return 2
     try:
-        text = expand(files[0], mappings)
+        text = expand(files[0], mappings, confined=confined)
         if output is not None:
             output.write_text(text, encoding="utf-8")
     except (RosminiError, OSError) as error:

@@ -74,7 +74,7 @@ def test_macros_properties_arguments_and_packages(index):
         ("<xacro:macro name='m'><link name='${y}'/></xacro:macro>\n<xacro:m/>", "r.urdf.xacro:2: name 'y' is not defined when evaluating expression 'y' (in the macro m)"),
         ("<link name='a'>", "r.urdf.xacro:3: this closes another element than <link>, which was opened in line 2"),
         ("<xacro:if value='${1/0}'/>", "r.urdf.xacro:2: division by zero"),
-        ("<link name='${__import__(1)}'/>", "Use of invalid name(s):  __import__"),
+        ("<link name='${__import__(1)}'/>", "r.urdf.xacro:2: name '__import__' is not defined"),
         ("<?xml version='1.0'?><!DOCTYPE a [<!ENTITY x 'y'>]><robot name='&x;'/>", "r.urdf.xacro:1: an XML file from outside may not"),
     ],
 )  # fmt: skip
@@ -129,3 +129,107 @@ def test_rosrun_xacro_xacro(index):
         capture_output=True, text=True, check=False, timeout=60,
     )  # fmt: skip
     assert '<link name="l1.5"/>' in done.stdout, done.stderr
+
+
+# ---- what a description may do ----
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<link name='${().__class__.__base__.__subclasses__()}'/>",
+        "<link name='${(i for i in [1]).gi_frame}'/>",
+        "<link name='${[f for f in [math]][0].sin.real}'/>",
+        "<link name='${python.type(1)}'/>",
+        "<link name='${python.vars(xacro)}'/>",
+        "<link name='${(lambda: 1)()}'/>",
+        "<link name='${xacro.load_yaml.__globals__}'/>",
+        "<link name='$(eval [].__class__)'/>",
+        "<link name='$(eval (lambda: 1)())'/>",
+        "<link name='${xacro.load_yaml(\"/etc/passwd\")}'/>",
+        "<link name='${load_yaml(\"../../../../../../../../etc/passwd\")}'/>",
+        "<link name='${10**10**10}'/>",
+        "<link name='${\"a\" * 10**9}'/>",
+        "<link name='$(eval 2**10**8)'/>",
+        "<xacro:include filename='/*/*/*.xacro'/>",
+        "<xacro:property name='a' value='xxxxxxxxxx'/>"
+        + "".join(f"<xacro:property name='{new}' value='{10 * f'${{{old}}}'}'/>" for old, new in zip("abcdefgh", "bcdefghi", strict=True))
+        + "<link name='${i}'/>",
+        "<xacro:arg name='a' default='xxxxxxxxxx'/>"
+        + "".join(f"<xacro:arg name='{new}' default='{10 * f'$(arg {old})'}'/>" for old, new in zip("abcdefgh", "bcdefghi", strict=True))
+        + "<link name='$(arg i)'/>",
+        "<xacro:macro name='m0'><link name='a'/></xacro:macro>"
+        + "".join(f"<xacro:macro name='m{i + 1}'>{10 * f'<xacro:m{i}/>'}</xacro:macro>" for i in range(9))
+        + "<xacro:m9/>",
+    ],
+)  # fmt: skip
+def test_what_only_python_could_do_is_refused(index, text, monkeypatch):
+    monkeypatch.setattr("rosmini.urdf.confined.STEPS", 300_000)
+    with pytest.raises(UrdfError, match=r"r\.urdf\.xacro"):
+        expand(write(index, text), packages=index)
+
+
+def test_the_way_out_is_told(index, capsys):
+    path = write(index, "\n<link name='${10**10**10}'/>")
+    assert main([str(path)]) == 2
+    said = capsys.readouterr().err
+    assert "r.urdf.xacro:3: a whole number of more than 4096 bits" in said
+    assert "--unconfined" in said
+
+
+def test_includes_that_fan_out_or_go_in_circles_end(index, monkeypatch):
+    monkeypatch.setattr("rosmini.urdf.confined.STEPS", 300_000)
+    for i in range(20):
+        write(index, 2 * f"<xacro:include filename='f{i + 1}.xacro'/>", f"f{i}.xacro")
+    write(index, "", "f20.xacro")
+    with pytest.raises(UrdfError, match="too many steps"):
+        expand(index.path("my_robot") / "urdf" / "f0.xacro", packages=index)
+    write(index, "<xacro:include filename='b.xacro'/>", "a.xacro")
+    with pytest.raises(
+        UrdfError, match=r"without end: (a.xacro -> b.xacro -> a.xacro|b.xacro -> a.xacro -> b.xacro)"
+    ):
+        expand(write(index, "<xacro:include filename='a.xacro'/>", "b.xacro"), packages=index)
+
+
+def test_a_quote_without_its_partner_in_the_parameters_of_a_macro_does_not_hang(index):
+    path = write(index, f"<xacro:macro name='m' params='a:={'x' * 60}&apos; b'/>")
+    assert "robot" in expand(path, packages=index)
+
+
+def test_who_trusts_a_file_lets_it_do_all(index):
+    path = write(
+        index,
+        "<link name='${xacro.load_yaml.__name__}'/>".replace("xacro.load_yaml.__name__", "python.type(1)"),
+    )
+    assert "int" in expand(path, packages=index, confined=False)
+    with pytest.raises(UrdfError):
+        load(path, packages=index)
+    assert load(path, packages=index, confined=False).root
+    assert main([str(path)]) == 2
+    assert main(["--unconfined", str(path)]) == 0
+
+
+def test_what_public_descriptions_write_is_allowed(index):
+    (index.path("my_robot") / "urdf" / "limits.yaml").write_text(
+        "joints: {arm: {lower: !degrees 90, upper: !radians 2*pi, size: !inches 10, names: [a, b]}}\n"
+    )
+    text = """
+<xacro:property name="config" value="${xacro.load_yaml('$(find my_robot)/urdf/limits.yaml')}"/>
+<xacro:property name="arm" value="${config['joints']['arm']}"/>
+<xacro:arg name="n" default="3"/>
+<xacro:macro name="inertial" params="m r:=${0.5} h:=2 name *origin prefix:=^|left_ flag:=false">
+  <link name="${prefix}${name}" mass="${m}" ixx="${m*(3*r*r+h*h)/12}" pi="${pi/2} ${radians(90)} ${sin(0)}"><xacro:insert_block name="origin"/></link>
+</xacro:macro>
+<xacro:inertial m="${2 ** 3}" name="x"><origin xyz="${' '.join([str(i) for i in range(3)])}"/></xacro:inertial>
+<a lower="${arm.lower}" upper="${config.joints.arm.upper}" size="${round(arm['size'], 3)}" names="${','.join(arm.names)}"/>
+<b all="${list(map(float, '1 2'.split()))[1]}" keys="${sorted(arm.keys())[0]}" ev="$(eval n * 2 + n)" tok="${xacro.tokenize('a,b;c')[1]}"/>
+<xacro:if value="${'ab'.startswith('a') and not python.any([0]) and len(arm.names) == 2}"><c v="${max(1, 2) if True else None}"/></xacro:if>
+<xacro:unless value="${xacro.arg('n') == 4}"><d e="$(optenv NOTHING_OF_THAT_NAME fallback)" f="$(dirname)"/></xacro:unless>
+<xacro:include filename="none.xacro" optional="true"/>
+<xacro:include filename="wheel.xacro" ns="w"/><xacro:w.wheel name="w" radius="1"/>"""
+    said = expand(write(index, text.replace(' f="$(dirname)"', "")), packages=index)
+    for part in (
+        'name="left_x"', 'mass="8"', 'ixx="3.1666666666666665"', 'pi="1.5707963267948966 1.5707963267948966 0.0"', 'xyz="0 1 2"', 'lower="1.57',
+        'upper="6.28', 'size="0.254"', 'names="a,b"', 'all="2.0"', 'keys="lower"', 'ev="9"', 'tok="b"', '<c v="2"/>', '<d e="fallback"', 'name="w_link"',
+    ):  # fmt: skip
+        assert part in said, (part, said)
