@@ -37,6 +37,9 @@ VERBS = {
 }
 ELSEWHERE = ("camera", "debug", "joint", "log", "marker", "physics")
 
+LOOK_BACK = 20
+"""Over so many messages `gz stats` takes the average."""
+
 TIMEOUT = 10.0
 """How long an answer or a message is waited for [s]."""
 
@@ -68,7 +71,9 @@ def _topic(made: argparse.ArgumentParser) -> None:
     made.add_argument("-l", "--list", action="store_true", help="all topics")
     made.add_argument("-i", "--info", metavar="TOPIC", help="who publishes and who hears it")
     made.add_argument("-e", "--echo", metavar="TOPIC", help="what is published on it")
-    made.add_argument("-z", "--hz", metavar="TOPIC", help="how often that is")
+    made.add_argument(
+        "-z", "--hz", metavar="TOPIC", help="how often that is, on the average; Gazebo tells each message's"
+    )
     made.add_argument(
         "-d", "--duration", type=float, default=1.0, help="for so long [s]; Gazebo goes on for ever"
     )
@@ -85,9 +90,14 @@ def _model(made: argparse.ArgumentParser) -> None:
         help="let it come into the world; without a model its own name is kept",
     )
     made.add_argument("-i", "--info", action="store_true", help="all that is known of it")
-    made.add_argument("-p", "--pose", action="store_true", help="where it is: x y z roll pitch yaw")
+    made.add_argument(
+        "-p",
+        "--pose",
+        action="store_true",
+        help="where it is: x y z roll pitch yaw; so without any option, where Gazebo puts it to the origin",
+    )
     for name in ("-x", "-y", "-z", "-R", "-P", "-Y"):
-        made.add_argument(name, type=float, help="where it is to be [m, rad]")
+        made.add_argument(name, type=float, help="where it is to be [m, rad]; what is not given is 0")
 
 
 def _world(made: argparse.ArgumentParser) -> None:
@@ -101,7 +111,7 @@ def _world(made: argparse.ArgumentParser) -> None:
 
 def _stats(made: argparse.ArgumentParser) -> None:
     made.add_argument(
-        "-d", "--duration", type=float, default=0.5, help="for so long [s]; Gazebo goes on for ever"
+        "-d", "--duration", type=float, default=1.0, help="for so long [s]; Gazebo goes on for ever"
     )
     made.add_argument("-p", "--plot", action="store_true", help="numbers with commas between")
 
@@ -196,7 +206,7 @@ class Gz:
                 "Publishers:",
                 *(f"\t{name}" for name in info.publishers),
             ]
-            self._lines += ["", "Subscribers:", *(f"\t{name}" for name in info.subscribers)]
+            self._lines += ["", "Subscribers:", *(f"\t{name}" for name in info.subscribers), ""]
         elif options.echo or options.hz:
             topic = options.echo or options.hz
             node.master.info(node.resolve(topic))
@@ -221,23 +231,30 @@ class Gz:
             return
         if not options.model_name:
             raise UsageError("gz model: which model? -m MODEL")
-        model: Model = self._asked("entity_info", options.model_name)
-        pose = pose_of(model.pose) if model.pose is not None else (0.0,) * 6
+        model = self._info(options.model_name)
         given = self._given(options)
         if options.delete:
             self._asked("entity_delete", options.model_name)
         elif options.info:
-            self._lines += str(model).splitlines()
+            self._lines += [*str(model).splitlines(), ""]
         elif any(part is not None for part in given):
-            x, y, z, roll, pitch, yaw = (
-                own if part is None else part for part, own in zip(given, pose, strict=True)
-            )
+            x, y, z, roll, pitch, yaw = (part or 0.0 for part in given)  # what is not said is 0, as in Gazebo
             node = self._node()
             moved = Pose.of(model.name, model.id, (x, y, z, roll, pitch, yaw))
             node.advertise("~/model/modify", Model).publish(Model(model.name, model.id, pose=moved))
             node.close()
         else:
+            pose = pose_of(model.pose) if model.pose is not None else (0.0,) * 6
             self._lines.append(" ".join(f"{part + 0.0:.6f}" for part in pose))
+
+    def _info(self, name: str) -> Model:
+        try:
+            found: Model = self._asked("entity_info", name)
+        except GazeboError as error:
+            where = self._node().namespace
+            msg = f"Unable to get info on model[{name}] in the world[{where}]: {error}"
+            raise GazeboError(msg) from error
+        return found
 
     @staticmethod
     def _given(options: argparse.Namespace) -> tuple[float | None, ...]:
@@ -292,21 +309,19 @@ class Gz:
         node.close()
         if options.plot:
             self._lines.append("# real-time factor (percent), simtime (sec), realtime (sec), paused (T or F)")
-        before: WorldStatistics | None = None
-        for each in heard:
-            sim, real = _seconds(each.sim_time), _seconds(each.real_time)
-            factor = 0.0
-            start = (0.0, 0.0) if before is None else (_seconds(before.sim_time), _seconds(before.real_time))
-            if real > start[1]:
-                factor = (sim - start[0]) / (real - start[1])
-            flag = "T" if each.paused else "F"
+        for count in range(2, len(heard) + 1):
+            told = heard[count - 1]
+            sim, real = _seconds(told.sim_time), _seconds(told.real_time)
+            factor = _factor(heard[max(0, count - LOOK_BACK) : count])
+            flag = "T" if told.paused else "F"
+            if factor is None:
+                continue
             if options.plot:
-                self._lines.append(f"{factor:.4f}, {sim:.4f}, {real:.4f}, {flag}")
+                self._lines.append(f"{factor:4.2f}, {sim:16.6f}, {real:16.6f}, {flag}")
             else:
                 self._lines.append(
-                    f"Factor[{factor:.2f}] SimTime[{sim:.2f}] RealTime[{real:.2f}] Paused[{flag}]"
+                    f"Factor[{factor:4.2f}] SimTime[{sim:4.2f}] RealTime[{real:4.2f}] Paused[{flag}]"
                 )
-            before = each
 
     # -- sdf -----------------------------------------------------------------------------------------------------
 
@@ -333,6 +348,15 @@ def from_urdf_file(path: str) -> tuple[str, tuple[str, ...]]:
     """The SDF text of a URDF file, and what is doubtful in it. Raises `UrdfError`."""
     robot = urdf.load(Path(path))
     return to_sdf(from_urdf(robot).model), robot.notes
+
+
+def _factor(heard: list[WorldStatistics]) -> float | None:
+    """How fast time goes, on the average since the first of these, as Gazebo reckons it; None if no time has passed."""
+    sim, real = (
+        sum(_seconds(getattr(each, name)) - _seconds(getattr(heard[0], name)) for each in heard)
+        for name in ("sim_time", "real_time")
+    )
+    return max(0.0, sim / real) if real > 0 else None
 
 
 def _seconds(time: Any) -> float:

@@ -24,6 +24,7 @@ from rosmini.errors import nearest
 from rosmini.markup import Element
 from rosmini.sim.host import Device, Host, Stamp
 
+from .absent import ABSENT
 from .errors import UnknownPlugin
 
 if TYPE_CHECKING:
@@ -151,7 +152,9 @@ def plugin_class(filename: str) -> type[Plugin]:
     if found is None:
         known = plugin_filenames()
         hint = nearest(filename, known) or f"there are: {', '.join(known)}"
-        raise UnknownPlugin(f"there is no plugin {filename!r}; {hint}")
+        would = ABSENT.get(base)
+        lack = f"there is no plugin of this name in rosmini{f' ({would})' if would else ''}"
+        raise UnknownPlugin(f"Failed to load plugin {filename}: {lack}; {hint}")
     return found
 
 

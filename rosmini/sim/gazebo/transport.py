@@ -16,6 +16,7 @@ good morning
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -23,6 +24,12 @@ from typing import Any
 from rosmini.errors import nearest
 
 from .errors import GazeboError
+
+HOST = "GAZEBO_IP"
+"""The environment variable by which a program of Gazebo's says at which address it is."""
+
+LOOPBACK, FIRST_PORT = "127.0.0.1", 49152
+"""Where nodes are said to be, one after the other: the first of the ports that systems give away. Here nobody listens there, for all is one process."""
 
 NAMESPACE = "default"
 """Of a world that says no other name; `~` in the name of a topic stands for /gazebo/<namespace>."""
@@ -40,7 +47,7 @@ class TopicInfo:
     topic: str
     type: str
     publishers: tuple[str, ...]
-    """Names of the nodes."""
+    """Addresses of the nodes, host and port: all that Gazebo's Master knows of them."""
     subscribers: tuple[str, ...]
 
 
@@ -50,14 +57,21 @@ class Master:
     def __init__(self) -> None:
         self._publications: dict[str, list[Publication]] = {}
         self._subscriptions: dict[str, list[Subscription]] = {}
+        self._ports = FIRST_PORT
 
     def topics(self) -> dict[str, str]:
-        """The topics that somebody publishes, sorted, each with its type: `gz topic -l`."""
+        """The topics that somebody publishes or hears, sorted, each with its type if it is published: `gz topic -l`."""
+        ends = (*self._publications.items(), *self._subscriptions.items())
+        names = sorted({topic for topic, there in ends if there})
+        published = {topic: there[0] for topic, there in self._publications.items() if there}
         return {
-            topic: type_name(there[0].message_class)
-            for topic, there in sorted(self._publications.items())
-            if there
+            topic: type_name(published[topic].message_class) if topic in published else "" for topic in names
         }
+
+    def port(self) -> int:
+        """One that no node has."""
+        self._ports += 1
+        return self._ports - 1
 
     def info(self, topic: str) -> TopicInfo:
         """Who publishes and who hears a topic: `gz topic -i`. Raises `GazeboError` if nobody does."""
@@ -70,7 +84,7 @@ class Master:
             raise GazeboError(msg)
         kind = type_name(publications[0].message_class) if publications else ""
         return TopicInfo(
-            topic, kind, tuple(p.node.name for p in publications), tuple(s.node.name for s in heard)
+            topic, kind, tuple(p.node.address for p in publications), tuple(s.node.address for s in heard)
         )
 
     def add(self, end: Publication | Subscription) -> None:
@@ -164,6 +178,8 @@ class TransportNode:
         self.master = master
         self.name = name
         self.namespace = namespace
+        self.address = f"{os.environ.get(HOST) or LOOPBACK}:{master.port()}"
+        """By which Gazebo's Master knows it: host and port."""
         self._ends: list[Publication | Subscription] = []
 
     def resolve(self, topic: str) -> str:

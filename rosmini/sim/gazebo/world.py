@@ -453,7 +453,9 @@ class GazeboWorld:
             try:
                 cls = plugin_class(tag.filename)
             except UnknownPlugin as error:
-                self.node.logwarn(f"{tag.element.path}:{tag.line}: {whose} goes on without a plugin: {error}")
+                self.node.logwarn(
+                    f"{tag.element.path}:{tag.line}: {error}. {whose[:1].upper()}{whose[1:]} goes on without it"
+                )
                 continue
             if not issubclass(cls, kind):
                 self.node.logwarn(

@@ -13,7 +13,9 @@ from rosmini.cli.main import main
 from rosmini.markup import MarkupError
 from rosmini.sim import sdf
 from rosmini.sim.gazebo import GazeboError, Gz
-from rosmini.sim.gazebo.gz import UsageError
+from rosmini.sim.gazebo.gz import UsageError, _factor
+from rosmini.sim.gazebo.msgs import Time, WorldStatistics
+from rosmini.sim.gazebo.transport import FIRST_PORT
 
 from .conftest import LASER, Bench, box, urdf
 
@@ -27,9 +29,22 @@ def test_topics_are_listed_told_of_echoed_and_measured(bench: Start) -> None:
     # in the namespace of the world's name
     assert {"/gazebo/empty/world_stats", "/gazebo/empty/pose/info", "/gazebo/empty/request"} <= set(names)
     stats = "/gazebo/empty/world_stats"
+    there.server.client()
     info = gz.run("topic", "-i", stats)
-    assert info[0] == "Type: gazebo.msgs.WorldStatistics"
-    assert "\tgzserver" in info
+    server, client = (
+        FIRST_PORT,
+        FIRST_PORT + 2,
+    )  # each node has the next port: the server, `gz topic -l`, the client
+    assert info == [
+        "Type: gazebo.msgs.WorldStatistics",
+        "",
+        "Publishers:",
+        f"\t127.0.0.1:{server}",
+        "",
+        "Subscribers:",
+        f"\t127.0.0.1:{client}",
+        "",
+    ]
     echoed = gz.run("topic", "-e", stats, "-n", 1)
     assert echoed[0] == "sim_time {"
     assert "paused: false" in echoed
@@ -61,13 +76,16 @@ def test_a_model_is_told_of_moved_and_deleted(bench: Start) -> None:
     gz = Gz(there.graph)
     assert gz.run("model", "-m", "crate", "-p") == ["1.000000 2.000000 0.000000 0.000000 0.000000 0.000000"]
     gz.run("model", "-m", "crate", "-x", 3, "-Y", 0.5)
-    assert there.pose("crate") == pytest.approx((3.0, 2.0, 0.5))
+    assert there.pose("crate") == pytest.approx((3.0, 0.0, 0.5))  # as in Gazebo: what is not said is 0
     lines = gz.run("model", "-m", "crate", "-i")
     assert lines[0] == 'name: "crate"'
     assert "is_static: false" in lines
     gz.run("model", "-m", "crate", "-d")
     assert "crate" not in there.server.world.models
-    with pytest.raises(GazeboError, match="there is no model 'crate'"):
+    with pytest.raises(
+        GazeboError,
+        match=r"Unable to get info on model\[crate\] in the world\[empty\]: there is no model 'crate'",
+    ):
         gz.run("model", "-m", "crate", "-p")
 
 
@@ -119,15 +137,29 @@ def test_the_world_stands_is_stepped_and_reset(bench: Start, capsys: pytest.Capt
 def test_stats_tell_how_time_goes_on(bench: Start) -> None:
     there = bench()
     there.graph.run(1.0)
-    lines = Gz(there.graph).run("stats", "-d", 0.5)
-    assert len(lines) == 2
+    lines = Gz(there.graph).run("stats", "-d", 1.0)
+    assert len(lines) == 4  # the first of five messages says nothing of how fast time goes
     assert all(
-        re.fullmatch(r"Factor\[1\.00\] SimTime\[1\.\d\d\] RealTime\[1\.\d\d\] Paused\[F\]", line)
+        re.fullmatch(r"Factor\[1\.00\] SimTime\[[12]\.\d\d\] RealTime\[[12]\.\d\d\] Paused\[F\]", line)
         for line in lines
     )
     lines = Gz(there.graph).run("stats", "-p")
     assert lines[0].startswith("# real-time factor")
-    assert lines[1].count(",") == 3
+    assert re.fullmatch(r"1\.00, {9}2\.\d{6}, {9}2\.\d{6}, F", lines[1])
+
+
+def test_topics_that_are_only_heard_are_listed_too(bench: Start) -> None:
+    gz = Gz(bench().graph)
+    assert {"/gazebo/empty/factory", "/gazebo/empty/model/modify"} <= set(gz.run("topic", "-l"))
+    assert gz.run("topic", "-i", "~/factory")[0] == "Type: "
+
+
+def test_how_fast_time_goes_is_told_over_the_last_messages() -> None:
+    def told(sim: float, real: float) -> WorldStatistics:
+        return WorldStatistics(Time.of(sim), Time(), Time.of(real), False, 0, 0)
+
+    assert _factor([told(0.0, 0.0), told(1.0, 2.0), told(3.0, 4.0)]) == pytest.approx(4 / 6)
+    assert _factor([told(1.0, 1.0), told(1.0, 1.0)]) is None
 
 
 def test_files_are_checked_and_printed(tmp_path: Path) -> None:
