@@ -15,34 +15,39 @@
 from __future__ import annotations
 
 import os
-from io import BufferedReader, BytesIO, FileIO, IOBase
+from collections.abc import Mapping
+from io import BufferedReader, BytesIO, FileIO, IOBase, TextIOBase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, Self
 
-from rosmini.errors import nearest
+from rosmini.errors import DeserializationError, shown
 from rosmini.graph import default_graph
 from rosmini.graph.show import show
-from rosmini.names import canonicalize
 from rosmini.time import Time
 
-from .errors import ROSBagEncryptNotSupportedException, ROSBagException, ROSBagUnindexedException
+from .errors import (
+    NotOpenForWriting,
+    ROSBagEncryptNotSupportedException,
+    ROSBagException,
+    ROSBagUnindexedException,
+    in_file,
+)
 from .index import Connection, Index, connection
 from .reader import RawMessage, Reader, index_position, read_index
-from .records import Compression, check_compression
+from .records import Compression, check_compression, check_magic
 from .scan import Scan, scan
 from .summary import BagMessage, BagMessageWithConnectionHeader, Summaries
 from .types import Types
 from .writer import CHUNK_THRESHOLD, Writer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator
     from types import TracebackType
 
     from rosmini.time import TVal
 
+    from .summary import ConnectionFilter
     from .table import Table
-
-    ConnectionFilter = Callable[[str, str, str, str, dict[str, bytes]], bool]
 
 
 class _Input(BufferedReader):
@@ -66,8 +71,12 @@ class Bag(Summaries):
         numpy: give numeric arrays as read-only numpy arrays, else as rospy's tuples and bytes.
 
     Raises:
-        ROSBagException: the file is empty, damaged, encrypted or not a bag; `ROSBagUnindexedException` if it has no index.
+        ROSBagException: the file is empty, damaged, encrypted or not a bag; `ROSBagUnindexedException` if it has no index, or a
+            damaged one.
         OSError: the file cannot be opened.
+        ValueError: the file is no path and no stream, or the mode, the compression or the threshold is none.
+
+    All methods that need the file raise ``ValueError`` once the bag is closed, as those of ROS.
 
     """
 
@@ -87,22 +96,28 @@ class Bag(Summaries):
             raise ValueError("filename (or stream) is invalid")
         if mode not in ("r", "w", "a"):
             raise ValueError(f'mode "{mode}" is invalid: use "r", "w" or "a"')
-        given = dict(options or {})
+        if options is not None and not isinstance(options, Mapping):
+            raise ValueError(f"options are a dict, not {shown(options)}")
+        given = options or {}
         self._compression = check_compression(given.get("compression", compression))
         self._chunk_threshold = _positive(given.get("chunk_threshold", chunk_threshold))
+        if isinstance(f, TextIOBase):
+            raise ROSBagException("In Python 3 the bag file must be opened in binary mode")
         self._mode = mode
         self._numpy = numpy
         self._filename = None if isinstance(f, IOBase) else os.fspath(f)  # type: ignore[arg-type]
         self._file: BinaryIO | None = None
         self._input: BinaryIO | None = None
         self._writer: Writer | None = None
-        self._types = Types()
+        self._types = Types(self._name)
+        self._version = 200
         self._numbers: dict[tuple[str, bytes], int] = {}
         self._by_topic: dict[str, int] = {}
         self.problems: list[str] = []
         """What is wrong with a bag without an index that was opened all the same."""
         try:
-            self._index = self._open(f, allow_unindexed)
+            with in_file(self._name):
+                self._index = self._open(f, allow_unindexed)
         except BaseException:
             self._close_files()
             raise
@@ -145,6 +160,7 @@ class Bag(Summaries):
         )
 
     def _read_index(self, file: BinaryIO, allow_unindexed: bool) -> Index:
+        self._version = check_magic(file, self._name)
         try:
             return read_index(file, self._name)
         except ROSBagUnindexedException:
@@ -165,6 +181,11 @@ class Bag(Summaries):
         return read_index(copy, self._name)
 
     def _append(self, file: BinaryIO, source: BinaryIO, allow_unindexed: bool) -> None:
+        version = check_magic(source, self._name)
+        if version != self._version:
+            raise ROSBagException(
+                f"bag version {version} is unsupported for appending: write the messages of {self._name} to a new bag"
+            )
         try:
             index = read_index(source, self._name)
         except ROSBagUnindexedException:
@@ -202,6 +223,7 @@ class Bag(Summaries):
 
     def flush(self) -> None:
         """Write everything that is not in the file yet, except the index."""
+        self._reading()
         if self._writer is not None:
             self._writer.flush()
 
@@ -238,7 +260,7 @@ class Bag(Summaries):
     @property
     def version(self) -> int:
         """The version of the format, 200 for 2.0."""
-        return 200
+        return self._version
 
     @property
     def mode(self) -> str:
@@ -253,11 +275,11 @@ class Bag(Summaries):
     @property
     def size(self) -> int:
         """How long the file is [bytes]; while it is written, with what is still in memory."""
+        file = self._reading()
         if self._writer is not None and not self._writer.closed:
             return self._writer.size
         if self._filename is not None:
             return Path(self._filename).stat().st_size
-        file = self._reading()
         file.seek(0, os.SEEK_END)
         return file.tell()
 
@@ -268,8 +290,9 @@ class Bag(Summaries):
 
     @compression.setter
     def compression(self, compression: str) -> None:
+        check_compression(compression)
         self.flush()
-        self._compression = check_compression(compression)
+        self._compression = compression
         if self._writer is not None:
             self._writer.compression = compression
 
@@ -280,50 +303,18 @@ class Bag(Summaries):
 
     @chunk_threshold.setter
     def chunk_threshold(self, chunk_threshold: int) -> None:
+        _positive(chunk_threshold)
         self.flush()
-        self._chunk_threshold = _positive(chunk_threshold)
+        self._chunk_threshold = chunk_threshold
         if self._writer is not None:
             self._writer.chunk_threshold = chunk_threshold
 
     @property
     def index(self) -> Index:
-        """The connections and chunks."""
-        self.flush()
+        """The connections and chunks; also of a bag that is closed."""
+        if self._writer is not None and self._file is not None:
+            self._writer.flush()
         return self._index
-
-    def connections(
-        self, topics: str | Iterable[str] | None = None, connection_filter: ConnectionFilter | None = None
-    ) -> list[Connection]:
-        """Return the connections of one topic, some, or all; ``connection_filter(topic, type, md5, definition, header)`` chooses."""
-        if isinstance(topics, str):
-            topics = [topics]
-        names = None if not topics else {name for topic in topics for name in (topic, canonicalize(topic))}
-        return [
-            found
-            for found in self._index.connections.values()
-            if (names is None or found.topic in names or canonicalize(found.topic) in names)
-            and (
-                connection_filter is None
-                or connection_filter(
-                    found.topic, found.type, found.md5sum, found.definition, dict(found.header)
-                )
-            )
-        ]
-
-    def message_class(self, topic_or_connection: str | Connection) -> Any:
-        """Return the class of the messages on a topic. Raises ``ROSBagException``, with the nearest name, for an unknown topic."""
-        if isinstance(topic_or_connection, Connection):
-            return self._types.of(topic_or_connection)
-        found = self.connections(topic_or_connection)
-        if not found:
-            raise self.no_topic(topic_or_connection)
-        return self._types.of(found[0])
-
-    def no_topic(self, topic: str) -> ROSBagException:
-        """Return the error for a topic that is not in the bag."""
-        topics = sorted({found.topic for found in self._index.connections.values()})
-        hint = nearest(topic, topics) or f"it has {', '.join(topics) or 'no topics'}"
-        return ROSBagException(f"{self._name} has no topic {topic}: {hint}")
 
     # -- reading -----------------------------------------------------------------------------------------------------
 
@@ -334,9 +325,8 @@ class Bag(Summaries):
 
     def reader(self) -> Reader:
         """Return what reads the bag's bytes; everything written so far is there."""
-        file = self._reading()
         self.flush()
-        return Reader(file, self._index)
+        return Reader(self._reading(), self._index, self._name)
 
     def read_raw(
         self,
@@ -376,7 +366,13 @@ class Bag(Summaries):
                 decode = decoders.get(conn.id)
                 if decode is None:
                     decode = decoders[conn.id] = self._decoder(conn)
-                message = decode(data)
+                try:
+                    message = decode(data)
+                except DeserializationError as error:
+                    place = f"byte {offset} of the chunk at byte {self._index.chunks[chunk].position}"
+                    raise DeserializationError(
+                        f"{self._name}: the message on {conn.topic} at {place} cannot be read: {error}"
+                    ) from error
             time = Time(*divmod(nanoseconds, 1_000_000_000))
             if with_header:
                 yield BagMessageWithConnectionHeader(conn.topic, message, time, dict(conn.header))
@@ -421,10 +417,12 @@ class Bag(Summaries):
         if self._file is None:
             raise ValueError(f"I/O operation on a closed bag: {self._name}")
         writer = self._writer
-        if writer is None:
-            raise ROSBagException(f'{self._name} is open for reading: open it with mode "w" or "a" to write')
         if not topic:
             raise ValueError("topic is invalid: it is empty")
+        if writer is None:
+            raise NotOpenForWriting(
+                f'{self._name} is open for reading: open it with mode "w" or "a" to write'
+            )
         if msg is None or (raw and len(msg) not in (4, 5)):
             raise ValueError("msg is invalid: a message, or with raw=True (type, bytes, md5sum, class)")
         data: bytes
@@ -455,7 +453,7 @@ class Bag(Summaries):
     def connect(self, conn: Connection) -> int:
         """Return this bag's number for a connection of another bag, or of a graph; its header is kept to the byte."""
         if self._writer is None:
-            raise ROSBagException(f"{self._name} is not open for writing")
+            raise NotOpenForWriting(f"{self._name} is not open for writing")
         key = conn.topic, conn.raw
         number = self._numbers.get(key)
         if number is None:
@@ -466,7 +464,7 @@ class Bag(Summaries):
     def write_raw(self, number: int, nanoseconds: int, data: bytes) -> None:
         """Write a message of the connection with a number that :meth:`connect` gave, recorded at a time [ns]."""
         if self._writer is None or self._file is None:
-            raise ROSBagException(f"{self._name} is not open for writing")
+            raise NotOpenForWriting(f"{self._name} is not open for writing")
         self._writer.write(number, nanoseconds, data)
 
     def sync(self) -> None:
@@ -492,5 +490,5 @@ def _serialized(msg: Any) -> bytes:
 
 def _positive(size: Any) -> int:
     if not isinstance(size, int) or size < 0:
-        raise ValueError(f"chunk_threshold must be a number of bytes, not {size!r}")
+        raise ValueError(f"chunk_threshold must be a number of bytes, not {shown(size)}")
     return size

@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
+from io import UnsupportedOperation
+from typing import TYPE_CHECKING
+
 from rosmini.errors import RosminiError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 __all__ = [
     "BagFull",
     "BagTypeChanged",
+    "DamagedIndex",
     "FilterError",
+    "NotOpenForWriting",
     "ROSBagEncryptException",
     "ROSBagEncryptNotSupportedException",
     "ROSBagException",
     "ROSBagFormatException",
     "ROSBagUnindexedException",
+    "UnknownCompression",
+    "in_file",
 ]
 
 
@@ -38,12 +49,36 @@ class ROSBagUnindexedException(ROSBagException):
         super().__init__(value)
 
 
+class DamagedIndex(ROSBagUnindexedException, ROSBagFormatException):
+    """The index of a bag is damaged. ROS's rosbag does not tell this from a bag without one."""
+
+
 class ROSBagEncryptNotSupportedException(ROSBagException):
     """A bag is encrypted in a way that cannot be read here."""
 
 
 class ROSBagEncryptException(ROSBagException):
     """A bag could not be encrypted or decrypted."""
+
+
+@contextmanager
+def in_file(name: str) -> Iterator[None]:
+    """Have errors about what is read within the block begin with the file's name."""
+    try:
+        yield
+    except ROSBagException as error:
+        if not str(error).startswith(name):
+            error.value = f"{name}: {error.value}"
+            error.args = (error.value,)
+        raise
+
+
+class UnknownCompression(ROSBagException, ValueError):
+    """A bag cannot be compressed in this way (rosbag raises ``ValueError``)."""
+
+
+class NotOpenForWriting(ROSBagException, UnsupportedOperation):
+    """A bag that is open for reading was to be written to (rosbag raises what Python raises for such a file)."""
 
 
 class BagFull(ROSBagException):

@@ -23,11 +23,13 @@ class Connection:
     id: int
     topic: str
     raw: bytes
+    place: str = field(default="", compare=False)
+    """Where it was read from."""
 
     @cached_property
     def header(self) -> dict[str, bytes]:
         """The fields of the connection header."""
-        return parse_fields(self.raw, f"the connection of {self.topic}")
+        return parse_fields(self.raw, self.place or f"the connection of {self.topic}")
 
     def text(self, name: str) -> str:
         """Return a field of the header as text; empty if it has no such field."""

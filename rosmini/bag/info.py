@@ -111,7 +111,7 @@ def info_text(bag: Bag, *, freq: bool = True, path: str | None = None, utc: bool
     path = path or bag.filename
     if path is not None:
         rows.append(("path", path))
-    rows.append(("version", "2.0"))
+    rows.append(("version", _version(bag)))
     if bag.index.messages:
         rows += _summary(bag, utc=utc)
         rows += _labelled("types", _type_rows(bag))
@@ -120,6 +120,10 @@ def info_text(bag: Bag, *, freq: bool = True, path: str | None = None, utc: bool
         rows.append(("size", human_size(bag.size)))
     width = max(len(name) for name, _ in rows) + 1
     return "\n".join(f"{name + ':' if name else '':<{width}} {value}" for name, value in rows).rstrip()
+
+
+def _version(bag: Bag) -> str:
+    return f"{bag.version // 100}.{bag.version % 100}"
 
 
 def _labelled(name: str, values: list[str]) -> list[tuple[str, str]]:
@@ -145,12 +149,12 @@ def _compression_rows(bag: Bag, duration: float) -> list[tuple[str, str]]:
     for count, name in sorted(((count, name) for name, count in counts.items()), reverse=True):
         packed = sum(chunk.compressed for chunk in chunks if chunk.compression == name)
         plain = sum(chunk.size for chunk in chunks if chunk.compression == name)
-        share = "" if name == Compression.NONE else f"; {100 * packed / plain:.2f}%"
+        share = "" if name == Compression.NONE or not plain else f"; {100 * packed / plain:.2f}%"
         parts.append(f"{name} [{count}/{len(chunks)} chunks{share}]")
     rows = [("compression", ", ".join(parts))]
-    if set(counts) == {Compression.NONE}:
-        return rows
     _, plain, packed = bag.get_compression_info()
+    if set(counts) == {Compression.NONE} or not plain:
+        return rows
     sizes = [human_size(plain), human_size(packed)]
     width = max(map(len, sizes))
     if duration <= 0:
@@ -190,12 +194,16 @@ def info_yaml(bag: Bag, key: str | None = None, *, freq: bool = True) -> str | N
     text = _yaml(bag, freq=freq)
     if not key:
         return text
-    return _shown(_lookup(yaml.safe_load(text), key))
+    try:
+        tree = yaml.safe_load(text)
+    except yaml.YAMLError as error:  # the names of topics may be anything
+        raise ROSBagException(f'Error getting key "{key}": what the bag says is no YAML: {error}') from error
+    return _shown(_lookup(tree, key))
 
 
 def _yaml(bag: Bag, *, freq: bool) -> str:
     lines = [f"path: {bag.filename}"] if bag.filename is not None else []
-    lines.append("version: 2.0")
+    lines.append(f"version: {_version(bag)}")
     if not bag.index.messages:
         return "\n".join([*lines, f"size: {bag.size}", "indexed: False"]) + "\n"
     start, end = bag.get_start_time(), bag.get_end_time()

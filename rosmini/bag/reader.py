@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import struct
 from bisect import bisect_left
 from collections import OrderedDict
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
-from .errors import ROSBagFormatException, ROSBagUnindexedException
+from .errors import DamagedIndex, ROSBagFormatException, ROSBagUnindexedException, in_file
 from .index import Chunk, Connection, Index
 from .records import (
+    LATEST,
     MAGIC,
     MESSAGE_MARK,
     NSECS,
@@ -26,6 +28,7 @@ from .records import (
     index_entry,
     read_exactly,
     read_record,
+    stamp,
     time_field,
     u32,
     u64,
@@ -34,8 +37,8 @@ from .records import (
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
-KEPT_CHUNKS = 8
-"""So many chunks stay in memory: those that overlap in time are read in turn."""
+KEPT = 16 * 1024 * 1024
+"""Of the chunks that were read, so much stays in memory, and the last in any case [bytes]: those that overlap in time are read in turn."""
 
 
 class RawMessage(NamedTuple):
@@ -57,17 +60,30 @@ def read_data(file: BinaryIO, record: Record, what: str) -> bytes:
 def read_index(file: BinaryIO, name: str) -> Index:
     """Read the index at the end of a bag.
 
-    Raises ``ROSBagUnindexedException`` if it has none, ``ROSBagFormatException`` if the file is damaged or no bag,
+    Raises ``ROSBagUnindexedException`` if it has none or a damaged one, ``ROSBagFormatException`` if the file is no bag,
     ``ROSBagEncryptNotSupportedException`` if it is encrypted.
     """
     check_magic(file, name)
+    try:
+        return _index(file, name)
+    except Truncated as error:
+        raise ROSBagUnindexedException(
+            f"{name} is truncated: {error.value} Its index is lost with its end: `rosbag reindex {name}` makes a new one."
+        ) from error
+    except ROSBagFormatException as error:  # rosbag, too, takes a bag with a damaged index for one without
+        raise DamagedIndex(
+            f"{name} has no index that can be read: {error.value}. `rosbag reindex {name}` saves what is in it."
+        ) from error
+
+
+def _index(file: BinaryIO, name: str) -> Index:
     first = read_record(file, len(MAGIC))
     if first is None:
         raise ROSBagUnindexedException(
             f"{name} ends after its first line: nothing was recorded, or it is truncated"
         )
     if first.op != OP_BAG_HEADER:
-        raise ROSBagFormatException(f"{name} has no bag header after its first line: it is damaged")
+        raise ROSBagFormatException("there is no bag header after its first line")
     encryption(first, name)
     position = field(first, "index_pos", u64)
     if position == 0:
@@ -75,20 +91,15 @@ def read_index(file: BinaryIO, name: str) -> Index:
             f"{name} has no index: its recording did not come to an end. `rosbag reindex {name}` makes one."
         )
     index = Index()
-    try:
-        for _ in range(field(first, "conn_count", u32)):
-            record = _expected(file, position, OP_CONNECTION)
-            found = connection_of(file, record)
-            index.connections[found.id] = found
-            position = record.end
-        for _ in range(field(first, "chunk_count", u32)):
-            record = _expected(file, position, OP_CHUNK_INFO)
-            index.chunks.append(_chunk_of(file, record))
-            position = record.end
-    except Truncated as error:
-        raise ROSBagUnindexedException(
-            f"{name} is truncated: {error.value} Its index is lost with its end: `rosbag reindex {name}` makes a new one."
-        ) from error
+    for _ in range(field(first, "conn_count", u32)):
+        record = _expected(file, position, OP_CONNECTION)
+        found = connection_of(file, record, name)
+        index.connections[found.id] = found
+        position = record.end
+    for _ in range(field(first, "chunk_count", u32)):
+        record = _expected(file, position, OP_CHUNK_INFO)
+        index.chunks.append(_chunk_of(file, record))
+        position = record.end
     return index
 
 
@@ -109,11 +120,13 @@ def _expected(file: BinaryIO, position: int, op: int) -> Record:
     return record
 
 
-def connection_of(file: BinaryIO, record: Record) -> Connection:
-    """Return the connection that a record describes."""
+def connection_of(file: BinaryIO, record: Record, name: str) -> Connection:
+    """Return the connection that a record of a file describes."""
     raw = read_data(file, record, "a connection")
     topic = record.fields.get("topic", b"").decode("utf-8", "replace")
-    return Connection(field(record, "conn", u32), topic, raw)
+    return Connection(
+        field(record, "conn", u32), topic, raw, f"{name}: the connection at byte {record.position}"
+    )
 
 
 def chunk_at(file: BinaryIO, position: int) -> Chunk:
@@ -133,12 +146,13 @@ def _chunk_of(file: BinaryIO, record: Record) -> Chunk:
     if field(record, "ver", u32) != 1:
         raise ROSBagFormatException(f"unknown version of the chunk info at byte {record.position}")
     counts = read_data(file, record, "the index")
+    if len(counts) != 8 * field(record, "count", u32):
+        raise ROSBagFormatException(
+            f"the chunk info at byte {record.position} is not as long as it says: the file is damaged"
+        )
     chunk = chunk_at(file, field(record, "chunk_pos", u64))
     chunk.start, chunk.end = time_field(record, "start_time"), time_field(record, "end_time")
-    chunk.counts = {
-        u32.unpack_from(counts, at)[0]: u32.unpack_from(counts, at + 4)[0]
-        for at in range(0, 8 * field(record, "count", u32), 8)
-    }
+    chunk.counts = dict(stamp.iter_unpack(counts))
     return chunk
 
 
@@ -148,8 +162,9 @@ class Reader:
     It keeps a few chunks, so memory does not grow with the bag. The index may grow while it reads.
     """
 
-    def __init__(self, file: BinaryIO, index: Index) -> None:
+    def __init__(self, file: BinaryIO, index: Index, name: str) -> None:
         self._file = file
+        self._name = name
         self.index = index
         self._chunks: OrderedDict[int, bytes] = OrderedDict()
 
@@ -176,6 +191,10 @@ class Reader:
             pending = pending[ready:]
             pending += self._entries(number, chunk, wanted, start, end)
             pending.sort()
+            if pending and pending[-1][0] > LATEST:
+                raise ROSBagFormatException(
+                    f"{self._name}: a message in the chunk at byte {chunk.position} has no time that ROS can write: the file is damaged"
+                )
         yield from self._read(pending)
 
     def times(self, number: int) -> list[int]:
@@ -203,12 +222,13 @@ class Reader:
             return chunk.entries
         entries: dict[int, bytes] = {}
         position = chunk.data_position + chunk.compressed
-        for _ in chunk.counts:
-            record = _expected(self._file, position, OP_INDEX)
-            if field(record, "ver", u32) != 1 or record.data_length % index_entry.size:
-                raise ROSBagFormatException(f"the index data at byte {position} is of an unknown form")
-            entries[field(record, "conn", u32)] = read_data(self._file, record, "the index of a chunk")
-            position = record.end
+        with in_file(self._name):
+            for _ in chunk.counts:
+                record = _expected(self._file, position, OP_INDEX)
+                if field(record, "ver", u32) != 1 or record.data_length % index_entry.size:
+                    raise ROSBagFormatException(f"the index data at byte {position} is of an unknown form")
+                entries[field(record, "conn", u32)] = read_data(self._file, record, "the index of a chunk")
+                position = record.end
         return entries
 
     def data(self, chunk: Chunk) -> bytes:
@@ -216,9 +236,10 @@ class Reader:
         data = self._chunks.get(chunk.position)
         if data is None:
             self._file.seek(chunk.data_position)
-            packed = read_exactly(self._file, chunk.compressed, f"the chunk at byte {chunk.position}")
-            data = decompress(packed, chunk.compression, chunk.size, chunk.position)
-            while len(self._chunks) >= KEPT_CHUNKS:
+            with in_file(self._name):
+                packed = read_exactly(self._file, chunk.compressed, f"the chunk at byte {chunk.position}")
+                data = decompress(packed, chunk.compression, chunk.size, chunk.position)
+            while self._chunks and len(data) + sum(map(len, self._chunks.values())) > KEPT:
                 self._chunks.popitem(last=False)
             self._chunks[chunk.position] = data
         else:
@@ -228,13 +249,13 @@ class Reader:
     def _read(self, entries: list[tuple[int, int, int, int]]) -> Iterator[RawMessage]:
         connections, chunks = self.index.connections, self.index.chunks
         last, data = -1, b""
-        for time, number, offset, conn in entries:
-            if number != last:
-                data = self.data(chunks[number])
-                last = number
-            yield RawMessage(
-                connections[conn], time, message_at(data, offset, chunks[number]), number, offset
-            )
+        with in_file(self._name):
+            for time, number, offset, conn in entries:
+                if number != last:
+                    data = self.data(chunks[number])
+                    last = number
+                message = message_at(data, offset, chunks[number])
+                yield RawMessage(connections[conn], time, message, number, offset)
 
 
 def message_at(data: bytes, offset: int, chunk: Chunk) -> bytes:
@@ -247,11 +268,13 @@ def message_at(data: bytes, offset: int, chunk: Chunk) -> bytes:
             if data.find(MESSAGE_MARK, begin, end) >= 0:
                 break
             offset = end + 4 + length
-    except Exception as error:
+    except struct.error as error:
         raise ROSBagFormatException(
             f"the chunk at byte {chunk.position} has no message at its byte {offset}: the file is damaged"
         ) from error
     message = data[end + 4 : end + 4 + length]
     if len(message) != length:
-        raise ROSBagFormatException(f"a message is cut off in the chunk at byte {chunk.position}")
+        raise ROSBagFormatException(
+            f"the message at byte {offset} of the chunk at byte {chunk.position} is cut off: the file is damaged"
+        )
     return message

@@ -9,10 +9,20 @@ only the fields that it knows, opens no bag without an index, and writes a chunk
 from __future__ import annotations
 
 import bz2
+import contextlib
+import os
+import re
 import struct
-from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
-from .errors import ROSBagEncryptNotSupportedException, ROSBagException, ROSBagFormatException
+from rosmini.errors import shown
+
+from .errors import (
+    ROSBagEncryptNotSupportedException,
+    ROSBagException,
+    ROSBagFormatException,
+    UnknownCompression,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -25,10 +35,18 @@ OP_MESSAGE, OP_BAG_HEADER, OP_INDEX, OP_CHUNK, OP_CHUNK_INFO, OP_CONNECTION = 2,
 MESSAGE_MARK = b"\x04\x00\x00\x00op=\x02"
 """The field that tells a message's header from a connection's."""
 
-LONGEST = 2**31
-"""No header and no chunk is as long as this: a length beyond it is not one."""
+LONGEST_HEADER = 16 * 1024 * 1024
+"""No header of a record is as long as this: a length beyond it is not one."""
+LONGEST_CHUNK = 2**30
+"""So long can a chunk be that is compressed, when it is not [bytes]: a file of a few kilobytes may claim anything."""
+FAR = 2**32
+"""From this position on it is looked up whether the file has it: systems refuse to go too far beyond a file's end."""
+PIECE = 1024 * 1024
+"""So much is asked of the disk, or of a decompressor, without knowing that it is there [bytes]."""
 
 NSECS = 1_000_000_000
+LATEST = 2**32 * NSECS - 1
+"""The last time that ROS can write [ns]."""
 
 
 class Compression:
@@ -109,8 +127,8 @@ def record_start(fields: Mapping[str, bytes], length: int) -> bytes:
 
 
 def read_exactly(file: BinaryIO, length: int, what: str) -> bytes:
-    """Read ``length`` bytes. Raises ``Truncated`` if there are fewer."""
-    data = file.read(length)
+    """Read ``length`` bytes. Raises ``Truncated`` if there are fewer, before memory is taken for them."""
+    data = b"" if length > PIECE and length > _left(file) else file.read(length)
     if len(data) < length:
         raise Truncated(
             f"the file ends within {what}: it is truncated. `rosbag reindex` saves what is in it."
@@ -118,20 +136,30 @@ def read_exactly(file: BinaryIO, length: int, what: str) -> bytes:
     return data
 
 
+def _left(file: BinaryIO) -> int:
+    """Return how many bytes the file has from here on."""
+    here = file.tell()
+    end = file.seek(0, os.SEEK_END)
+    file.seek(here)
+    return end - here
+
+
 def read_record(file: BinaryIO, position: int) -> Record | None:
     """Read the header of the record at ``position``; None at the end of the file.
 
     Raises ``Truncated`` if the file ends in it, ``ROSBagFormatException`` if it is no record.
     """
+    where = f"the record at byte {position}"
+    if position > FAR and position >= file.seek(0, os.SEEK_END):
+        return None
     file.seek(position)
     start = file.read(4)
     if not start:
         return None
-    where = f"the record at byte {position}"
     if len(start) < 4:
         raise Truncated(f"the file ends within {where}: it is truncated")
     length = u32.unpack(start)[0]
-    if length > LONGEST:
+    if length > LONGEST_HEADER:
         raise ROSBagFormatException(
             f"{where}: a header of {length} bytes: the file is damaged or not a bag (or encrypted)"
         )
@@ -153,9 +181,14 @@ def field(record: Record, name: str, layout: struct.Struct) -> int:
 
 
 def time_field(record: Record, name: str) -> int:
-    """Return a time in a record's header [ns]."""
+    """Return a time in a record's header [ns]. Raises ``ROSBagFormatException`` if it is none that ROS can write."""
     packed = field(record, name, u64)
-    return (packed & 0xFFFFFFFF) * NSECS + (packed >> 32)
+    time = (packed & 0xFFFFFFFF) * NSECS + (packed >> 32)
+    if time > LATEST:
+        raise ROSBagFormatException(
+            f"the record at byte {record.position} has a {name!r} that is no time: the file is damaged"
+        )
+    return time
 
 
 def pack_time(nanoseconds: int) -> bytes:
@@ -182,75 +215,97 @@ def compress(data: bytes, compression: str) -> bytes:
     return data
 
 
-def decompress(data: bytes, compression: str, size: int, position: int) -> bytes:
-    """Return a chunk's data. Raises ``ROSBagFormatException`` if it is damaged or compressed in an unknown way."""
-    try:
-        if compression == Compression.NONE:
-            plain = data
-        elif compression == Compression.BZ2:
-            plain = bz2.decompress(data)
-        elif compression == Compression.LZ4:
-            import lz4.frame
+def _decompressor(compression: str) -> Any:
+    if compression == Compression.BZ2:
+        return bz2.BZ2Decompressor()
+    import lz4.frame
 
-            plain = lz4.frame.decompress(data)
-        else:
-            raise ROSBagException(
-                f"the chunk at byte {position} is compressed with {compression!r}; "
-                f"a bag may use {', '.join(COMPRESSIONS)}"
+    return lz4.frame.LZ4FrameDecompressor()
+
+
+def _unpack(data: bytes, compression: str, most: int, saved: bytearray) -> None:
+    """Unpack data into ``saved`` and stop when it holds ``most`` bytes. Raises what the decompressor raises at damage."""
+    decompressor = _decompressor(compression)
+    for start in range(0, len(data), PIECE):
+        piece = data[start : start + PIECE]
+        while not decompressor.eof and len(saved) < most:
+            saved += decompressor.decompress(piece, max_length=min(most - len(saved), PIECE))
+            piece = b""
+            if decompressor.needs_input:
+                break
+
+
+def decompress(data: bytes, compression: str, size: int, position: int) -> bytes:
+    """Return a chunk's data, of which no more than ``size`` bytes are unpacked.
+
+    Raises ``ROSBagFormatException`` if it is damaged or would be too large, ``ROSBagException`` if it is compressed in an unknown way.
+    """
+    if compression not in COMPRESSIONS:
+        raise ROSBagException(
+            f"the chunk at byte {position} is compressed with {shown(compression)}; a bag may use {', '.join(COMPRESSIONS)}"
+        )
+    plain = data
+    if compression != Compression.NONE:
+        if size > LONGEST_CHUNK:
+            raise ROSBagFormatException(
+                f"the {compression} chunk at byte {position} claims to hold {size:,} bytes, at most {LONGEST_CHUNK:,} are "
+                f"unpacked: the file is damaged, or made to harm"
             )
-    except (OSError, ValueError, EOFError, RuntimeError) as error:
-        raise ROSBagFormatException(
-            f"the {compression} chunk at byte {position} does not decompress: the file is damaged ({error})"
-        ) from error
+        saved = bytearray()
+        try:
+            _unpack(data, compression, size + 1, saved)
+        except (OSError, ValueError, EOFError, RuntimeError) as error:
+            raise ROSBagFormatException(
+                f"the {compression} chunk at byte {position} does not decompress: the file is damaged ({error})"
+            ) from error
+        plain = bytes(saved)
     if len(plain) != size:
+        there = f"more than {size:,}" if len(plain) > size and plain is not data else f"{len(plain):,}"
         raise ROSBagFormatException(
-            f"the chunk at byte {position} should have {size} bytes and has {len(plain)}: the file is damaged"
+            f"the chunk at byte {position} should have {size:,} bytes and has {there}: the file is damaged"
         )
     return plain
 
 
-def rescue(data: bytes, compression: str) -> bytes:
-    """Return as much of a chunk that was cut off as can be had."""
+def rescue(data: bytes, compression: str, most: int) -> bytes:
+    """Return as much of a chunk that was cut off as can be had, up to so many bytes."""
     if compression == Compression.NONE:
-        return data
-    if compression == Compression.BZ2:
-        decompressor = bz2.BZ2Decompressor()
-    elif compression == Compression.LZ4:
-        import lz4.frame
-
-        decompressor = lz4.frame.LZ4FrameDecompressor()
-    else:
+        return data[:most]
+    if compression not in COMPRESSIONS:
         return b""
     saved = bytearray()
-    try:
-        for start in range(0, len(data), 4096):
-            saved += decompressor.decompress(data[start : start + 4096])
-    except (OSError, EOFError, RuntimeError):
-        pass  # what came before the damage counts
+    with contextlib.suppress(
+        OSError, ValueError, EOFError, RuntimeError
+    ):  # what came before the damage counts
+        _unpack(data, compression, most, saved)
     return bytes(saved)
 
 
 def check_compression(compression: str) -> str:
-    """Return ``compression`` if there is such a one. Raises ``ROSBagException`` otherwise."""
+    """Return ``compression`` if there is such a one. Raises ``UnknownCompression`` otherwise."""
     if compression not in COMPRESSIONS:
-        raise ROSBagException(f"no compression {compression!r}: use one of {', '.join(COMPRESSIONS)}")
+        raise UnknownCompression(f"no compression {shown(compression)}: use one of {', '.join(COMPRESSIONS)}")
     return compression
 
 
-def check_magic(file: BinaryIO, name: str) -> None:
-    """Go to the first record. Raises ``ROSBagFormatException`` if ``file`` is no bag of version 2.0."""
+def check_magic(file: BinaryIO, name: str) -> int:
+    """Go to the first record and return the version of the format, 200 for 2.0.
+
+    As ROS's own reader, this takes a bag of any version 2 for one of 2.0. Raises ``ROSBagFormatException`` if ``file`` is no such bag.
+    """
     file.seek(0)
     start = file.read(len(MAGIC))
     if not start:
         raise ROSBagFormatException(
             f"{name} is an empty file, not a bag: was its recording ended before it began?"
         )
-    if start == MAGIC:
-        return
-    if start.startswith(b"#ROS") and b" V" in start:
-        version = start.partition(b" V")[2][:3].decode("ascii", "replace")
+    version = re.match(rb"#ROS.* V([0-9])\.([0-9])", start)
+    if version is not None and version[1] == b"2" and start.endswith(b"\n") and len(start) == len(MAGIC):
+        return 200 + int(version[2])
+    if version is not None:
+        number = b".".join(version.groups()).decode()
         raise ROSBagFormatException(
-            f"{name} is a bag of version {version}; only 2.0 is read here. Real ROS converts it: `rosbag fix`."
+            f"{name} is a bag of version {number}; only 2.0 is read here. Real ROS converts it: `rosbag fix`."
         )
     if MAGIC.startswith(start):
         raise ROSBagFormatException(

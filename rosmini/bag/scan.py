@@ -24,13 +24,17 @@ from .records import (
     parse_fields,
     read_record,
     rescue,
-    stamp,
+    time_field,
     u32,
 )
 from .records import field as number_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+
+MOST_RESCUED = 256 * 1024 * 1024
+"""So much of chunks that were cut off is kept in memory [bytes]: a recording that broke off has one, of about a megabyte."""
 
 
 @dataclass
@@ -45,12 +49,14 @@ class Scan:
     problems: list[str] = field(default_factory=list)
     end: int = 0
     """Where the last whole chunk, with the index data behind it, ends."""
+    room: int = MOST_RESCUED
+    """How many more bytes of chunks that were cut off are taken."""
     bare: Chunk | None = None
     """The last whole chunk, if the index data behind it is not: then ``end`` is before that data."""
 
 
 def scan(file: BinaryIO, name: str) -> Scan:
-    """Read all records of a bag. Raises only if the file is no bag, or is encrypted."""
+    """Read all records of a bag. Raises only if the file is no bag, is encrypted, or is damaged from its first record on."""
     check_magic(file, name)
     found = Scan(end=len(MAGIC))
     position = found.end
@@ -78,6 +84,8 @@ def scan(file: BinaryIO, name: str) -> Scan:
                     return found
                 found.end = position
         except ROSBagFormatException as error:
+            if position == len(MAGIC):
+                raise  # to go on from here would be to throw everything away
             found.problems.append(str(error))
             return found
 
@@ -117,7 +125,7 @@ def _take_chunk(file: BinaryIO, record: Record, found: Scan) -> Chunk | None:
         data = decompress(packed, compression, chunk.size, record.position)
     except ROSBagException as error:
         found.problems.append(str(error))
-        found.tail += list(_tail_messages(rescue(packed, compression), found.index))
+        _rescue(packed, chunk.size, compression, found)
         return None
     entries: dict[int, list[tuple[int, int]]] = {}
     for offset, what, time, _ in _messages(data, found.index):
@@ -139,12 +147,19 @@ def _take_chunk(file: BinaryIO, record: Record, found: Scan) -> Chunk | None:
 def _take_tail(file: BinaryIO, record: Record, found: Scan) -> None:
     """Take what can be had of the chunk that was being written."""
     compression = record.fields.get("compression", b"").decode("utf-8", "replace")
+    there = max(file.seek(0, 2) - record.data_position, 0)
     file.seek(record.data_position)
-    data = rescue(file.read(), compression)
-    found.tail += list(_tail_messages(data, found.index))
+    _rescue(file.read(min(there, found.room)), number_of(record, "size", u32), compression, found)
     found.problems.append(
         f"the recording ended within the chunk at byte {record.position}: {len(found.tail)} messages of it were whole"
     )
+
+
+def _rescue(packed: bytes, size: int, compression: str, found: Scan) -> None:
+    """Take the messages of a chunk that is not whole, as far as they go; ``size`` is 0 until a chunk is finished."""
+    data = rescue(packed, compression, min(size or found.room, found.room))
+    found.room -= len(data)
+    found.tail += _tail_messages(data, found.index)
 
 
 def _tail_messages(data: bytes, index: Index) -> Iterator[tuple[Connection, int, bytes]]:
@@ -173,8 +188,7 @@ def _messages(data: bytes, index: Index) -> Iterator[tuple[int, int, int, bytes]
                     number, Connection(number, topic, data[end + 4 : end + 4 + length])
                 )
             elif record.op == OP_MESSAGE and number in index.connections:
-                secs, nsecs = stamp.unpack(fields["time"])
-                yield at, number, secs * NSECS + nsecs, data[end + 4 : end + 4 + length]
+                yield at, number, time_field(record, "time"), data[end + 4 : end + 4 + length]
         except (ROSBagFormatException, KeyError, IndexError):
             return
         at = end + 4 + length

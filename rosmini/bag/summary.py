@@ -5,14 +5,22 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from rosmini.errors import nearest
+from rosmini.names import canonicalize
 from rosmini.time import Time
 
 from .errors import ROSBagException
+from .index import Connection
 from .info import frequency, info_text, info_yaml
 
 if TYPE_CHECKING:
-    from .index import Connection, Index
+    from collections.abc import Callable, Iterable
+
+    from .index import Index
     from .reader import Reader
+    from .types import Types
+
+    ConnectionFilter = Callable[[str, str, str, str, dict[str, bytes]], bool]
 
 
 class BagMessage(NamedTuple):
@@ -59,16 +67,57 @@ class TypesAndTopicsTuple(NamedTuple):
 class _Open(Protocol):
     """What a summary needs of a bag."""
 
+    _types: Types
+
+    @property
+    def _name(self) -> str: ...
     @property
     def index(self) -> Index: ...
     @property
     def compression(self) -> str: ...
     def connections(self, topics: Any = None) -> list[Connection]: ...
+    def no_topic(self, topic: str) -> ROSBagException: ...
     def reader(self) -> Reader: ...
 
 
 class Summaries:
     """The methods of a bag that only look at its index."""
+
+    def connections(
+        self: _Open,
+        topics: str | Iterable[str] | None = None,
+        connection_filter: ConnectionFilter | None = None,
+    ) -> list[Connection]:
+        """Return the connections of one topic, some, or all; ``connection_filter(topic, type, md5, definition, header)`` chooses."""
+        if isinstance(topics, str):
+            topics = [topics]
+        names = None if not topics else {name for topic in topics for name in (topic, canonicalize(topic))}
+        return [
+            found
+            for found in self.index.connections.values()
+            if (names is None or found.topic in names or canonicalize(found.topic) in names)
+            and (
+                connection_filter is None
+                or connection_filter(
+                    found.topic, found.type, found.md5sum, found.definition, dict(found.header)
+                )
+            )
+        ]
+
+    def message_class(self: _Open, topic_or_connection: str | Connection) -> Any:
+        """Return the class of the messages on a topic. Raises ``ROSBagException``, with the nearest name, for an unknown topic."""
+        if isinstance(topic_or_connection, Connection):
+            return self._types.of(topic_or_connection)
+        found = self.connections(topic_or_connection)
+        if not found:
+            raise self.no_topic(topic_or_connection)
+        return self._types.of(found[0])
+
+    def no_topic(self: _Open, topic: str) -> ROSBagException:
+        """Return the error for a topic that is not in the bag."""
+        topics = sorted({found.topic for found in self.index.connections.values()})
+        hint = nearest(topic, topics) or f"it has {', '.join(topics) or 'no topics'}"
+        return ROSBagException(f"{self._name} has no topic {topic}: {hint}")
 
     def get_message_count(self: _Open, topic_filters: str | list[str] | None = None) -> int:
         """Return how many messages there are, on one topic, some, or all."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import DefinitionError, UnknownPackage, UnknownType
+from rosmini.errors import DefinitionError, UnknownPackage, UnknownType, shown
 from rosmini.msgs import message_class
 from rosmini.msgs.registry import Registry
 
-from .errors import ROSBagFormatException
+from .errors import ROSBagFormatException, in_file
 
 if TYPE_CHECKING:
     from .index import Connection
@@ -48,9 +48,10 @@ class RecordedSource:
 
 
 class Types:
-    """Gives connections their message classes; each is made once."""
+    """Gives the connections of a bag their message classes; each is made once. ``name`` is the file's, for errors."""
 
-    def __init__(self) -> None:
+    def __init__(self, name: str) -> None:
+        self._name = name
         self._made: dict[tuple[str, str], Any] = {}
 
     def of(self, connection: Connection) -> Any:
@@ -61,9 +62,10 @@ class Types:
         key = (connection.type, connection.md5sum)
         found = self._made.get(key)
         if found is None:
-            found = local_class(connection)
-            if found is None or found._md5sum != connection.md5sum:
-                found = recorded_class(connection)
+            with in_file(self._name):
+                found = local_class(connection)
+                if found is None or found._md5sum != connection.md5sum:
+                    found = recorded_class(connection)
             self._made[key] = found
         return found
 
@@ -83,6 +85,6 @@ def recorded_class(connection: Connection) -> Any:
         return Registry(source).message_class(connection.type)
     except (UnknownType, UnknownPackage, DefinitionError) as error:
         raise ROSBagFormatException(
-            f"the bag's definition of {connection.type} on {connection.topic} is broken: {error}. "
+            f"the definition of {shown(connection.type)} on {shown(connection.topic)} is broken: {error}. "
             f"Read with raw=True to get the bytes."
         ) from error

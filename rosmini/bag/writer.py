@@ -7,6 +7,7 @@ as many of the messages at hand as fit are written, with an index, so that no ba
 from __future__ import annotations
 
 import errno
+import struct
 from typing import TYPE_CHECKING, BinaryIO
 
 from .errors import BagFull, ROSBagException
@@ -87,7 +88,9 @@ class Writer:
 
     def add(self, connection: Connection) -> Connection:
         """Learn of a connection, which gets the next number of this bag; return it with that number."""
-        number = max(self.index.connections, default=-1) + 1
+        number = len(self.index.connections)
+        while number in self.index.connections:
+            number += 1
         mine = Connection(number, connection.topic, connection.raw)
         self.index.connections[number] = mine
         return mine
@@ -103,7 +106,12 @@ class Writer:
         if prefix is None:
             prefix = self._begin(number)
         secs, nsecs = divmod(nanoseconds, NSECS)
-        head = prefix + index_entry.pack(secs, nsecs, len(data))
+        try:
+            head = prefix + index_entry.pack(secs, nsecs, len(data))
+        except struct.error as error:
+            raise ROSBagException(
+                f"{self._name} cannot hold a message of {len(data):,} bytes at {secs} s: times go from 0 to {2**32 - 1} s"
+            ) from error
         self._records.append((number, nanoseconds, head, data))
         self._size += len(head) + len(data)
         if self._size >= self.chunk_threshold:
@@ -237,7 +245,7 @@ class Writer:
     def _records_of(self, chunk: Chunk) -> list[Entry]:
         from .reader import Reader, message_at
 
-        reader = Reader(self._file, self.index)
+        reader = Reader(self._file, self.index, self._name)
         data = reader.data(chunk)
         entries = sorted(
             (offset, number, secs * NSECS + nsecs)
