@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, BinaryIO
 
+from rosmini.errors import shown
+
 from .errors import ROSBagException, ROSBagFormatException
 from .index import Chunk, Connection, Index
 from .reader import read_data
@@ -44,6 +46,7 @@ class Scan:
     A chunk that was cut off is not in the index; ``tail`` has its messages: (connection, time [ns], data).
     """
 
+    name: str
     index: Index = field(default_factory=Index)
     tail: list[tuple[Connection, int, bytes]] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
@@ -58,7 +61,7 @@ class Scan:
 def scan(file: BinaryIO, name: str) -> Scan:
     """Read all records of a bag. Raises only if the file is no bag, is encrypted, or is damaged from its first record on."""
     check_magic(file, name)
-    found = Scan(end=len(MAGIC))
+    found = Scan(name, end=len(MAGIC))
     position = found.end
     while True:
         try:
@@ -128,7 +131,7 @@ def _take_chunk(file: BinaryIO, record: Record, found: Scan) -> Chunk | None:
         _rescue(packed, chunk.size, compression, found)
         return None
     entries: dict[int, list[tuple[int, int]]] = {}
-    for offset, what, time, _ in _messages(data, found.index):
+    for offset, what, time, _ in _messages(data, found):
         entries.setdefault(what, []).append((time, offset))
     chunk.entries = {}
     for number, pairs in entries.items():
@@ -159,16 +162,17 @@ def _rescue(packed: bytes, size: int, compression: str, found: Scan) -> None:
     """Take the messages of a chunk that is not whole, as far as they go; ``size`` is 0 until a chunk is finished."""
     data = rescue(packed, compression, min(size or found.room, found.room))
     found.room -= len(data)
-    found.tail += _tail_messages(data, found.index)
+    found.tail += _tail_messages(data, found)
 
 
-def _tail_messages(data: bytes, index: Index) -> Iterator[tuple[Connection, int, bytes]]:
-    for _, number, time, message in _messages(data, index):
-        yield index.connections[number], time, message
+def _tail_messages(data: bytes, found: Scan) -> Iterator[tuple[Connection, int, bytes]]:
+    for _, number, time, message in _messages(data, found):
+        yield found.index.connections[number], time, message
 
 
-def _messages(data: bytes, index: Index) -> Iterator[tuple[int, int, int, bytes]]:
+def _messages(data: bytes, found: Scan) -> Iterator[tuple[int, int, int, bytes]]:
     """Yield (offset, connection, time [ns], message) of a chunk's data, up to where it is cut off; learn of connections."""
+    index = found.index
     at, size = 0, len(data)
     while at + 4 <= size:
         begin = at + 4
@@ -185,7 +189,13 @@ def _messages(data: bytes, index: Index) -> Iterator[tuple[int, int, int, bytes]
             if record.op == OP_CONNECTION:
                 topic = fields.get("topic", b"").decode("utf-8", "replace")
                 index.connections.setdefault(
-                    number, Connection(number, topic, data[end + 4 : end + 4 + length])
+                    number,
+                    Connection(
+                        number,
+                        topic,
+                        data[end + 4 : end + 4 + length],
+                        f"{found.name}: the connection of {shown(topic)}",
+                    ),
                 )
             elif record.op == OP_MESSAGE and number in index.connections:
                 yield at, number, time_field(record, "time"), data[end + 4 : end + 4 + length]

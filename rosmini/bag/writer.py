@@ -91,7 +91,7 @@ class Writer:
         number = len(self.index.connections)
         while number in self.index.connections:
             number += 1
-        mine = Connection(number, connection.topic, connection.raw)
+        mine = Connection(number, connection.topic, connection.raw, connection.place)
         self.index.connections[number] = mine
         return mine
 
