@@ -76,6 +76,16 @@ def run(python: Path, *arguments: str | Path, cwd: Path) -> str:
     return done.stdout
 
 
+def test_the_command_xacro_finds_packages_by_itself(python, tmp_path):
+    burger = "$(find turtlebot3_description)/urdf/turtlebot3_burger.urdf.xacro"
+    robot = f"<robot xmlns:xacro='http://ros.org/wiki/xacro'><xacro:include filename='{burger}'/></robot>"
+    (tmp_path / "r.xacro").write_text(robot, encoding="utf-8")
+    said = run(python.with_name("xacro" + python.suffix), "r.xacro", cwd=tmp_path)
+    assert '<link name="base_scan">' in said
+    script = "import xacro; print(xacro.process_file('r.xacro').toprettyxml())"
+    assert '<link name="base_scan">' in run(python, "-c", script, cwd=tmp_path)
+
+
 def test_the_wheel_carries_the_assets_and_no_tests(wheel):
     names = set(zipfile.ZipFile(wheel).namelist())
     assets = {
@@ -84,7 +94,7 @@ def test_the_wheel_carries_the_assets_and_no_tests(wheel):
     }
     assert "rosmini/_assets/ros/std_msgs/msg/String.msg" in assets
     assert assets <= names
-    assert {name.partition("/")[0].partition("-")[0] for name in names} == {"rosmini"}
+    assert {name.partition("/")[0].partition("-")[0] for name in names} == {"rosmini", "ament_index_python"}
     assert not [name for name in names if name.endswith((".pyc", ".ipynb"))]
 
 

@@ -233,3 +233,18 @@ def test_what_public_descriptions_write_is_allowed(index):
         'upper="6.28', 'size="0.254"', 'names="a,b"', 'all="2.0"', 'keys="lower"', 'ev="9"', 'tok="b"', '<c v="2"/>', '<d e="fallback"', 'name="w_link"',
     ):  # fmt: skip
         assert part in said, (part, said)
+
+
+def test_pypis_xacro_finds_packages_by_itself(index, monkeypatch):
+    import xacro
+
+    from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(index.paths[0]))
+    path = write(
+        index,
+        "<xacro:include filename='$(find my_robot)/urdf/wheel.xacro'/><xacro:wheel name='w' radius='1'/>",
+    )
+    assert 'name="w_link"' in xacro.process_file(str(path)).toxml()
+    with pytest.raises(PackageNotFoundError, match=r"there is no package 'my_robt'; did you mean my_robot\?"):
+        get_package_share_directory("my_robt")

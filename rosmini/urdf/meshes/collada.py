@@ -1,8 +1,10 @@
 """COLLADA 1.4.1 (https://www.khronos.org/files/collada_spec_1_4.pdf), as far as meshes with plain colours need it: written and read.
 
 What is written is what RViz, Gazebo and three.js load alike: metres, z up, triangles with normals, one material for each
-surface. Read are triangles, polylists and polygons below the nodes of the scene, with their transforms, the unit, the
-axis that points up, and the diffuse colour of their materials; pictures on surfaces are not.
+surface. Read are triangles, polylists and polygons below the nodes of the scene, with their transforms, the unit, and the diffuse
+colour of their materials; pictures on surfaces are not. What `up_axis` says is passed over, as Gazebo
+(https://github.com/gazebosim/gazebo-classic/issues/1305) and RViz (which drops the turn that assimp puts on the root of the scene)
+do: robots and worlds that were made for them stand as their files' numbers say.
 """
 
 from __future__ import annotations
@@ -21,12 +23,17 @@ from .surface import Surface
 Floats = NDArray[np.float64]
 Colour = tuple[float, float, float, float]
 
-UP = {
-    "X_UP": np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]),
-    "Y_UP": np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
-    "Z_UP": np.eye(3),
-}
-"""What takes coordinates to those with z up."""
+DEEPEST = 50
+"""How deep nodes may hold one another."""
+
+MOST_NODES = 10_000
+"""How many nodes a scene may have, each counted as often as it is shown."""
+
+MOST_CORNERS = 6_000_000
+"""How many corners all triangles may have together."""
+
+MOST_OFFSETS = 100
+"""How many numbers may belong to one corner."""
 
 
 # ---- writing ----
@@ -127,11 +134,11 @@ class _Reader:
         self.root = root
         self.by_id = {each.get("id"): each for each in root.walk() if each.get("id")}
         meter = root.find("asset/unit")
-        axis = root.word("asset/up_axis", "Y_UP")
-        self.base = np.eye(4)
-        if axis not in UP:
-            raise root.error(f"up_axis is X_UP, Y_UP or Z_UP, not {axis!r}")
-        self.base[:3, :3] = UP[axis] * (1.0 if meter is None else meter.number("meter", 1.0))
+        scale = 1.0 if meter is None else meter.number("meter", 1.0)
+        if scale <= 0:
+            raise root.error(f"the unit of a mesh is more than 0 m, not {scale:g}")
+        self.base = np.diag([scale, scale, scale, 1.0])
+        self.nodes = self.corners = 0
 
     def target(self, element: Element, attribute: str) -> Element:
         """What a reference `#id` is to."""
@@ -154,9 +161,14 @@ class _Reader:
                     yield from self.geometry(geometry, self.base, {})
 
     def node(self, node: Element, above: Floats, part: str, depth: int) -> Iterator[Surface]:
-        if depth > 50:
+        self.nodes += 1
+        if depth > DEEPEST or self.nodes > MOST_NODES:
             raise node.error("nodes of the scene hold one another without end")
-        place = above @ _transform(node)
+        with np.errstate(over="ignore", invalid="ignore"):
+            place = above @ _transform(node)
+            size = abs(float(np.linalg.det(place[:3, :3])))
+        if not (np.isfinite(place).all() and 0 < size < math.inf):
+            raise node.error("the transforms of this node make it infinitely large, or flat")
         if part in (node.get("name"), node.get("id")):
             part = ""
         for child in node:
@@ -198,13 +210,16 @@ class _Reader:
 
     def piece(self, piece: Element, colour: Colour | None) -> Surface | None:
         inputs = piece.all("input")
-        stride = 1 + max((int(each.number("offset", 0)) for each in inputs), default=0)
+        stride = 1 + max((_offset(each) for each in inputs), default=0)
         streams = {each.get("semantic"): each for each in inputs}
         if "VERTEX" not in streams:
             raise piece.error(f"<{piece.tag}> has no input VERTEX")
         index, sizes = _indices(piece, stride)
         if not len(index):
             return None
+        self.corners += len(index)
+        if self.corners > MOST_CORNERS:
+            raise piece.error(f"this mesh has more than {MOST_CORNERS} corners")
         at = self.target(streams["VERTEX"], "source")
         position = next((each for each in at.all("input") if each.get("semantic") == "POSITION"), None)
         if position is None:
@@ -221,7 +236,7 @@ class _Reader:
     def column(
         self, piece: Element, index: NDArray[np.int64], stream: Element, count: int
     ) -> NDArray[np.int64]:
-        found = index[:, int(stream.number("offset", 0))]
+        found = index[:, _offset(stream)]
         if found.min() < 0 or found.max() >= count:
             raise piece.error(
                 f"<p> counts to {found.max()}, but there are {count} of {stream.get('semantic')}"
@@ -239,13 +254,20 @@ class _Reader:
         return rows
 
 
+def _offset(stream: Element) -> int:
+    found = stream.number("offset", 0)
+    if found not in range(MOST_OFFSETS):
+        raise stream.error(f"an offset is a whole number from 0 to {MOST_OFFSETS - 1}, not {found:g}")
+    return int(found)
+
+
 def _indices(piece: Element, stride: int) -> tuple[NDArray[np.int64], list[int]]:
     """The indices (corners, stride), and how many corners each polygon has."""
     lists = []
     for each in piece.all("p"):
         try:
             values = np.array(each.text.split(), dtype=np.int64)
-        except ValueError:
+        except (ValueError, OverflowError):
             raise each.error("<p> holds whole numbers") from None
         if len(values) % stride:
             raise each.error(f"<p> holds {len(values)} numbers, which are no rows of {stride}")

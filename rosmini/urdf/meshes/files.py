@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini import files
+from rosmini.errors import shown
 from rosmini.markup import MarkupError, parse_file
 
 from . import collada
@@ -17,8 +19,8 @@ from .surface import Surface
 
 Floats = NDArray[np.float64]
 
-LARGEST = 100_000_000
-"""Bytes of a file that is read; more is a mistake."""
+LONGEST_INDEX = 9
+"""How many digits the number of a corner may have."""
 
 
 class MeshError(MarkupError):
@@ -34,11 +36,9 @@ def read(path: str | PathLike[str], part: str = "") -> tuple[Surface, ...]:
     """
     file = Path(path)
     try:
-        changed = file.stat()
+        changed = files.check(file)
     except OSError as error:
         raise MeshError(f"cannot be read: {error.strerror}", file) from error
-    if changed.st_size > LARGEST:
-        raise MeshError(f"this mesh has {changed.st_size / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}", file)
     return _read(file, part, changed.st_mtime_ns)
 
 
@@ -58,13 +58,20 @@ def _read(file: Path, part: str, _changed: int) -> tuple[Surface, ...]:
     return found
 
 
+def _bytes(file: Path) -> bytes:
+    try:
+        return files.read(file)
+    except OSError as error:
+        raise MeshError(f"cannot be read: {error.strerror}", file) from error
+
+
 def _flat(triangles: Floats) -> Surface:
     """Triangles (m, 3, 3) that share no corners."""
     return Surface(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
 
 
 def _stl(file: Path) -> Floats:
-    data = file.read_bytes()
+    data = _bytes(file)
     count = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
     if len(data) == 84 + 50 * count:
         rows = np.frombuffer(
@@ -91,19 +98,21 @@ def _obj(file: Path, part: str) -> Floats:
     points: list[tuple[float, float, float]] = []
     triangles = []
     wanted = not part
-    for number, line in enumerate(file.read_text("utf-8", "replace").splitlines(), start=1):
+    for number, line in enumerate(_bytes(file).decode("utf-8", "replace").splitlines(), start=1):
         words = line.split("#")[0].split()
         if words[:1] == ["v"]:
             points.append(_three(words[1:4], file, number))
         elif words[:1] in (["o"], ["g"]) and part:
             wanted = " ".join(words[1:]) == part
         elif words[:1] == ["f"] and wanted:
-            found = [re.match(r"-?\d+", word) for word in words[1:]]
+            found = [re.match(rf"-?\d{{1,{LONGEST_INDEX}}}(?!\d)", word) for word in words[1:]]
             places = [int(each[0]) if each else 0 for each in found]
             places = [place - 1 if place > 0 else len(points) + place for place in places]
             if len(places) < 3 or not all(0 <= place < len(points) for place in places):
                 raise MeshError(
-                    f"the face {' '.join(words[1:])!r} is none: there are {len(points)} corners", file, number
+                    f"the face {shown(' '.join(words[1:]))} is none: there are {len(points)} corners",
+                    file,
+                    number,
                 )
             triangles += [(places[0], places[i], places[i + 1]) for i in range(1, len(places) - 1)]
     if not triangles:
@@ -115,7 +124,7 @@ def _three(words: list[str], file: Path, line: int) -> tuple[float, float, float
     try:
         x, y, z = (float(word) for word in words)
     except ValueError:
-        raise MeshError(f"a corner has three numbers, not {' '.join(words)!r}", file, line) from None
+        raise MeshError(f"a corner has three numbers, not {shown(' '.join(words))}", file, line) from None
     return (x, y, z)
 
 

@@ -115,7 +115,7 @@ def load_mesh(path, part=""):
         ("m.dae", dae(TABLE)),
         ("m.dae", dae(TABLE, kind="polylist")),
         ("m.dae", dae(TABLE * 100, unit=0.01)),
-        ("m.dae", dae(np.stack([TABLE[..., 0], TABLE[..., 2], -TABLE[..., 1]], axis=-1), up="Y_UP")),
+        ("m.dae", dae(TABLE, up="Y_UP")),
         ("m.dae", dae(TABLE / 2 - (1, 0, 0), node="<scale>2 2 2</scale><translate>1 0 0</translate>")),
         (
             "m.dae",

@@ -1,3 +1,4 @@
+import os
 import struct
 
 import numpy as np
@@ -72,16 +73,18 @@ DAE = """<COLLADA><asset><unit meter="0.01"/><up_axis>Y_UP</up_axis></asset>
 </node></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#vs"/></scene></COLLADA>"""
 
 
-def test_collada_of_others_units_axes_nodes_and_polygons(tmp_path):
+@pytest.mark.parametrize("up", ["X_UP", "Y_UP", "Z_UP", "nonsense"])
+def test_collada_of_others_units_nodes_and_polygons(tmp_path, up):
+    """Which axis points up is passed over, as Gazebo and RViz do."""
     path = tmp_path / "a.dae"
-    path.write_text(DAE)
+    path.write_text(DAE.replace("Y_UP", up))
     (surface,) = read(path)
     assert surface.colour == (0, 1, 0, 1)
     assert len(surface.faces) == 2
     low, high = surface.bounds
-    # 1 m square, doubled, turned about z to the left, 0.5 m along its z; with y up, its z is our -y and its y our z.
-    assert low == pytest.approx([-2, -0.5, 0])
-    assert high == pytest.approx([0, -0.5, 2])
+    # 1 m square, doubled, turned about z to the left, 0.5 m along its z.
+    assert low == pytest.approx([-2, 0, 0.5])
+    assert high == pytest.approx([0, 2, 0.5])
 
 
 @pytest.mark.parametrize(
@@ -93,7 +96,13 @@ def test_collada_of_others_units_axes_nodes_and_polygons(tmp_path):
         ("<p>0 1 2 3</p>", "<p>0 1 2 x</p>", "<p> holds whole numbers"),
         ("0 100 0</float_array>", "0 nan 0</float_array>", "is not finite"),
         ("100 0</float_array>", "100</float_array>", "are no rows of 3"),
-        ("Y_UP", "UP", "up_axis is X_UP, Y_UP or Z_UP"),
+        ('meter="0.01"', 'meter="-1"', "the unit of a mesh is more than 0 m, not -1"),
+        ('offset="0"', 'offset="1e9"', "an offset is a whole number from 0 to 99"),
+        ('offset="0"', 'offset="-1"', "an offset is a whole number from 0 to 99"),
+        ("<p>0 1 2 3</p>", "<p>0 1 2 99999999999999999999</p>", "<p> holds whole numbers"),
+        ("<matrix>2 0", "<matrix>0 0", "or flat"),
+        ("<matrix>2 0", "<matrix>1e300 1e300", "infinitely large"),
+        ("<node><translate>", "<node id='n'><instance_node url='#n'/><translate>", "without end"),
         ('semantic="VERTEX"', 'semantic="NORMAL"', "has no input VERTEX"),
         ("<COLLADA>", "<COLADA>", "closes another element"),
     ],
@@ -104,6 +113,53 @@ def test_broken_collada(tmp_path, old, new, message):
     with pytest.raises(MeshError, match=r"a.dae:\d+: ") as caught:
         read(path)
     assert message in str(caught.value)
+
+
+def test_a_scene_that_fans_out_ends(tmp_path):
+    ways = [2 * f"<instance_node url='#n{i + 1}'/>" for i in range(40)]
+    nodes = "".join(f"<node id='n{i}'>{way}</node>" for i, way in enumerate(ways))
+    path = tmp_path / "a.dae"
+    path.write_text(DAE.replace('<visual_scene id="vs">', f"<visual_scene id='vs'>{nodes}<node id='n40'/>"))
+    with pytest.raises(MeshError, match="without end"):
+        read(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "message"),
+    [
+        ("a.stl", b"", "this is no STL"),
+        ("a.stl", b"x" * 84, "this is no STL: it tells of"),
+        ("a.stl", b"\0" * 80 + b"\xff" * 4, "it tells of 4294967295 triangles"),
+        ("a.stl", b"\0" * 80 + struct.pack("<I", 2) + bytes(50), "it tells of 2 triangles, which would be 184 bytes, not 134"),
+        ("a.stl", b"solid\nvertex 1 2\n", "a corner has three numbers"),
+        ("a.stl", b"solid\nvertex 1 2 3\n", "1 corners are no triangles"),
+        ("a.stl", b"solid\n" + 3 * b"vertex 1 2 nan\n", "a corner is not finite"),
+        ("a.stl", b"solid\n", "there is no triangle in it"),
+        ("a.dae", b"", "there is no XML in it"),
+        ("a.dae", b"<COLLADA/>", "there is no triangle in it"),
+        ("a.obj", b"f 1 2 3\n", "there are 0 corners"),
+        ("a.obj", b"v 0 0 0\n" * 3 + b"f 1 2 " + b"9" * 5000, "there are 3 corners"),
+        ("a.png", b"", "a mesh is a .dae, .stl or .obj file"),
+    ],
+)  # fmt: skip
+def test_what_is_no_mesh_is_told_with_its_file(tmp_path, name, data, message):
+    (tmp_path / name).write_bytes(data)
+    with pytest.raises(MeshError, match=rf"{name}.*: .*{message}"):
+        read(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["none.stl", "a\0b.stl", "x" * 5000 + ".stl", "folder.stl"])
+def test_a_path_that_leads_to_no_file_is_an_error(tmp_path, name):
+    (tmp_path / "folder.stl").mkdir()
+    with pytest.raises(MeshError, match="cannot be read"):
+        read(tmp_path / name)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names are a matter of POSIX")
+def test_a_pipe_is_refused_before_it_is_read(tmp_path):
+    os.mkfifo(tmp_path / "a.stl")
+    with pytest.raises(MeshError, match="it is a pipe"):
+        read(tmp_path / "a.stl")
 
 
 def test_stl_binary_and_text(tmp_path):
