@@ -11,7 +11,7 @@ from typing import TypeVar, get_args
 
 from rosmini.errors import RosminiError, nearest
 from rosmini.markup import NO_PATH, Element, parse, parse_file
-from rosmini.packages import SCHEME, PackageIndex
+from rosmini.packages import FILE_SCHEME, SCHEME, PackageIndex, file_path
 
 from .checks import check_tree, inertia_notes
 from .errors import UrdfError
@@ -224,9 +224,11 @@ class _Reader:
                 return index.resolve(filename)
             except RosminiError as error:
                 raise element.error(f"the mesh is missing: {error}") from error
-        if "://" in filename and not filename.startswith("file://"):
+        if "://" in filename and not filename.startswith(FILE_SCHEME):
             raise element.error(f"the mesh {filename!r} is neither in a package (package://) nor a file")
-        path = Path(self.root.path).parent / filename.removeprefix("file://")
+        path = Path(self.root.path).parent / (
+            file_path(filename) if filename.startswith(FILE_SCHEME) else filename
+        )
         if not path.is_file():
             raise element.error(f"the mesh is missing: there is no file {path}")
         return path
