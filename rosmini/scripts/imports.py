@@ -50,7 +50,9 @@ class Importer:
         self._context = context
         self._given = given
         self.local: dict[str, ModuleType] = {}
-        self.private: dict[str, ModuleType] = dict(given)
+        self.private: dict[str, ModuleType] = {
+            name: module for name, module in given.items() if name.rpartition(".")[0] in ("", *given)
+        }
         self._finders: dict[str, FileFinder] = {}
         self._hosted: set[str] = set()
         self._hosted_for: tuple[str, ...] = ()
@@ -93,7 +95,9 @@ class Importer:
         known = self.private.get(name) or self.local.get(name)  # the parent may have imported it
         if known is not None:
             return known
-        if name in PRIVATE_COPIES:
+        if name in self._given:  # a module beside messages, such as sensor_msgs.point_cloud2
+            module = self.private[name] = self._given[name]
+        elif name in PRIVATE_COPIES:
             module = self._copy(name)
         elif parent_name in self.local:
             module = self._load_local_child(name, parent)

@@ -164,6 +164,10 @@ class FrameTree:
             top = up[-1].parent_at(stamp_ns) if stamp_ns else up[-1].newest.parent
         return [*(edge.frame for edge in up), top, *(edge.frame for edge in reversed(down))]
 
+    def chain_full(self, target: str, target_ns: int, source: str, source_ns: int, fixed: str) -> list[str]:
+        """The frames on the way by way of `fixed`, at two times as in `lookup_full`."""
+        return self.chain(fixed, source, source_ns) + self.chain(target, fixed, target_ns)[1:]
+
     # -- what is asked -------------------------------------------------------------------------------------------
 
     def lookup(self, target: str, source: str, stamp_ns: int = LATEST) -> Found:

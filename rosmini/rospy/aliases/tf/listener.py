@@ -112,17 +112,16 @@ class Transformer:
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> list[str]:
         """Return the frames on the way from source to target by way of ``fixed_frame``."""
-        tree = self._buffer.tree
-        first = tree.chain(_bare(fixed_frame), _bare(source_frame), source_time.to_nsec())
-        return first + tree.chain(_bare(target_frame), _bare(fixed_frame), target_time.to_nsec())[1:]
+        names = _bare(target_frame), target_time.to_nsec(), _bare(source_frame), source_time.to_nsec()
+        return self._buffer.tree.chain_full(*names, _bare(fixed_frame))
 
     def frameExists(self, frame_id: str) -> bool:
         """Tell whether a frame is known."""
         return _bare(frame_id) in self._buffer.tree
 
     def getFrameStrings(self) -> list[str]:
-        """Return the names of all frames that have a parent."""
-        return list(self._buffer.tree.edges)
+        """Return the names of all frames."""
+        return list(self._buffer.tree)
 
     def allFramesAsString(self) -> str:
         """Return a sentence for each edge."""

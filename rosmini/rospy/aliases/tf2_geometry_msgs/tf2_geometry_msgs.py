@@ -1,6 +1,8 @@
-"""The module that scripts import as ``tf2_geometry_msgs``: stamped geometry in another frame, by a given transform."""
+"""``tf2_geometry_msgs.tf2_geometry_msgs``: stamped geometry in another frame, by a given transform."""
 
 from __future__ import annotations
+
+from typing import Any
 
 from rosmini.msgs import message_class
 from rosmini.tf.messages import moved
@@ -18,6 +20,17 @@ do_transform_pose = moved
 do_transform_pose_with_covariance_stamped = moved
 do_transform_wrench = moved
 
+
+def to_msg_msg(msg: Any) -> Any:
+    """Return the message itself: it is one already."""
+    return msg
+
+
+def from_msg_msg(msg: Any) -> Any:
+    """Return the message itself."""
+    return msg
+
+
 __all__ = [
     "PointStamped",
     "PoseStamped",
@@ -30,4 +43,6 @@ __all__ = [
     "do_transform_pose_with_covariance_stamped",
     "do_transform_vector3",
     "do_transform_wrench",
+    "from_msg_msg",
+    "to_msg_msg",
 ]

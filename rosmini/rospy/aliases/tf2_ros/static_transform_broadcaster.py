@@ -1,0 +1,15 @@
+"""``tf2_ros.static_transform_broadcaster``."""
+
+from __future__ import annotations
+
+from rosmini import tf
+from rosmini.rospy.session import require_node
+
+__all__ = ["StaticTransformBroadcaster"]
+
+
+class StaticTransformBroadcaster(tf.StaticTransformBroadcaster):
+    """Sends transforms that never change. Raises ``ROSInitException`` before ``init_node``."""
+
+    def __init__(self) -> None:
+        super().__init__(require_node("tf2_ros.StaticTransformBroadcaster"))

@@ -1,0 +1,10 @@
+"""``tf2_sensor_msgs.tf2_sensor_msgs``: point clouds in another frame, by a given transform."""
+
+from __future__ import annotations
+
+from rosmini.rospy.aliases.point_cloud2 import create_cloud, read_points
+from rosmini.tf.messages import moved
+
+do_transform_cloud = moved
+
+__all__ = ["create_cloud", "do_transform_cloud", "read_points"]
