@@ -18,7 +18,7 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage, nearest
@@ -33,8 +33,6 @@ __all__ = [
     "Package",
     "PackageIndex",
     "assets_dir",
-    "file_address",
-    "file_path",
     "search_paths",
 ]
 
@@ -62,22 +60,6 @@ def assets_dir() -> Path:
     raise RosminiError(
         f"rosmini's own packages are missing: no folder _assets in {here}; install rosmini again"
     )
-
-
-FILE_SCHEME = "file://"
-
-
-def file_path(address: str) -> str:
-    r"""The path of a ``file://`` address, as this system writes paths: of ``file:///C:/meshes/a.dae`` that is ``C:\meshes\a.dae`` on Windows."""
-    from urllib.request import url2pathname  # it brings half of the network along
-
-    return url2pathname(address.removeprefix(FILE_SCHEME))
-
-
-def file_address(path: PurePath) -> str:
-    """The ``file://`` address of an absolute path, with its spaces as they are, as Gazebo reads it."""
-    text = path.as_posix()
-    return f"{FILE_SCHEME}{'' if text.startswith('/') else '/'}{text}"
 
 
 def search_paths(environ: Mapping[str, str] | None = None) -> tuple[Path, ...]:

@@ -6,7 +6,7 @@ import json
 import os
 import stat
 import warnings
-from pathlib import Path, PurePosixPath, PureWindowsPath
+from pathlib import Path
 
 import pytest
 import rospkg
@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from rosmini import packages
 from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage
-from rosmini.packages import PackageIndex, assets_dir, file_address, file_path, search_paths
+from rosmini.packages import PackageIndex, assets_dir, search_paths
 
 DATA = Path(__file__).parent / "data"
 MANIFEST = """<?xml version="1.0"?>
@@ -480,24 +480,3 @@ def test_built_in_nodes_come_from_entry_points(
         own.find_executable("only_pip", "nodes")
     with pytest.raises(ScriptError, match="is a file"):
         index.find_executable("talk", "talker.py").load()
-
-
-@pytest.mark.parametrize(
-    ("address", "path"),
-    [
-        ("file:///C:/meshes/a.dae", r"C:\meshes\a.dae"),
-        ("file:///D:/my%20robot/a.dae", r"D:\my robot\a.dae"),
-        ("file://media/a.dae", r"media\a.dae"),
-    ],
-)
-@pytest.mark.filterwarnings("ignore:.*nturl2path:DeprecationWarning")
-def test_addresses_of_files_are_paths_of_windows_there(monkeypatch, address, path):
-    windows = pytest.importorskip("nturl2path")
-    monkeypatch.setattr("urllib.request.url2pathname", windows.url2pathname)
-    assert file_path(address) == path
-
-
-def test_addresses_of_files_are_paths_and_back(tmp_path):
-    assert file_path(file_address(tmp_path / "a b.dae")) == str(tmp_path / "a b.dae")
-    assert file_address(PureWindowsPath("C:/meshes/a b.dae")) == "file:///C:/meshes/a b.dae"
-    assert file_address(PurePosixPath("/meshes/a.dae")) == "file:///meshes/a.dae"

@@ -6,11 +6,9 @@ import queue
 import threading
 import time
 from collections import deque
-from math import inf
-from numbers import Real
 from typing import TYPE_CHECKING
 
-from rosmini.errors import RosminiError, shown
+from rosmini.errors import RosminiError
 
 from .events import TimedEvents
 
@@ -27,14 +25,6 @@ TICK_QUANTUM_NS = 1_000_000
 
 EVENTS_PER_INSTANT = 100_000
 """So many events at one instant of simulated time are taken for a ping-pong, and time moves on by a quantum."""
-
-
-def span_ns(seconds: float, what: str) -> int:
-    """Return a span of graph time in nanoseconds. Raises ``RosminiError``, saying ``what`` it is, for no finite number from zero on."""
-    if isinstance(seconds, Real) and not isinstance(seconds, bool) and 0 <= seconds < inf:
-        return int(seconds * 1e9)
-    msg = f"{what} is a number of seconds, zero or more, not {shown(seconds)}; leave it out for no limit"
-    raise RosminiError(msg)
 
 
 class EventQueue:

@@ -11,7 +11,7 @@ from typing import TypeVar, get_args
 
 from rosmini.errors import RosminiError, nearest
 from rosmini.markup import NO_PATH, Element, parse, parse_file
-from rosmini.packages import FILE_SCHEME, SCHEME, PackageIndex, file_path
+from rosmini.packages import SCHEME, PackageIndex
 
 from .checks import check_tree, inertia_notes
 from .errors import UrdfError
@@ -224,11 +224,9 @@ class _Reader:
                 return index.resolve(filename)
             except RosminiError as error:
                 raise element.error(f"the mesh is missing: {error}") from error
-        if "://" in filename and not filename.startswith(FILE_SCHEME):
+        if "://" in filename and not filename.startswith("file://"):
             raise element.error(f"the mesh {filename!r} is neither in a package (package://) nor a file")
-        path = Path(self.root.path).parent / (
-            file_path(filename) if filename.startswith(FILE_SCHEME) else filename
-        )
+        path = Path(self.root.path).parent / filename.removeprefix("file://")
         if not path.is_file():
             raise element.error(f"the mesh is missing: there is no file {path}")
         return path

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rosmini.markup import Element
-from rosmini.packages import file_address
 from rosmini.sim.sdf import ORIGIN, Pose6, SdfGeometry, SdfJoint, SdfLink, SdfModel
 
 VERSION = "1.7"
@@ -94,7 +93,5 @@ def _geometry(geometry: SdfGeometry) -> Element:
         inside += [_value("point", *corner) for corner in geometry.outlines[0]]
         inside.append(_value("height", geometry.length))
     if geometry.kind == "mesh":
-        inside.append(_value("scale", *geometry.scale))
-        if geometry.mesh is not None:
-            inside.append(_element("uri", text=file_address(geometry.mesh)))
+        inside += [_value("scale", *geometry.scale), _element("uri", text=f"file://{geometry.mesh}")]
     return _element("geometry", _element(geometry.kind, *inside))

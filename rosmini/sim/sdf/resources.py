@@ -13,7 +13,7 @@ from pathlib import Path
 
 from rosmini.errors import RosminiError, nearest
 from rosmini.markup import Element, parse_file
-from rosmini.packages import PackageIndex, assets_dir, file_path
+from rosmini.packages import PackageIndex, assets_dir
 
 from .errors import SdfError
 
@@ -74,7 +74,6 @@ class Resources:
             except RosminiError as error:
                 raise asked.error(str(error)) from error
         if scheme == "file":
-            rest = file_path(uri.strip())
             for folder in [] if Path(rest).is_absolute() else [_beside(asked), *_listed(RESOURCE_PATH)]:
                 if (folder / rest).exists():
                     return folder / rest
@@ -117,8 +116,8 @@ class Resources:
             except (OSError, SdfError):  # what is wrong with a package is no business of a world
                 continue
             for tag in manifest.walk():
-                paths = tag.get("gazebo_model_path").split(":")  # a manifest is the same on all systems
-                found += [Path(path.replace("${prefix}", str(folder))) for path in paths if path]
+                paths = tag.get("gazebo_model_path").replace("${prefix}", str(folder)).split(os.pathsep)
+                found += [Path(path) for path in paths if path]
         return found
 
 
