@@ -7,7 +7,7 @@ from typing import Any
 
 from .errors import NotAllowed
 
-__all__ = ["BITS", "LARGEST", "STEPS", "Budget"]
+__all__ = ["BITS", "LARGEST", "STEPS", "Budget", "weight"]
 
 BITS = 4096
 """How large a whole number may become."""
@@ -20,6 +20,11 @@ STEPS = 2_000_000
 
 READ_AT_ONCE = 32
 """So many elements a function of Python's own reads while a loop makes one turn."""
+
+
+_ATOMS = frozenset({bool, float, int, type(None)})
+_HOLDERS = (list, tuple, dict, set)
+_SIZED = (str, bytes, *_HOLDERS)
 
 
 class Budget:
@@ -38,8 +43,10 @@ class Budget:
 
     def read(self, value: Any) -> None:
         """Pay for a function of Python's own that looks at all of a value."""
-        if isinstance(value, list | tuple | dict | set):
-            self.spend(_weight(value) // READ_AT_ONCE)
+        if type(value) in _ATOMS:  # most are, in loops
+            return
+        if isinstance(value, _HOLDERS):
+            self.spend(weight(value) // READ_AT_ONCE)
         elif isinstance(value, Collection):
             self.spend(len(value) // READ_AT_ONCE)
 
@@ -48,8 +55,8 @@ class Budget:
         if isinstance(value, int):
             if value.bit_length() > BITS:
                 raise NotAllowed(f"a whole number of more than {BITS} bits")
-        elif isinstance(value, str | bytes | list | tuple | dict | set):
-            self.room(_weight(value))
+        elif isinstance(value, _SIZED):
+            self.room(weight(value))
         return value
 
     def room(self, size: int) -> None:
@@ -65,17 +72,14 @@ class Budget:
         return list(values)  # a loop of ours pays for itself
 
 
-_ATOMS = frozenset({bool, float, int, type(None)})
-
-
-def _weight(value: Any) -> int:
+def weight(value: Any) -> int:
     """How many elements and characters a value has, all told; a little more than `LARGEST` if it is more."""
     total, waiting = 0, [value]
     while waiting and total <= LARGEST:
         part = waiting.pop()
-        if isinstance(part, str | bytes):
+        if isinstance(part, (str, bytes)):
             total += len(part)
-        elif isinstance(part, list | tuple | dict | set):
+        elif isinstance(part, _HOLDERS):
             total += len(part)
             for items in (part, part.values()) if isinstance(part, dict) else (part,):
                 if not _ATOMS.issuperset(map(type, items)):

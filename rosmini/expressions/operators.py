@@ -8,10 +8,14 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from .budget import BITS, Budget
+from .budget import BITS, Budget, weight
 from .errors import NotAllowed, cut
 
 __all__ = ["BINARY", "COMPARE", "UNARY", "compute"]
+
+
+WIDEST = 2000
+"""No number becomes longer than this in a format: its width and its precision have three digits, its value has `BITS`."""
 
 
 def _power(left: int, right: int) -> int:
@@ -61,15 +65,14 @@ COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
 
 def compute(operate: Callable[[Any, Any], Any], left: Any, right: Any, budget: Budget) -> Any:
     """What an operator makes of two values, once it is known that the result is not too large."""
-    if isinstance(left, float) or isinstance(right, float):
+    if operate is operator.mod and isinstance(left, str | bytes):
+        _pay_for_format(left, right, budget)
+    elif isinstance(left, float) or isinstance(right, float):
         return operate(left, right)
-    if isinstance(left, int) and isinstance(right, int):
+    elif isinstance(left, int) and isinstance(right, int):
         bits = _BITS_OF.get(operate)
         if bits is not None and bits(left, right) > BITS:
             raise NotAllowed(f"a whole number of more than {BITS} bits")
-    elif operate is operator.mod and isinstance(left, str | bytes):
-        _check_format(left)
-        budget.made(right)
     elif operate is operator.mul:
         for one, other in ((left, right), (right, left)):
             if isinstance(one, str | bytes | list | tuple) and hasattr(other, "__index__"):
@@ -79,9 +82,10 @@ def compute(operate: Callable[[Any, Any], Any], left: Any, right: Any, budget: B
     return budget.made(operate(left, right))
 
 
-def _check_format(text: str | bytes) -> None:
-    """``'%1000000000d' % 1`` is a billion characters."""
+def _pay_for_format(text: str | bytes, values: Any, budget: Budget) -> None:
+    """``'%1000000000d' % 1`` is a billion characters, and so is ``'%(a)s' * 10**5 % {'a': 'a' * 10**4}``."""
     found = text if isinstance(text, str) else text.decode("latin-1")
+    budget.room(len(found) + found.count("%") * (WIDEST + weight(budget.made(values))))
     for width in re.findall(r"%(?:\([^)]*\))?([^a-zA-Z%]*)", found):
         if "*" in width or re.search(r"\d{4}", width):
             raise NotAllowed(f"the width of %{cut(width)}")

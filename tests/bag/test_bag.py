@@ -372,12 +372,7 @@ def test_filter(path, tmp_path):
         ).written
         == 7
     )
-    assert (
-        filter_bag(
-            path, out, "m._type == 'x'" if False else "len(m.data) == 7 if topic != '/scan' else False"
-        ).written
-        == 10
-    )
+    assert filter_bag(path, out, "len(m.data) == 7 if topic != '/scan' else False").written == 10
     before = out.read_bytes()
     with pytest.raises(
         FilterError, match=r"failed on a sensor_msgs/LaserScan of /scan.*Test the topic first"
@@ -394,7 +389,7 @@ def test_filter(path, tmp_path):
     [
         "__import__('os').system('true')", "m.__class__", "(lambda: 1)()", "open('/etc/passwd')", "[x for x in ().__class__]",
         "topic.format(m)", "f'{m}'", "(topic := 1)", "2 ** 10 ** 10", "1 << 10 ** 9", "m.serialize(1)", "exec('1')", "topics == 1",
-        "[len for len in [1]]", "len(*m)(1)", "", "topic ==",
+        "len(*m)(1)", "", "topic ==",
     ],
 )  # fmt: skip
 def test_an_expression_may_not_do_anything_else(path, tmp_path, expression):
