@@ -3,11 +3,69 @@
 from __future__ import annotations
 
 import os
+import signal
 from pathlib import Path
+from types import CodeType
+from typing import TYPE_CHECKING, Any
 
 import pytest
+from hypothesis import settings
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+PROCESSES = f"{__name__.removesuffix('conftest')}processes"
 
 ROOT = Path(__file__).resolve().parents[1]
+
+HANDLES = {"signal", "threading", "select", "pty", "run_scripts"}
+"""What a function names that has to do with processes, signals or threads, beside `tests/processes.py`."""
+
+FIXTURES = {"kernel", "new_kernel", "shared_kernel", "chromium", "master", "run", "sim"}
+"""What stands in a `conftest.py` and has to do with them."""
+
+# How long an example takes is the machine's affair.
+settings.register_profile("rosmini", deadline=None)
+settings.load_profile("rosmini")
+
+
+def pytest_configure() -> None:
+    """Give SIGINT its meaning back: a shell that starts a program in the background has it ignored, and all children inherit that."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def codes(function: Any) -> Iterator[CodeType]:
+    """The code of a function or of a class's methods, and of what is defined inside."""
+    todo = [each.__code__ for each in [function, *vars(function).values()] if hasattr(each, "__code__")]
+    while todo:
+        yield (code := todo.pop())
+        todo += [constant for constant in code.co_consts if isinstance(constant, CodeType)]
+
+
+def starts_something(item: pytest.Function) -> bool:
+    """Whether a test, or a function or fixture of its file that it uses, has to do with processes, signals or threads."""
+    used = vars(item.module)
+    seen, todo = set(item.fixturenames), [item.function, *map(used.get, item.fixturenames)]
+    while todo:
+        function = getattr(todo[-1], "__wrapped__", todo.pop())  # a fixture keeps its function there
+        names = {name for code in codes(function) for name in code.co_names} if function else set()
+        if names & HANDLES or any(getattr(used.get(name), "__module__", "") == PROCESSES for name in names):
+            return True
+        todo += [
+            used[name]
+            for name in names - seen
+            if getattr(used.get(name), "__module__", "") == item.module.__name__
+        ]
+        seen |= names
+    return not FIXTURES.isdisjoint(item.fixturenames)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests that have to do with processes, signals or threads."""
+    for item in items:
+        if isinstance(item, pytest.Function) and starts_something(item):
+            item.add_marker("processes")
 
 
 @pytest.fixture(scope="session")

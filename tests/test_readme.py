@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
 
 import pytest
+import yaml
+from packaging.specifiers import SpecifierSet
 
 from rosmini.book.pictures import talker_and_listener
+
+from .processes import run
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -22,9 +25,7 @@ def block(language: str, place: int = 0) -> str:
 
 def test_the_example_prints_what_is_shown(tmp_path):
     (tmp_path / "example.py").write_text(block("python"), encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "example.py"], cwd=tmp_path, capture_output=True, text=True, check=False, timeout=60
-    )
+    done = run([sys.executable, "example.py"], cwd=tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (0, block("text"), "")
 
 
@@ -42,13 +43,29 @@ def test_what_the_readme_points_to_is_there(target):
     assert (ROOT / target).exists()
 
 
-def test_ci_runs_the_command_of_the_readme():
-    assert "pip install uv && uv run pytest" in README
-    assert "uv run pytest\n" in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
-    for path in (".ci/run", ".github/workflows/ci.yml"):
-        text = (ROOT / path).read_text(encoding="utf-8")
-        assert "uv run pytest" in text, path
-        assert "uv run rosmini book --no-open" in text, path
+def test_ci_runs_the_commands_of_the_readme_as_they_stand_there():
+    shown = re.findall(r"^\$ (.+)$", README.partition("## Ten lines")[0], re.MULTILINE)
+    one_line = ["pip install uv && uv run rosmini book", "pip install uv && uv run pytest"]
+    assert shown == [*one_line, "python -m pip install uv", "python -m uv run rosmini book"]
+    jobs = yaml.safe_load((ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8"))["jobs"]
+    run = {name: [step["run"] for step in job["steps"] if "run" in step] for name, job in jobs.items()}
+    assert run["readme"] == one_line
+    assert set(shown[2:]) < set(run["powershell"])
+    script = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+    assert "uv run pytest\n" in script
+    assert "uv run rosmini book --no-open\n" in script
+
+
+def test_the_versions_of_python_agree():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    allowed = SpecifierSet(project["requires-python"])
+    named = re.findall(r":: (3\.\d+)$", "\n".join(project["classifiers"]), re.MULTILINE)
+    assert named == [f"3.{minor}" for minor in range(50) if f"3.{minor}" in allowed]
+    assert f"with Python {named[0]} to {named[-1]}." in README
+    matrix = yaml.safe_load((ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8"))["jobs"][
+        "readme"
+    ]["strategy"]["matrix"]
+    assert matrix["python"] == [named[0], named[-1]]
 
 
 def test_the_versions_agree():

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import sys
 import tomllib
 import zipfile
 from pathlib import Path
 
 import pytest
+
+from .processes import run as run_process
 
 ROOT = Path(__file__).resolve().parents[1]
 CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
@@ -24,15 +25,7 @@ def uv(*arguments: str | Path, cwd: Path = ROOT) -> None:
     environment = {name: value for name, value in os.environ.items() if name != "VIRTUAL_ENV"}
     said = ""
     for more in (["--offline"], []):
-        done = subprocess.run(
-            [find_uv_bin(), *arguments, *more],
-            cwd=cwd,
-            env=environment,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=250,
-        )
+        done = run_process([find_uv_bin(), *arguments, *more], cwd=cwd, env=environment)
         if done.returncode == 0:
             return
         said += done.stderr
@@ -63,15 +56,7 @@ def python(wheel, tmp_path_factory):
 def run(python: Path, *arguments: str | Path, cwd: Path) -> str:
     kept = {"PATH", "HOME", "USERPROFILE", "SYSTEMROOT", "TEMP", "TMP", "TMPDIR", "APPDATA", "LOCALAPPDATA"}
     environment = {name: value for name, value in os.environ.items() if name.upper() in kept}
-    done = subprocess.run(
-        [python, *arguments],
-        cwd=cwd,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=250,
-    )
+    done = run_process([python, *arguments], cwd=cwd, env=environment)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 
@@ -106,14 +91,7 @@ def test_it_finds_its_messages_there(python, tmp_path):
 
 
 def test_the_command_says_what_is_missing_outside_a_checkout(python, tmp_path):
-    done = subprocess.run(
-        [python, "-m", "rosmini", "book"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
+    done = run_process([python, "-m", "rosmini", "book"], cwd=tmp_path)
     assert done.returncode == 1
     assert done.stderr.startswith(
         "rosmini book: the book's sources (book/_config.yml and notebooks/) are neither in "

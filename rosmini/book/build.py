@@ -50,7 +50,7 @@ def _jupyter_book(checkout: Path, output: Path, *, quiet: bool) -> subprocess.Co
     return subprocess.run(
         command,
         cwd=checkout,
-        env=os.environ | {"PYTHONIOENCODING": "utf-8", "PYDEVD_DISABLE_FILE_VALIDATION": "1"},
+        env=os.environ | {"PYTHONUTF8": "1", "PYDEVD_DISABLE_FILE_VALIDATION": "1"},
         check=False,
         stdout=subprocess.PIPE if quiet else None,
         stderr=subprocess.STDOUT if quiet else None,

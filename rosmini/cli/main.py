@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import importlib.util
+import io
 import sys
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
@@ -88,6 +89,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     0 is success, 1 a failure that was reported, 2 a command line that makes no sense, 130 Ctrl-C.
     """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a message's letter that the locale lacks ends no command
+            stream.reconfigure(errors="backslashreplace")
     argv = sys.argv[1:] if argv is None else list(argv)
     commands = available()
     try:

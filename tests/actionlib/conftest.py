@@ -12,6 +12,8 @@ from rosmini.graph.byte_transport import ByteTransport
 from rosmini.graph.transport import LocalTransport
 from rosmini.msgs.actionlib_tutorials.msg import FibonacciAction, FibonacciFeedback, FibonacciResult
 
+from ..processes import PATIENCE
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
@@ -24,7 +26,7 @@ KINDS = {
 
 def until(graph: Graph, condition: Callable[[], object]) -> None:
     """Drive the graph until the condition holds; fail if it never does."""
-    assert graph.run(1000.0, until=lambda: bool(condition())).reason == "condition"
+    assert graph.run(50.0 * PATIENCE, until=lambda: bool(condition())).reason == "condition"
 
 
 @pytest.fixture(params=KINDS)

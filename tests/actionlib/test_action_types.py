@@ -25,7 +25,7 @@ SUFFIXES = ["Action", "ActionGoal", "ActionResult", "ActionFeedback", "Goal", "R
 def real(root):
     found = {}
     for name in ("ros_md5.json", "ros_md5_more.json"):
-        found.update(flat(json.loads((root / "tests" / "data" / name).read_text())))
+        found.update(flat(json.loads((root / "tests" / "data" / name).read_text(encoding="utf-8"))))
     return found
 
 

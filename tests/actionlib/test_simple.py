@@ -18,6 +18,7 @@ from rosmini.msgs.actionlib_tutorials.msg import (
 from rosmini.msgs.rosgraph_msgs.msg import Clock
 from rosmini.time import Duration, Time
 
+from ..processes import PATIENCE
 from .conftest import Fibonacci, until
 
 
@@ -430,7 +431,7 @@ def test_goals_from_a_real_thread():
     try:
         until(graph, lambda: len(ended) == 30)
     finally:
-        thread.join(5)
+        thread.join(PATIENCE)
         graph.shutdown()
     assert ended == [(True, Status.SUCCEEDED, order) for order in range(30)]
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import os
-import subprocess
 import sys
 import textwrap
 from pathlib import Path
@@ -33,6 +32,8 @@ from rosmini.bag.records import MAGIC, OP_BAG_HEADER, pack_record, u32, u64
 from rosmini.bag.tools import require_same_types
 from rosmini.msgs import message_class
 from rosmini.time import Time
+
+from ..processes import run
 
 String = message_class("std_msgs/String")
 LaserScan = message_class("sensor_msgs/LaserScan")
@@ -316,11 +317,8 @@ except BagFull as error:
 @pytest.mark.parametrize(("limit", "compression", "threshold"), [(60_000, "none", 8000), (60_000, "none", 10**6), (40_000, "lz4", 8000)])  # fmt: skip
 def test_a_full_disk_keeps_what_fits_with_an_index(path, limit, compression, threshold):
     script = path.with_suffix(".py")
-    script.write_text(textwrap.dedent(FULL))
-    done = subprocess.run(
-        [sys.executable, str(script), str(path), str(limit), compression, str(threshold)],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
+    script.write_text(textwrap.dedent(FULL), encoding="utf-8")
+    done = run([sys.executable, str(script), str(path), str(limit), compression, str(threshold)])  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert "cannot grow any more" in done.stdout
     found = [m.data[:5] for _, m, _ in Bag(path)]

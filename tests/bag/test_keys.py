@@ -35,7 +35,7 @@ def test_keys_of_a_terminal(bag):
     ours, theirs = pty.openpty()
     before = termios.tcgetattr(theirs)
     shown = io.StringIO()
-    with Graph(simulated=False) as graph, os.fdopen(theirs) as stdin:
+    with Graph(simulated=False) as graph, os.fdopen(theirs, encoding="utf-8") as stdin:
         player = Player(graph.node("play"), bag, pause=True, quiet=True, rate=100.0)
         Keys(player, stdin, shown)
         assert not termios.tcgetattr(theirs)[3] & termios.ICANON

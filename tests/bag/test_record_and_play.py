@@ -19,6 +19,8 @@ from rosmini.graph.byte_transport import ByteTransport
 from rosmini.msgs import message_class
 from rosmini.time import Time
 
+from ..processes import PATIENCE, run, start
+
 String = message_class("std_msgs/String")
 LaserScan = message_class("sensor_msgs/LaserScan")
 TFMessage = message_class("tf2_msgs/TFMessage")
@@ -208,13 +210,7 @@ print(recorder.done, sorted(recorder.counts.values())[0] > Bag(recorder.path).ge
 
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of file sizes are POSIX's")
 def test_a_full_disk_ends_the_recording_and_keeps_what_is_recorded(tmp_path):
-    done = subprocess.run(
-        [sys.executable, "-c", FULL, str(tmp_path / "x")],
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
+    done = run([sys.executable, "-c", FULL, str(tmp_path / "x")])
     assert done.returncode == 0, done.stderr
     first, second = done.stdout.splitlines()
     assert "cannot grow any more" in first
@@ -512,7 +508,8 @@ def test_ctrl_c_ends_a_recording_in_good_order(tmp_path):
         "import rospy\nfrom std_msgs.msg import String\nrospy.init_node('talker')\n"
         "publisher = rospy.Publisher('chatter', String, queue_size=10)\nrate = rospy.Rate(200)\nnumber = 0\n"
         "while not rospy.is_shutdown():\n    publisher.publish(str(number))\n    number += 1\n"
-        "    if number == 60:\n        print('go', flush=True)\n    rate.sleep()\n"
+        "    if number == 60:\n        print('go', flush=True)\n    rate.sleep()\n",
+        encoding="utf-8",
     )
     command = [
         sys.executable,
@@ -527,12 +524,10 @@ def test_ctrl_c_ends_a_recording_in_good_order(tmp_path):
         "+",
         "talker.py",
     ]
-    with subprocess.Popen(
-        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    ) as process:
+    with start(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert "go" in process.stdout.readline()
         process.send_signal(signal.SIGINT)
-        _, problems = process.communicate(timeout=30)
+        _, problems = process.communicate(timeout=PATIENCE)
     assert "Traceback" not in problems
     numbers = [int(text) for text in texts(tmp_path / "x.bag")]
     assert len(numbers) >= 50

@@ -24,7 +24,7 @@ EXPONENTS_AND_ERRORS = {"1", "m", "m/s", "blocks more"}
 def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "figures.json"
     assert main(["bench", "--no-peer", "--rounds", "1", "--scale", "0.001", "--json", str(file)]) == 0
-    written = json.loads(file.read_text())
+    written = json.loads(file.read_text(encoding="utf-8"))
     shown = capsys.readouterr().out
     assert len(written["figures"]) == len(
         [

@@ -39,7 +39,7 @@ def test_the_simulator_is_measured_beside_the_others(
     file = tmp_path / "figures.json"
     assert main(["bench", "sim", "--rounds", "1", "--scale", "0.01", "--json", str(file)]) == 0
     shown = capsys.readouterr().out
-    rows = json.loads(file.read_text())["figures"]
+    rows = json.loads(file.read_text(encoding="utf-8"))["figures"]
     irsim, mujoco = sim_peer.find_irsim(), sim_mujoco.find_mujoco()
     measures = list(sim.measures(irsim, mujoco, 0.01))
     assert [row["name"] for row in rows] == [measure.name for measure in measures]

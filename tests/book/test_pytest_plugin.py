@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 
 import nbformat
 
 from rosmini.book import notebooks
+
+from ..processes import run
 
 CELL = "import os; print(os.environ.get('ROSMINI_DISPLAY'))"
 
@@ -24,7 +25,7 @@ def make(folder, name, printed):
 def test_nbval_runs_notebooks_in_the_form_of_the_book_and_leaves_other_tests_alone(tmp_path):
     make(tmp_path, "a", "book")
     (tmp_path / "test_b.py").write_text(
-        "import os\ndef test(): assert os.environ.get('ROSMINI_DISPLAY') == 'before'\n"
+        "import os\ndef test(): assert os.environ.get('ROSMINI_DISPLAY') == 'before'\n", encoding="utf-8"
     )
     command = [
         sys.executable,
@@ -38,14 +39,7 @@ def test_nbval_runs_notebooks_in_the_form_of_the_book_and_leaves_other_tests_alo
     ]
     environment = os.environ | {"ROSMINI_DISPLAY": "before"}
     done = {
-        plugin: subprocess.run(
-            [*command, *plugin, tmp_path],
-            check=False,
-            env=environment,
-            cwd=tmp_path,
-            capture_output=True,
-            text=True,
-        )
+        plugin: run([*command, *plugin, tmp_path], env=environment, cwd=tmp_path)
         for plugin in [("-p", "rosmini.book.pytest_plugin"), ()]
     }
     with_plugin, without = done.values()

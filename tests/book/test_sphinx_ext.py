@@ -57,9 +57,10 @@ def html(tmp_path_factory):
     (source / "conf.py").write_text(
         "extensions = ['myst_nb', 'sphinx_thebe', 'rosmini.book.sphinx_ext']\n"
         "html_math_renderer = 'mathml'\nmyst_enable_extensions = ['dollarmath']\nhtml_theme = 'sphinx_book_theme'\n"
-        "thebe_config = {'always_load': False}\nhtml_context = {'default_mode': 'auto'}\n"
+        "thebe_config = {'always_load': False}\nhtml_context = {'default_mode': 'auto'}\n",
+        encoding="utf-8",
     )
-    (source / "index.md").write_text(PAGE)
+    (source / "index.md").write_text(PAGE, encoding="utf-8")
     warnings = StringIO()
     with docutils_namespace():
         app = Sphinx(
@@ -127,10 +128,10 @@ def test_meshcats_viewer_is_copied_for_a_page_that_shows_something_in_it(html, t
     (tmp_path / "_static").mkdir()
     (tmp_path / "deep").mkdir()
     app = SimpleNamespace(outdir=tmp_path, builder=SimpleNamespace(format="html"))
-    (tmp_path / "deep" / "a.html").write_text("globalThis.rosminiMeshcat.mount(host)")
+    (tmp_path / "deep" / "a.html").write_text("globalThis.rosminiMeshcat.mount(host)", encoding="utf-8")
     copy_viewer(app, None)
     assert (tmp_path / "_static" / MESHCAT).read_bytes() == asset_path(MESHCAT).read_bytes()
-    assert "license" in (tmp_path / "_static" / f"{MESHCAT}.LICENSE.txt").read_text().lower()
+    assert "license" in (tmp_path / "_static" / f"{MESHCAT}.LICENSE.txt").read_text(encoding="utf-8").lower()
 
 
 def test_the_theme_writes_nothing_to_the_console(html):

@@ -5,15 +5,13 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import socket
-import subprocess
 import sys
-import time
-import urllib.request
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
+
+from ..processes import PATIENCE, free_port, listens, start, wait_until
 
 TOKEN = "rosmini-test"
 
@@ -29,12 +27,31 @@ FLAGS = [
 ]
 
 
+PLACES = [
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+    "/Applications/Chromium.app/Contents/MacOS/Chromium",
+    r"C:\Program Files\Google\Chrome\Application\chrome.exe",
+    r"C:\Program Files (x86)\Google\Chrome\Application\chrome.exe",
+]
+"""Where macOS and Windows have it, which put it on no search path."""
+
+
 def chromium_path() -> str | None:
-    """Where Chromium is: `ROSMINI_CHROMIUM`, or on the search path."""
+    """Where Chromium or Chrome is: `ROSMINI_CHROMIUM`, or on the search path, or in its system's usual place."""
     given = os.environ.get("ROSMINI_CHROMIUM")
     if given:
         return given if Path(given).is_file() else None
-    return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    on_path = (shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome"))
+    return next(filter(None, on_path), None) or next(filter(os.path.isfile, PLACES), None)
+
+
+@contextmanager
+def launched(kind, flags):
+    """A browser whose pages wait as long as all tests do."""
+    browser = kind.launch(executable_path=chromium_path(), args=flags, timeout=PATIENCE * 1000)
+    browser.on("context", lambda context: context.set_default_timeout(PATIENCE * 1000))
+    yield browser
+    browser.close()
 
 
 @pytest.fixture(scope="session")
@@ -42,16 +59,13 @@ def chromium():
     """The browser; skips without one, and fails if ROSMINI_REQUIRE_BROWSER=1."""
     from playwright.sync_api import sync_playwright
 
-    path = chromium_path()
-    if path is None:
+    if chromium_path() is None:
         message = "no Chromium: install it, or name it in ROSMINI_CHROMIUM"
         if os.environ.get("ROSMINI_REQUIRE_BROWSER") == "1":
             pytest.fail(f"{message} (ROSMINI_REQUIRE_BROWSER=1)")
         pytest.skip(message)
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+    with sync_playwright() as playwright, launched(playwright.chromium, FLAGS) as browser:
         yield browser
-        browser.close()
 
 
 class Watcher:
@@ -93,12 +107,6 @@ def notebook(cells):
     }
 
 
-def free_port() -> int:
-    with socket.socket() as listener:
-        listener.bind(("127.0.0.1", 0))
-        return listener.getsockname()[1]
-
-
 @contextmanager
 def jupyterlab(tmp_path, cells):
     """Run a JupyterLab with `live.ipynb`, with settings and runtime files of its own; its end is the kernel's."""
@@ -127,30 +135,18 @@ def jupyterlab(tmp_path, cells):
         "--no-browser",
         "--allow-root",
     ]
-    with (tmp_path / "lab.log").open("wb") as log:
-        server = subprocess.Popen(
-            [sys.executable, "-m", "jupyterlab", *arguments],
-            env=os.environ | own,
-            stdout=log,
-            stderr=subprocess.STDOUT,
-        )
-    address = f"http://127.0.0.1:{port}"
-    try:
-        for _ in range(300):
-            try:
-                urllib.request.urlopen(f"{address}/api?token={TOKEN}", timeout=5).close()
-                break
-            except OSError:
-                assert server.poll() is None, (tmp_path / "lab.log").read_text()
-                time.sleep(0.1)
-        yield f"{address}/lab/tree/live.ipynb?token={TOKEN}"
-    finally:
-        server.terminate()
+    with (
+        (tmp_path / "lab.log").open("wb") as log,
+        start(
+            [sys.executable, "-m", "jupyterlab", *arguments], env=os.environ | own, stdout=log, stderr=log
+        ) as server,
+    ):
+        wait_until(lambda: listens(port), "JupyterLab", server)
         try:
-            server.wait(20)
-        except subprocess.TimeoutExpired:
-            server.kill()
-            server.wait()
+            yield f"http://127.0.0.1:{port}/lab/tree/live.ipynb?token={TOKEN}"
+        finally:
+            server.terminate()  # its kernels, which lead sessions of their own, end with it
+            server.wait(PATIENCE)
 
 
 @pytest.fixture
@@ -165,6 +161,5 @@ def webgl(chromium):
     """A browser of its own that draws in three dimensions, in software."""
     flags = [flag for flag in FLAGS if flag != "--disable-gpu"]
     flags += ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-    browser = chromium.browser_type.launch(executable_path=chromium_path(), args=flags)
-    yield browser
-    browser.close()
+    with launched(chromium.browser_type, flags) as browser:
+        yield browser

@@ -50,7 +50,6 @@ def lab(start_lab):
 
 def test_a_button_publishes_between_cells_and_while_a_cell_is_busy(lab, chromium, shared_tmp):
     page = chromium.new_page(viewport={"width": 1280, "height": 1400})
-    page.set_default_timeout(20_000)
     page.goto(lab)
     cells = page.locator(".jp-Notebook .jp-CodeCell")
     cells.nth(len(CELLS) - 1).wait_for()

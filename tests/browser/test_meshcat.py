@@ -78,7 +78,6 @@ def open_page(webgl, watch, site):
 
     def open_page(path, *, scheme="light", width=800, ready=True):
         page = webgl.new_page(color_scheme=scheme, viewport={"width": width, "height": 560})
-        page.set_default_timeout(30_000)
         watcher = watch(page)
         pages.append((page, watcher))
         page.goto((site / path).as_uri())

@@ -77,7 +77,6 @@ class Pad:
 
     def __init__(self, page, address: str) -> None:
         self.page = page
-        page.set_default_timeout(10_000)
         page.clock.install(time=0)
         page.goto(address)
         self.stage = page.locator(".rp-stage")

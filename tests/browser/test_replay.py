@@ -458,7 +458,6 @@ recorder.recording().replay()
         "print('below')",
     ]
     page = chromium.new_page(viewport={"width": 1200, "height": 1200})
-    page.set_default_timeout(30_000)
     errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(start_lab(cells))

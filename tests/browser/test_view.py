@@ -48,7 +48,6 @@ class Viewed:
         self.link = ViewLink(view, clock=lambda: self.wall)
         self.sent: list = []
         self.link.widget.send = lambda content, buffers=None: self.sent.append((content, buffers or []))
-        page.set_default_timeout(10_000)
         page.clock.install(time=0)
         data = self.link.widget.data
         page.evaluate(BRIDGE, {**data, "scans": text_of(data["scans"])})

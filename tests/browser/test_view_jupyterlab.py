@@ -26,7 +26,6 @@ view
 @pytest.fixture
 def lab(start_lab, chromium):
     page = chromium.new_page(viewport={"width": 1280, "height": 1600})
-    page.set_default_timeout(20_000)
     page.goto(start_lab(CELLS))
     page.locator(".jp-Notebook .jp-CodeCell").nth(len(CELLS) - 1).wait_for()
     page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()

@@ -5,10 +5,8 @@ from __future__ import annotations
 import json
 import os
 import re
-import socket
 import subprocess
 import sys
-import time
 import urllib.error
 import urllib.request
 from pathlib import Path
@@ -19,6 +17,8 @@ from rosmini.book import build, checkout
 from rosmini.book.build import BookError, build_book, has_display
 from rosmini.book.checkout import NoCheckout, find_checkout
 from rosmini.cli import book, lab, main
+
+from ..processes import PATIENCE, free_port, listens, start, wait_until
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -94,9 +94,10 @@ def small_book(folder: Path, page: str) -> Path:
     """A checkout with one page."""
     (folder / "book").mkdir(parents=True)
     (folder / "notebooks").mkdir()
-    (folder / "book" / "_toc.yml").write_text("format: jb-book\nroot: book/intro\n")
+    (folder / "book" / "_toc.yml").write_text("format: jb-book\nroot: book/intro\n", encoding="utf-8")
     (folder / "book" / "_config.yml").write_text(
-        "title: t\nauthor: a\nonly_build_toc_files: true\nsphinx:\n  config: {html_context: {default_mode: auto}}\n"
+        "title: t\nauthor: a\nonly_build_toc_files: true\nsphinx:\n  config: {html_context: {default_mode: auto}}\n",
+        encoding="utf-8",
     )
     (folder / "book" / "intro.md").write_text(page, encoding="utf-8")
     return folder
@@ -139,24 +140,11 @@ def test_a_bad_port_is_refused(port, capsys):
     assert "is not a port" in capsys.readouterr().err
 
 
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 def ask(address: str) -> dict:
-    """What the server answers. It tells its address a moment before it listens, so a refusal is asked again."""
+    """What the server answers."""
     request = urllib.request.Request(address, headers={"Authorization": "token t0ken"})
-    deadline = time.monotonic() + 30
-    while True:
-        try:
-            with urllib.request.urlopen(request, timeout=30) as reply:
-                return json.load(reply)
-        except urllib.error.URLError as error:
-            if not isinstance(error.reason, ConnectionRefusedError) or time.monotonic() > deadline:
-                raise
-            time.sleep(0.05)
+    with urllib.request.urlopen(request, timeout=PATIENCE) as reply:
+        return json.load(reply)
 
 
 def listening_addresses(port: int) -> set[str]:
@@ -164,7 +152,7 @@ def listening_addresses(port: int) -> set[str]:
     rows = [
         row.split()
         for table in ("tcp", "tcp6")
-        for row in Path(f"/proc/net/{table}").read_text().splitlines()[1:]
+        for row in Path(f"/proc/net/{table}").read_text(encoding="utf-8").splitlines()[1:]
     ]
     return {
         row[1].partition(":")[0]
@@ -177,30 +165,24 @@ def listening_addresses(port: int) -> set[str]:
 def test_lab_serves_the_notebooks_on_this_machine_only(tmp_path):
     port = free_port()
     environment = os.environ | {"HOME": str(tmp_path), "JUPYTER_TOKEN": "t0ken", "PYTHONUNBUFFERED": "1"}
-    server = subprocess.Popen(
-        [sys.executable, "-m", "rosmini", "lab", "--no-open", "--port", str(port)],
-        cwd=ROOT,
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    try:
+    command = [sys.executable, "-m", "rosmini", "lab", "--no-open", "--port", port]
+    with start(
+        command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    ) as server:
         for line in server.stdout:
             if re.search(rf"http://127\.0\.0\.1:{port}/lab", line):
                 break
         else:
             pytest.fail("JupyterLab ended before it served")
+        # It tells its address a moment before it listens.
+        wait_until(lambda: listens(port), "JupyterLab", server)
         names = {entry["name"] for entry in ask(f"http://127.0.0.1:{port}/api/contents")["content"]}
         assert names == {
             path.name for path in (ROOT / "notebooks").iterdir() if not path.name.startswith(".")
         }
         assert listening_addresses(port) == {"0100007F"}
-    finally:
-        begin = time.monotonic()
-        server.terminate()
-        server.communicate(timeout=30)
-    assert time.monotonic() - begin < 20, "it asked before it ended"
+        server.terminate()  # it would ask before it ends, if there were somebody to answer
+        server.communicate(timeout=PATIENCE)
 
 
 def test_lab_opens_no_browser_unless_it_can(monkeypatch):

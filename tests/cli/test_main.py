@@ -11,16 +11,11 @@ import pytest
 import rosmini.cli.main as cli
 from rosmini.errors import RosminiError
 
+from ..processes import run
+
 
 def python(code: str, **env: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        check=False,
-        env=os.environ | env,
-        timeout=60,
-    )
+    return run([sys.executable, "-c", code], env=os.environ | env)
 
 
 def test_help_lists_the_commands_without_importing_them():
@@ -96,3 +91,11 @@ def test_importing_rosmini_is_light():
     heavy = ["matplotlib", "IPython", "numba", "ipywidgets", "meshcat", "sphinx", "pymunk"]
     done = python(f"import rosmini, sys; print([m for m in {heavy} if m in sys.modules])")
     assert done.stdout.strip() == "[]", done.stdout + done.stderr
+
+
+def test_letters_that_the_locale_lacks_end_no_command(tmp_path):
+    script = tmp_path / "talker.py"
+    script.write_text("print('é → ü')\n", encoding="utf-8")
+    words = [sys.executable, "-m", "rosmini", "run", script]
+    done = run(words, env=os.environ | {"PYTHONIOENCODING": "cp1252", "PYTHONUTF8": "0"}, encoding="cp1252")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "[talker] é \\u2192 ü\n", "")

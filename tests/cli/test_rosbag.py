@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from pathlib import Path
 
@@ -13,6 +12,8 @@ from rosmini.bag import Bag
 from rosmini.cli.main import main
 from rosmini.msgs import message_class
 from rosmini.time import Time
+
+from ..processes import run as run_process
 
 String = message_class("std_msgs/String")
 
@@ -106,7 +107,7 @@ except rosbag.ROSBagException as error:
 
 def test_playing_to_a_script_and_recording_it(bag):
     """The command itself: bag -> play -> script with rosbag of its own -> record."""
-    Path("listener.py").write_text(SCRIPT)
+    Path("listener.py").write_text(SCRIPT, encoding="utf-8")
     words = [
         "record",
         "-q",
@@ -122,10 +123,7 @@ def test_playing_to_a_script_and_recording_it(bag):
         "+",
         "listener.py",
     ]
-    done = subprocess.run(
-        [sys.executable, "-m", "rosmini", "rosbag", *words],
-        capture_output=True, text=True, check=False, timeout=60, env={**os.environ, "PYTHONWARNINGS": "error"},
-    )  # fmt: skip
+    done = run_process([sys.executable, "-m", "rosmini", "rosbag", *words], env={**os.environ, "PYTHONWARNINGS": "error"})  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.splitlines() == ["[listener] heard 20 20", "[listener] ROSBagFormatException"]
     assert [m.data for _, m, _ in Bag("again.bag")] == [f"hello {i}" for i in range(20)]

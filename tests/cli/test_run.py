@@ -46,10 +46,13 @@ def test_options_at_the_end(words, left, ours):
 @pytest.fixture
 def scripts(tmp_path):
     (tmp_path / "clock.py").write_text(
-        "import sys, time\nt = time.time()\nfor _ in range(3):\n    time.sleep(100)\nprint(time.time() - t, sys.argv[1:])\n"
+        "import sys, time\nt = time.time()\nfor _ in range(3):\n    time.sleep(100)\nprint(time.time() - t, sys.argv[1:])\n",
+        encoding="utf-8",
     )
-    (tmp_path / "bad.py").write_text("import sys\nprint('to stderr', file=sys.stderr)\n1 / 0\n")
-    (tmp_path / "wait.py").write_text("import threading\nthreading.Event().wait()\n")
+    (tmp_path / "bad.py").write_text(
+        "import sys\nprint('to stderr', file=sys.stderr)\n1 / 0\n", encoding="utf-8"
+    )
+    (tmp_path / "wait.py").write_text("import threading\nthreading.Event().wait()\n", encoding="utf-8")
     return tmp_path
 
 

@@ -42,12 +42,13 @@ def test_check_says_what_a_sound_file_is(capsys):
 
 
 def test_check_knows_stage_worlds_and_robots(capsys, tmp_path):
-    (tmp_path / "r.urdf").write_text("<robot name='r'><link name='a'/></robot>")
+    (tmp_path / "r.urdf").write_text("<robot name='r'><link name='a'/></robot>", encoding="utf-8")
     (tmp_path / "m.sdf").write_text(
-        "<!-- <world> --><sdf version='1.7'><model name='m'><static>1</static><link name='l'/></model></sdf>"
+        "<!-- <world> --><sdf version='1.7'><model name='m'><static>1</static><link name='l'/></model></sdf>",
+        encoding="utf-8",
     )
     (tmp_path / "s.world").write_text(
-        'define floorplan model ( boundary 1 )\nfloorplan ( name "f" size [4 4 1] )\n'
+        'define floorplan model ( boundary 1 )\nfloorplan ( name "f" size [4 4 1] )\n', encoding="utf-8"
     )
     status, out, _ = run(capsys, "check", tmp_path / "r.urdf", tmp_path / "m.sdf", tmp_path / "s.world")
     assert status == 0
@@ -60,9 +61,11 @@ def test_check_knows_stage_worlds_and_robots(capsys, tmp_path):
 def test_check_takes_a_part_of_a_robot_for_what_it_is(capsys, tmp_path):
     macro = "<xacro:macro name='leg' params='n'><link name='leg${n}'/></xacro:macro>"
     spaces = "xmlns:xacro='http://www.ros.org/wiki/xacro'"
-    (tmp_path / "part.xacro").write_text(f"<robot {spaces}>{macro}</robot>")
-    (tmp_path / "wrong.xacro").write_text(f"<robot {spaces}>\n<xacro:leg n='1'/></robot>")
-    (tmp_path / "whole.xacro").write_text(f"<robot name='r' {spaces}>{macro}<xacro:leg n='1'/></robot>")
+    (tmp_path / "part.xacro").write_text(f"<robot {spaces}>{macro}</robot>", encoding="utf-8")
+    (tmp_path / "wrong.xacro").write_text(f"<robot {spaces}>\n<xacro:leg n='1'/></robot>", encoding="utf-8")
+    (tmp_path / "whole.xacro").write_text(
+        f"<robot name='r' {spaces}>{macro}<xacro:leg n='1'/></robot>", encoding="utf-8"
+    )
     status, out, err = run(
         capsys, "check", *(tmp_path / f"{name}.xacro" for name in ("part", "wrong", "whole"))
     )
@@ -74,10 +77,10 @@ def test_check_takes_a_part_of_a_robot_for_what_it_is(capsys, tmp_path):
 
 
 def test_check_names_file_and_line_of_what_is_wrong(capsys, tmp_path):
-    (tmp_path / "bad.world").write_text(BAD)
-    (tmp_path / "bad.yaml").write_text("image: a.png\nresolution: x\n")
-    (tmp_path / "bad.urdf").write_text("<robot name='r'>\n<link/></robot>")
-    (tmp_path / "stage.world").write_text("window ( size [ 1 2 )")
+    (tmp_path / "bad.world").write_text(BAD, encoding="utf-8")
+    (tmp_path / "bad.yaml").write_text("image: a.png\nresolution: x\n", encoding="utf-8")
+    (tmp_path / "bad.urdf").write_text("<robot name='r'>\n<link/></robot>", encoding="utf-8")
+    (tmp_path / "stage.world").write_text("window ( size [ 1 2 )", encoding="utf-8")
     files = ["bad.world", "bad.yaml", "bad.urdf", "stage.world", "none.world"]
     status, out, err = run(capsys, "check", "pillars", *(tmp_path / file for file in files))
     assert status == 1
@@ -92,7 +95,8 @@ def test_check_names_file_and_line_of_what_is_wrong(capsys, tmp_path):
 def test_check_warns_of_a_start_that_is_not_free(capsys, tmp_path):
     (tmp_path / "w.world").write_text(
         "<sdf version='1.7'><world name='w'><model name='rock'><static>1</static><link name='l'><collision name='c'><geometry>"
-        "<sphere><radius>1</radius></sphere></geometry></collision></link></model></world></sdf>"
+        "<sphere><radius>1</radius></sphere></geometry></collision></link></model></world></sdf>",
+        encoding="utf-8",
     )
     status, out, _ = run(capsys, "check", tmp_path / "w.world")
     assert status == 0

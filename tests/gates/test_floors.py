@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from ..processes import run
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = "from importlinter.cli import lint_imports_command; lint_imports_command()"
@@ -16,14 +17,10 @@ COMMAND = "from importlinter.cli import lint_imports_command; lint_imports_comma
 
 def lint(checkout: Path) -> tuple[int, str]:
     """The status and the words of lint-imports on the `rosmini` in `checkout`."""
-    done = subprocess.run(
+    done = run(
         [sys.executable, "-c", COMMAND, "--no-cache"],
         cwd=checkout,
         env=os.environ | {"PYTHONPATH": str(checkout), "PYTHONIOENCODING": "utf-8"},
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-        timeout=120,
     )
     return done.returncode, done.stdout + done.stderr
 

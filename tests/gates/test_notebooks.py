@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -11,6 +10,8 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from rosmini.book import notebooks, solutions
+
+from ..processes import run
 
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
@@ -95,7 +96,7 @@ def outcome(tmp_path_factory):
     if not CHAPTERS:
         pytest.skip("no chapter is written yet")
     checkout = tmp_path_factory.mktemp("checkout")
-    copied = ["pyproject.toml", "tests/conftest.py", "tests/gates/test_notebooks.py"]
+    copied = ["pyproject.toml", "tests/conftest.py", "tests/processes.py", "tests/gates/test_notebooks.py"]
     for name in copied:
         (checkout / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, checkout / name)
@@ -110,7 +111,7 @@ def outcome(tmp_path_factory):
         ["intact", *(name for name, (_, noticed_by) in TAMPER.items() if noticed_by == BY_NBVAL)]
     )
     command += ["notebooks", "tests/gates/test_notebooks.py", "-k", f"stored_form or (ipynb and ({runs}))"]
-    done = subprocess.run(command, cwd=checkout, capture_output=True, text=True, check=False, timeout=280)
+    done = run(command, cwd=checkout)
     assert done.returncode == 1, done.stdout + done.stderr
     failures: dict[str, list[str]] = {name: [] for name in ["intact", *TAMPER]}
     for case in ET.parse(checkout / "result.xml").iter("testcase"):

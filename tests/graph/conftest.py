@@ -12,14 +12,16 @@ from rosmini.graph import Graph
 from rosmini.graph.byte_transport import ByteTransport
 from rosmini.graph.transport import LocalTransport
 
+from ..processes import PATIENCE
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 WALL_RATE = 200.0
 """In wall time a second of the graph takes 5 ms here."""
 
-LONG = 4000.0
-"""So long (20 s on the wall) a test waits for what must come; it never waits so long when all is well."""
+LONG = PATIENCE * WALL_RATE
+"""So long a test waits for what must come; it never waits so long when all is well."""
 
 KINDS = {
     "local-simulated": (LocalTransport, True),

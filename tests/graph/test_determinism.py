@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from ..processes import run
 from .ten_nodes import record
 
 PROGRAM = Path(__file__).with_name("ten_nodes.py")
@@ -29,14 +29,7 @@ def test_two_runs_in_one_process_are_equal(capsys: pytest.CaptureFixture[str]) -
 
 def in_a_process(hash_seed: str) -> Any:
     """Return what a fresh interpreter records."""
-    done = subprocess.run(
-        [sys.executable, str(PROGRAM)],
-        env={**os.environ, "PYTHONHASHSEED": hash_seed},
-        capture_output=True,
-        text=True,
-        check=True,
-        timeout=60,
-    )
+    done = run([sys.executable, str(PROGRAM)], env={**os.environ, "PYTHONHASHSEED": hash_seed}, check=True)
     return json.loads(done.stdout)
 
 

@@ -81,14 +81,14 @@ def test_a_node_that_takes_anothers_name_has_a_file_of_its_own(tmp_path: Path) -
         graph.node("twin")
         graph.node("twin").loginfo("the second")
         graph.run(0.1)
-    first, second = ((tmp_path / RUN / f"twin-{number}.log").read_text() for number in (2, 3))
+    first, second = ((tmp_path / RUN / f"twin-{number}.log").read_text(encoding="utf-8") for number in (2, 3))
     assert "new node registered with same name" in first
     assert "the second" in second
     assert "the second" not in first
 
 
 def test_a_folder_that_cannot_be_made_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "file").write_text("")
+    (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(RosminiError, match=r"cannot make the folder .* Set log_dir to a folder"):
         Graph(log_dir=tmp_path / "file")
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "file"))

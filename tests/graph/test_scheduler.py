@@ -15,6 +15,8 @@ from rosmini.graph.event_queue import TICK_QUANTUM_NS
 from rosmini.graph.lanes import LaneExit
 from rosmini.graph.scheduler import Scheduler
 
+from ..processes import PATIENCE
+
 SECOND = 10**9
 
 
@@ -252,14 +254,14 @@ def test_simulated_time_stands_still_while_the_operating_system_is_asked() -> No
     def ask() -> None:
         def block() -> str:
             asked.set()
-            answer.wait(10)
+            answer.wait(PATIENCE)
             return "answer"
 
         seen.append((scheduler.now_ns(), scheduler.in_thread(block)))
 
     scheduler.call_at(before + 5 * SECOND, lambda: seen.append((scheduler.now_ns(), "later")))
     scheduler.spawn("asks", ask)
-    threading.Thread(target=lambda: (asked.wait(10), answer.set())).start()
+    threading.Thread(target=lambda: (asked.wait(PATIENCE), answer.set())).start()
     scheduler.run()
     assert seen == [(before, "answer"), (before + 5 * SECOND, "later")]
 

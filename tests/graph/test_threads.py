@@ -14,6 +14,7 @@ from rosmini.graph.transport import LocalTransport
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
 from rosmini.msgs.std_msgs.msg import Header, Int32, String
 
+from ..processes import PATIENCE
 from .conftest import KINDS, WALL_RATE, close, make, until
 
 if TYPE_CHECKING:
@@ -134,7 +135,7 @@ def test_threads_may_spin_and_end_with_their_node(graph: Graph) -> None:
     node.shutdown("enough")
     until(graph, lambda: len(ended) == 3)
     for spinner in spinners:
-        spinner.join(10)
+        spinner.join(PATIENCE)
     assert ended == ["enough"] * 3
 
 
@@ -156,7 +157,7 @@ def test_several_threads_call_one_service_at_once(graph: Graph) -> None:
     start(graph, workers)
     until(graph, lambda: len(sums) == 8)
     for worker in workers:
-        worker.join(10)
+        worker.join(PATIENCE)
     assert sorted(sums) == list(range(1, 9))
 
 
@@ -175,7 +176,7 @@ def test_a_thread_may_drive_a_graph_that_nobody_else_drives() -> None:
 
     thread = threading.Thread(target=work)
     thread.start()
-    thread.join(10)
+    thread.join(PATIENCE)
     assert results == [["x"]]
 
 
@@ -197,7 +198,7 @@ def test_the_parameter_server_bears_several_threads(transport: Any) -> None:
     for worker in workers:
         worker.start()
     for worker in workers:
-        worker.join(15)
+        worker.join(PATIENCE)
     assert problems == []
     assert len([name for name in node.param_names() if name.startswith("/tree")]) == 400
     close(graph)
@@ -241,7 +242,7 @@ def test_the_main_program_runs_beside_a_thread_that_drives() -> None:
     assert graph.run(20.0).reason == "time"
     assert graph.run(4000.0, until=lambda: len(seen) >= 30).reason == "condition"
     talker.shutdown("over")
-    thread.join(20)
+    thread.join(PATIENCE)
     assert not thread.is_alive()
     graph.shutdown()
 
@@ -260,7 +261,7 @@ def test_in_simulated_time_a_thread_leaves_the_driving_to_who_made_the_graph() -
     graph.run(5.0, until=lambda: bool(woke))
     while thread.is_alive() and not woke:
         graph.run(1.0)
-    thread.join(20)
+    thread.join(PATIENCE)
     assert woke
     assert graph.scheduler.is_hub_thread()
     graph.shutdown()
@@ -292,7 +293,7 @@ def test_a_look_from_another_thread_just_before_a_drive_does_not_stop_it(graph, 
         monkeypatch.undo()
         looker = threading.Thread(target=lambda: looks.append(scheduler.on_hub(lambda: "seen")))
         looker.start()
-        looker.join(10)
+        looker.join(PATIENCE)
         return call_at(when_ns, callback)
 
     monkeypatch.setattr(scheduler, "call_at", look_first)

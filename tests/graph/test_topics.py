@@ -15,7 +15,7 @@ from rosmini.msgs.nav_msgs.msg import Path
 from rosmini.msgs.sensor_msgs.msg import Image, JointState, LaserScan
 from rosmini.msgs.std_msgs.msg import Int32, String
 
-from .conftest import KINDS, close, make, settle, until
+from .conftest import KINDS, LONG, close, make, settle, until
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -650,7 +650,7 @@ def test_wait_for_message_returns_it_and_leaves_the_topic(graph: Graph) -> None:
     assert listener.wait_for_message("t", String, timeout=LONG_ENOUGH).data == "now"
 
 
-LONG_ENOUGH = 1000.0
+LONG_ENOUGH = LONG
 
 
 def test_wait_for_message_gives_up_and_says_who_publishes(graph: Graph) -> None:

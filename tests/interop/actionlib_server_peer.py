@@ -15,7 +15,7 @@ facts = {}
 
 
 def wait(condition, what):
-    end = rospy.get_rostime() + rospy.Duration(20)
+    end = rospy.get_rostime() + rospy.Duration(200)
     while not condition():
         if rospy.get_rostime() > end:
             raise RuntimeError("waited in vain for " + what)

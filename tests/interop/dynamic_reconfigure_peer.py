@@ -20,13 +20,13 @@ from dynamic_reconfigure.srv import Reconfigure
 
 rospy.init_node("peer")
 TestConfig = types.ModuleType("TestConfig")
-with open(sys.argv[1]) as source:
+with open(sys.argv[1], encoding="utf-8") as source:
     exec(source.read(), TestConfig.__dict__)
 facts = {"types": [Config._md5sum, ConfigDescription._md5sum, Reconfigure._md5sum]}
 
 
 def wait(condition, what):
-    for _ in range(2000):
+    for _ in range(40000):
         if condition():
             return
         rospy.rostime.wallsleep(0.005)
@@ -173,7 +173,7 @@ facts["namespace"] = sorted(
     topic for topic, _ in rospy.get_published_topics() if topic.startswith("/peer/inner")
 )
 facts["namespace"].append(rospy.get_param("/peer/inner/part/str_"))
-other = Client("/peer/inner/part", timeout=5)
+other = Client("/peer/inner/part", timeout=200)
 facts["namespace"].append(other.update_configuration({"int_": 4})["int_"])
 try:
     Client("nobody", timeout=0.2)

@@ -26,7 +26,7 @@ rospy.init_node("peer", disable_signals=True)
 rospy.Subscriber("/tf", TFMessage, hear, False)
 rospy.Subscriber("/tf_static", TFMessage, hear, True)
 publisher = rospy.Publisher("joint_states", JointState, queue_size=1)
-end = time.time() + 20
+end = time.time() + 200
 while time.time() < end and not wanted <= set(heard):
     message = JointState(name=list(joints), position=list(joints.values()))
     message.header.stamp = rospy.Time.now()

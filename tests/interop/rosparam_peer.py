@@ -68,7 +68,7 @@ def dumped(name):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "dump.yaml")
         rosparam.dump_params(path, name)
-        with open(path) as file:
+        with open(path, encoding="utf-8") as file:
             return file.read()
 
 

@@ -265,7 +265,7 @@ class Listener(rospy.SubscribeListener):
         events.append(["went", topic_name, num_peers])
 
 
-def wait(condition, limit=5.0):
+def wait(condition, limit=200.0):
     end = rospy.get_time() + limit
     while not condition() and rospy.get_time() < end:
         rospy.sleep(0.02)
@@ -333,7 +333,7 @@ for name, cls in (("scan", LaserScan), ("image", Image), ("floats", Float32Multi
     )
     for kind, wanted in (("plain", cls), ("numpy", numpy_msg(cls)), ("any", rospy.AnyMsg)):
         if not (name == "image" and kind == "numpy"):
-            got[name, kind] = rospy.wait_for_message(name, wanted, timeout=5)
+            got[name, kind] = rospy.wait_for_message(name, wanted, timeout=200)
         rospy.sleep(0.2)
 facts["receipt"] = [
     [type(got["scan", "plain"].ranges).__name__, got["scan", "plain"].ranges],

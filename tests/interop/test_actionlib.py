@@ -14,13 +14,13 @@ import pytest
 from rosmini.graph.graph import Graph
 from rosmini.scripts import ScriptSpec
 
-from .test_rospy_api import differences, master, run_ours, run_real  # noqa: F401 - master is a fixture
+from .test_rospy_api import differences, run_ours, run_real
 
 PEER = Path(__file__).with_name("actionlib_peer.py")
 
 
 @pytest.fixture(scope="module")
-def real(master: dict[str, str]) -> dict[str, Any]:  # noqa: F811
+def real(master: dict[str, str]) -> dict[str, Any]:
     return dict(json.loads(run_real(master, [str(PEER)])[0].splitlines()[-1]))
 
 
@@ -43,7 +43,7 @@ SERVER_PEER = Path(__file__).with_name("actionlib_server_peer.py")
 @pytest.mark.ros
 @pytest.mark.parametrize("simulated", [True, False], ids=["simulated", "wall"])
 def test_cancellations_and_the_list_of_goals_are_those_of_actionlib(
-    master: dict[str, str],  # noqa: F811
+    master: dict[str, str],
     simulated: bool,
 ) -> None:
     real = json.loads(run_real(master, [str(SERVER_PEER)])[0].splitlines()[-1])

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import re
-import shutil
-import subprocess
 
 import pytest
 
 from rosmini.urdf import UrdfError, load
 from rosmini.urdf.xacro import expand
 
-CHECK = shutil.which("check_urdf")
+from ..processes import run
+from .conftest import need_ros
 
-pytestmark = pytest.mark.skipif(
-    CHECK is None, reason="check_urdf is not installed (Debian: liburdfdom-tools)"
-)
+pytestmark = pytest.mark.ros
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _real():
+    need_ros("check_urdf")
+
 
 A, B, C = ('<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
 
@@ -48,8 +51,8 @@ CASES = {
 def theirs(text, tmp_path):
     """What hangs on what, or None if they call something in it an error (and, now and then, go on without it)."""
     path = tmp_path / "r.urdf"
-    path.write_text(text)
-    done = subprocess.run([str(CHECK), str(path)], capture_output=True, text=True, check=False, timeout=20)
+    path.write_text(text, encoding="utf-8")
+    done = run(["check_urdf", path])
     said = done.stdout + done.stderr
     if done.returncode or "Error:" in said or "Successfully Parsed XML" not in said:
         return None

@@ -6,7 +6,6 @@ Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
 from __future__ import annotations
 
 import json
-import os
 from pathlib import Path
 from typing import Any
 
@@ -15,16 +14,16 @@ import pytest
 from rosmini.graph.graph import Graph
 from rosmini.scripts import ScriptSpec
 
-from .test_rospy_api import differences, master, run_ours, run_real  # noqa: F401 - master is a fixture
+from .conftest import need_ros
+from .test_rospy_api import differences, run_ours, run_real
 
 PEER = Path(__file__).with_name("dynamic_reconfigure_peer.py")
 GENERATED = Path("/usr/lib/python3/dist-packages/dynamic_reconfigure/cfg/TestConfig.py")
 
 
 @pytest.fixture(scope="module")
-def real(master: dict[str, str]) -> dict[str, Any]:  # noqa: F811
-    if not GENERATED.is_file() and not os.environ.get("ROSMINI_REQUIRE_ROS"):
-        pytest.skip("the real dynamic_reconfigure is not installed (Debian: python3-dynamic-reconfigure)")
+def real(master: dict[str, str]) -> dict[str, Any]:
+    need_ros(modules="dynamic_reconfigure")
     return dict(json.loads(run_real(master, [str(PEER), str(GENERATED)])[0].splitlines()[-1]))
 
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 import os
 import shlex
-import shutil
-import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,22 +17,17 @@ from rosmini.msgs import message_class
 from rosmini.scripts import ScriptSpec, run_scripts
 from rosmini.scripts.executables import BuiltIn, find
 
+from ..processes import run
+from .conftest import SYSTEM_PYTHON, need_ros
+
 ROOT = Path(__file__).resolve().parents[2]
 PEER = Path(__file__).with_name("roslaunch_peer.py")
 LAUNCH = ROOT / "assets" / "ros" / "turtlebot3_gazebo" / "launch"
-SYSTEM_PYTHON = "/usr/bin/python3"
 
 
 @pytest.fixture(scope="module")
 def real_roslaunch() -> None:
-    found = shutil.which(SYSTEM_PYTHON) is not None and (
-        subprocess.run([SYSTEM_PYTHON, "-c", "import roslaunch"], capture_output=True, check=False).returncode
-        == 0
-    )
-    if not found:
-        if os.environ.get("ROSMINI_REQUIRE_ROS"):
-            pytest.fail("ROSMINI_REQUIRE_ROS is set, but there is no roslaunch")
-        pytest.skip("there is no roslaunch: real ROS 1 is not installed")
+    need_ros(modules="roslaunch")
 
 
 @pytest.fixture
@@ -52,15 +45,7 @@ def computed(launch: str, *arguments: str, model: str = "burger") -> dict[str, A
         "ROS_PACKAGE_PATH": str(ROOT / "assets" / "ros"),
         "TURTLEBOT3_MODEL": model,
     }
-    done = subprocess.run(
-        [SYSTEM_PYTHON, str(PEER), str(LAUNCH / launch), *arguments],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
-    assert done.returncode == 0, done.stderr
+    done = run([SYSTEM_PYTHON, PEER, LAUNCH / launch, *arguments], env=environment, check=True)
     found: dict[str, Any] = json.loads(done.stdout)
     return found
 

@@ -9,7 +9,6 @@ import io
 import os
 import pickle
 import random
-import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +23,10 @@ from rosmini.msgs.sources import PackageSource
 from rosmini.packages import PackageIndex, assets_dir
 from rosmini.time import Duration, Time, TVal
 
+from ..processes import run
+from .conftest import SYSTEM_PYTHON, need_ros
+
 PEER = Path(__file__).with_name("genpy_peer.py")
-SYSTEM_PYTHON = "/usr/bin/python3"
 MESSAGES_EACH = 3
 WORDS = [
     "",
@@ -139,29 +140,15 @@ def describe(thing: Any) -> Any:
 
 def ask_genpy(jobs: list[Any]) -> list[Any]:
     environment = {**os.environ, "PYTHONPATH": "", "PYTHONDONTWRITEBYTECODE": "1"}
-    done = subprocess.run(
-        [SYSTEM_PYTHON, str(PEER)],
-        input=pickle.dumps(jobs, protocol=4),
-        capture_output=True,
-        env=environment,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr.decode()
+    job = pickle.dumps(jobs, protocol=4)
+    done = run([SYSTEM_PYTHON, PEER], stdin=job, env=environment, encoding=None, check=True)
     answers: list[Any] = pickle.loads(done.stdout)
     return answers
 
 
 @pytest.fixture(scope="module")
 def genpy() -> None:
-    probe = [SYSTEM_PYTHON, "-c", "import genpy.dynamic, numpy"]
-    there = (
-        Path(SYSTEM_PYTHON).exists()
-        and subprocess.run(probe, capture_output=True, check=False).returncode == 0
-    )
-    if not there:
-        if os.environ.get("ROSMINI_REQUIRE_ROS"):
-            pytest.fail(f"{SYSTEM_PYTHON} has no genpy, and ROSMINI_REQUIRE_ROS is set")
-        pytest.skip(f"{SYSTEM_PYTHON} has no genpy: real ROS 1 is not installed")
+    need_ros(modules="genpy.dynamic, numpy")
 
 
 @pytest.fixture(scope="module")
@@ -172,7 +159,8 @@ def odd_types(tmp_path_factory: pytest.TempPathFactory) -> Registry:
     folder.mkdir(parents=True)
     (workspace / "odd_msgs" / "package.xml").write_text(
         '<package format="2"><name>odd_msgs</name><version>0.0.1</version><description>Odd.</description>'
-        '<maintainer email="a@example.com">A</maintainer><license>Apache-2.0</license></package>'
+        '<maintainer email="a@example.com">A</maintainer><license>Apache-2.0</license></package>',
+        encoding="utf-8",
     )
     for name, text in ODD_DEFINITIONS.items():
         (folder / f"{name}.msg").write_text(text, encoding="utf-8")

@@ -2,14 +2,11 @@
 
 import itertools
 import json
-import os
-import subprocess
-
-import pytest
 
 from rosmini import time as ours
 
-SYSTEM_PYTHON = "/usr/bin/python3"
+from ..processes import run
+from .conftest import SYSTEM_PYTHON, need_ros
 
 # Run in this process on our classes and in a system Python on genpy's.
 TABLE = """
@@ -43,14 +40,8 @@ def table(module):
 
 def test_the_whole_table_is_genpys() -> None:
     script = TABLE + "\nimport json, genpy.rostime\nprint(json.dumps(table(genpy.rostime)))"
-    try:
-        done = subprocess.run(
-            [SYSTEM_PYTHON, "-c", script], capture_output=True, text=True, timeout=60, check=True
-        )
-    except (OSError, subprocess.CalledProcessError) as error:
-        if os.environ.get("ROSMINI_REQUIRE_ROS"):
-            raise
-        pytest.skip(f"real genpy is not installed: {error}")
+    need_ros(modules="genpy")
+    done = run([SYSTEM_PYTHON, "-c", script], check=True)
     names: dict = {}
     exec(TABLE, names)
     theirs, mine = json.loads(done.stdout), names["table"](ours)

@@ -4,13 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import re
-import shutil
-import signal
-import socket
-import subprocess
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,61 +14,25 @@ from rosmini import rospy
 from rosmini.graph.graph import Graph
 from rosmini.scripts import ScriptSpec, run_scripts
 
+from ..processes import run
+from .conftest import SYSTEM_PYTHON, need_ros, rosmaster
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 PEER = Path(__file__).with_name("logging_peer.py")
-SYSTEM_PYTHON = "/usr/bin/python3"
 
 
 @pytest.fixture(scope="module")
 def real(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str, str]]:
     """What real rospy writes: standard output, standard error, log file."""
-    missing = [what for what in ("rosmaster", SYSTEM_PYTHON) if shutil.which(what) is None]
-    if missing:
-        if os.environ.get("ROSMINI_REQUIRE_ROS"):
-            pytest.fail(f"ROSMINI_REQUIRE_ROS is set, but there is no {missing[0]}")
-        pytest.skip(f"there is no {missing[0]}: real ROS 1 is not installed")
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+    need_ros("rosmaster", modules="rospy")
     home = tmp_path_factory.mktemp("ros")
-    found = {
-        "PATH": os.environ["PATH"],
-        "HOME": str(home),
-        "ROS_LOG_DIR": str(home / "logs"),
-        "ROS_MASTER_URI": f"http://127.0.0.1:{port}",
-        "ROS_IP": "127.0.0.1",
-        "PYTHONIOENCODING": "utf-8",
-        "LANG": "C.UTF-8",
-    }
-    process = subprocess.Popen(
-        ["rosmaster", "--core", "-p", str(port)],
-        env=found,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    try:
-        wait_for(port)  # rospy waits for its Master by itself, but says so
-        done = subprocess.run(
-            [SYSTEM_PYTHON, str(PEER)], env=found, capture_output=True, text=True, check=False, timeout=60
-        )
-    finally:
-        process.send_signal(signal.SIGINT)
-        process.wait(10)
+    with rosmaster(home) as found:  # rospy waits for its Master by itself, but says so
+        found = {**found, "ROS_LOG_DIR": str(home / "logs"), "LANG": "C.UTF-8"}
+        done = run([SYSTEM_PYTHON, PEER], env=found)
     assert done.returncode == 0, done.stderr
     return done.stdout, done.stderr, (home / "logs" / "peer.log").read_text(encoding="utf-8")
-
-
-def wait_for(port: int) -> None:
-    """Block until somebody answers at a port."""
-    deadline = time.monotonic() + 60
-    while True:
-        with socket.socket() as probe:
-            if probe.connect_ex(("127.0.0.1", port)) == 0:
-                return
-        assert time.monotonic() < deadline, "rosmaster does not answer"
-        time.sleep(0.05)
 
 
 def users_lines(text: str) -> list[str]:

@@ -1,12 +1,7 @@
 """The same calls to a real rosmaster and to ours: every answer must be equal."""
 
 import os
-import shutil
-import signal
-import socket
-import subprocess
 import threading
-import time
 from xmlrpc.client import ServerProxy
 from xmlrpc.server import SimpleXMLRPCServer
 
@@ -14,10 +9,8 @@ import pytest
 
 from rosmini.graph.master import Master
 
-if shutil.which("rosmaster") is None:
-    if os.environ.get("ROSMINI_REQUIRE_ROS"):
-        pytest.fail("ROSMINI_REQUIRE_ROS is set, but there is no rosmaster on the path", pytrace=False)
-    pytest.skip("real ROS is not installed", allow_module_level=True)
+from ..processes import wait_until
+from .conftest import need_ros, rosmaster
 
 A, B = "/a", "/ns/b"
 
@@ -64,34 +57,16 @@ class SlaveServer:
 
 
 @pytest.fixture(scope="module")
-def real():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    environment = {**os.environ, "ROS_MASTER_URI": f"http://127.0.0.1:{port}", "ROS_IP": "127.0.0.1"}
-    process = subprocess.Popen(
-        ["rosmaster", "--core", "-p", str(port)],
-        env=environment,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
+def real(tmp_path_factory):
+    need_ros("rosmaster")
     slaves = SlaveServer()
     try:
-        proxy = ServerProxy(f"http://127.0.0.1:{port}/")
-        deadline = time.monotonic() + 20
-        while True:
-            try:
-                proxy.getPid("/probe")
-                break
-            except OSError:
-                if time.monotonic() > deadline:
-                    pytest.fail("rosmaster does not answer")
-                time.sleep(0.05)
-        yield proxy, slaves
-        proxy("close")()
+        with (
+            rosmaster(tmp_path_factory.mktemp("ros")) as found,
+            ServerProxy(found["ROS_MASTER_URI"]) as proxy,
+        ):
+            yield proxy, slaves
     finally:
-        process.send_signal(signal.SIGINT)
-        process.wait(10)
         slaves.close()
 
 
@@ -180,9 +155,7 @@ def test_every_answer_and_every_notification_is_the_real_ones(real) -> None:
         if answer != expected or type(answer[2]) is not type(expected[2]):
             differences.append((number, method, arguments, "real", expected, "ours", answer))
         # The real Master sends what the value is by then, so let each notification arrive before the next change.
-        deadline = time.monotonic() + 5
-        while len(slaves.heard) < len(recorder.heard) and time.monotonic() < deadline:
-            time.sleep(0.002)
+        wait_until(lambda: len(slaves.heard) >= len(recorder.heard), f"the notifications of {method}")
     assert differences == []
     # The real Master tells different nodes in parallel: only the order for each node is fixed.
     for uri in slaves.uris:

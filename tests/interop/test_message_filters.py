@@ -6,8 +6,6 @@ Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
 from __future__ import annotations
 
 import json
-import os
-import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -16,16 +14,15 @@ import pytest
 from rosmini.graph.graph import Graph
 from rosmini.scripts import ScriptSpec
 
-from .test_rospy_api import SYSTEM_PYTHON, differences, master, run_ours, run_real  # noqa: F401 - master is a fixture
+from .conftest import need_ros
+from .test_rospy_api import differences, run_ours, run_real
 
 PEER = Path(__file__).with_name("message_filters_peer.py")
 
 
 @pytest.fixture(scope="module")
-def real(master: dict[str, str]) -> dict[str, Any]:  # noqa: F811
-    probe = subprocess.run([SYSTEM_PYTHON, "-c", "import message_filters"], capture_output=True, check=False)
-    if probe.returncode and not os.environ.get("ROSMINI_REQUIRE_ROS"):
-        pytest.skip("the real message_filters is not installed (Debian: python3-message-filters)")
+def real(master: dict[str, str]) -> dict[str, Any]:
+    need_ros(modules="message_filters")
     return dict(json.loads(run_real(master, [str(PEER)])[0].splitlines()[-1]))
 
 

@@ -3,11 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import shutil
-import socket
-import subprocess
-import time
 import xmlrpc.client
 from pathlib import Path
 
@@ -20,8 +15,10 @@ from rosmini.msgs.sensor_msgs.msg import JointState
 from rosmini.tf import TransformListener
 from rosmini.urdf.xacro import expand
 
+from ..processes import run, start
+from .conftest import SYSTEM_PYTHON, need_ros, rosmaster
+
 PEER = Path(__file__).with_name("robot_state_publisher_peer.py")
-SYSTEM_PYTHON = "/usr/bin/python3"
 REAL = Path("/usr/lib/robot_state_publisher/robot_state_publisher")
 
 pytestmark = pytest.mark.ros
@@ -43,34 +40,14 @@ CASES = {
 
 
 @pytest.fixture(scope="module")
-def master():
+def master(tmp_path_factory):
     """A real rosmaster of its own."""
-    found = shutil.which("rosmaster", path="/usr/bin")
-    if found is None or not REAL.exists():
-        if os.environ.get("ROSMINI_REQUIRE_ROS"):
-            pytest.fail("ROSMINI_REQUIRE_ROS is set, but there is no real robot_state_publisher")
-        pytest.skip("the real robot_state_publisher is not installed")
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    uri = f"http://127.0.0.1:{port}"
-    env = {**os.environ, "ROS_MASTER_URI": uri, "ROS_IP": "127.0.0.1", "PYTHONPATH": ""}
-    process = subprocess.Popen(
-        [found, "--core", "-p", str(port)], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    )
-    proxy = xmlrpc.client.ServerProxy(uri)
-    try:
-        for _ in range(200):
-            try:
-                proxy.getPid("/test")
-                break
-            except OSError:
-                time.sleep(0.05)
-        yield proxy, env
-    finally:
-        proxy("close")()
-        process.terminate()
-        process.wait(10)
+    need_ros("rosmaster", REAL, modules="rospy")
+    with (
+        rosmaster(tmp_path_factory.mktemp("ros")) as found,
+        xmlrpc.client.ServerProxy(found["ROS_MASTER_URI"]) as proxy,
+    ):
+        yield proxy, found
 
 
 def description(name):
@@ -104,15 +81,9 @@ def test_the_same_transforms(master, name):
     expected = ours(name)
     proxy.setParam("/test", "/robot_description", description(name))
     proxy.setParam("/test", "/tf_prefix", "one")
-    real = subprocess.Popen([str(REAL)], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        done = subprocess.run(
-            [SYSTEM_PYTHON, str(PEER), json.dumps(CASES[name][1]), json.dumps(sorted(expected))],
-            env=env, capture_output=True, text=True, timeout=50, check=False,
-        )  # fmt: skip
-    finally:
-        real.terminate()
-        real.wait(10)
+    with start([REAL], env=env):
+        arguments = json.dumps(CASES[name][1]), json.dumps(sorted(expected))
+        done = run([SYSTEM_PYTHON, PEER, *arguments], env=env)
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout.splitlines()[-1])
     assert set(found) == set(expected)

@@ -6,14 +6,12 @@ Skipped where there is no rosbag, unless ROSMINI_REQUIRE_ROS is set.
 from __future__ import annotations
 
 import json
-import os
 import runpy
-import shutil
-import socket
-import subprocess
+import signal
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from xmlrpc.client import ServerProxy
 
 import pytest
 
@@ -23,31 +21,22 @@ from rosmini.msgs import message_class
 from rosmini.rospy.aliases import rosbag
 from rosmini.time import Time
 
+from ..processes import PATIENCE, run, start, wait_until
+from .conftest import SYSTEM_PYTHON, need_ros, rosmaster
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 PEER = Path(__file__).with_name("rosbag_peer.py")
-SYSTEM_PYTHON = "/usr/bin/python3"
 ENV = {"PATH": "/usr/bin:/bin", "TZ": "UTC", "HOME": "/tmp", "COLUMNS": "80"}
 COMPRESSIONS = ["none", "bz2", "lz4"]
 
 
-def _missing() -> str | None:
-    if shutil.which("/usr/bin/rosbag") is None or shutil.which(SYSTEM_PYTHON) is None:
-        return "rosbag"
-    code = "import rosbag, roslz4, sensor_msgs.msg"
-    done = subprocess.run([SYSTEM_PYTHON, "-c", code], env=ENV, capture_output=True, check=False)
-    return "rosbag for Python" if done.returncode else None
-
-
-if _absent := _missing():
-    if os.environ.get("ROSMINI_REQUIRE_ROS"):
-        pytest.fail(f"ROSMINI_REQUIRE_ROS is set, but there is no {_absent}", pytrace=False)
-    pytest.skip(f"there is no {_absent}", allow_module_level=True)
+need_ros("rosbag", modules="rosbag, roslz4, sensor_msgs.msg")
 
 
 def real(*words: str, status: int = 0) -> str:
-    done = subprocess.run(words, env=ENV, capture_output=True, text=True, check=False, timeout=60)
+    done = run(words, env=ENV)
     assert done.returncode == status, done.stdout + done.stderr
     return done.stdout
 
@@ -142,9 +131,7 @@ def test_what_we_reindex_they_read(theirs, tmp_path):
     for compression, path in theirs.items():
         cut = tmp_path / path.name
         cut.write_bytes(path.read_bytes()[: int(path.stat().st_size * 0.7)])
-        assert "unindexed" in subprocess.run(
-            ["/usr/bin/rosbag", "info", str(cut)], env=ENV, capture_output=True, text=True, check=False
-        ).stderr  # fmt: skip
+        assert "unindexed" in run(["/usr/bin/rosbag", "info", cut], env=ENV).stderr  # fmt: skip
         count = reindex(cut).messages
         (read,) = peer("read", cut)
         assert len(read["messages"]) == count
@@ -166,44 +153,31 @@ def test_their_tools_work_on_ours(theirs, tmp_path):
 
 def test_real_record_and_play(theirs, tmp_path):
     """Their roscpp player and recorder work on our bag, and we play what they recorded."""
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    env = {
-        **ENV,
-        "ROS_MASTER_URI": f"http://127.0.0.1:{port}",
-        "ROS_IP": "127.0.0.1",
-        "HOME": str(tmp_path),
-        "ROS_HOME": str(tmp_path),
-    }
     source, target = tmp_path / "source.bag", tmp_path / "recorded.bag"
     filter_bag(theirs["lz4"], source, "topic in ('/chatter', '/map') and t.secs < 1050")
-    quiet = {"env": env, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    started = [subprocess.Popen(["/usr/bin/rosmaster", "--core", "-p", str(port)], **quiet)]
-    try:
-        wait_until(lambda: answers(port))
-        started.append(
-            subprocess.Popen(["/usr/lib/rosbag/record", "-O", str(target), "/chatter", "/map"], **quiet)
-        )
-        wait_until(lambda: target.with_suffix(".bag.active").exists())
-        command = [
+    with rosmaster(tmp_path) as env, ServerProxy(env["ROS_MASTER_URI"]) as proxy:
+
+        def subscribed() -> set[str]:
+            return {topic for topic, _ in proxy.getSystemState("/test")[2][1]} & {"/chatter", "/map"}
+
+        # At its limit the recorder leaves a topic, so its Master tells when it has all 50.
+        record = ["/usr/lib/rosbag/record", "--limit", 50, "-O", target, "/chatter", "/map"]
+        play = [
             "/usr/lib/rosbag/play",
             "--rate",
-            "100",
+            100,
             "--delay",
-            "1.5",
+            1.5,
             "--wait-for-subscribers",
             "--quiet",
-            str(source),
+            source,
         ]
-        subprocess.run(command, check=True, timeout=60, **quiet)
-        time.sleep(0.5)
-        started[1].send_signal(2)
-        started[1].wait(20)
-    finally:
-        for process in started:
-            process.terminate()
-            process.wait(10)
+        with start(record, env=env) as recording:
+            wait_until(lambda: len(subscribed()) == 2, "the recorder", recording)
+            run(play, env=env, check=True)
+            wait_until(lambda: subscribed() == {"/map"}, "the last message", recording)
+            recording.send_signal(signal.SIGINT)
+            assert recording.wait(PATIENCE) == 0
     recorded = ours(target)
     assert recorded["strings"] == [f"hello {i}" for i in range(50)]
     with Bag(target) as bag:
@@ -253,14 +227,3 @@ def test_what_they_raise_we_raise(tmp_path):
         )
         assert same, f"{name}: they {answer}, we {found[name]}"
 
-
-def wait_until(condition) -> None:
-    deadline = time.monotonic() + 30
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
-
-
-def answers(port: int) -> bool:
-    with socket.socket() as probe:
-        return probe.connect_ex(("127.0.0.1", port)) == 0

@@ -2,13 +2,10 @@
 
 import itertools
 import json
-import os
 import random
-import subprocess
 from collections.abc import Callable
 from typing import Any
 
-import pytest
 
 from rosmini.names import (
     Remappings,
@@ -22,6 +19,9 @@ from rosmini.names import (
     resolve_for,
 )
 from rosmini.rospy.aliases.rosgraph.names import load_mappings
+
+from ..processes import run
+from .conftest import SYSTEM_PYTHON, need_ros
 
 THEIRS = """
 import json, sys
@@ -142,19 +142,8 @@ def test_names_resolve_as_in_real_ros() -> None:
     made = [name for name in made if "~" not in name[1:] and name[0] != "_"]
     table = [list(row) for row in itertools.product(NODES, RULES, NAMES + made)]
     job = json.dumps({"names": table, "argvs": ARGVS, "odd": ODD, "wrong": WRONG})
-    try:
-        done = subprocess.run(
-            ["/usr/bin/python3", "-c", THEIRS],
-            input=job,
-            capture_output=True,
-            text=True,
-            timeout=60,
-            check=True,
-        )
-    except (OSError, subprocess.CalledProcessError) as error:
-        if os.environ.get("ROSMINI_REQUIRE_ROS"):
-            raise
-        pytest.skip(f"real rospy is not installed: {error}")
+    need_ros(modules="rospy")
+    done = run([SYSTEM_PYTHON, "-c", THEIRS], stdin=job, check=True)
     theirs = json.loads(done.stdout)
     ours: dict = {"rospy": [], "rosgraph": [], "basic": [], "argv": []}
     ours["legal"] = [

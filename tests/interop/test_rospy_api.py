@@ -7,14 +7,9 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import re
-import shutil
-import socket
-import subprocess
-import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
@@ -22,11 +17,10 @@ from rosmini import rospy
 from rosmini.graph.graph import Graph
 from rosmini.scripts import ScriptSpec, run_scripts
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
+from ..processes import run
+from .conftest import SYSTEM_PYTHON
 
 PEERS = [Path(__file__).with_name(name) for name in ("rospy_peer.py", "connections_peer.py")]
-SYSTEM_PYTHON = "/usr/bin/python3"
 ARGUMENTS = ("chatter:=/news", "_started:=[1, x]")
 
 DIFFERENT = {
@@ -34,59 +28,6 @@ DIFFERENT = {
     ("early", "remapped"): (["/chatter", "/news", "other"], ["/news", "/news", "other"]),
 }
 """What differs on purpose: (real, ours)."""
-
-
-@pytest.fixture(scope="module")
-def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
-    """The environment of a real Master on a free port."""
-    missing = [what for what in ("rosmaster", SYSTEM_PYTHON) if shutil.which(what) is None]
-    if not missing:
-        probe = subprocess.run(
-            [SYSTEM_PYTHON, "-c", "import rospy, sensor_msgs.srv, geometry_msgs.msg"],
-            capture_output=True,
-            check=False,
-        )
-        missing = ["rospy"] if probe.returncode else []
-    if missing:
-        if os.environ.get("ROSMINI_REQUIRE_ROS"):
-            pytest.fail(f"ROSMINI_REQUIRE_ROS is set, but there is no {missing[0]}")
-        pytest.skip(f"there is no {missing[0]}: real ROS 1 is not installed")
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    found = environment(f"http://127.0.0.1:{port}", tmp_path_factory.mktemp("ros"))
-    process = subprocess.Popen(
-        ["rosmaster", "--core", "-p", str(port)],
-        env=found,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    try:
-        wait_for(port)
-        yield found
-    finally:
-        process.terminate()
-        process.wait(10)
-
-
-def wait_for(port: int) -> None:
-    """Block until somebody answers at a port."""
-    deadline = time.monotonic() + 60
-    while True:
-        with socket.socket() as probe:
-            if probe.connect_ex(("127.0.0.1", port)) == 0:
-                return
-        assert time.monotonic() < deadline, "rosmaster does not answer"
-        time.sleep(0.05)
-
-
-def environment(uri: str, home: Path) -> dict[str, str]:
-    return {
-        "PATH": os.environ["PATH"],
-        "HOME": str(home),
-        "ROS_MASTER_URI": uri,
-        "ROS_IP": "127.0.0.1",
-    }
 
 
 @pytest.fixture(scope="module", params=PEERS, ids=lambda peer: peer.stem)
@@ -97,10 +38,7 @@ def real(master: dict[str, str], request: pytest.FixtureRequest) -> tuple[Path, 
 
 
 def run_real(master: dict[str, str], arguments: list[str]) -> tuple[str, str]:
-    done = subprocess.run(
-        [SYSTEM_PYTHON, *arguments], env=master, capture_output=True, text=True, check=False, timeout=120
-    )
-    assert done.returncode == 0, done.stderr
+    done = run([SYSTEM_PYTHON, *arguments], env=master, check=True)
     return done.stdout, done.stderr
 
 

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import random
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -16,24 +14,17 @@ from rosmini.tf import BufferCore, FrameTree, TransformException
 from rosmini.tf.messages import to_stamped
 from rosmini.tf.rigid import from_rpy, matrix
 
+from ..processes import run
+from .conftest import SYSTEM_PYTHON, need_ros
+
 PEER = Path(__file__).with_name("tf_buffer_peer.py")
-SYSTEM_PYTHON = "/usr/bin/python3"
 MS = 1_000_000
 S = 1000 * MS
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _real() -> None:
-    try:
-        probe = subprocess.run(
-            [SYSTEM_PYTHON, "-c", "import tf2_py, rospy"], capture_output=True, check=False
-        )
-    except FileNotFoundError:
-        probe = None
-    if probe is None or probe.returncode:
-        if os.environ.get("ROSMINI_REQUIRE_ROS"):
-            pytest.fail("ROSMINI_REQUIRE_ROS is set, but there is no tf2_py")
-        pytest.skip("real ROS's tf2_py is not installed")
+    need_ros(modules="tf2_py, rospy")
 
 
 def world(seed: int, *, wander: bool) -> dict[str, list]:
@@ -73,14 +64,7 @@ def world(seed: int, *, wander: bool) -> dict[str, list]:
 
 
 def real_answers(task: dict[str, list]) -> dict[str, object]:
-    done = subprocess.run(
-        [SYSTEM_PYTHON, str(PEER)],
-        input=json.dumps(task),
-        capture_output=True,
-        check=True,
-        text=True,
-        timeout=60,
-    )
+    done = run([SYSTEM_PYTHON, PEER], stdin=json.dumps(task), check=True)
     return json.loads(done.stdout)
 
 

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import runpy
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +11,11 @@ import pytest
 
 from rosmini.tf import transformations
 
+from ..processes import run
+from .conftest import SYSTEM_PYTHON, need_ros
+
 PEER = Path(__file__).with_name("transformations_peer.py")
 answers = runpy.run_path(str(PEER))["answers"]
-SYSTEM_PYTHON = "/usr/bin/python3"
 
 ABSENT = {
     "Arcball",
@@ -30,18 +30,8 @@ ABSENT = {
 
 @pytest.fixture(scope="module")
 def real() -> dict[str, object]:
-    try:
-        probe = subprocess.run(
-            [SYSTEM_PYTHON, "-c", "import tf.transformations"], capture_output=True, check=False
-        )
-    except FileNotFoundError:
-        probe = None
-    if probe is None or probe.returncode:
-        if os.environ.get("ROSMINI_REQUIRE_ROS"):
-            pytest.fail("ROSMINI_REQUIRE_ROS is set, but there is no tf.transformations")
-        pytest.skip("real ROS's tf.transformations is not installed")
-    done = subprocess.run([SYSTEM_PYTHON, str(PEER)], capture_output=True, check=True, timeout=60)
-    return json.loads(done.stdout)
+    need_ros(modules="tf.transformations")
+    return json.loads(run([SYSTEM_PYTHON, PEER], check=True).stdout)
 
 
 def numbers(value: object) -> np.ndarray:
@@ -69,7 +59,5 @@ def test_no_other_name_is_missing(real: dict[str, object]) -> None:
         "import inspect, tf.transformations as t; "
         "print(*[n for n, f in vars(t).items() if n[0] != '_' and (inspect.isfunction(f) or inspect.isclass(f))])"
     )
-    done = subprocess.run(
-        [SYSTEM_PYTHON, "-c", listing], capture_output=True, check=True, text=True, timeout=60
-    )
+    done = run([SYSTEM_PYTHON, "-c", listing], check=True)
     assert set(done.stdout.split()) - set(transformations.__all__) == ABSENT

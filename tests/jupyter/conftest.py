@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import queue
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import pytest
 from jupyter_client import BlockingKernelClient, KernelManager
 
-TIMEOUT = 30
+from ..processes import PATIENCE
 
 
 @dataclass
@@ -33,13 +34,12 @@ class Kernel:
         self.manager = KernelManager(kernel_name="python3")
         # Colours would stand in the middle of what the tests look for.
         self.manager.start_kernel(extra_arguments=["--InteractiveShell.colors=nocolor"])
-        self.connect()
 
     def connect(self) -> None:
         self.cells: dict[str, Cell] = {}  # a new client numbers its messages from one again
         self.client: BlockingKernelClient = self.manager.client()
         self.client.start_channels()
-        self.client.wait_for_ready(timeout=TIMEOUT)
+        self.client.wait_for_ready(timeout=PATIENCE)
 
     def restart(self) -> None:
         self.client.stop_channels()
@@ -47,8 +47,10 @@ class Kernel:
         self.connect()
 
     def close(self) -> None:
-        self.client.stop_channels()
-        self.manager.shutdown_kernel(now=True)
+        try:
+            self.client.stop_channels()
+        finally:
+            self.manager.shutdown_kernel(now=True)
 
     def send(self, code: str, subshell: str | None = None) -> Cell:
         """Send a cell and do not wait for it."""
@@ -99,16 +101,16 @@ class Kernel:
         """Start a subshell, as JupyterLab does for widgets."""
         message = self.client.session.msg("create_subshell_request", {})
         self.client.control_channel.send(message)
-        reply = self.client.get_control_msg(timeout=TIMEOUT)
+        reply = self.client.get_control_msg(timeout=PATIENCE)
         assert reply["content"]["status"] == "ok", reply
         return reply["content"]["subshell_id"]
 
     def interrupt(self) -> None:
         self.manager.interrupt_kernel()
 
-    def until(self, condition, what: str, timeout: float = TIMEOUT) -> None:
+    def until(self, condition, what: str) -> None:
         """Take messages until `condition()` holds."""
-        end = time.monotonic() + timeout
+        end = time.monotonic() + PATIENCE
         while not condition():
             assert time.monotonic() < end, f"waited in vain for {what}"
             self._take()
@@ -166,21 +168,28 @@ pub.wait_for_subscribers()
 """
 
 
+@contextmanager
+def running():
+    kernel = Kernel()
+    try:
+        kernel.connect()
+        kernel.ok(IMPORTS)
+        yield kernel
+    finally:
+        kernel.close()
+
+
 @pytest.fixture
 def new_kernel():
     """A kernel of the test's own."""
-    kernel = Kernel()
-    kernel.ok(IMPORTS)
-    yield kernel
-    kernel.close()
+    with running() as kernel:
+        yield kernel
 
 
 @pytest.fixture(scope="module")
 def shared_kernel():
-    kernel = Kernel()
-    kernel.ok(IMPORTS)
-    yield kernel
-    kernel.close()
+    with running() as kernel:
+        yield kernel
 
 
 @pytest.fixture(params=[True, False], ids=["simulated", "wall"])

@@ -26,7 +26,7 @@ def workspace(tmp_path: Path) -> Callable[[dict[str, str]], Path]:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
             package = tmp_path / name.partition("/")[0]
-            (package / "package.xml").write_text(MANIFEST.format(name=package.name))
+            (package / "package.xml").write_text(MANIFEST.format(name=package.name), encoding="utf-8")
         return tmp_path
 
     return write

@@ -19,7 +19,7 @@ MakeRegistry = Callable[[dict[str, str]], Registry]
 
 
 def test_md5_sums_of_all_known_types_equal_those_of_real_ros(root: Path) -> None:
-    known = json.loads((root / "tests" / "data" / "ros_md5.json").read_text())
+    known = json.loads((root / "tests" / "data" / "ros_md5.json").read_text(encoding="utf-8"))
     reg = registry()
     ours = {}
     for name in known:

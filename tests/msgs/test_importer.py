@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -12,6 +11,8 @@ import pytest
 import rosmini.msgs
 from rosmini.errors import DefinitionError, UnknownPackage, UnknownType
 from rosmini.msgs import install, installed, message_class, uninstall
+
+from ..processes import run as run_process
 
 Workspace = Callable[[dict[str, str]], Path]
 
@@ -114,8 +115,8 @@ def test_an_installed_module_is_not_shadowed_unless_asked(
 ) -> None:
     package = tmp_path / "std_msgs"
     package.mkdir()
-    (package / "__init__.py").write_text("")
-    (package / "msg.py").write_text("String = 'the installed one'\n")
+    (package / "__init__.py").write_text("", encoding="utf-8")
+    (package / "msg.py").write_text("String = 'the installed one'\n", encoding="utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
     try:
         for shadow, expected in ((False, "the installed one"), (True, message_class("std_msgs/String"))):
@@ -147,5 +148,5 @@ def test_a_python_package_of_the_same_name_keeps_its_own_modules(
 
 def test_importing_the_package_is_light() -> None:
     code = "import sys, rosmini.msgs; print([m for m in ('numpy', 'rosbags', 'yaml', 'catkin_pkg') if m in sys.modules])"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = run_process([sys.executable, "-c", code], check=True)
     assert done.stdout.strip() == "[]"

@@ -31,16 +31,22 @@ WRONG = [
 def test_stubs_are_fresh(root: Path, tmp_path: Path) -> None:
     write_stubs(tmp_path)
     assert write_stubs(tmp_path) == []
-    written = {path.relative_to(tmp_path).as_posix(): path.read_text() for path in tmp_path.glob("*/*.pyi")}
+    written = {
+        path.relative_to(tmp_path).as_posix(): path.read_text(encoding="utf-8")
+        for path in tmp_path.glob("*/*.pyi")
+    }
     folder = root / "rosmini" / "msgs"
-    committed = {path.relative_to(folder).as_posix(): path.read_text() for path in folder.glob("*/*.pyi")}
+    committed = {
+        path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8")
+        for path in folder.glob("*/*.pyi")
+    }
     assert sorted(written) == sorted(committed), "run: python -m rosmini.msgs.stubs"
     assert written == committed, "run: python -m rosmini.msgs.stubs"
 
 
 def test_stubs_of_packages_that_are_gone_are_removed(tmp_path: Path) -> None:
     (tmp_path / "old_msgs").mkdir()
-    (tmp_path / "old_msgs" / "msg.pyi").write_text("")
+    (tmp_path / "old_msgs" / "msg.pyi").write_text("", encoding="utf-8")
     assert tmp_path / "old_msgs" / "msg.pyi" in write_stubs(tmp_path)
     assert not (tmp_path / "old_msgs" / "msg.pyi").exists()
 
@@ -49,7 +55,7 @@ def test_mypy_accepts_the_right_program_and_refuses_each_wrong_one(root: Path, t
     api = pytest.importorskip("mypy.api", reason="mypy is part of the dev extra only")
     sources = {"right.py": RIGHT, **{f"wrong_{number}.py": text for number, (text, _) in enumerate(WRONG)}}
     for name, text in sources.items():
-        (tmp_path / name).write_text(text)
+        (tmp_path / name).write_text(text, encoding="utf-8")
     arguments = [
         "--strict",
         "--config-file",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from importlib import import_module
 from pathlib import Path
@@ -11,6 +10,8 @@ import pytest
 
 import rosmini
 from rosmini.rospy import importer, modules
+
+from ..processes import run
 
 
 @pytest.fixture
@@ -48,7 +49,7 @@ def test_uninstalling_leaves_nothing(installed):
 @pytest.mark.parametrize(("shadow", "winner"), [(False, "real"), (True, "ours")])
 def test_an_installed_ros_is_not_shadowed_unless_asked(tmp_path: Path, shadow: bool, winner: str):
     (tmp_path / "rospy").mkdir()
-    (tmp_path / "rospy" / "__init__.py").write_text("WHO = 'real'\n")
+    (tmp_path / "rospy" / "__init__.py").write_text("WHO = 'real'\n", encoding="utf-8")
     program = f"""
 import sys
 sys.path.insert(0, {str(tmp_path)!r})
@@ -57,7 +58,5 @@ rosmini.install(shadow={shadow})
 import rospy
 print(getattr(rospy, "WHO", "ours"))
 """
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=60
-    )
+    done = run([sys.executable, "-c", program])
     assert (done.stdout, done.stderr) == (f"{winner}\n", "")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import subprocess
 import sys
 import threading
 
@@ -13,6 +12,8 @@ from rosmini import Graph, rospy, set_default_graph
 from rosmini.errors import IllegalName
 from rosmini.graph import default_graph
 from rosmini.msgs.std_msgs.msg import String
+
+from ..processes import PATIENCE, run
 
 
 def test_a_node_has_a_name_a_namespace_and_a_uri(programs):
@@ -308,9 +309,7 @@ rospy.sleep(0.05)
 
 
 def test_the_hooks_of_a_plain_program_run_at_its_end():
-    done = subprocess.run(
-        [sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=False, timeout=60
-    )
+    done = run([sys.executable, "-c", PROGRAM])
     assert (done.stdout.splitlines(), done.stderr, done.returncode) == (["heard x", "hook /plain"], "", 0)
 
 
@@ -345,9 +344,7 @@ else:
 )
 def test_ctrl_c_shuts_the_node_of_a_plain_program_down(call, disabled, lines):
     program = INTERRUPTED.format(call=call, disabled=disabled)
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=60
-    )
+    done = run([sys.executable, "-c", program])
     assert (done.stdout.splitlines(), done.stderr) == (lines, "")
 
 
@@ -373,7 +370,7 @@ def test_real_threads_know_the_node_of_the_main_program():
         rospy.Timer(rospy.Duration(0.01), lambda _: [thread.start() for thread in threads], oneshot=True)
         rospy.spin()
         for thread in threads:
-            thread.join(5)
+            thread.join(PATIENCE)
             assert not thread.is_alive()
         assert names == ["/plain"] * 3
         assert heard == [(str(count), "/plain") for count in range(3)]

@@ -21,6 +21,8 @@ import pytest
 
 from rosmini.scripts import RunResult, ScriptSpec, run_scripts
 
+from ..processes import PATIENCE
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
@@ -74,7 +76,7 @@ def nothing_left() -> Iterator[None]:
     after = state()
     for key, value in before.items():
         assert after[key] == value, f"a script changed the host's {key}"
-    deadline = time.monotonic() + 2
+    deadline = time.monotonic() + PATIENCE
     while (left := set(threading.enumerate()) - threads) and time.monotonic() < deadline:
         for thread in left:
             thread.join(0.05)
@@ -120,7 +122,7 @@ class Runner:
         """A script, written to `folder`."""
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(textwrap.dedent(source))
+        path.write_text(textwrap.dedent(source), encoding="utf-8")
         return ScriptSpec(str(path), args)
 
 

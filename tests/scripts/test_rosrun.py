@@ -53,19 +53,20 @@ def workspace(tmp_path, monkeypatch):
     site = tmp_path / "site"
     info = site / "counting-1.0.dist-info"
     info.mkdir(parents=True)
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: counting\nVersion: 1.0\n")
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: counting\nVersion: 1.0\n", encoding="utf-8")
     names = {"counter": "Counter", "patient": "patient", "broken": "broken"}
     lines = [f"counting/{name} = counting_nodes:{target}" for name, target in names.items()]
-    (info / "entry_points.txt").write_text("\n".join(["[rosmini.nodes]", *lines]) + "\n")
-    (site / "counting_nodes.py").write_text(NODES)
+    (info / "entry_points.txt").write_text("\n".join(["[rosmini.nodes]", *lines]) + "\n", encoding="utf-8")
+    (site / "counting_nodes.py").write_text(NODES, encoding="utf-8")
     monkeypatch.syspath_prepend(str(site))
     scripts = tmp_path / "ws" / "counting" / "scripts"
     scripts.mkdir(parents=True)
     (scripts.parent / "package.xml").write_text(
         "<package format='2'><name>counting</name><version>1.0.0</version><description>d</description>"
-        "<maintainer email='a@b.cd'>a</maintainer><license>Apache-2.0</license></package>"
+        "<maintainer email='a@b.cd'>a</maintainer><license>Apache-2.0</license></package>",
+        encoding="utf-8",
     )
-    (scripts / "listener.py").write_text(SCRIPT)
+    (scripts / "listener.py").write_text(SCRIPT, encoding="utf-8")
     (scripts / "listener.py").chmod(0o755)
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ws"))
     yield scripts
@@ -104,7 +105,7 @@ def test_a_built_in_node_takes_ros_arguments_and_gives_its_object(graph):
 
 def test_a_path_is_an_argument_like_its_text(graph, tmp_path):
     path = tmp_path / "small.world"
-    path.write_text('position( name "alone" )')
+    path.write_text('position( name "alone" )', encoding="utf-8")
     assert rosrun("stage_ros", "stageros", path).world.name == "small"
     with Graph() as other:
         assert rosrun("stage_ros", "stageros", str(path), graph=other).world.name == "small"

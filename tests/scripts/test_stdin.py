@@ -87,7 +87,7 @@ def test_select_on_a_pipe(run):
 @pytest.mark.skipif(os.name == "nt", reason="pipes cannot be waited for on Windows")
 def test_a_real_pipe_parks_only_the_reader(run):
     read, write = os.pipe()
-    with os.fdopen(read) as stream:
+    with os.fdopen(read, encoding="utf-8") as stream:
         ran = (
             run(
                 run.text("ask", "print('got', input())\nprint(repr(input()))"),
@@ -110,7 +110,7 @@ def test_a_real_pipe_parks_only_the_reader(run):
 @pytest.mark.skipif(os.name == "nt", reason="pipes cannot be waited for on Windows")
 def test_a_reader_that_gets_nothing_is_ended(run):
     read, write = os.pipe()
-    with os.fdopen(read) as stream:
+    with os.fdopen(read, encoding="utf-8") as stream:
         if run.simulated:  # time stands still while a person types, so nothing would end it but Ctrl-C
             os.close(write)
             assert "EOFError" in run("input()", stdin=stream).text

@@ -61,7 +61,7 @@ class Bench:
 
     def _stageros(self, folder: Path) -> Stageros:
         self.robots = ("robot_0", "robot_1")
-        (folder / "a.world").write_text(STAGE)
+        (folder / "a.world").write_text(STAGE, encoding="utf-8")
         return Stageros(self.graph.node("stageros"), str(folder / "a.world"))
 
     def _gzserver(self, _: Path) -> GazeboServer:
@@ -183,7 +183,7 @@ def test_a_state_of_another_world_is_refused(graph: Graph, tmp_path: Path) -> No
     ):
         GazeboServer(other.node("gazebo"), "empty").restore(state)
     for name, text in (("one", STAGE), ("two", STAGE)):
-        (tmp_path / f"{name}.world").write_text(text)
+        (tmp_path / f"{name}.world").write_text(text, encoding="utf-8")
     with Graph() as other:
         state = Stageros(other.node("stageros"), str(tmp_path / "one.world")).save()
     with Graph() as other, pytest.raises(RosminiError, match="cannot be restored in the world"):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import subprocess
 import sys
 import threading
 from collections import defaultdict
@@ -23,6 +22,8 @@ from rosmini.sim.models import BURGER, GRAVITY, UnknownModel
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import World, WorldError
 from rosmini.sim.worlds import world
+
+from ..processes import run
 
 Twist = message_class("geometry_msgs/Twist")
 TOPICS = {
@@ -556,7 +557,7 @@ print('%.2f' % go.x)
 
 def test_importing_rosmini_loads_no_physics():
     code = "import rosmini, sys; sys.exit('pymunk' in sys.modules or 'numba' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+    assert run([sys.executable, "-c", code]).returncode == 0
 
 
 def test_without_pymunk_the_error_says_what_to_install(graph, monkeypatch):

@@ -252,13 +252,16 @@ def test_files_and_meshes(tmp_path):
     package = tmp_path / "my_robot"
     (package / "meshes").mkdir(parents=True)
     (package / "meshes" / "a.stl").write_bytes(b"")
-    (package / "package.xml").write_text("<package format='2'><name>my_robot</name></package>")
+    (package / "package.xml").write_text(
+        "<package format='2'><name>my_robot</name></package>", encoding="utf-8"
+    )
     path = package / "r.urdf"
     path.write_text(
         body(
             '<visual><geometry><mesh filename="package://my_robot/meshes/a.stl" scale="2 2 2"/></geometry></visual>'
             '<visual><geometry><mesh filename="meshes/a.stl"/></geometry></visual>'
-        )
+        ),
+        encoding="utf-8",
     )
     index = PackageIndex([tmp_path])
     stl = package / "meshes" / "a.stl"

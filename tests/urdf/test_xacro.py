@@ -1,4 +1,3 @@
-import subprocess
 import sys
 
 import pytest
@@ -7,6 +6,8 @@ from rosmini.packages import PackageIndex, assets_dir
 from rosmini.urdf import UrdfError, load
 from rosmini.urdf.xacro import expand, main
 
+from ..processes import run
+
 HEAD = '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">'
 
 
@@ -14,7 +15,9 @@ HEAD = '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">'
 def index(tmp_path):
     package = tmp_path / "my_robot"
     (package / "urdf").mkdir(parents=True)
-    (package / "package.xml").write_text("<package format='2'><name>my_robot</name></package>")
+    (package / "package.xml").write_text(
+        "<package format='2'><name>my_robot</name></package>", encoding="utf-8"
+    )
     (package / "urdf" / "wheel.xacro").write_text(
         HEAD
         + """
@@ -23,14 +26,15 @@ def index(tmp_path):
       <visual><geometry><cylinder radius="${radius}" length="${radius / 2}"/></geometry></visual>
     </link>
   </xacro:macro>
-</robot>"""
+</robot>""",
+        encoding="utf-8",
     )
     return PackageIndex([tmp_path])
 
 
 def write(index, text, name="r.urdf.xacro"):
     path = index.path("my_robot") / "urdf" / name
-    path.write_text(text if text.startswith("<?") else f"{HEAD}\n{text}\n</robot>")
+    path.write_text(text if text.startswith("<?") else f"{HEAD}\n{text}\n</robot>", encoding="utf-8")
     return path
 
 
@@ -124,10 +128,7 @@ def test_rosrun_xacro_xacro(index):
     path = write(index, "<xacro:arg name='a' default='1'/><link name='l$(arg a)'/>")
     found = PackageIndex().find_executable("xacro", "xacro")
     assert found.path == assets_dir() / "ros" / "xacro" / "scripts" / "xacro"
-    done = subprocess.run(
-        [sys.executable, "-m", "rosmini", "run", "xacro/xacro", str(path), "a:=1.5"],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
+    done = run([sys.executable, "-m", "rosmini", "run", "xacro/xacro", str(path), "a:=1.5"])  # fmt: skip
     assert '<link name="l1.5"/>' in done.stdout, done.stderr
 
 

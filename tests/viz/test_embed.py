@@ -21,8 +21,8 @@ GIVEN = {"title": "A run", "alt": "A robot <runs>.", "height": 300, "fallback_ht
 
 @pytest.fixture(autouse=True)
 def static(tmp_path, monkeypatch):
-    (tmp_path / "test.js").write_text(SCRIPT)
-    (tmp_path / "closing.js").write_text("'</script>'")
+    (tmp_path / "test.js").write_text(SCRIPT, encoding="utf-8")
+    (tmp_path / "closing.js").write_text("'</script>'", encoding="utf-8")
     monkeypatch.setattr(module, "STATIC", tmp_path)
 
 

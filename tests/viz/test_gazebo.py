@@ -45,7 +45,7 @@ def add(server, model, name, pose=(0.0, 0.0, 0.0)):
 @pytest.fixture
 def server(tmp_path):
     path = tmp_path / "yard.world"
-    path.write_text(WALLS)
+    path.write_text(WALLS, encoding="utf-8")
     with Graph() as graph:
         yield GazeboServer(graph.node("gazebo"), str(path), "-u")
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import re
-import subprocess
 import sys
 import tomllib
 import xml.etree.ElementTree as ET
@@ -17,6 +16,8 @@ from rosmini.graph import show as show_module
 from rosmini.viz import Picture, View, ViewError, matplotlib_picture, rqt_graph, style
 from rosmini.viz.alt_text import AltText
 from rosmini.viz.svg import clean, element, escape, number
+
+from ..processes import run
 
 ROOT = Path(__file__).parents[2]
 SYSTEM = [[["/chatter", ["/talker"]]], [["/chatter", ["/listener"]]], []]
@@ -65,9 +66,9 @@ def test_a_png_brings_its_caption_in_the_metadata():
 
 def test_saving_writes_the_form_that_the_suffix_names(tmp_path):
     view = rqt_graph(SYSTEM)
-    assert view.save(tmp_path / "a.svg").read_text() == view.svg
-    assert view.save(str(tmp_path / "a.txt")).read_text() == view.text + "\n"
-    assert view.html in view.save(tmp_path / "a.html").read_text()
+    assert view.save(tmp_path / "a.svg").read_text(encoding="utf-8") == view.svg
+    assert view.save(str(tmp_path / "a.txt")).read_text(encoding="utf-8") == view.text + "\n"
+    assert view.html in view.save(tmp_path / "a.html").read_text(encoding="utf-8")
     with pytest.raises(ViewError, match=r"no form for the suffix '.jpg'.*\.html, \.svg, \.txt"):
         view.save(tmp_path / "a.jpg")
 
@@ -104,14 +105,14 @@ def test_a_matplotlib_figure_is_a_picture_with_the_same_bytes_each_time(form):
 
 def test_bytes_are_the_same_in_another_process():
     code = f"from rosmini.viz import rqt_graph; import sys; sys.stdout.write(rqt_graph({SYSTEM!r}).svg)"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
-    assert run.stdout == rqt_graph(SYSTEM).svg
+    done = run([sys.executable, "-c", code], check=True, cwd=ROOT)
+    assert done.stdout == rqt_graph(SYSTEM).svg
 
 
 def test_viz_is_light_to_import():
     code = "import sys, rosmini.viz; print(sorted({'matplotlib', 'numpy', 'IPython', 'sphinx'} & set(sys.modules)))"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
-    assert run.stdout.strip() == "[]"
+    done = run([sys.executable, "-c", code], check=True, cwd=ROOT)
+    assert done.stdout.strip() == "[]"
 
 
 def test_svg_is_escaped_and_numbers_are_short():
@@ -150,7 +151,7 @@ def test_text_and_lines_stand_out(palette):
 
 def test_both_palettes_name_the_same_colours_and_the_style_sheet_is_fresh():
     assert list(style.LIGHT) == list(style.DARK)
-    assert (ROOT / "rosmini/viz/static/rosmini.css").read_text() == style.book_css()
+    assert (ROOT / "rosmini/viz/static/rosmini.css").read_text(encoding="utf-8") == style.book_css()
 
 
 def test_a_picture_follows_the_theme_of_its_page_and_has_no_id_and_no_link():
@@ -177,7 +178,9 @@ def test_a_thing_is_shown_by_the_renderer_of_its_kind(monkeypatch):
 
 
 def test_the_entry_points_of_the_project_can_be_loaded():
-    declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"].get("entry-points", {})
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"].get(
+        "entry-points", {}
+    )
     found = {
         name: EntryPoint(name, value, group).load()
         for group in ("rosmini.renderers", "myst_nb.mime_renderers")
@@ -217,7 +220,7 @@ def built_page(tmp_path_factory) -> str:
             confoverrides=confoverrides, status=None, warningiserror=True,
         )  # fmt: skip
         app.build()
-    return (source / "out" / "index.html").read_text()
+    return (source / "out" / "index.html").read_text(encoding="utf-8")
 
 
 def test_the_built_page_shows_the_graph_inline_with_its_alt_text_and_caption(built_page):

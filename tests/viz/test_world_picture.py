@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import subprocess
 import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -20,6 +19,8 @@ from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere
 from rosmini.sim.worlds import world as built_in
 from rosmini.viz import ViewError, style, world_picture
 from rosmini.viz.world_drawing import LEAST_ROBOT
+
+from ..processes import run
 
 ROOT = Path(__file__).parents[2]
 SVG = "{http://www.w3.org/2000/svg}"
@@ -150,8 +151,8 @@ def test_the_bytes_are_the_same_again_in_another_process_and_for_inputs_with_ano
     assert svg(-1e-12) == svg(0.0)
     assert svg(0.01) != svg(0.0)
     code = "import sys; from rosmini.sim.worlds import world; from rosmini.viz import world_picture; sys.stdout.write(world_picture(world('room'), robot=(0, 0, 1)).svg)"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
-    assert run.stdout == world_picture(built_in("room"), robot=(0, 0, 1)).svg
+    done = run([sys.executable, "-c", code], check=True, cwd=ROOT)
+    assert done.stdout == world_picture(built_in("room"), robot=(0, 0, 1)).svg
 
 
 def test_a_full_picture_is_under_60_kilobytes():
@@ -273,5 +274,5 @@ def test_importing_viz_loads_neither_numpy_nor_matplotlib_and_names_are_there():
         "print(sorted({'matplotlib', 'numpy'} & set(sys.modules))); v.world_picture; "
         "print(sorted({'matplotlib', 'numpy', 'pymunk', 'numba'} & set(sys.modules)))"
     )
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
-    assert run.stdout.splitlines() == ["[]", "['numpy']"]
+    done = run([sys.executable, "-c", code], check=True, cwd=ROOT)
+    assert done.stdout.splitlines() == ["[]", "['numpy']"]

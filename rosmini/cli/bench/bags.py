@@ -116,7 +116,7 @@ class Peer:
         done = subprocess.run(
             [SYSTEM_PYTHON, str(PEER), what, str(path), kind, str(count)],
             capture_output=True,
-            text=True,
+            encoding="utf-8",
             check=False,
             env={"PATH": "/usr/bin:/bin"},
         )

@@ -102,7 +102,7 @@ class Rospy:
     def _start(self, node: Path, role: str, words: list[str]) -> subprocess.Popen[str]:
         command = [self.python, str(node), role, *words]
         return subprocess.Popen(
-            command, env=self._env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+            command, env=self._env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8"
         )
 
     def close(self) -> None:

@@ -48,7 +48,9 @@ class Peer:
         """Return how many seconds it simulates in a second of processor time, over `seconds` of them, with so many robots."""
         command = [sys.executable, "-m", self._module, str(seconds), str(count)]
         try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+            done = subprocess.run(
+                command, capture_output=True, encoding="utf-8", timeout=TIMEOUT_S, check=False
+            )
         except subprocess.TimeoutExpired as error:
             msg = f"{self.name} did not simulate {seconds} s with {count} robots in {TIMEOUT_S} s"
             raise RosminiError(msg) from error

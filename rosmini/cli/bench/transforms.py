@@ -66,7 +66,7 @@ def depth(frame: str) -> int:
 
 def real_lookup_us(python: str, count: int) -> float:
     """Return the microseconds that a lookup of the real tf2 takes, called from Python."""
-    done = subprocess.run([python, str(NODE), str(count)], capture_output=True, check=True, text=True)
+    done = subprocess.run([python, str(NODE), str(count)], capture_output=True, check=True, encoding="utf-8")
     microseconds, total = map(float, done.stdout.split())
     check(total, count)
     return microseconds

@@ -27,6 +27,6 @@ class ViewFrames:
         print("Done Listening")
         self.dot = self.buffer.all_frames_as_dot()
         self.picture: Any = show("tf_tree", self.buffer)
-        Path(folder, "frames.gv").write_text(self.dot)
+        Path(folder, "frames.gv").write_text(self.dot, encoding="utf-8")
         self.picture.save(Path(folder, "frames.svg"))
         print("frames.gv and frames.svg generated")

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 import shlex
-import subprocess
 import sys
 from pathlib import Path
 
 from rosmini.book import notebooks
+
+from ...processes import run
 
 NOTEBOOKS = Path(__file__).resolve().parents[3] / "notebooks"
 
@@ -46,14 +47,7 @@ def write_scripts(prose: str, folder: Path) -> set[str]:
 
 def run_rosmini(command: str, folder: Path) -> tuple[int, str, str]:
     """Run `rosmini` with these words; its exit status and what it printed."""
-    done = subprocess.run(
-        [sys.executable, "-m", "rosmini", *shlex.split(command)],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
+    done = run([sys.executable, "-m", "rosmini", *shlex.split(command)], cwd=folder)
     return done.returncode, done.stdout, done.stderr
 
 

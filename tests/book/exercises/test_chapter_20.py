@@ -57,7 +57,7 @@ def test_the_watchdog_and_the_bounds_are_those_of_the_text(prose, tmp_path):
     assert WATCHDOG == 0.2
     assert "stops a robot that has heard nothing for 0.2 s" in prose
     assert "1 m/s and 90 degrees a second: these are Stage's bounds" in prose
-    (tmp_path / "plain.world").write_text("position( )")
+    (tmp_path / "plain.world").write_text("position( )", encoding="utf-8")
     (robot,) = load(tmp_path / "plain.world").robots
     ahead, _, turning = robot.velocity_bounds
     assert ahead == (-1.0, 1.0)
@@ -68,7 +68,9 @@ def test_the_watchdog_and_the_bounds_are_those_of_the_text(prose, tmp_path):
 def test_a_robot_is_dragged_in_the_view_and_only_gps_notices(prose, tmp_path):
     assert "`stage.view()`" in prose
     for kind, believed in (("gps", (1.0, -2.0)), ("odom", (0.0, 0.0))):
-        (tmp_path / "one.world").write_text(f'position( pose [-3 0 0 0] localization "{kind}" )')
+        (tmp_path / "one.world").write_text(
+            f'position( pose [-3 0 0 0] localization "{kind}" )', encoding="utf-8"
+        )
         with Graph() as graph:
             stage = rosrun("stage_ros", "stageros", tmp_path / "one.world", graph=graph)
             stage.view().drag("robot_0", (1.0, -2.0))
@@ -82,7 +84,7 @@ def test_the_solution_believes_what_stage_comes_to(chapter, tmp_path, w):
     found = {"math": math}
     exec(solutions.solutions(chapter)["20.4"], found)
     text = 'position( pose [1 2 0 90] localization "odom" odom_error [0.2 0 0 0.2] )'
-    (tmp_path / "mole.world").write_text(text)
+    (tmp_path / "mole.world").write_text(text, encoding="utf-8")
     with Graph(seed=3) as graph:
         base = rosrun("stage_ros", "stageros", tmp_path / "mole.world", graph=graph).robot().base
         e_x, _, e_a = base.reckoning.errors
@@ -96,7 +98,7 @@ def test_the_solution_believes_what_stage_comes_to(chapter, tmp_path, w):
 def test_the_solution_slides_to_the_north_whatever_it_looks_at(chapter, tmp_path):
     found = {"math": math, "Twist": message_class("geometry_msgs/Twist")}
     exec(solutions.solutions(chapter)["20.3"], found)
-    (tmp_path / "omni.world").write_text('position( pose [0 0 0 30] drive "omni" )')
+    (tmp_path / "omni.world").write_text('position( pose [0 0 0 30] drive "omni" )', encoding="utf-8")
     with Graph() as graph:
         stage = rosrun("stage_ros", "stageros", tmp_path / "omni.world", graph=graph)
         command = found["world_velocity"](0.0, 0.4, math.radians(30))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shlex
-import subprocess
 import sys
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import pytest
 
 from rosmini.book import notebooks
 
+from ...processes import run
 from .conftest import assert_figures_are_numbered
 
 CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "41_teleoperation.ipynb"
@@ -38,15 +38,7 @@ def test_the_listed_script_answers_the_typed_keys_as_shown(prose, tmp_path):
     ).groups()
     typed = re.findall(r"keys: ?(.*\n)", shown)
     assert len(typed) == 3
-    done = subprocess.run(
-        [sys.executable, "-m", "rosmini", *shlex.split(command)],
-        cwd=tmp_path,
-        input="".join(typed),
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
+    done = run([sys.executable, "-m", "rosmini", *shlex.split(command)], cwd=tmp_path, stdin="".join(typed))
     # What is typed into a terminal stands there too; in a pipe it does not.
     printed = re.sub(r"keys: ?.*\n", "keys: ", shown)
     assert (done.returncode, done.stdout.strip(), done.stderr) == (0, printed.strip(), "")

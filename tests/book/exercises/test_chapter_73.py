@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
@@ -14,11 +11,12 @@ from defusedxml import ElementTree
 from rosmini.book import notebooks
 from rosmini.packages import assets_dir
 
+from ...interop.conftest import SYSTEM_PYTHON, need_ros
+from ...processes import run
 from .conftest import assert_figures_are_numbered
 
 CHAPTER = Path(__file__).resolve().parents[3] / "notebooks" / "73_many_turtlebots.ipynb"
 LAUNCH = assets_dir() / "ros" / "turtlebot3_gazebo" / "launch" / "two_turtlebot3.launch"
-SYSTEM_PYTHON = "/usr/bin/python3"
 
 FIGURES = ("rqt_graph(graph", "tf_tree(", ".show(", "world_picture(\n", "plot(\n", ".replay(")
 
@@ -91,22 +89,11 @@ def test_the_words_of_the_launch_file_are_those_that_the_cells_use(code):
 
 
 def test_real_roslaunch_says_of_the_slip_what_the_text_says(prose, tmp_path):
-    found = (
-        shutil.which(SYSTEM_PYTHON)
-        and not subprocess.run(
-            [SYSTEM_PYTHON, "-c", "import roslaunch"], capture_output=True, check=False
-        ).returncode
-    )
-    if not found:
-        if os.environ.get("ROSMINI_REQUIRE_ROS"):
-            pytest.fail("ROSMINI_REQUIRE_ROS is set, but there is no roslaunch")
-        pytest.skip("there is no roslaunch: real ROS 1 is not installed")
+    need_ros(modules="roslaunch")
     (warning,) = re.findall(r"roslaunch warns, `(.*?)`,", prose)
     file = tmp_path / "slip.launch"
     file.write_text(SLIP, encoding="utf-8")
-    done = subprocess.run(
-        [SYSTEM_PYTHON, "-c", READ, str(file)], capture_output=True, text=True, check=False, timeout=60
-    )
+    done = run([SYSTEM_PYTHON, "-c", READ, str(file)])
     said, arguments = done.stdout.splitlines()
     assert said == f"[{file}] {warning}"
     assert arguments == "['']"

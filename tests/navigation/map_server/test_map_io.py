@@ -34,7 +34,10 @@ def write(tmp_path):
             Image.fromarray(array, {2: "LA", 4: "RGBA"}[array.shape[2]]).save(tmp_path / file)
         lines = FIELDS | {"image": file} | ({"mode": mode} if mode else {}) | fields
         path = tmp_path / "map.yaml"
-        path.write_text("".join(f"{name}: {value}\n" for name, value in lines.items() if value is not None))
+        path.write_text(
+            "".join(f"{name}: {value}\n" for name, value in lines.items() if value is not None),
+            encoding="utf-8",
+        )
         return path
 
     return write
@@ -116,8 +119,8 @@ def test_an_absolute_path_of_the_image_is_taken_as_it_is(write, tmp_path):
     path = write()
     moved = tmp_path / "elsewhere"
     moved.mkdir()
-    text = path.read_text().replace("map.png", str(tmp_path / "map.png"))
-    (moved / "map.yaml").write_text(text)
+    text = path.read_text(encoding="utf-8").replace("map.png", str(tmp_path / "map.png"))
+    (moved / "map.yaml").write_text(text, encoding="utf-8")
     assert load_map(moved / "map.yaml").occupancy.tolist() == [[100, 0]]
 
 
@@ -175,7 +178,7 @@ def test_an_error_names_the_file_and_the_field(write, name, value, part):
         load_map(path)
     assert str(path) in str(caught.value)
     if value is not None:
-        line = path.read_text().splitlines().index(f"{name}: {value}") + 1
+        line = path.read_text(encoding="utf-8").splitlines().index(f"{name}: {value}") + 1
         assert str(caught.value).startswith(f"{path}:{line}: ")
 
 
@@ -187,7 +190,7 @@ def test_a_misspelt_field_is_named(write):
 
 def test_a_line_that_is_not_yaml_is_named(write):
     path = write()
-    path.write_text(path.read_text() + "mode: [trinary\n")
+    path.write_text(path.read_text(encoding="utf-8") + "mode: [trinary\n", encoding="utf-8")
     with pytest.raises(MapError, match=rf"{path}:8: this is not YAML: "):
         load_map(path)
 
@@ -195,7 +198,7 @@ def test_a_line_that_is_not_yaml_is_named(write):
 @pytest.mark.parametrize("text", ["{", "a: b: c", "\t- x", "just words", "", "- 1\n- 2", "3"])
 def test_what_is_not_yaml_or_has_no_fields_is_no_map(tmp_path, text):
     path = tmp_path / "map.yaml"
-    path.write_text(text)
+    path.write_text(text, encoding="utf-8")
     with pytest.raises(MapError, match=r"map\.yaml"):
         load_map(path)
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import select
 import signal
-import subprocess
 import sys
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
+
+from ...processes import PATIENCE, start
 
 if sys.platform == "win32":
     pytest.skip("needs a POSIX terminal", allow_module_level=True)
@@ -18,7 +20,6 @@ if sys.platform == "win32":
 import pty
 
 HERE = Path(__file__).parents[1] / "rospy"
-LIMIT = 60
 
 
 class Terminal:
@@ -27,14 +28,13 @@ class Terminal:
     def __init__(self, *words: str) -> None:
         self.master, slave = pty.openpty()
         command = [sys.executable, "-m", "rosmini", "run", *words]
-        self.process = subprocess.Popen(
-            command, stdin=slave, stdout=slave, stderr=slave, start_new_session=True
-        )
+        self.end_of_it = ExitStack()
+        self.process = self.end_of_it.enter_context(start(command, stdin=slave, stdout=slave, stderr=slave))
         os.close(slave)
         self.text = ""
 
     def expect(self, wanted: str) -> None:
-        deadline = time.monotonic() + LIMIT
+        deadline = time.monotonic() + PATIENCE
         while wanted not in self.text:
             assert time.monotonic() < deadline, f"{wanted!r} did not come; there was:\n{self.text}"
             if not self._read():
@@ -56,23 +56,21 @@ class Terminal:
 
     def press(self, key: str, wanted: str) -> None:
         """Type `key` until `wanted` is there: setting the terminal to raw mode throws away what was typed before."""
-        deadline = time.monotonic() + LIMIT
+        deadline = time.monotonic() + PATIENCE
         while wanted not in self.text and self.process.poll() is None and time.monotonic() < deadline:
             self.type(key)
             self._read(0.05)
         self.expect(wanted)
 
     def end(self, key: str = "") -> int:
-        deadline = time.monotonic() + LIMIT
+        deadline = time.monotonic() + PATIENCE
         while self._read(0.05 if key else 1) and time.monotonic() < deadline:
             if key and self.process.poll() is None:
                 self.type(key)
-        return self.process.wait(LIMIT)
+        return self.process.wait(PATIENCE)
 
     def close(self) -> None:
-        if self.process.poll() is None:
-            self.process.kill()
-            self.process.wait()
+        self.end_of_it.close()
         os.close(self.master)
 
 
@@ -80,11 +78,11 @@ class Terminal:
 def rosmini_run():
     started = []
 
-    def start(*words):
+    def start_one(*words):
         started.append(Terminal(*words))
         return started[-1]
 
-    yield start
+    yield start_one
     for terminal in started:
         terminal.close()
 

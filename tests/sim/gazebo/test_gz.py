@@ -92,7 +92,7 @@ def test_a_model_is_told_of_moved_and_deleted(bench: Start) -> None:
 def test_a_model_is_spawned_from_a_file(bench: Start, tmp_path: Path) -> None:
     there = bench()
     path = tmp_path / "box.sdf"
-    path.write_text(box("chest"))
+    path.write_text(box("chest"), encoding="utf-8")
     gz = Gz(there.graph)
     gz.run("model", "-f", path, "-m", "one", "-x", 1)
     gz.run("model", "-f", path, "-y", 2)
@@ -164,12 +164,12 @@ def test_how_fast_time_goes_is_told_over_the_last_messages() -> None:
 
 def test_files_are_checked_and_printed(tmp_path: Path) -> None:
     path = tmp_path / "robot.urdf"
-    path.write_text(urdf().replace('<?xml version="1.0"?>\n', ""))
+    path.write_text(urdf().replace('<?xml version="1.0"?>\n', ""), encoding="utf-8")
     gz = Gz()
     assert gz.run("sdf", "-k", path)[-1] == "Check complete"
     text = "\n".join(gz.run("sdf", "-p", path))
     assert [link.name for link in sdf.load(text).models[0].links] == ["base_footprint", "left", "right"]
-    path.write_text("<robot name='r'>\n<link nam='a'/></robot>")
+    path.write_text("<robot name='r'>\n<link nam='a'/></robot>", encoding="utf-8")
     with pytest.raises(MarkupError, match=r"robot\.urdf:2"):
         gz.run("sdf", "-k", path)
 

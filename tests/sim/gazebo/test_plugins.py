@@ -187,9 +187,10 @@ def test_a_plugin_in_a_file_is_found(
         "from rosmini.sim.gazebo import ModelPlugin\n"
         "class Nudge(ModelPlugin, filename='libnudge.so'):\n"
         "    def load(self, model, sdf):\n"
-        "        model.set_pose((7.0, 0.0, 0.0, 0.0, 0.0, 0.0))\n"
+        "        model.set_pose((7.0, 0.0, 0.0, 0.0, 0.0, 0.0))\n",
+        encoding="utf-8",
     )
-    (tmp_path / "broken.py").write_text("1 / 0\n")
+    (tmp_path / "broken.py").write_text("1 / 0\n", encoding="utf-8")
     monkeypatch.setenv("GAZEBO_PLUGIN_PATH", str(tmp_path))
     there = bench()
     assert there.spawn(box(extra='<plugin name="n" filename="libnudge.so"/>'), "crate").success

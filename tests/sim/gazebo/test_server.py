@@ -33,7 +33,7 @@ WORLD = """<sdf version="1.6"><world name="yard">
 
 def test_a_world_file_is_loaded(bench: Start, tmp_path: Path) -> None:
     path = tmp_path / "yard.world"
-    path.write_text(WORLD)
+    path.write_text(WORLD, encoding="utf-8")
     there = bench(str(path))
     world = there.server.world
     assert world.name == "yard"
@@ -59,7 +59,7 @@ def test_worlds_are_looked_for_as_gzserver_does(
     bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "worlds").mkdir()
-    (tmp_path / "worlds" / "yard.world").write_text(WORLD)
+    (tmp_path / "worlds" / "yard.world").write_text(WORLD, encoding="utf-8")
     monkeypatch.setenv("GAZEBO_RESOURCE_PATH", str(tmp_path))
     assert bench("worlds/yard.world").server.world.name == "yard"
 
@@ -75,10 +75,10 @@ def test_worlds_that_are_none(graph: Graph, tmp_path: Path) -> None:
         with pytest.raises(GazeboError, match=said.replace("?", r"\?")):
             GazeboServer(graph.node("gazebo"), name)
     path = tmp_path / "broken.world"
-    path.write_text("<sdf version='1.6'>\n<world name='w'><model/></world></sdf>")
+    path.write_text("<sdf version='1.6'>\n<world name='w'><model/></world></sdf>", encoding="utf-8")
     with pytest.raises(SdfError, match=r"broken\.world:2"):
         GazeboServer(graph.node("gazebo"), str(path))
-    path.write_text(box())
+    path.write_text(box(), encoding="utf-8")
     with pytest.raises(GazeboError, match="spawn_model -sdf -file"):
         GazeboServer(graph.node("gazebo"), str(path))
     GazeboServer(graph.node("gazebo"), "empty")  # what failed left nothing behind
@@ -240,7 +240,7 @@ def test_gazebo_is_both(graph: Graph) -> None:
 
 def test_what_the_client_shows_is_the_world(bench: Start, tmp_path: Path) -> None:
     path = tmp_path / "yard.world"
-    path.write_text(WORLD)
+    path.write_text(WORLD, encoding="utf-8")
     there = bench(str(path))
     there.spawn(urdf(), "robot", -1.0, 0.0)
     client = there.server.client()

@@ -47,7 +47,7 @@ def test_its_own_namespace_is_the_robots(bench: Start) -> None:
 def test_from_a_file_and_from_the_standard_input(bench: Start, tmp_path: Path) -> None:
     there = bench()
     path = tmp_path / "box.sdf"
-    path.write_text(box())
+    path.write_text(box(), encoding="utf-8")
     assert spawn_model(there, "-sdf", "-file", path, "-model", "a", "-x", 1) == 0
     assert spawn_model(there, "-sdf", "-stdin", "-model", "b", "-x", 2, stdin=box()) == 0
     assert spawn_model(there, "-sdf", "-file", path, "-model", "c", "-x", 1, "-reference_frame", "b") == 0
@@ -57,7 +57,7 @@ def test_from_a_file_and_from_the_standard_input(bench: Start, tmp_path: Path) -
 def test_time_goes_on_afterwards(bench: Start, tmp_path: Path) -> None:
     there = bench("empty", "-u")
     path = tmp_path / "box.sdf"
-    path.write_text(box())
+    path.write_text(box(), encoding="utf-8")
     assert spawn_model(there, "-sdf", "-file", path, "-model", "a", "-unpause") == 0
     assert not there.server.world.paused
 
@@ -65,7 +65,7 @@ def test_time_goes_on_afterwards(bench: Start, tmp_path: Path) -> None:
 def test_it_waits_for_another_model(bench: Start, tmp_path: Path) -> None:
     there = bench()
     path = tmp_path / "box.sdf"
-    path.write_text(box())
+    path.write_text(box(), encoding="utf-8")
     there.spawn(box(), "first", 5.0)
     assert spawn_model(there, "-sdf", "-file", path, "-model", "a", "-wait", "first") == 0
 
@@ -73,7 +73,7 @@ def test_it_waits_for_another_model(bench: Start, tmp_path: Path) -> None:
 def test_it_takes_the_model_along_when_it_ends(bench: Start, tmp_path: Path) -> None:
     there = bench()
     path = tmp_path / "box.sdf"
-    path.write_text(box())
+    path.write_text(box(), encoding="utf-8")
     spawn_model(there, "-sdf", "-file", path, "-model", "a", "-b", duration=2.0)
     assert "a" not in there.server.world.models
 

@@ -185,10 +185,14 @@ def brick(tmp_path, monkeypatch):
     folder = tmp_path / "models" / "brick"
     folder.mkdir(parents=True)
     (folder / "model.config").write_text(
-        "<model><name>b</name><sdf version='1.4'>old.sdf</sdf><sdf version='1.10'>new.sdf</sdf></model>"
+        "<model><name>b</name><sdf version='1.4'>old.sdf</sdf><sdf version='1.10'>new.sdf</sdf></model>",
+        encoding="utf-8",
     )
     (folder / "new.sdf").write_text(
-        model(f"<pose>0 0 1 0 0 0</pose><link name='l'><collision name='c'>{BOX}</collision></link>", "brick")
+        model(
+            f"<pose>0 0 1 0 0 0</pose><link name='l'><collision name='c'>{BOX}</collision></link>", "brick"
+        ),
+        encoding="utf-8",
     )
     monkeypatch.setenv("GAZEBO_MODEL_PATH", f"{tmp_path / 'nowhere'}:{tmp_path / 'models'}")
     return folder
@@ -232,14 +236,14 @@ def test_the_ground_and_the_sun_are_fetched_from_no_server():
 
 def test_a_model_is_put_by_one_of_its_frames(brick):
     (brick / "new.sdf").write_text(
-        model("<link name='l'/><frame name='top'><pose>0 0 2 0 0 0</pose></frame>", "brick")
+        model("<link name='l'/><frame name='top'><pose>0 0 2 0 0 0</pose></frame>", "brick"), encoding="utf-8"
     )
     inside = "<include><uri>model://brick</uri><placement_frame>top</placement_frame><pose>1 0 5 0 0 0</pose></include>"
     assert load(world(inside)).worlds[0].models[0].pose == (1, 0, 3, 0, 0, 0)
 
 
 def test_actors_are_included_and_lights_are_not_models(brick):
-    (brick / "new.sdf").write_text("<sdf version='1.7'><actor name='man'/></sdf>")
+    (brick / "new.sdf").write_text("<sdf version='1.7'><actor name='man'/></sdf>", encoding="utf-8")
     (made,) = load(world("<include><uri>model://brick</uri><name>her</name></include>")).worlds
     assert [each.name for each in made.actors] == ["her"]
     with pytest.raises(SdfError, match="cannot stand in a model"):
@@ -251,17 +255,20 @@ def test_packages_may_bring_models(tmp_path, monkeypatch, brick):
     package.mkdir(parents=True)
     (package / "package.xml").write_text(
         "<package><name>bricks</name><version>0.1.0</version><description>d</description><maintainer email='a@b.invalid'>m</maintainer>"
-        "<license>l</license><export><gazebo_ros gazebo_model_path='${prefix}/../../models'/></export></package>"
+        "<license>l</license><export><gazebo_ros gazebo_model_path='${prefix}/../../models'/></export></package>",
+        encoding="utf-8",
     )
     monkeypatch.delenv("GAZEBO_MODEL_PATH")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ws"))
     assert load(world("<include><uri>model://brick</uri></include>")).worlds[0].models[0].name == "brick"
-    (package / "a.sdf").write_text(model("<link name='l'/>", "a"))
+    (package / "a.sdf").write_text(model("<link name='l'/>", "a"), encoding="utf-8")
     assert load("package://bricks/a.sdf").models[0].name == "a"
 
 
 def test_a_model_that_includes_itself_is_an_error(brick):
-    (brick / "new.sdf").write_text(model("<include><uri>model://brick</uri></include>", "brick"))
+    (brick / "new.sdf").write_text(
+        model("<include><uri>model://brick</uri></include>", "brick"), encoding="utf-8"
+    )
     with pytest.raises(SdfError, match="include"):
         load(world("<include><uri>model://brick</uri></include>"))
 
@@ -352,7 +359,7 @@ def test_what_is_wrong_is_said_with_its_line(text, line, part):
 def test_a_file_that_is_not_there_is_an_error(tmp_path):
     with pytest.raises(SdfError, match=r"no\.world"):
         load(tmp_path / "no.world")
-    (tmp_path / "w.world").write_text(world("<model/>"))
+    (tmp_path / "w.world").write_text(world("<model/>"), encoding="utf-8")
     with pytest.raises(SdfError, match=r"w\.world:3: "):
         load(tmp_path / "w.world")
 

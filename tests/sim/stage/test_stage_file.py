@@ -162,8 +162,10 @@ def test_files_that_nest_too_deep_are_refused():
 
 def test_included_files_are_sought_beside_the_world_and_beside_the_file(tmp_path: Path, world, monkeypatch):
     (tmp_path / "inc").mkdir()
-    (tmp_path / "inc" / "a.inc").write_text('include "b.inc"\n')
-    (tmp_path / "inc" / "b.inc").write_text("\ndefine thing model ( size [1 2 3] colour 3 )\n")
+    (tmp_path / "inc" / "a.inc").write_text('include "b.inc"\n', encoding="utf-8")
+    (tmp_path / "inc" / "b.inc").write_text(
+        "\ndefine thing model ( size [1 2 3] colour 3 )\n", encoding="utf-8"
+    )
     stage = world('include "inc/a.inc"\nthing( name "t" )\n')
     assert stage.world.obstacles[0].shape == Box(1.0, 2.0)
     assert stage.notes[0].startswith(f"{tmp_path / 'inc' / 'b.inc'}:2: colour is no property of thing")
@@ -178,8 +180,8 @@ def test_included_files_are_sought_beside_the_world_and_beside_the_file(tmp_path
 
 
 def test_what_includes_itself_is_refused(tmp_path: Path, world):
-    (tmp_path / "a.inc").write_text('\ninclude "b.inc"')
-    (tmp_path / "b.inc").write_text('include "a.inc"')
+    (tmp_path / "a.inc").write_text('\ninclude "b.inc"', encoding="utf-8")
+    (tmp_path / "b.inc").write_text('include "a.inc"', encoding="utf-8")
     with pytest.raises(StageError, match=r'b.inc:1: "a.inc" includes itself'):
         world('include "a.inc"')
 
@@ -225,7 +227,8 @@ def test_units(world):
 def test_a_body_is_about_its_origin_seen_from_its_pose(tmp_path_factory, x, y, a, ox, oy, oa):
     path = tmp_path_factory.mktemp("stage") / "a.world"
     path.write_text(
-        f"model( pose [{x:.6f} {y:.6f} 0 {a:.6f}] origin [{ox:.6f} {oy:.6f} 0 {oa:.6f}] size [2 1 1] )"
+        f"model( pose [{x:.6f} {y:.6f} 0 {a:.6f}] origin [{ox:.6f} {oy:.6f} 0 {oa:.6f}] size [2 1 1] )",
+        encoding="utf-8",
     )
     (thing,) = load(path).world.obstacles
     heading = math.radians(a)
@@ -435,7 +438,7 @@ def test_bounds_and_odometry(world):
     ],
 )  # fmt: skip
 def test_what_is_not_possible_names_file_and_line(tmp_path: Path, world, text: str, words: str):
-    (tmp_path / "text.png").write_text("no picture")
+    (tmp_path / "text.png").write_text("no picture", encoding="utf-8")
     Image.new("L", (3, 3), 255).save(tmp_path / "white.png")
     with pytest.raises(StageError) as caught:
         world("\n\n" + text)
@@ -468,7 +471,7 @@ def test_colours_are_those_of_x11():
     assert colour("no colour") is colour("gray101") is None
     if table.exists():
         wrong = []
-        for line in table.read_text().splitlines():
+        for line in table.read_text(encoding="utf-8").splitlines():
             if line.startswith("!"):
                 continue
             r, g, b, name = line.split(None, 3)

@@ -16,7 +16,7 @@ from rosmini.sim.stage.odometry import StageOdometry, draw_errors
 def robot(tmp_path: Path):
     def make(text: str = ""):
         path = tmp_path / "a.world"
-        path.write_text(f"position( {text} )")
+        path.write_text(f"position( {text} )", encoding="utf-8")
         return load(path).robots[0]
 
     return make

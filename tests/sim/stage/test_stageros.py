@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 import pickle
-import subprocess
 import sys
 import time
 from collections import defaultdict
@@ -25,6 +24,8 @@ from rosmini.sim.engine import RobotGone, sights
 from rosmini.sim.stage import StageError
 from rosmini.sim.stage.node import Stageros
 from rosmini.sim.world import WorldError
+
+from ...processes import run
 
 Twist = message_class("geometry_msgs/Twist")
 TYPES = {
@@ -96,7 +97,7 @@ def graph():
 def bench(graph: Graph, tmp_path: Path):
     def make(text: str, *options: str, **parameters: Any) -> Bench:
         path = tmp_path / "a.world"
-        path.write_text(text)
+        path.write_text(text, encoding="utf-8")
         return Bench(graph, str(path), *options, **parameters)
 
     return make
@@ -424,7 +425,7 @@ def test_an_added_robot_changes_no_other_robots_noise(graph: Graph, tmp_path: Pa
     heard = []
     for more in ("", ROBOT % 'pose [-9 0 0 0] name "b"'):
         path = tmp_path / f"{len(more)}.world"
-        path.write_text(noisy % 'name "a"' + more + "model( pose [3 0 0 0] )")
+        path.write_text(noisy % 'name "a"' + more + "model( pose [3 0 0 0] )", encoding="utf-8")
         with Graph(seed=3) as graph:
             ours = Bench(graph, str(path), "-u")
             ours.listen("/a/base_scan")
@@ -499,7 +500,7 @@ def test_a_camera_sees_the_walls_of_a_floor_plan(graph: Graph, tmp_path: Path):
     dark[1:-1, 1:-1] = 255
     Image.fromarray(dark).save(tmp_path / "plan.png")
     camera = "position( camera( resolution [3 3] fov [10 10] pose [0 0 -0.5 90] ) )"
-    (tmp_path / "a.world").write_text(f'model( bitmap "plan.png" size [6 4 1] )\n{camera}')
+    (tmp_path / "a.world").write_text(f'model( bitmap "plan.png" size [6 4 1] )\n{camera}', encoding="utf-8")
     ours = Bench(graph, str(tmp_path / "a.world"))
     ours.listen("depth")
     graph.run(0.15)
@@ -644,7 +645,7 @@ def test_a_rospy_script_drives_it(bench):
 
 
 def test_rosmini_run(tmp_path: Path):
-    (tmp_path / "stopper.py").write_text(SCRIPT)
+    (tmp_path / "stopper.py").write_text(SCRIPT, encoding="utf-8")
     world = "package://stage_ros/world/willow-erratic.world"
     command = [
         sys.executable,
@@ -656,7 +657,7 @@ def test_rosmini_run(tmp_path: Path):
         "+",
         str(tmp_path / "stopper.py"),
     ]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=50, check=False)
+    done = run(command)
     assert "stopped at 2.8" in done.stdout, done.stdout + done.stderr
 
 
@@ -674,7 +675,7 @@ def test_time_begins_when_all_is_there(tmp_path, monkeypatch):
         return taken(*args, **options)
 
     monkeypatch.setattr(Engine, "scan", slow)
-    (tmp_path / "w.world").write_text(ROBOT % "")
+    (tmp_path / "w.world").write_text(ROBOT % "", encoding="utf-8")
     with Graph(simulated=False) as graph:
         there = Stageros(graph.node("stageros"), str(tmp_path / "w.world"))
         assert there.host.now < 0.2

@@ -79,14 +79,17 @@ def test_a_robot_can_drive_from_every_start_to_every_other(name):
 
 def test_what_a_file_is_hangs_on_what_stands_in_it(tmp_path):
     sdf = source("pillars").read_text(encoding="utf-8")
-    (tmp_path / "a.txt").write_text(f"<!-- <robot> -->\n{sdf.partition('?>')[2]}")
+    (tmp_path / "a.txt").write_text(f"<!-- <robot> -->\n{sdf.partition('?>')[2]}", encoding="utf-8")
     assert kind_of(tmp_path / "a.txt") == "sdf"
     pillars = world(tmp_path / "a.txt")
     assert (pillars.name, len(pillars.obstacles)) == ("a", 21)
-    (tmp_path / "b.world").write_text("floorplan ( size [4 4 1] )\ndefine floorplan model ( boundary 1 )\n")
+    (tmp_path / "b.world").write_text(
+        "floorplan ( size [4 4 1] )\ndefine floorplan model ( boundary 1 )\n", encoding="utf-8"
+    )
     assert kind_of(tmp_path / "b.world") == "stage"
     (tmp_path / "c").write_text(
-        source("floor").read_text().replace("floor.png", str(floor.maps_dir() / "floor.png"))
+        source("floor").read_text(encoding="utf-8").replace("floor.png", str(floor.maps_dir() / "floor.png")),
+        encoding="utf-8",
     )
     assert kind_of(tmp_path / "c") == "map"
     assert world(tmp_path / "c").walls.shape == world("floor").walls.shape
@@ -104,10 +107,12 @@ def test_what_a_file_is_hangs_on_what_stands_in_it(tmp_path):
         for data in (b"", b"\0\xff\x12 what is this"):
             (tmp_path / name).write_bytes(data)
             assert kind_of(tmp_path / name) == kind
-    (tmp_path / "m.sdf").write_text("<sdf version='1.7'><model name='m'><link name='l'/></model></sdf>")
+    (tmp_path / "m.sdf").write_text(
+        "<sdf version='1.7'><model name='m'><link name='l'/></model></sdf>", encoding="utf-8"
+    )
     with pytest.raises(SdfError, match=r"no <world> .* the model 'm'"):
         world(tmp_path / "m.sdf")
-    (tmp_path / "r.urdf").write_text("<robot name='r'><link name='l'/></robot>")
+    (tmp_path / "r.urdf").write_text("<robot name='r'><link name='l'/></robot>", encoding="utf-8")
     with pytest.raises(SdfError, match="URDF"):
         world(tmp_path / "r.urdf")
 

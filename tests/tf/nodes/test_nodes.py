@@ -147,7 +147,7 @@ def test_view_frames(graph, capsys, tmp_path):
     assert capsys.readouterr().out == (
         "Listening to /tf for 5.0 seconds\nDone Listening\nframes.gv and frames.svg generated\n"
     )
-    text = (tmp_path / "frames.gv").read_text()
+    text = (tmp_path / "frames.gv").read_text(encoding="utf-8")
     assert text.startswith('digraph G {\n"map" -> "base"[label="Broadcaster: /a\\nAverage rate: 10.')
-    assert (tmp_path / "frames.svg").read_text().startswith("<svg")
+    assert (tmp_path / "frames.svg").read_text(encoding="utf-8").startswith("<svg")
     assert "map -> base: Broadcaster: /a, Average rate: 10." in viewed.picture.text

@@ -49,7 +49,7 @@ def test_moving_keeps_what_is_outside_outside():
 def test_collada_is_read_back(tmp_path):
     wheel = join([lathe([(0, 0), (0.5, 0), (0.5, 1), (0, 1)], 16)], "#336699", "wheel")
     path = tmp_path / "a.dae"
-    path.write_text(collada.write([CUBE, wheel]))
+    path.write_text(collada.write([CUBE, wheel]), encoding="utf-8")
     one, two = read(path)
     assert one.colour == (1.0, 0.502, 0.0, 1.0)
     assert volume([one]) == pytest.approx(48, rel=1e-3)
@@ -77,7 +77,7 @@ DAE = """<COLLADA><asset><unit meter="0.01"/><up_axis>Y_UP</up_axis></asset>
 def test_collada_of_others_units_nodes_and_polygons(tmp_path, up):
     """Which axis points up is passed over, as Gazebo and RViz do."""
     path = tmp_path / "a.dae"
-    path.write_text(DAE.replace("Y_UP", up))
+    path.write_text(DAE.replace("Y_UP", up), encoding="utf-8")
     (surface,) = read(path)
     assert surface.colour == (0, 1, 0, 1)
     assert len(surface.faces) == 2
@@ -109,7 +109,7 @@ def test_collada_of_others_units_nodes_and_polygons(tmp_path, up):
 )
 def test_broken_collada(tmp_path, old, new, message):
     path = tmp_path / "a.dae"
-    path.write_text(DAE.replace(old, new, 1))
+    path.write_text(DAE.replace(old, new, 1), encoding="utf-8")
     with pytest.raises(MeshError, match=r"a.dae:\d+: ") as caught:
         read(path)
     assert message in str(caught.value)
@@ -174,7 +174,7 @@ def test_stl_binary_and_text(tmp_path):
         + "endloop\nendfacet\n"
         for each in triangles
     )
-    text.write_text(f"solid x\n{faces}endsolid x\n")
+    text.write_text(f"solid x\n{faces}endsolid x\n", encoding="utf-8")
     for path in (binary, text):
         (surface,) = read(path)
         assert surface.triangles.tolist() == np.array(triangles, dtype=float).tolist()
@@ -183,7 +183,7 @@ def test_stl_binary_and_text(tmp_path):
 
 def test_obj(tmp_path):
     path = tmp_path / "a.obj"
-    path.write_text("# quad\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1/1 2/2/1 3//1 -1\n")
+    path.write_text("# quad\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1/1 2/2/1 3//1 -1\n", encoding="utf-8")
     (surface,) = read(path)
     assert surface.triangles.tolist() == [
         [[0, 0, 0], [1, 0, 0], [1, 1, 0]],

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import re
-import subprocess
 import sys
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -35,6 +34,8 @@ from rosmini.viz.meshcat.recorder import meshcat
 from rosmini.viz.meshcat.scene import keyframes, planar, ribbon
 from rosmini.viz.meshcat.solids import Ball, Prism, Rod, triangulate
 from rosmini.viz.meshcat.view import camera_for
+
+from ...processes import run as run_process
 
 ROOT = Path(__file__).parents[3]
 POSE = (0.5, -0.25, math.pi / 2)
@@ -217,12 +218,9 @@ def test_bytes_are_the_same_in_processes_that_hash_differently_and_nothing_is_st
             "OPENBLAS_NUM_THREADS": "1",
             "PATH": "",
         }
-        run = subprocess.run(
-            [sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=True, cwd=ROOT,
-            env=environment,
-        )  # fmt: skip
-        assert run.stderr == ""
-        results.append(run.stdout.split())
+        done = run_process([sys.executable, "-W", "error", "-c", code], check=True, cwd=ROOT, env=environment)  # fmt: skip
+        assert done.stderr == ""
+        results.append(done.stdout.split())
     assert results[0] == results[1]
     assert results[0][1:] == ["1", "0", "''"]
 
@@ -244,7 +242,7 @@ def test_the_pages_html_in_both_forms(monkeypatch):
 
 def test_a_view_is_saved_with_all_that_it_needs(monkeypatch, tmp_path):
     monkeypatch.setenv("ROSMINI_DISPLAY", "book")
-    saved = world_3d(SMALL).save(tmp_path / "a.html").read_text()
+    saved = world_3d(SMALL).save(tmp_path / "a.html").read_text(encoding="utf-8")
     assert "const book = false" in saved
 
 

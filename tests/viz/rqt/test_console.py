@@ -151,8 +151,8 @@ def test_forms(tmp_path: Path) -> None:
     table = rqt_console(LOG)
     data, _ = table._repr_mimebundle_()
     assert list(data) == ["text/plain", "text/html"]
-    assert "<table>" in table.save(tmp_path / "log.html").read_text()
-    assert "stalled" in table.save(tmp_path / "log.txt").read_text()
+    assert "<table>" in table.save(tmp_path / "log.html").read_text(encoding="utf-8")
+    assert "stalled" in table.save(tmp_path / "log.txt").read_text(encoding="utf-8")
     with pytest.raises(ViewError, match=r"no form for the suffix '\.png'.*\.html, \.txt"):
         table.save(tmp_path / "log.png")
 

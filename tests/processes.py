@@ -1,0 +1,92 @@
+"""Child processes of the tests: each leads a session of its own, and the whole session is gone when the test is."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+PATIENCE = 300.0
+"""So many seconds a test waits for what must come, on a machine however slow; it never waits so long when all is well."""
+
+
+@contextmanager
+def start(words: Sequence[object], *, env: Mapping[str, str] | None = None, **options: Any) -> Iterator[Any]:
+    """Start a program and yield its `Popen`; in the end it is killed, with all that it started.
+
+    Its streams are text in UTF-8; what it writes is thrown away unless `stdout` and `stderr` say otherwise.
+    """
+    environment = dict(os.environ if env is None else env)
+    environment.setdefault("PYTHONIOENCODING", "utf-8")
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "encoding": "utf-8"}
+    process = subprocess.Popen(
+        [str(word) for word in words], env=environment, start_new_session=True, **(quiet | options)
+    )
+    try:
+        yield process
+    finally:
+        kill(process)
+        process.wait()
+        for stream in (process.stdin, process.stdout, process.stderr):
+            if stream is not None:
+                stream.close()
+
+
+def kill(process: Any) -> None:
+    """End a program that `start` started, and all that it started in its session."""
+    if sys.platform == "win32":
+        process.kill()
+    else:
+        with suppress(ProcessLookupError, PermissionError):  # all of them have ended
+            os.killpg(process.pid, signal.SIGKILL)
+
+
+def run(
+    words: Sequence[object], *, stdin: Any = None, check: bool = False, **options: Any
+) -> subprocess.CompletedProcess[Any]:
+    """Run a program to its end and return what it wrote; `stdin` is the text it reads."""
+    pipes = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE)
+    pipes["stdin"] = subprocess.DEVNULL if stdin is None else subprocess.PIPE
+    with start(words, **(pipes | options)) as process:
+        try:
+            out, err = process.communicate(stdin, timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            kill(process)
+            out, err = process.communicate()
+            pytest.fail(f"{words} did not end. It wrote:\n{out}\n{err}")
+    assert not check or process.returncode == 0, f"{words} ended with {process.returncode}:\n{out}\n{err}"
+    return subprocess.CompletedProcess(words, process.returncode, out, err)
+
+
+def wait_until(condition: Callable[[], object], what: str, process: Any = None) -> None:
+    """Wait until a condition holds. Fails when it does not come, or as soon as the process that should bring it has ended."""
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        assert process is None or process.poll() is None, (
+            f"no {what}: its process ended, {process.returncode}"
+        )
+        assert time.monotonic() < deadline, f"waited in vain for {what}"
+        time.sleep(0.02)
+
+
+def free_port() -> int:
+    """A port of this machine at which nothing listens at this moment."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+def listens(port: int) -> bool:
+    """Whether something answers at a port of this machine."""
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
