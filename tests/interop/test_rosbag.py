@@ -226,4 +226,3 @@ def test_what_they_raise_we_raise(tmp_path):
             else found[name] == wanted
         )
         assert same, f"{name}: they {answer}, we {found[name]}"
-

@@ -6,7 +6,6 @@ import random
 from collections.abc import Callable
 from typing import Any
 
-
 from rosmini.names import (
     Remappings,
     canonicalize,

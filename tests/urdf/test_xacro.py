@@ -212,7 +212,8 @@ def test_who_trusts_a_file_lets_it_do_all(index):
 
 def test_what_public_descriptions_write_is_allowed(index):
     (index.path("my_robot") / "urdf" / "limits.yaml").write_text(
-        "joints: {arm: {lower: !degrees 90, upper: !radians 2*pi, size: !inches 10, names: [a, b]}}\n"
+        "joints: {arm: {lower: !degrees 90, upper: !radians 2*pi, size: !inches 10, names: [a, b]}}\n",
+        encoding="utf-8",
     )
     text = """
 <xacro:property name="config" value="${xacro.load_yaml('$(find my_robot)/urdf/limits.yaml')}"/>

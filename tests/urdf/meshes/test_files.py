@@ -119,7 +119,10 @@ def test_a_scene_that_fans_out_ends(tmp_path):
     ways = [2 * f"<instance_node url='#n{i + 1}'/>" for i in range(40)]
     nodes = "".join(f"<node id='n{i}'>{way}</node>" for i, way in enumerate(ways))
     path = tmp_path / "a.dae"
-    path.write_text(DAE.replace('<visual_scene id="vs">', f"<visual_scene id='vs'>{nodes}<node id='n40'/>"))
+    path.write_text(
+        DAE.replace('<visual_scene id="vs">', f"<visual_scene id='vs'>{nodes}<node id='n40'/>"),
+        encoding="utf-8",
+    )
     with pytest.raises(MeshError, match="without end"):
         read(path)
 
