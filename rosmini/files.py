@@ -9,7 +9,7 @@ import errno
 import os
 import stat
 
-__all__ = ["LARGEST", "check", "exists", "is_file", "read"]
+__all__ = ["LARGEST", "check", "exists", "is_file", "names_in", "path_of", "read"]
 
 LARGEST = 64_000_000
 """Bytes of a file that is read at once."""
@@ -33,6 +33,21 @@ def exists(path: Path) -> bool:
 def is_file(path: Path) -> bool:
     """Tell whether there is a regular file at a path."""
     return os.path.isfile(path)  # noqa: PTH113 (Path.is_file raises for a name that is too long)
+
+
+def names_in(folder: Path) -> list[str]:
+    """The names of what is in a folder, sorted; nothing if it is no folder, or is not ours to read."""
+    try:
+        return sorted(os.listdir(folder))  # noqa: PTH208 (names, of a path of any kind)
+    except (OSError, ValueError):
+        return []
+
+
+def path_of(address: str) -> str:
+    r"""The path that ``file://...`` means, on this system: ``file:///C:/robot.stl`` is ``C:\robot.stl`` on Windows."""
+    from urllib.request import url2pathname
+
+    return url2pathname(address.partition("://")[2])
 
 
 def check(path: Path, largest: int = LARGEST) -> os.stat_result:

@@ -13,6 +13,7 @@ from rosmini.errors import RosminiError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rosmini.sim.sdf.document import Note
     from rosmini.sim.world import World
 
 LONG = 1e6
@@ -101,10 +102,10 @@ def _sdf(path: Path) -> tuple[str, list[str]]:
 
     document = load(path)
     said = []
-    notes = [str(note) for note in document.notes]
+    notes = [_noted(note) for note in document.notes]
     for each in document.worlds:
         made, more = converted(each)
-        notes += [str(note) for note in more]
+        notes += [_noted(note) for note in more]
         said.append(f"the world {each.name!r}: {_measures(made)}")
         notes += _occupied(made, f"{each.path}:{each.line}")
     for model in document.models:
@@ -114,6 +115,10 @@ def _sdf(path: Path) -> tuple[str, list[str]]:
         )
     said += [f"the actor {actor.name!r}" for actor in document.actors]
     return f"SDF {document.version}: {'; '.join(said) or 'nothing in it'}", notes
+
+
+def _noted(note: Note) -> str:
+    return f"warning: {note}" if note.warning else str(note)
 
 
 def _stage(path: Path) -> tuple[str, list[str]]:

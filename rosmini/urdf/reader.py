@@ -9,6 +9,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TypeVar, get_args
 
+from rosmini import files
 from rosmini.errors import RosminiError, nearest
 from rosmini.markup import NO_PATH, Element, parse, parse_file
 from rosmini.packages import SCHEME, PackageIndex
@@ -226,8 +227,14 @@ class _Reader:
                 raise element.error(f"the mesh is missing: {error}") from error
         if "://" in filename and not filename.startswith("file://"):
             raise element.error(f"the mesh {filename!r} is neither in a package (package://) nor a file")
-        path = Path(self.root.path).parent / filename.removeprefix("file://")
-        if not path.is_file():
+        plain = filename
+        if filename.startswith("file://"):
+            try:
+                plain = files.path_of(filename)
+            except OSError as error:
+                raise element.error(f"the mesh {filename!r} is no address of a file") from error
+        path = Path(self.root.path).parent / plain
+        if not files.is_file(path):
             raise element.error(f"the mesh is missing: there is no file {path}")
         return path
 

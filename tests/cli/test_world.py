@@ -109,3 +109,25 @@ def test_without_a_verb_or_a_file_it_says_how_it_is_used(arguments, capsys):
         cli.main(["world", *arguments])
     assert end.value.code == 2
     assert "usage: rosmini world" in capsys.readouterr().err
+
+
+def test_what_gazebo_leaves_out_is_a_warning(tmp_path, capsys):
+    path = tmp_path / "w.world"
+    path.write_text(
+        "<sdf version='1.6'><world name='w'>\n<include><uri>model://none</uri></include></world></sdf>",
+        encoding="utf-8",
+    )
+    assert cli.main(["world", "check", str(path)]) == 0
+    assert "\n  warning: " in (said := capsys.readouterr().out)
+    assert "w.world:2: this model is left out: there is no model 'none'" in said
+
+
+def test_an_unconfined_xacro_needs_the_users_word(tmp_path, capsys):
+    path = tmp_path / "r.xacro"
+    path.write_text(
+        "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>\n<link name='${[i for i in [1]][0]}${python.type(1)}'/></robot>",
+        encoding="utf-8",
+    )
+    assert cli.main(["world", "check", str(path)]) == 1
+    assert "r.xacro:2: name 'python.type' is not defined" in capsys.readouterr().err
+    assert cli.main(["world", "check", "--unconfined", str(path)]) == 0

@@ -36,11 +36,13 @@ LUMP = "_fixed_joint_lump__"
 
 @dataclass(frozen=True)
 class Converted:
-    """A URDF as an SDF model."""
+    """A URDF, or the model of an SDF text, as an SDF model."""
 
     model: SdfModel
     frames: Mapping[str, tuple[str, Pose6]] = field(default_factory=dict)
     """Where the links are that became part of others: from a link's name to the other's, and the pose in it."""
+    warnings: tuple[str, ...] = ()
+    """What is wrong with the description and was left out or replaced, each with file and line."""
 
 
 def from_urdf(robot: urdf.Robot) -> Converted:

@@ -17,18 +17,24 @@ def model_of_text(text: str, path: str = "model_xml") -> Converted:
     root = parse(text, path)
     if root.tag == "robot":
         return from_urdf(urdf.load(text, path=path))
-    return Converted(model_of_sdf(text))
+    return _of_sdf(text)
 
 
 def model_of_sdf(xml: str) -> SdfModel:
     """The first model of an SDF text; one of its world, if it has a world. Raises `SdfError`."""
+    return _of_sdf(xml).model
+
+
+def _of_sdf(xml: str) -> Converted:
     document = sdf.load(xml)
     for model in (*document.models, *(each for world in document.worlds for each in world.models)):
-        return model
+        return Converted(model, warnings=tuple(str(note) for note in document.notes if note.warning))
     raise MarkupError("there is no <model> in the SDF, and no <include> of one", "model_xml", 1)
 
 
 def spawn_text(world: GazeboWorld, text: str, name: str, pose: Pose6 | None, *, namespace: str = "") -> Model:
     """Let the model that a text describes come into a world. Raises `SpawnError` and what the readers raise."""
     converted = model_of_text(text)
+    if converted.warnings:
+        world.node.logwarn("\n".join([f"the model {name!r} is not whole:", *converted.warnings]))
     return world.spawn(converted.model, name, pose, namespace=namespace, frames=converted.frames)

@@ -66,6 +66,9 @@ class GazeboWorld:
             self.name = source.name
             still = [model for model in source.models if is_still(model)]
             flat, notes = converted(replace(source, models=tuple(still)))
+            if source.warnings:
+                wrong = map(str, source.warnings)
+                node.logwarn("\n".join([f"the world {source.name!r} is not whole:", *wrong]))
             for note in notes:
                 node.loginfo(str(note))
             rate = source.physics.real_time_update_rate

@@ -28,6 +28,8 @@ class Note:
     path: str
     line: int
     text: str
+    warning: bool = False
+    """Whether it is a fault of the file, which Gazebo complains of before it goes on; else it is something that rosmini has not."""
 
     def __str__(self) -> str:
         return f"{self.path}:{self.line}: {self.text}"
@@ -214,6 +216,8 @@ class SdfWorld:
     """Named places, in the order of the file; robots start at those whose names begin with `start`."""
     path: str = ""
     line: int = 0
+    warnings: tuple[Note, ...] = ()
+    """What was left out or replaced, because the file is wrong or names what is not there."""
 
 
 @dataclass(frozen=True)

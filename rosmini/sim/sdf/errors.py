@@ -7,3 +7,7 @@ from rosmini.markup import MarkupError
 
 class SdfError(MarkupError):
     """An SDF file cannot be read, or says what makes no world, at ``file``, line ``line``."""
+
+
+class MissingError(SdfError):
+    """A model or a mesh that an SDF file names is not there."""

@@ -7,6 +7,7 @@ from typing import get_args
 
 from rosmini.errors import nearest
 from rosmini.markup import Element
+from rosmini.urdf import meshes
 
 from .colours import colour_of
 from .document import (
@@ -22,9 +23,15 @@ from .document import (
     SdfSensor,
     SdfVisual,
 )
-from .errors import SdfError
+from .errors import MissingError
 from .frames import Scope, given
 from .resources import Resources
+
+MOST_MODELS = 50_000
+"""How many models a file may make, with all that it includes."""
+
+MOST_POINTS = 2_000
+"""How many corners a polyline may have."""
 
 
 @dataclass
@@ -33,12 +40,20 @@ class Reading:
 
     resources: Resources
     notes: list[Note] = field(default_factory=list)
+    models: int = 0
+    """How many were read, each as often as it is included."""
 
-    def note(self, element: Element, text: str) -> None:
+    def note(self, element: Element, text: str, *, warning: bool = False) -> None:
         """Say what was left out; the same thing of the same line once."""
-        note = Note(element.path, element.line, text)
+        note = Note(element.path, element.line, text, warning)
         if note not in self.notes[-50:]:
             self.notes.append(note)
+
+    def count(self, element: Element) -> None:
+        """Count a model. Raises `SdfError` if there are too many."""
+        self.models += 1
+        if self.models > MOST_MODELS:
+            raise element.error(f"there are more than {MOST_MODELS} models in what this file includes")
 
     def unknown(self, element: Element, known: tuple[str, ...]) -> None:
         """A note about each child that SDF does not have there. Those with a prefix (`other:tag`) are somebody's own."""
@@ -101,7 +116,7 @@ def link(element: Element, scope: Scope, reading: Reading) -> SdfLink:
     return SdfLink(
         name_of(element),
         here,
-        _inertial(element.find("inertial"), scope, here),
+        _inertial(element.find("inertial"), scope, here, reading),
         tuple(
             _collision(each, scope, here, reading) for each in unique(element.all("collision"), "collision")
         ),
@@ -132,12 +147,15 @@ def _end(element: Element) -> str:
     return element.text or element.word("link") or element.attribute("link")
 
 
-def _inertial(element: Element | None, scope: Scope, here: Pose6) -> SdfInertial:
+def _inertial(element: Element | None, scope: Scope, here: Pose6, reading: Reading) -> SdfInertial:
     if element is None:
         return SdfInertial()
     mass = number(element, "mass", 1.0)
     if mass <= 0:
-        raise element.need("mass").error(f"a mass is more than 0 kg, not {mass:g}")
+        reading.note(
+            element.need("mass"), f"a mass is more than 0 kg, not {mass:g}: taken for 1 kg", warning=True
+        )
+        mass = 1.0
     names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
     defaults = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
     ixx, iyy, izz, ixy, ixz, iyz = (
@@ -145,7 +163,12 @@ def _inertial(element: Element | None, scope: Scope, here: Pose6) -> SdfInertial
     )
     for name, value in (("ixx", ixx), ("iyy", iyy), ("izz", izz)):
         if value <= 0:
-            raise element.need("inertia").need(name).error(f"{name} is more than 0 kg m2, not {value:g}")
+            wrong = element.need("inertia").need(name)
+            reading.note(
+                wrong, f"{name} is more than 0 kg m2, not {value:g}: all are taken for 1 kg m2", warning=True
+            )
+            ixx, iyy, izz, ixy, ixz, iyz = defaults
+            break
     return SdfInertial(mass, scope.seen_from(here, given(element)), (ixx, iyy, izz, ixy, ixz, iyz))
 
 
@@ -158,27 +181,31 @@ def _collision(element: Element, scope: Scope, here: Pose6, reading: Reading) ->
     return SdfCollision(
         name_of(element),
         scope.seen_from(here, given(element)),
-        geometry(element.need("geometry"), reading),
+        _solid(element.need("geometry"), reading),
         friction.floats(friction.text, 1)[0] if friction is not None and friction.text else None,
         element.line,
         restitution,
     )
 
 
-def _visual(element: Element, scope: Scope, here: Pose6, reading: Reading) -> SdfVisual:
-    shape = element.need("geometry")
-    uri = shape.find("mesh/uri")
+def _solid(element: Element, reading: Reading) -> SdfGeometry:
+    """The shape of a collision. A mesh that cannot be read is left out."""
+    found = geometry(element, reading)
+    if found.mesh is None:
+        return found
     try:
-        looks = geometry(shape, reading)
-    except SdfError as error:
-        if uri is None or error.line != uri.line:
-            raise
-        reading.note(uri, f"this mesh, which is only looked at, is left out: {error.message}")
-        looks = SdfGeometry("other", line=shape.line)
+        meshes.read(found.mesh, found.submesh)
+    except meshes.MeshError as error:
+        reading.note(element.need("mesh"), f"this mesh is left out: {error}", warning=True)
+        return SdfGeometry("other", line=found.line)
+    return found
+
+
+def _visual(element: Element, scope: Scope, here: Pose6, reading: Reading) -> SdfVisual:
     return SdfVisual(
         name_of(element),
         scope.seen_from(here, given(element)),
-        looks,
+        geometry(element.need("geometry"), reading),
         colour_of(element.find("material")),
         element.line,
     )
@@ -258,6 +285,8 @@ def _polyline(element: Element) -> tuple[tuple[tuple[float, float], ...], float]
         points.append((x, y))
     if len(points) > 1 and points[0] == points[-1]:
         points.pop()
+    if len(points) > MOST_POINTS:
+        raise element.error(f"a polyline has {MOST_POINTS} points or less, not {len(points)}")
     if len(points) < 3:
         raise element.error(f"a polyline has 3 points or more, not {len(points)}")
     height = _size(element, "height") if element.find("height") is not None else 1.0
@@ -269,7 +298,11 @@ def _mesh(element: Element, reading: Reading) -> SdfGeometry:
     x, y, z = scale.floats(scale.text, 3) if scale is not None else (1.0, 1.0, 1.0)
     if scale is not None and not (x and y and z):
         raise scale.error("a mesh is scaled by numbers other than 0")
-    path = reading.resources.find(uri.text, uri)
+    try:
+        path = reading.resources.find(uri.text, uri)
+    except MissingError as error:
+        reading.note(uri, f"this mesh is left out: {error.message}", warning=True)
+        return SdfGeometry("other", line=element.line)
     part = element.word("submesh/name")
     return SdfGeometry("mesh", mesh=path, scale=(x, y, z), submesh=part, line=element.line)
 

@@ -6,12 +6,13 @@ import os
 import re
 from collections.abc import Iterable
 from dataclasses import replace
-from pathlib import Path
 
+from rosmini.errors import shown
+from rosmini.files import read
 from rosmini.markup import Element, parse, parse_file
 
 from .document import Pose6, Sdf, SdfActor, SdfModel, SdfPhysics, SdfWorld
-from .errors import SdfError
+from .errors import MissingError, SdfError
 from .frames import Given, Scope, given
 from .parts import Reading, flag, joint, link, name_of, number, plugins, unique
 from .poses import compose, inverse
@@ -72,7 +73,7 @@ def _world(element: Element, reading: Reading) -> SdfWorld:
         reading.note(left_out, f"a {left_out.tag}: left out, {why}")
     name = name_of(element)
     scope = Scope("world", what=f"the world {name!r}")
-    included = [(each, _included(each, reading, 0)) for each in element.all("include")]
+    included = _included(element, reading, 0)
     _frames(element, scope, [(_include_name(*pair), pair[0]) for pair in included])
     models = [
         *(_model(each, scope.place(name_of(each), each), reading, 0) for each in element.all("model")),
@@ -104,6 +105,7 @@ def _world(element: Element, reading: Reading) -> SdfWorld:
         ),
         path=element.path,
         line=element.line,
+        warnings=tuple(note for note in reading.notes if note.warning),
     )
 
 
@@ -180,12 +182,13 @@ def _model(element: Element, pose: Pose6, reading: Reading, depth: int) -> SdfMo
         raise element.error(
             f"models stand inside one another deeper than {DEEPEST}: does one include itself?"
         )
+    reading.count(element)
     reading.unknown(element, MODEL_TAGS)
     name = name_of(element)
     scope = Scope("__model__", what=f"the model {name!r}")
     for each in unique(element.all("link"), "link"):
         scope.add(name_of(each), given(each))
-    included = [(each, _included(each, reading, depth + 1)) for each in element.all("include")]
+    included = _included(element, reading, depth + 1)
     _frames(element, scope, [(_include_name(*pair), pair[0]) for pair in included])
     nested = [
         _model(each, scope.place(name_of(each), each), reading, depth + 1)
@@ -228,11 +231,24 @@ def _inside(model: SdfModel) -> list[tuple[str, Pose6]]:
     return found
 
 
-def _included(element: Element, reading: Reading, depth: int) -> Element:
+def _included(element: Element, reading: Reading, depth: int) -> list[tuple[Element, Element]]:
+    """Every `<include>` of a world or a model, with the model or actor that it is of. What is not there is left out, as Gazebo does."""
+    found = []
+    for each in element.all("include"):
+        try:
+            found.append((each, _inner(each, reading, depth)))
+        except MissingError as error:
+            reading.note(each.need("uri"), f"this model is left out: {error.message}", warning=True)
+    return found
+
+
+def _inner(element: Element, reading: Reading, depth: int) -> Element:
     """The model or actor in the file that an `<include>` names."""
-    if depth > DEEPEST:
-        raise element.error(f"files include one another deeper than {DEEPEST}: does one include itself?")
     uri = element.need("uri")
+    if depth > DEEPEST:
+        raise uri.error(
+            f"files include one another deeper than {DEEPEST}: does {shown(uri.text)} include itself?"
+        )
     path = reading.resources.model_file(uri.text, uri)
     root = reading.resources.parsed(path)
     if root.tag not in ("sdf", "gazebo"):
@@ -303,7 +319,7 @@ def _actor(element: Element, scope: Scope, reading: Reading) -> SdfActor:
 def is_sdf(path: str | os.PathLike[str]) -> bool:
     """Tell whether a file looks like SDF: an XML file whose first element is `<sdf>`, or `<gazebo>` as it was once called."""
     try:
-        head = Path(path).read_bytes()[:20000].decode("utf-8", "replace")
+        head = read(path)[:20000].decode("utf-8", "replace")
     except OSError:
         return False
     first = re.search(r"<([A-Za-z_:][\w:.-]*)", re.sub(r"<!--.*?-->|<\?.*?\?>", "", head, flags=re.DOTALL))

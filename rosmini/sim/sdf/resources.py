@@ -11,11 +11,12 @@ from collections.abc import Iterable, Iterator
 from functools import cached_property
 from pathlib import Path
 
-from rosmini.errors import RosminiError, nearest
+from rosmini import files
+from rosmini.errors import RosminiError, nearest, shown
 from rosmini.markup import Element, parse_file
 from rosmini.packages import PackageIndex, assets_dir
 
-from .errors import SdfError
+from .errors import MissingError, SdfError
 
 MODEL_PATH = "GAZEBO_MODEL_PATH"
 RESOURCE_PATH = "GAZEBO_RESOURCE_PATH"
@@ -40,9 +41,9 @@ class Resources:
         ]
 
     def model_file(self, uri: str, asked: Element) -> Path:
-        """The SDF file of the model at an address. Raises `SdfError` at `asked`, with what was searched."""
+        """The SDF file of the model at an address. Raises `MissingError` at `asked`, with what was searched."""
         place = self.find(uri, asked)
-        return place if place.is_file() else _described(place, asked)
+        return place if files.is_file(place) else _described(place, asked)
 
     def parsed(self, path: Path) -> Element:
         """The root of an SDF file, which is read once. Raises `SdfError`."""
@@ -51,7 +52,7 @@ class Resources:
         return self._parsed[path]
 
     def find(self, uri: str, asked: Element) -> Path:
-        """The file or folder at an address. Raises `SdfError` at `asked`."""
+        """The file or folder at an address. Raises `MissingError` at `asked` if it is not there, `SdfError` if it is no address."""
         if not uri.strip():
             raise asked.error(
                 f"<{asked.tag}> is empty; an address is model://NAME, package://PACKAGE/PATH, file://PATH or a path"
@@ -72,29 +73,35 @@ class Resources:
             try:
                 return self._packages.resolve(uri.strip())
             except RosminiError as error:
-                raise asked.error(str(error)) from error
+                raise _missing(asked, str(error)) from error
         if scheme == "file":
-            for folder in [] if Path(rest).is_absolute() else [_beside(asked), *_listed(RESOURCE_PATH)]:
-                if (folder / rest).exists():
-                    return folder / rest
-            return _there(Path(rest), uri, asked)
+            try:
+                path = Path(files.path_of(uri.strip()))
+            except OSError as error:
+                raise asked.error(f"{uri!r} is no address of a file") from error
+            for folder in [] if path.is_absolute() else [_beside(asked), *_listed(RESOURCE_PATH)]:
+                if files.exists(folder / path):
+                    return folder / path
+            return _there(path, uri, asked)
         kinds = "model://NAME, package://PACKAGE/PATH, file://PATH or a path"
-        what = "rosmini fetches nothing; write" if scheme in ("http", "https") else "an address is"
-        raise asked.error(f"{uri!r} cannot be read: {what} {kinds}")
+        if scheme in ("http", "https"):
+            raise _missing(asked, f"{uri!r} cannot be read: rosmini fetches nothing; write {kinds}")
+        raise asked.error(f"{uri!r} cannot be read: an address is {kinds}")
 
     def _model(self, rest: str, uri: str, asked: Element) -> Path:
         name = rest.partition("/")[0]
         if not name or ".." in Path(rest).parts:
             raise asked.error(f"{uri!r} names no model; write model://NAME")
         for folder in self._all_folders():
-            if (folder / name).exists():
+            if files.exists(folder / name):
                 return _there(folder / rest, uri, asked)
         folders = list(dict.fromkeys(folder for folder in self._all_folders() if folder.is_dir()))
-        names = {each.name for folder in folders for each in folder.iterdir()}
+        names = {each for folder in folders for each in files.names_in(folder)}
         searched = ", ".join(map(str, folders))
         hint = nearest(name, names)
-        raise asked.error(
-            f"there is no model {name!r}{'; ' + hint if hint else ''}; searched: {searched}; put its folder on {MODEL_PATH}"
+        raise _missing(
+            asked,
+            f"there is no model {shown(name)}{'; ' + hint if hint else ''}; searched: {searched}; put its folder on {MODEL_PATH}",
         )
 
     def _all_folders(self) -> Iterator[Path]:
@@ -108,9 +115,7 @@ class Resources:
         for package in self._packages.names():
             folder = self._packages.path(package)
             try:
-                if "gazebo_model_path" not in (folder / "package.xml").read_text(
-                    encoding="utf-8", errors="replace"
-                ):
+                if b"gazebo_model_path" not in files.read(folder / "package.xml"):
                     continue
                 manifest = parse_file(folder / "package.xml", SdfError)
             except (OSError, SdfError):  # what is wrong with a package is no business of a world
@@ -129,12 +134,15 @@ def _listed(variable: str) -> list[Path]:
     return [Path(part) for part in os.environ.get(variable, "").split(os.pathsep) if part]
 
 
+def _missing(asked: Element, message: str) -> SdfError:
+    return MissingError(message, asked.path, asked.line)
+
+
 def _there(path: Path, uri: str, asked: Element) -> Path:
-    if path.exists():
+    if files.exists(path):
         return path
-    folder = path.parent
-    hint = nearest(path.name, [each.name for each in folder.iterdir()]) if folder.is_dir() else ""
-    raise asked.error(f"{uri!r} is not there: no file or folder {path}{'; ' + hint if hint else ''}")
+    hint = nearest(path.name, files.names_in(path.parent))
+    raise _missing(asked, f"{shown(uri)} is not there: no file or folder {path}{'; ' + hint if hint else ''}")
 
 
 def _described(folder: Path, asked: Element) -> Path:
@@ -143,7 +151,7 @@ def _described(folder: Path, asked: Element) -> Path:
     if not config.is_file():
         if (folder / "model.sdf").is_file():
             return folder / "model.sdf"
-        raise asked.error(f"{folder} is no model: it has no model.config")
+        raise _missing(asked, f"{folder} is no model: it has no model.config")
     named = [(_version(tag), tag) for tag in parse_file(config, SdfError).all("sdf") if tag.text]
     if not named:
         raise SdfError("no <sdf> says which file describes the model", str(config), 1)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import codecs
 import os
 import re
+import warnings
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
+from rosmini.files import read
 from rosmini.packages import PackageIndex
 from rosmini.sim.sdf import SdfError, converted, load
 from rosmini.sim.sdf.document import Note
@@ -30,7 +32,7 @@ def kind_of(path: str | os.PathLike[str]) -> Kind:
     text = os.fspath(path)
     path = Path(PackageIndex().resolve(text)) if text.startswith(SCHEME) else Path(text)
     try:
-        start = path.read_bytes()[:50_000]
+        start = read(path)[:50_000]
     except OSError:
         start = b""
     wide = start.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
@@ -65,8 +67,15 @@ def world_from_file(path: str | os.PathLike[str]) -> World:
 
 
 def world_from_sdf(path: str | os.PathLike[str], *, name: str = "", title: str = "") -> World:
-    """The first world in an SDF file; see `sdf_world` for what was left out. Raises `SdfError`."""
-    return sdf_world(path, name=name, title=title)[0]
+    """The first world in an SDF file; see `sdf_world` for what was left out.
+
+    One warning lists the models and meshes that are not there, and what else is wrong with the file and was replaced. Raises `SdfError`.
+    """
+    made, notes = sdf_world(path, name=name, title=title)
+    wrong = [str(note) for note in notes if note.warning]
+    if wrong:
+        warnings.warn("\n".join([f"the world {made.name!r} is not whole:", *wrong]), stacklevel=2)
+    return made
 
 
 def sdf_world(

@@ -55,6 +55,29 @@ def test_a_world_file_is_loaded(bench: Start, tmp_path: Path) -> None:
     )
 
 
+def test_what_is_wrong_with_a_world_or_a_model_is_one_warning(
+    bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said: list[str] = []
+    monkeypatch.setattr("rosmini.graph.node.Node.logwarn", lambda node, text: said.append(text))
+    path = tmp_path / "yard.world"
+    massless = WORLD.replace("<mass>1.5</mass>", "<mass>0</mass>")
+    path.write_text(massless.replace("</world>", "\n<include><uri>model://none</uri></include></world>"))
+    there = bench(str(path))
+    assert list(there.server.world.models) == ["ground_plane", "wall", "crate"]
+    (warning,) = said
+    head, first, second = warning.splitlines()
+    assert head == "the world 'yard' is not whole:"
+    assert first.startswith(f"{path}:10: this model is left out: there is no model 'none'")
+    assert second == f"{path}:7: a mass is more than 0 kg, not 0: taken for 1 kg"
+    xml = "<sdf version='1.6'><model name='m'><link name='l'><inertial><mass>0</mass></inertial></link></model></sdf>"
+    done = there.call("spawn_sdf_model", "gazebo_msgs/SpawnModel", model_xml=xml, model_name="m")
+    assert done.success
+    assert said[1:] == [
+        "the model 'm' is not whole:\n<text>:1: a mass is more than 0 kg, not 0: taken for 1 kg"
+    ]
+
+
 def test_worlds_are_looked_for_as_gzserver_does(
     bench: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import struct
 
 import numpy as np
 import pytest
 
-from rosmini.sim.sdf import SdfError, load, to_obstacles, to_world
+from rosmini.sim.sdf import load, to_obstacles, to_world
 from rosmini.sim.world import World
 from rosmini.urdf.meshes import MeshError, read
 
@@ -239,7 +240,9 @@ def test_a_mesh_with_a_hole_in_its_surface_is_noted(tmp_path):
     assert np.ptp(world.obstacles[0].outline(), axis=0) == pytest.approx((1, 0.6), abs=1e-6)
 
 
-def test_a_mesh_that_is_broken_is_an_error_of_its_world(tmp_path):
+def test_a_mesh_that_is_broken_is_left_out_of_its_world_with_a_warning(tmp_path):
     (tmp_path / "m.stl").write_bytes(b"nothing")
-    with pytest.raises(SdfError, match=r"<text>:1: .*m\.stl"):
-        to_world(world_of(tmp_path / "m.stl"))
+    made = world_of(tmp_path / "m.stl")
+    assert to_world(made).obstacles == ()
+    (note,) = made.warnings
+    assert re.fullmatch(r"<text>:\d+: this mesh is left out: .*m\.stl: this is no STL.*", str(note))

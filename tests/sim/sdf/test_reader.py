@@ -294,14 +294,107 @@ def test_what_is_left_out_is_noted_with_its_line():
     assert str(found.notes[1]).startswith("<text>:3: ")
 
 
-def test_a_mesh_that_is_only_looked_at_may_be_missing():
-    found = load(
-        model(
-            "<link name='l'><visual name='v'><geometry><mesh><uri>model://none/m.dae</uri></mesh></geometry></visual></link>"
+MISSING = "<geometry><mesh><uri>{}</uri></mesh></geometry>"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (world("<include><uri>model://grund_plane</uri></include>"), "this model is left out: there is no model 'grund_plane'; did you mean ground_plane?"),
+        (world("<include><uri>model://ground_plane/none</uri></include>"), "this model is left out: 'model://ground_plane/none' is not there"),
+        (world("<include><uri>https://fuel.example/x</uri></include>"), "rosmini fetches nothing"),
+        (world("<include><uri>package://no_robot/model.sdf</uri></include>"), "there is no package 'no_robot'"),
+        (world(f"<include><uri>model://{'x' * 5000}</uri></include>"), "there is no model 'xxx"),
+        (world(f"<include><uri>file://{'x' * 5000}</uri></include>"), "is not there"),
+        (model(f"<link name='l'><visual name='v'>{MISSING.format('model://none/m.dae')}</visual></link>"), "this mesh is left out: there is no model 'none'"),
+        (model(f"<link name='l'><collision name='c'>{MISSING.format('file://no.dae')}</collision></link>"), "this mesh is left out: 'file://no.dae' is not there"),
+        (model("<link name='l'><inertial><mass>0</mass></inertial></link>"), "a mass is more than 0 kg, not 0: taken for 1 kg"),
+        (model("<link name='l'><inertial><inertia><ixx>-1</ixx></inertia></inertial></link>"), "ixx is more than 0 kg m2, not -1: all are taken for 1 kg m2"),
+    ],
+)  # fmt: skip
+def test_what_is_not_there_or_cannot_be_is_left_out_or_replaced_with_a_warning(text, said):
+    found = load(text)
+    (note,) = found.notes
+    assert note.warning
+    assert str(note).startswith("<text>:3: ")
+    assert said in str(note)
+    for each in found.models:
+        assert each.links[0].inertial.mass == 1
+        assert each.links[0].inertial.inertia == (1, 1, 1, 0, 0, 0)
+
+
+def test_the_rest_of_a_world_stands_and_all_that_is_wrong_is_told_at_once(tmp_path):
+    """In the style of TurtleBot3's public worlds."""
+    for name, text in {
+        "autorace/course": "<static>true</static><link name='l'><collision name='c'><geometry><plane><normal>0 0 1</normal><size>4 4</size></plane></geometry></collision></link>",
+        "autorace/bar": f"<pose frame=''>0 0 0 0 0 0</pose><link name='bar'><collision name='c'><pose frame=''>-2 1 0.3 0 1.57 0</pose>{BOX}</collision></link><static>1</static>",
+        "house": f"<link name='Wall_1'><self_collide>0</self_collide><pose frame=''>0 3 0 0 0 -1.5708</pose><kinematic>0</kinematic><collision name='w'><laser_retro>0</laser_retro><max_contacts>10</max_contacts>{BOX}<surface><bounce/><friction><ode/><torsional><ode/></torsional></friction><contact><ode/></contact></surface></collision></link>",
+    }.items():  # fmt: skip
+        folder = tmp_path / name
+        folder.mkdir(parents=True)
+        (folder / "model.config").write_text(
+            "<model><name>m</name><sdf version='1.4'>old.sdf</sdf><sdf version='1.6'>model.sdf</sdf></model>"
         )
+        (folder / "model.sdf").write_text(
+            f"<sdf version='1.6'><model name='{name.replace('/', '_')}'>{text}</model></sdf>"
+        )
+    text = world(
+        """<include><uri>model://sun</uri></include><include><uri>model://ground_plane</uri></include>
+<include><uri>model://autorace/course</uri><pose> 0 0 0 0 0 -1.54</pose></include><include><uri>model://autorace/bar</uri></include>
+<include><uri>model://autorace/tunnel_wall</uri></include>
+<model name='turtlebot3_house'><static>1</static><include><uri>model://house</uri></include></model>
+<model name='obstacle_1'><pose>2 2 0.25 0 0 0</pose><link name='link'><inertial><mass>0</mass></inertial>
+<collision name='c'><geometry><cylinder><radius>0.12</radius><length>0.5</length></cylinder></geometry></collision>
+<visual name='v'><geometry><mesh><uri>model://house/meshes/none.dae</uri></mesh></geometry></visual></link><plugin name='push_animate' filename='libobstacle_1.so'/></model>
+<population name='can_population'><model name='can'><include><uri>model://coke_can</uri></include></model><model_count>1000000000</model_count></population>
+<light name='l' type='point'/><scene><shadows>false</shadows></scene>
+<gui fullscreen='0'><camera name='user_camera'><pose frame=''>0 0 9 0 1.5 0</pose></camera></gui>
+<physics type='ode'><real_time_update_rate>1000.0</real_time_update_rate><ode><solver><type>quick</type></solver></ode></physics>
+<state world_name='default'><sim_time>1 0</sim_time><model name='obstacle_1'><pose>3 3 0.25 0 0 0</pose></model></state>"""
     )
-    assert found.models[0].links[0].visuals[0].geometry.kind == "other"
-    assert "there is no model 'none'" in found.notes[0].text
+    found = load(text, models=[tmp_path])
+    (made,) = found.worlds
+    assert [each.name for each in made.models] == [
+        "ground_plane",
+        "autorace_course",
+        "autorace_bar",
+        "turtlebot3_house",
+        "obstacle_1",
+    ]
+    assert made.models[-1].pose[:2] == (3, 3)
+    assert [(each.line, each.text.partition(":")[0]) for each in made.warnings] == [
+        (5, "this model is left out"), (7, "a mass is more than 0 kg, not 0"), (9, "this mesh is left out"),
+    ]  # fmt: skip
+
+
+def test_models_that_include_one_another_end(tmp_path, monkeypatch):
+    monkeypatch.setattr("rosmini.sim.sdf.parts.MOST_MODELS", 1000)
+    for i in range(18):
+        folder = tmp_path / f"m{i}"
+        folder.mkdir()
+        two = "".join(f"<include><uri>model://m{i + 1}</uri><name>{side}</name></include>" for side in "ab")
+        (folder / "model.sdf").write_text(f"<sdf version='1.6'><model name='m{i}'>{two}</model></sdf>")
+    (tmp_path / "m18").mkdir()
+    (tmp_path / "m18" / "model.sdf").write_text(
+        "<sdf version='1.6'><model name='m18'><link name='l'/></model></sdf>"
+    )
+    reading = world("<include><uri>model://m0</uri></include>")
+    with pytest.raises(SdfError, match="more than 1000 models in what this file includes"):
+        load(reading, models=[tmp_path])
+    (tmp_path / "m1" / "model.sdf").write_text(
+        "<sdf version='1.6'><model name='m1'><include><uri>model://m1</uri></include></model></sdf>"
+    )
+    with pytest.raises(SdfError, match=r"m1.model\.sdf:1: .* does 'model://m1' include itself"):
+        load(reading, models=[tmp_path])
+
+
+def test_an_address_of_a_file_is_a_path_as_this_system_has_them(tmp_path, monkeypatch):
+    monkeypatch.setattr(
+        "urllib.request.url2pathname", lambda path: {"/C:/house": str(tmp_path)}.get(path, path)
+    )
+    (tmp_path / "model.sdf").write_text("<sdf version='1.6'><model name='m'><link name='l'/></model></sdf>")
+    (made,) = load(world("<include><uri>file:///C:/house</uri></include>")).worlds
+    assert [each.name for each in made.models] == ["m"]
 
 
 # ---- what is wrong ----
@@ -321,8 +414,6 @@ def test_a_mesh_that_is_only_looked_at_may_be_missing():
         (world("<gravity>0 0</gravity>"), 3, "3 numbers, not 2"),
         (world("<include/>"), 3, "no <uri>"),
         (world("<include><uri></uri></include>"), 3, "is empty"),
-        (world("<include><uri>model://grund_plane</uri></include>"), 3, "did you mean ground_plane"),
-        (world("<include><uri>https://fuel.example/x</uri></include>"), 3, "fetches nothing"),
         (world("<include><uri>model://../x</uri></include>"), 3, "there is no model '..'|names no model"),
         (model("<pose>0 0 0 0 0</pose><link name='l'/>"), 3, "6 numbers, not 5"),
         (model("<link name='l'><pose>0 0 nan 0 0 0</pose></link>"), 3, "not finite"),
@@ -335,12 +426,9 @@ def test_a_mesh_that_is_only_looked_at_may_be_missing():
         (model("<link name='l'><collision name='c'><geometry><box><size>1 0 1</size></box></geometry></collision></link>"), 3, "more than 0"),
         (model("<link name='l'><collision name='c'><geometry><sphere/></geometry></collision></link>"), 3, "no <radius>"),
         (model("<link name='l'><collision name='c'><geometry><sphere><radius>-1</radius></sphere></geometry></collision></link>"), 3, "more than 0 m"),
-        (model("<link name='l'><collision name='c'><geometry><mesh><uri>file://no.dae</uri></mesh></geometry></collision></link>"), 3, "not there"),
         (model("<link name='l'><visual name='c'><geometry><polyline><point>0 0</point><point>1 1</point></polyline></geometry></visual></link>"), 3, "3 points"),
         (model(f"<link name='l'><visual name='c'>{BOX}<material><diffuse>2 0 0 1</diffuse></material></visual></link>"), 3, "between 0 and 1"),
         (model(f"<link name='l'><collision name='c'>{BOX}<surface><bounce><restitution_coefficient>2</restitution_coefficient></bounce></surface></collision></link>"), 3, "between 0 and 1"),
-        (model("<link name='l'><inertial><mass>0</mass></inertial></link>"), 3, "a mass is more than 0"),
-        (model("<link name='l'><inertial><inertia><ixx>-1</ixx></inertia></inertial></link>"), 3, "ixx is more than 0"),
         (model("<link name='l'><sensor name='s'/></link>"), 3, "type"),
         (model("<link name='l'><sensor name='s' type='ray'><update_rate>-1</update_rate></sensor></link>"), 3, "0 .always. or more"),
         (model("<link name='l'/><joint name='j' type='fixed'><parent>k</parent><child>l</child></joint>"), 3, "no frame 'k'"),

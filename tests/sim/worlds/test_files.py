@@ -272,3 +272,19 @@ def test_a_real_map_becomes_a_world():
         assert np.isfinite(
             raycast(depot.segments, depot.discs, x, y, 0.0, 0.01, 629, 60.0, backend="numpy")
         ).all()
+
+
+def test_one_warning_lists_all_that_is_wrong_with_a_world(tmp_path):
+    path = tmp_path / "w.world"
+    path.write_text(
+        "<sdf version='1.6'><world name='w'>\n<include><uri>model://none</uri></include>\n<model name='m'><link name='l'>"
+        "<inertial><mass>-1</mass></inertial><collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision>"
+        "</link></model></world></sdf>",
+        encoding="utf-8",
+    )
+    with pytest.warns(
+        UserWarning,
+        match=r"(?s)the world 'w' is not whole:\n.*w.world:2: this model is left out.*\n.*w.world:3: a mass is more",
+    ):
+        made = world(path)
+    assert [each.name for each in made.obstacles] == ["m"]
