@@ -38,6 +38,9 @@ class LaneContext(Protocol):
     def leave(self) -> None:
         """Put back what was there before."""
 
+    def cut_short(self) -> None:
+        """Learn that a second Ctrl-C ended what a lane of it was running."""
+
 
 class Lane:
     """A first-in, first-out queue of tasks with one blocking point.

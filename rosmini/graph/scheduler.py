@@ -36,6 +36,12 @@ TICKS_PER_YIELD = 1_000
 """How many turns a polling loop makes before the others get theirs."""
 
 
+def _start_workers(worker: greenlet) -> None:
+    """Start each greenlet that is given. The body of a greenlet of its own."""
+    while True:
+        worker = worker.switch()
+
+
 class Scheduler(EventQueue):
     """Runs lanes and timed events; see the module's text.
 
@@ -53,6 +59,7 @@ class Scheduler(EventQueue):
         """Finds who drives while another thread waits; what it returns is called when that takes long."""
         self._owner_lock = threading.Lock()
         self._idle: list[greenlet] = []
+        self._starter: greenlet | None = None
         self._parked: dict[Waiter, Lane] = {}
         self._thread_lanes: dict[int, Lane] = {}
         self._ticks = TICKS_PER_YIELD
@@ -63,7 +70,7 @@ class Scheduler(EventQueue):
         self._until: Callable[[], bool] | None = None
         shell = kernel_shell()
         self._output = None if shell is None else CellOutput(shell)
-        self._interrupts = InterruptGuard(lambda: self._inbox.put(None))
+        self._interrupts = InterruptGuard(lambda: self._inbox.put(None), lambda: self._current.name)
 
     # -- who is running ------------------------------------------------------------------------------------------
 
@@ -172,7 +179,7 @@ class Scheduler(EventQueue):
                 self._abandon()
             elif self._root_waiter is not None or self._parked or ident in self._thread_lanes:
                 return False
-            self._idle.clear()
+            self._forget_workers()
             self.thread = ident
         return True
 
@@ -194,10 +201,14 @@ class Scheduler(EventQueue):
         lane._waiter = waiter  # noqa: SLF001
         self._parked[waiter] = lane
         try:
-            worker = self._idle.pop() if self._idle else greenlet(self._loop)
+            fresh = not self._idle
+            worker = greenlet(self._loop) if fresh else self._idle.pop()
             if self._output is not None:
                 self._output.lend(worker)
-            worker.switch()
+            if fresh:
+                self._start_worker(worker)
+            else:
+                worker.switch()
         finally:
             del self._parked[waiter]
             waiter._greenlet = None  # noqa: SLF001
@@ -210,13 +221,26 @@ class Scheduler(EventQueue):
         if is_root and self._interrupts.take():
             raise self._interruption()
 
+    def _start_worker(self, worker: greenlet) -> None:
+        """Switch to a new worker from a place that is always as deep as the first: a greenlet counts the depth of the calls from where it starts.
+
+        Else each of many that block would begin where the last one stopped, and reach the limit of recursion together.
+        """
+        if self._starter is None:
+            self._starter = greenlet(_start_workers)
+        self._starter.switch(worker)
+
+    def _forget_workers(self) -> None:
+        self._idle.clear()
+        self._starter = None
+
     def _start_drive(self, waiter: Waiter) -> None:
         with self._owner_lock:
             if not self.is_hub_thread():
                 if self._root_waiter is not None or self._parked:
                     msg = "two threads began to drive the graph at the same moment; let one of them drive, and the others call it"
                     raise RosminiError(msg)
-                self._idle.clear()  # the other one only looked at something
+                self._forget_workers()  # the other one only looked at something
                 self.thread = threading.get_ident()
             self._root_waiter = waiter
         self._interrupts.arm()
@@ -250,6 +274,8 @@ class Scheduler(EventQueue):
     def lane_failed(self, lane: Lane, error: BaseException) -> None:
         """Tell whoever should know that a task of ``lane`` raised. For lanes only."""
         if isinstance(error, KeyboardInterrupt) and self._interrupts.noted:
+            if lane.context is not None:
+                lane.context.cut_short()
             return
         if lane.on_error is not None:
             lane.on_error(error)
@@ -337,6 +363,9 @@ class Scheduler(EventQueue):
 
     def _end_workers(self) -> None:
         """End the idle greenlets: the garbage collector does not see what a suspended one refers to."""
+        if self._starter is not None:
+            self._idle.append(self._starter)
+            self._starter = None
         while self._idle:
             worker = self._idle.pop()
             worker.parent = getcurrent()  # where it returns to when it has ended

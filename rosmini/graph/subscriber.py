@@ -246,7 +246,7 @@ class Subscription:
         self.connections: dict[str, Connection] = {}
         self.queue_size: int | None = None
         self._first: Subscriber | None = None
-        self._wanted: tuple[str, ...] = ()
+        self._wanted: dict[str, None] = {}
 
     def disagrees_with(self, message_class: Any) -> bool:
         """Tell whether a further subscriber of this node cannot be one with ``message_class``."""
@@ -259,7 +259,7 @@ class Subscription:
         As in rospy an open connection outlives its registration: the publisher closes it after its last message,
         which may still be on its way.
         """
-        self._wanted = wanted = tuple(dict.fromkeys(uris))
+        self._wanted = wanted = dict.fromkeys(uris)
         for uri in [uri for uri, link in self.connections.items() if uri not in wanted and not link.is_open]:
             self.connections.pop(uri).close()
         for uri in wanted:

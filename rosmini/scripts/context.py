@@ -90,6 +90,8 @@ class ScriptContext:
         self.exit_calls: list[tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]] = []
         self.handlers: dict[int, Any] = {}
         self.ended = False
+        self.was_cut_short = False
+        """A second Ctrl-C ended it, or what it was running."""
         self._sink = sink
         self._setup_modules(folders, modules or {})
         self._setup_swapped(feed)
@@ -331,6 +333,10 @@ class ScriptContext:
             raise
         except BaseException as error:
             self.raise_in_main(error)
+
+    def cut_short(self) -> None:
+        """Learn that a second Ctrl-C ended what the script was running."""
+        self.was_cut_short = True
 
     def raise_in_main(self, error: BaseException) -> None:
         """Raise ``error`` in the script's main thread, where it blocks or at its next turn of a loop."""

@@ -153,6 +153,11 @@ class _Script:
                 return
             waited_for[0].join()
 
+    @property
+    def exit_status(self) -> int:
+        """The exit status: its own, or that of a program that Ctrl-C ended if it was cut short."""
+        return self.status or (INTERRUPTED if self.context.was_cut_short else 0)
+
     def ask_to_end(self, reason: str, *, interrupt: bool) -> None:
         """Ask the script to end, as Ctrl-C does in ROS (``interrupt``) or without a signal."""
         context = self.context
@@ -221,6 +226,8 @@ class _Run:
             self._go_on(self.grace, lambda: all(script.finished for script in asked))
         for script in running:
             if not script.finished:
+                if reason == "interrupted":
+                    script.context.cut_short()
                 script.context.raise_in_main(LaneExit("the run is over"))
         self._go_on(END_GRACE_S, self.over)
         for script in self.scripts:
@@ -321,7 +328,7 @@ def run_scripts(
                     forget_lines(script.source.filename)
             sink.flush()
             os.chdir(folder)
-    statuses = (*(script.status for script in scripts), *(node.status for node in nodes))
+    statuses = (*(script.exit_status for script in scripts), *(node.status for node in nodes))
     return RunResult(next(filter(None, statuses), 0), statuses, reason, report)
 
 

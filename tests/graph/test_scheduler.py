@@ -11,6 +11,7 @@ import weakref
 import pytest
 
 from rosmini.errors import GraphEnded, RosminiError
+from rosmini.graph import interrupts
 from rosmini.graph.event_queue import TICK_QUANTUM_NS
 from rosmini.graph.lanes import LaneExit
 from rosmini.graph.scheduler import Scheduler
@@ -309,6 +310,28 @@ def test_a_second_interrupt_ends_a_callback_that_never_comes_back(scheduler: Sch
     assert scheduler.run(until_ns=scheduler.now_ns() + SECOND).reason == "time"
 
 
+@pytest.mark.skipif(os.name == "nt", reason="os.kill sends no SIGINT on Windows")
+def test_an_interrupt_that_ends_nothing_says_what_it_waits_for(
+    scheduler: Scheduler, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(interrupts, "PATIENCE_S", 0)
+
+    def heard() -> None:
+        os.kill(os.getpid(), signal.SIGINT)
+        teller = scheduler._interrupts._told
+        assert teller is not None
+        teller.join(60)
+
+    scheduler.spawn("/listener <- /chatter", heard)
+    with pytest.raises(KeyboardInterrupt):
+        scheduler.run(until_ns=scheduler.now_ns() + SECOND)
+    told = capfd.readouterr().err
+    assert (
+        "Ctrl-C: waiting for /listener <- /chatter to come back from heard (test_scheduler.py, line" in told
+    )
+    assert "Press Ctrl-C again" in told
+
+
 def test_the_trace_is_the_same_on_each_run() -> None:
     def trace() -> list[tuple[int, str]]:
         scheduler = Scheduler()
@@ -353,3 +376,21 @@ def test_closing_ends_the_lanes_and_nothing_is_left(scheduler: Scheduler) -> Non
 def test_a_clock_needs_a_positive_rate(rate: float) -> None:
     with pytest.raises(RosminiError, match="positive"):
         Scheduler(rate=rate)
+
+
+def test_many_that_block_do_not_add_up_to_the_limit_of_recursion() -> None:
+    """Each starts as deep as the first, wherever the last one blocked."""
+    scheduler, done = Scheduler(), []
+
+    def task(number: int, depth: int = 20) -> None:
+        if depth:
+            task(number, depth - 1)
+            return
+        scheduler.sleep_until(scheduler.now_ns() + 10**9)
+        done.append(number)
+
+    for number in range(1_000):
+        scheduler.spawn(f"lane {number}", lambda number=number: task(number))
+    assert scheduler.run(scheduler.now_ns() + 2 * 10**9).reason == "time"
+    assert done == list(range(1_000))
+    scheduler.close()

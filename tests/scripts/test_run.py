@@ -7,6 +7,7 @@ import signal
 
 import pytest
 
+from rosmini import rospy
 from rosmini.errors import ScriptError
 from rosmini.graph import Graph
 from rosmini.scripts import ScriptSpec, current_script, run_scripts, run_source
@@ -251,6 +252,41 @@ def test_interrupt(run):
     assert ran.result.reason == "interrupted"
     assert sorted(ran.lines) == ["[caught] stopped", "[handler] handler 2", "[queue] no more"]
     assert ran.result.statuses == (0, 7, 130, 0, 0)
+
+
+IN_A_CALLBACK = """
+import host_signal, rospy
+rospy.init_node("node")
+def tick(event):
+    for _ in range(2):
+        host_signal.raise_signal(host_signal.SIGINT)
+    print("not reached")
+rospy.Timer(rospy.Duration(1), tick)
+rospy.spin()
+"""
+A_HANDLER_THAT_STAYS = """
+import host_signal, signal, time
+signal.signal(signal.SIGINT, lambda number, frame: time.sleep(1e3))
+host_signal.raise_signal(host_signal.SIGINT)
+time.sleep(1e3)
+"""
+A_SCRIPT_THAT_GOES_ON = """
+import host_signal, time
+host_signal.raise_signal(host_signal.SIGINT)
+for _ in range(9):
+    try:
+        time.sleep(1e3)
+    except KeyboardInterrupt:
+        pass
+"""
+
+
+@pytest.mark.parametrize("source", [IN_A_CALLBACK, A_HANDLER_THAT_STAYS, A_SCRIPT_THAT_GOES_ON])
+def test_a_script_that_has_to_be_ended_by_force_fails(sim, source):
+    ran = sim(source, modules={**rospy.modules(), "host_signal": signal})
+    assert (ran.result.reason, ran.lines) == ("interrupted", [])
+    assert ran.result.statuses == (130,)
+    assert ran.result.status == 130
 
 
 def test_the_working_folder_comes_back(sim, tmp_path):
