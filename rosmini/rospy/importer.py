@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 from rosmini import msgs
 
+from .absent import absent_module
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import ModuleType
@@ -137,6 +139,22 @@ class _AliasFinder(MetaPathFinder):
         return ModuleSpec(fullname, _AliasLoader(home), is_package=False)
 
 
+class _AbsentFinder(MetaPathFinder):
+    """Comes when all others have failed: says what to do without a module of ROS that rosmini does not have."""
+
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None,  # noqa: ARG002 - the protocol's signature
+        target: ModuleType | None = None,  # noqa: ARG002
+    ) -> ModuleSpec | None:
+        """As :meth:`importlib.abc.MetaPathFinder.find_spec`. Raises ``AbsentModule``."""
+        error = absent_module(fullname)
+        if error is not None:
+            raise error
+        return None
+
+
 def ros_is_installed() -> bool:
     """Tell whether Python finds the real rospy by itself."""
     found = PathFinder.find_spec("rospy", sys.path)
@@ -152,11 +170,13 @@ def install(*, shadow: bool = False) -> None:
     uninstall()
     msgs.install(shadow=shadow)
     sys.meta_path.insert(0, _AliasFinder(shadow=shadow))
+    sys.meta_path.append(_AbsentFinder())
 
 
 def uninstall() -> None:
     """Undo :func:`install`: forget the finders and the modules that came through them."""
-    sys.meta_path[:] = [finder for finder in sys.meta_path if not isinstance(finder, _AliasFinder)]
+    ours = (_AliasFinder, _AbsentFinder)
+    sys.meta_path[:] = [finder for finder in sys.meta_path if not isinstance(finder, ours)]
     for name, home in _HOMES.items():
         if name in sys.modules and sys.modules[name] is sys.modules.get(home):
             del sys.modules[name]

@@ -152,6 +152,7 @@ class Importer:
         try:
             module = self.private[name] = importlib.import_module(_MESSAGES + name)
         except ModuleNotFoundError as error:
+            _explain(name)
             if isinstance(error, RosminiError):
                 raise
             raise ModuleNotFoundError(f"No module named {name!r}", name=name) from None
@@ -218,13 +219,18 @@ class Importer:
         except ModuleNotFoundError as error:
             if error.name == name and name.endswith(_LIKE_MESSAGES):
                 self._message_module(name)  # raises an error that suggests the nearest package
+            _explain(error.name)
             raise
         self._context.after_import(name)
         return found
 
     def _host_module(self, name: str, private_parent: ModuleType | None) -> ModuleType:
-        with self._context.put_aside():
-            module = importlib.import_module(name)
+        try:
+            with self._context.put_aside():
+                module = importlib.import_module(name)
+        except ModuleNotFoundError as error:
+            _explain(error.name)
+            raise
         self._context.after_import(name)
         if private_parent is not None:
             setattr(private_parent, name.rpartition(".")[2], module)
@@ -241,7 +247,7 @@ class Importer:
             try:
                 self.load(full)
             except ModuleNotFoundError as error:
-                if error.name != full:
+                if error.name != full or isinstance(error, RosminiError):
                     raise
 
     def _load_local_child(self, name: str, parent: ModuleType) -> ModuleType:
@@ -289,3 +295,12 @@ class Importer:
             raise
         finish_copy(self._context, name, module)
         return module
+
+
+def _explain(name: str | None) -> None:
+    """Raise an error that says what to do instead, if this is a module of ROS that rosmini does not have."""
+    from rosmini.rospy.absent import absent_module
+
+    known = absent_module(name or "")
+    if known is not None:
+        raise known from None
