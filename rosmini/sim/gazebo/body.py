@@ -157,6 +157,13 @@ def lowest(model: SdfModel, pose: Pose6) -> float | None:
     return min((each.bottom for each in found), default=high) - high if found else None
 
 
+def obstacles_at(pose: Pose6, model: SdfModel, old: tuple[Obstacle, ...]) -> tuple[Obstacle, ...]:
+    """What a fixed model is at another pose, if it was `old` before: made anew of its collisions, if there are any."""
+    if any(link.collisions for _, link, _ in placed_links(model)):
+        return to_obstacles(model, pose)
+    return tuple(replace(each, pose=(pose[0], pose[1], pose[5])) for each in old)
+
+
 def outline_of(obstacle: Obstacle) -> tuple[tuple[float, float], ...]:
     """The corners of the smallest convex polygon around an obstacle, seen from its pose."""
     still = replace(obstacle, pose=(0.0, 0.0, 0.0))

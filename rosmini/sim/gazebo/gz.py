@@ -204,9 +204,9 @@ class Gz:
                 f"Type: {info.type}",
                 "",
                 "Publishers:",
-                *(f"\t{name}" for name in info.publishers),
+                *(f"\t{name}" for name in info.publisher_addresses),
             ]
-            self._lines += ["", "Subscribers:", *(f"\t{name}" for name in info.subscribers), ""]
+            self._lines += ["", "Subscribers:", *(f"\t{name}" for name in info.subscriber_addresses), ""]
         elif options.echo or options.hz:
             topic = options.echo or options.hz
             node.master.info(node.resolve(topic))

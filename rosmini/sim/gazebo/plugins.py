@@ -151,10 +151,10 @@ def plugin_class(filename: str) -> type[Plugin]:
     found = _CLASSES.get(base)
     if found is None:
         known = plugin_filenames()
-        hint = nearest(filename, known) or f"there are: {', '.join(known)}"
-        would = ABSENT.get(base)
-        lack = f"there is no plugin of this name in rosmini{f' ({would})' if would else ''}"
-        raise UnknownPlugin(f"Failed to load plugin {filename}: {lack}; {hint}")
+        hint = ABSENT.get(base) or nearest(filename, known) or f"there are: {', '.join(known)}"
+        raise UnknownPlugin(
+            f"Failed to load plugin {filename}: there is no plugin of this name in rosmini; {hint}"
+        )
     return found
 
 

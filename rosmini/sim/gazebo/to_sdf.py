@@ -93,5 +93,8 @@ def _geometry(geometry: SdfGeometry) -> Element:
         inside += [_value("point", *corner) for corner in geometry.outlines[0]]
         inside.append(_value("height", geometry.length))
     if geometry.kind == "mesh":
-        inside += [_value("scale", *geometry.scale), _element("uri", text=f"file://{geometry.mesh}")]
+        inside.append(_value("scale", *geometry.scale))
+        if geometry.mesh is not None:
+            path = geometry.mesh.as_posix()
+            inside.append(_element("uri", text=f"file://{'' if path.startswith('/') else '/'}{path}"))
     return _element("geometry", _element(geometry.kind, *inside))

@@ -47,8 +47,11 @@ class TopicInfo:
     topic: str
     type: str
     publishers: tuple[str, ...]
-    """Addresses of the nodes, host and port: all that Gazebo's Master knows of them."""
+    """Names of the nodes."""
     subscribers: tuple[str, ...]
+    publisher_addresses: tuple[str, ...]
+    """Host and port of the same nodes: all that Gazebo's own Master knows, and tells, of them."""
+    subscriber_addresses: tuple[str, ...]
 
 
 class Master:
@@ -84,7 +87,10 @@ class Master:
             raise GazeboError(msg)
         kind = type_name(publications[0].message_class) if publications else ""
         return TopicInfo(
-            topic, kind, tuple(p.node.address for p in publications), tuple(s.node.address for s in heard)
+            topic,
+            kind,
+            *(tuple(end.node.name for end in ends) for ends in (publications, heard)),
+            *(tuple(end.node.address for end in ends) for ends in (publications, heard)),
         )
 
     def add(self, end: Publication | Subscription) -> None:

@@ -20,7 +20,7 @@ from rosmini.sim.sdf import ORIGIN, Pose6, SdfLink, SdfModel, SdfPlugin, SdfWorl
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.world import Obstacle, World, WorldError
 
-from .body import Body, is_still, lowest, outline_of, placed_links, plugins_of
+from .body import Body, is_still, lowest, obstacles_at, outline_of, placed_links, plugins_of
 from .errors import GazeboError, SpawnError, UnknownEntity, UnknownPlugin
 from .model import STILL, Model, Sensor, Velocity
 from .physics import PhysicsProperties
@@ -93,7 +93,10 @@ class GazeboWorld:
             if any(model is each for each in still):
                 self._note_fixed(model)
             else:
-                self._bring(replace(model, pose=ORIGIN), model.name, model.pose, check=False)
+                try:
+                    self._bring(replace(model, pose=ORIGIN), model.name, model.pose, check=False)
+                except SpawnError as error:
+                    self.node.logerr(f"{model.path}:{model.line}: {error}. The world goes on without it")
         for actor in source.actors:
             self._note_obstacle(next(each for each in self.flat.obstacles if each.name == actor.name))
         for tag in source.plugins:
@@ -405,7 +408,7 @@ class GazeboWorld:
     def _move_fixed(self, model: Model, pose: Pose6) -> None:
         """Take what stands fixed away, and put it down elsewhere; where it was, if there is no room."""
         old = tuple(each for each in self.engine.world.obstacles if each.name in model.obstacles)
-        found = _moved(old, model, pose)
+        found = obstacles_at(pose, replace(model.sdf, name=model.name), old)
         for name in model.obstacles:
             self.engine.take_away(name)
         try:
@@ -456,9 +459,7 @@ class GazeboWorld:
             try:
                 cls = plugin_class(tag.filename)
             except UnknownPlugin as error:
-                self.node.logwarn(
-                    f"{tag.element.path}:{tag.line}: {error}. {whose[:1].upper()}{whose[1:]} goes on without it"
-                )
+                self.node.logwarn(f"{tag.element.path}:{tag.line}: {whose} goes on without a plugin: {error}")
                 continue
             if not issubclass(cls, kind):
                 self.node.logwarn(
@@ -490,10 +491,3 @@ class GazeboWorld:
             ends.callback(self.host.end)
             for plugin in self._all_plugins():
                 ends.callback(self.node.guarded, plugin.close, what=f"the end of {plugin.name}")
-
-
-def _moved(old: tuple[Obstacle, ...], model: Model, pose: Pose6) -> tuple[Obstacle, ...]:
-    """What a fixed model is at another pose."""
-    if any(link.collisions for _, link, _ in placed_links(model.sdf)):
-        return to_obstacles(replace(model.sdf, name=model.name), pose)
-    return tuple(replace(each, pose=(pose[0], pose[1], pose[5])) for each in old)

@@ -16,7 +16,7 @@ from rosmini.sim.gazebo import GazeboClient, GazeboError, GazeboServer
 from rosmini.sim.sdf import SdfError
 from rosmini.sim.world import Box, Obstacle, World
 
-from .conftest import Bench, box, urdf
+from .conftest import DIFF_DRIVE, Bench, box, urdf
 
 Start = Callable[..., Bench]
 
@@ -76,6 +76,20 @@ def test_what_is_wrong_with_a_world_or_a_model_is_one_warning(
     assert said[1:] == [
         "the model 'm' is not whole:\n<text>:1: a mass is more than 0 kg, not 0: taken for 1 kg"
     ]
+
+
+def test_a_world_goes_on_without_a_model_that_cannot_come(
+    bench: Start, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "broken.world"
+    driven = DIFF_DRIVE[DIFF_DRIVE.index("<plugin") : DIFF_DRIVE.index("</gazebo>")]
+    model = f"<model name='cart'><link name='l'/>{driven}</model>"
+    path.write_text(
+        f"<sdf version='1.6'><world name='w'>{model}{box()[box().index('<model') : -6]}</world></sdf>"
+    )
+    there = bench(str(path))
+    assert list(there.server.world.models) == ["box"]
+    assert "the model 'cart' has no joint 'left_wheel'" in capsys.readouterr().err
 
 
 def test_worlds_are_looked_for_as_gzserver_does(
@@ -208,7 +222,7 @@ def test_a_client_knows_what_the_server_tells(graph: Graph) -> None:
     client = rosrun("gazebo_ros", "gzclient", graph=graph)
     assert client.node.name == "/gazebo_gui"
     assert set(client.models) == set(server.world.models)
-    assert server.master.info("/gazebo/room/pose/info").subscribers == (client.transport.address,)
+    assert server.master.info("/gazebo/room/pose/info").subscribers == ("gzclient /gazebo_gui",)
     there = Bench.__new__(Bench)
     there.graph, there.server, there.node = graph, server, graph.node("tester")
     there.spawn(urdf(), "robot")

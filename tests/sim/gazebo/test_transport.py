@@ -33,7 +33,9 @@ def test_the_master_tells_who_publishes_and_who_hears() -> None:
     client.subscribe("~/world_stats", print)
     info = master.info("/gazebo/default/world_stats")
     assert info.type == "gazebo.msgs.WorldStatistics"
-    assert (info.publishers, info.subscribers) == (("127.0.0.1:49152",), ("127.0.0.1:49153",))
+    assert (info.publishers, info.subscribers) == (("server",), ("client",))
+    assert info.publisher_addresses == ("127.0.0.1:49152",)
+    assert info.subscriber_addresses == ("127.0.0.1:49153",)
     assert master.topics() == {"/gazebo/default/world_stats": "gazebo.msgs.WorldStatistics"}
     with pytest.raises(GazeboError, match="did you mean"):
         master.info("/gazebo/default/world_stat")

@@ -400,10 +400,10 @@ def test_of_a_plugin_that_gazebo_has_it_is_told_what_it_would_have_done(
     assert bench().spawn(urdf(text), "r").success
     said = "".join(capsys.readouterr())
     assert (
-        "Failed to load plugin libgazebo_ros_control.so: there is no plugin of this name in rosmini (it lets joints be moved from ROS"
+        "Failed to load plugin libgazebo_ros_control.so: there is no plugin of this name in rosmini; it lets joints be moved from ROS"
         in said
     )
-    assert "The model 'r' goes on without it" in said
+    assert "the model 'r' goes on without a plugin: Failed to load" in said
     assert not {name for name in ABSENT if f"lib{name}.so" in plugin_filenames()}
 
 
