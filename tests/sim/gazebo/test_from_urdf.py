@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import PurePosixPath, PureWindowsPath
+
 import pytest
 
 from rosmini import urdf as urdf_package
+from rosmini.markup import parse
 from rosmini.sim import sdf
 from rosmini.sim.gazebo.body import Body
 from rosmini.sim.gazebo.from_urdf import from_urdf
 from rosmini.sim.gazebo.to_sdf import to_sdf
+from rosmini.sim.sdf import ORIGIN, SdfGeometry, SdfLink, SdfModel, SdfVisual
 
 from .conftest import urdf
 
@@ -82,3 +86,18 @@ def test_wheels_that_are_elsewhere_than_the_plugin_says_are_noted() -> None:
     body = Body(converted(urdf()).model)
     body.put_on_wheels("left_wheel", "right_wheel", 0.4, 0.05)
     assert "0.300 m apart, but its plugin says 0.4 m" in body.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("mesh", "uri"),
+    [
+        (None, ""),
+        (PurePosixPath("/meshes/a b.dae"), "file:///meshes/a b.dae"),
+        (PureWindowsPath("C:/a.dae"), "file:///C:/a.dae"),
+    ],
+)
+def test_the_address_of_a_mesh_in_sdf(mesh, uri):
+    visual = SdfVisual("v", ORIGIN, SdfGeometry("mesh", mesh=mesh))
+    root = parse(to_sdf(SdfModel("m", links=(SdfLink("l", visuals=(visual,)),))))
+    found = [each.text for each in root.walk() if each.tag == "uri"]
+    assert found == ([uri] if uri else [])
