@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from statistics import NormalDist
 
 import numpy as np
@@ -122,3 +123,13 @@ def test_without_numba_the_ranges_are_the_same(monkeypatch):
     np.testing.assert_allclose(without, with_numba, atol=1e-9)
     forced = raycast(square(2.0), NOTHING, 0.0, 0.0, 0.0, 0.1, 3, 3.5, backend="numpy")
     assert forced[0] == 2.0
+
+
+@pytest.mark.parametrize("backend", ["numba", "numpy"])
+@pytest.mark.parametrize("yaw", [0.0, math.pi / 2, 2.5])
+def test_one_ray_alone_measures_where_it_looks(monkeypatch, backend, yaw):
+    monkeypatch.setenv("ROSMINI_RAYCAST", backend)
+    single = replace(LDS, beams=1, angle_min=0.0, angle_max=0.0, yaw=yaw, mount=(0.0, 0.0, 0.2))
+    (found,) = lidar.scan(single, (0.2, 0.1, 0.3), square(1.0), NOTHING)
+    exact = raycast(square(1.0), NOTHING, 0.2, 0.1, 0.3 + yaw, 1.0, 2, 5.0)[0]
+    assert found == pytest.approx(exact, abs=1e-9)

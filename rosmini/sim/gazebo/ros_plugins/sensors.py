@@ -78,6 +78,8 @@ def lidar_of(sensor: Sensor) -> LidarModel:
             f"a laser of {vertical} layers is not simulated; <vertical> has one sample here"
         )
     first, last = number(horizontal, "min_angle", 0.0), number(horizontal, "max_angle", 0.0)
+    if samples == 1:  # whatever its fan is, one ray looks ahead, as in Gazebo
+        first = last = 0.0
     noise = ray.find("noise")
     gaussian = noise is not None and noise.word("type", "gaussian").startswith("gaussian")
     return LidarModel(

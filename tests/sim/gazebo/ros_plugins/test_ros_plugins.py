@@ -174,6 +174,17 @@ def test_frames_begin_with_tf_prefix_if_it_is_set(bench: Start) -> None:
     assert scans[-1].header.frame_id == "other/laser"
 
 
+def test_a_laser_of_one_ray_looks_ahead_whatever_its_fan_is(bench: Start) -> None:
+    there = bench()
+    one = LASER.replace("<samples>181</samples>", "<samples>1</samples>")
+    there.spawn(urdf(one), "r")
+    there.spawn(box(static=True), "wall", 2.2)
+    heard = there.hear("/scan", "sensor_msgs/LaserScan")
+    there.graph.run(0.3)
+    assert list(heard[-1].ranges) == pytest.approx([2.0])
+    assert (heard[-1].angle_min, heard[-1].angle_increment) == (0.0, 0.0)
+
+
 IMU = """<gazebo><plugin name="imu" filename="libgazebo_ros_imu.so"><bodyName>laser</bodyName><topicName>imu</topicName>
   <serviceName>imu_service</serviceName><updateRate>50</updateRate><gaussianNoise>{noise}</gaussianNoise>{more}</plugin></gazebo>"""
 IMU_SENSOR = """<gazebo reference="laser"><sensor type="imu" name="imu"><pose>{pose}</pose>{own}<plugin name="imu" filename="libgazebo_ros_imu_sensor.so">
