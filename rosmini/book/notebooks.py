@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     import nbformat
 
-CELL_TIMEOUT_S = 60
+CELL_TIMEOUT_S = 300
 MAX_CODE_LINES = 20
 
 KERNELSPEC = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}

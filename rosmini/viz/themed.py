@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 KIND = "rosmini-plot"
 """The class of these pictures: rules of other pictures on the page are not for them."""
 
-_NUMBER = re.compile(r"-?\d+\.\d+(?:e-?\d+)?")
+_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 _FONT = re.compile(r"(?P<weight>bold|\d00)?\s*(?P<size>[\d.]+)px")
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
 _PAINT = re.compile(r' (fill|stroke)="(#[0-9a-f]{6})"')

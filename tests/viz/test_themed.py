@@ -113,6 +113,13 @@ def test_a_coordinate_that_matplotlib_writes_alike_stays_alike():
     assert svg(0.25) != svg(0.26)
 
 
+def test_a_zero_has_no_sign():
+    """Matplotlib turns a square by cosine and sine, so the sign of a diamond's zeros is that of their last bits."""
+    plain = SVG.replace("M 0 0 L 0 3.5", "M 0 0 L 0 3.5 L 20 0")
+    signed = SVG.replace("M 0 0 L 0 3.5", "M -0 0 L 0 3.5 L 20 -0.0")
+    assert themed_svg(signed, title="t", alt="a") == themed_svg(plain, title="t", alt="a")
+
+
 def test_the_picture_is_one_document_with_text_that_stays_text():
     with house_style():
         figure = blank_figure(300, 150)
