@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -278,7 +279,7 @@ def test_what_can_be_pushed(world):
 def test_what_nothing_notices_is_left_out_and_told(world):
     stage = world('model( name "ghost" obstacle_return 0 ranger_return -1 )\nmodel( name "glass" ranger_return -1 )\nfiducial( )' )  # fmt: skip
     assert [each.name for each in stage.world.obstacles] == ["glass"]
-    assert [note.split(":", 1)[1] for note in stage.notes] == [
+    assert [re.search(r":(\d+: .*)", note)[1] for note in stage.notes] == [
         "3: a fiducial is not simulated and is left out",
         "1: nothing bumps into ghost and nothing sees it: it is left out",
         "2: ranger_return changes nothing here: glass is seen by lasers",
@@ -368,7 +369,7 @@ def test_stage_3_lasers_and_rings_of_sonars(world):
     assert stage.robots[0].lasers[0].fov == pytest.approx(math.pi)
     sonar = stage.robots[1].lasers[0]
     assert (sonar.samples, sonar.fov, sonar.range_max) == (1, 0.1, 5)
-    assert [note.split(":")[1] for note in stage.notes] == ["1", "3"]
+    assert [re.search(r":(\d+):", note)[1] for note in stage.notes] == ["1", "3"]
 
 
 def test_cameras(world):
