@@ -123,7 +123,7 @@ class Recorder:
     def __init__(self, node: Node, options: RecordOptions | None = None, **fields: Any) -> None:
         self.node = node
         self.options = options or RecordOptions(**fields)
-        self.error: BagFull | None = None
+        self.error: BagFull | OSError | None = None
         """Why the recording ended before its time."""
         self.dropped = 0
         """How many messages the buffer could not hold."""
@@ -152,6 +152,11 @@ class Recorder:
     def done(self) -> bool:
         """Whether the recording has ended."""
         return self._ended
+
+    @property
+    def exit_status(self) -> int:
+        """The exit status of its node: 1 if the recording ended before its time."""
+        return int(self.error is not None)
 
     @property
     def paths(self) -> list[Path]:
@@ -298,7 +303,7 @@ class Recorder:
                 self._write(key, time, data)
                 self._check_size(time)
             self._keep_safe()
-        except BagFull as error:
+        except (BagFull, OSError) as error:
             self._fail(error)
             return
         limit, topics = self.options.limit, self.options.topics
@@ -334,7 +339,7 @@ class Recorder:
         if self._files is not None and self._files.bag is not None:
             try:
                 self._files.bag.sync()
-            except BagFull as error:
+            except (BagFull, OSError) as error:
                 self._fail(error)
 
     # -- when it is enough -----------------------------------------------------------------------------------------
@@ -350,7 +355,7 @@ class Recorder:
             self._drain()
             if not self._ended:
                 self._next_file(self.node.clock.now_ns())
-        except BagFull as error:
+        except (BagFull, OSError) as error:
             self._fail(error)
 
     def _next_file(self, time: int) -> None:
@@ -362,15 +367,15 @@ class Recorder:
         self._files.close()
         self._open(time)
 
-    def _fail(self, error: BagFull) -> None:
+    def _fail(self, error: BagFull | OSError) -> None:
         self.error = error
         self._queue.clear()
         self._finish()
         self.node.graph.report(error, self.node)
-        self.node.shutdown("the recording ended: there is no more room")
+        self.node.shutdown(f"the recording ended: {error}")
 
     def stop(self) -> list[Path]:
-        """End the recording, and its node; return the bags. Raises ``BagFull`` if the last one could not be written to its end."""
+        """End the recording, and its node; return the bags. Raises ``BagFull`` or ``OSError`` if the last one could not be written to its end."""
         error = self.error
         self.node.shutdown("the recording ended")
         if self.error is not None and error is None:
@@ -388,8 +393,8 @@ class Recorder:
         if self._files is not None:
             try:
                 self._files.close()
-            except BagFull as error:
-                self.error = error
+            except (BagFull, OSError) as error:
+                self._told(error)
         for subscriber in self._subscribers.values():
             subscriber.unregister()
 
@@ -397,9 +402,15 @@ class Recorder:
         try:
             while self._queue:
                 self._write(*self._queue.popleft())
-        except BagFull as error:
-            self.error = error
+        except (BagFull, OSError) as error:
+            self._told(error)
             self._queue.clear()
+
+    def _told(self, error: BagFull | OSError) -> None:
+        """Note why the end of the recording is not whole, and tell it, unless an error was told already."""
+        if self.error is None:
+            self.error = error
+            self.node.logerr(error)
 
 
 def _nothing() -> None:

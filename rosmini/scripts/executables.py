@@ -52,8 +52,7 @@ class BuiltIn:
         self.graph = graph
         self.made: Any = None
         """The object that the node gives, once it is set up."""
-        self.status = 0
-        """The exit status: 1 if it could not be set up."""
+        self._failed = False
         self._on_failure = on_failure
         self._entry = executable.load()
         self._others = Remappings.other_arguments(args)
@@ -79,7 +78,7 @@ class BuiltIn:
             )
             raise error from None
         except BaseException as error:
-            self.status = 1
+            self._failed = True
             self.end("it could not be set up")
             self._ready.fail(error)
             if self._on_failure is not None:
@@ -96,6 +95,11 @@ class BuiltIn:
             self.end("it could not be set up")
             raise
         return self.made
+
+    @property
+    def status(self) -> int:
+        """The exit status: 1 if it could not be set up, else what the object that the node gives has for one, if it has any."""
+        return 1 if self._failed else getattr(self.made, "exit_status", 0)
 
     @property
     def ended(self) -> bool:

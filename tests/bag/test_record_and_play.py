@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import itertools
 import signal
@@ -11,8 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.bag import Bag, BagFull, Player, Recorder, ROSBagException
+from rosmini.bag import Bag, BagFull, Player, Recorder, ROSBagException, reindex
 from rosmini.bag.index import connection
+from rosmini.bag.writer import Writer
 from rosmini.errors import TypeMismatch
 from rosmini.graph import Graph
 from rosmini.graph.byte_transport import ByteTransport
@@ -216,6 +218,89 @@ def test_a_full_disk_ends_the_recording_and_keeps_what_is_recorded(tmp_path):
     assert "cannot grow any more" in first
     assert second == "True True"
     assert [path.name for path in tmp_path.iterdir()] == ["x.bag"]
+
+
+LIMITED = """
+import resource, signal, sys
+from rosmini.cli.main import main
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+raise SystemExit(main(["run", "rosbag/record", *sys.argv[2:], "/chatter", "+", sys.argv[1], "--duration", "20"]))
+"""
+TALKER = """
+import sys
+import rospy
+from std_msgs.msg import String
+rospy.init_node("talker")
+publisher = rospy.Publisher("chatter", String, queue_size=10)
+rate = rospy.Rate(100)
+for number in range(50 + int({count})):
+    publisher.publish(f"{{number:05d}} " + "x" * 1000)
+    rate.sleep()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of file sizes are POSIX's")
+@pytest.mark.parametrize(
+    ("count", "words"),
+    [(1000, []), (1000, ["--lz4"]), (1000, ["--split", "--size", "1"]), (60, [])],
+    ids=["plain", "lz4", "split", "at the end"],
+)
+def test_a_recording_on_a_full_disk_fails_and_stays_readable(tmp_path, count, words):
+    script = tmp_path / "talker.py"
+    text = TALKER.format(count=count)
+    script.write_text(
+        text.replace('"x" * 1000', "hex((number + 7) ** 1200)[-1000:]") if words == ["--lz4"] else text,
+        encoding="utf-8",
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", LIMITED, str(script), "-O", str(tmp_path / "trip"), *words],
+        capture_output=True, text=True, check=False, timeout=60,
+    )  # fmt: skip
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert done.stderr.count("[ERROR]") == 1
+    assert "cannot grow any more" in done.stderr
+    (bag,) = tmp_path.glob("trip*")
+    assert bag.suffix == ".bag"
+    found = [m.data[:5] for _, m, _ in Bag(bag)]
+    assert f"It holds {len(found)} messages" in done.stderr
+    assert len(found) > 20
+    assert found == sorted(found)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+def test_a_recording_that_cannot_begin_fails(tmp_path):
+    (tmp_path / "talker.py").write_text(TALKER.format(count=0), encoding="utf-8")
+    (tmp_path / "trip.bag.active").symlink_to("/dev/full")
+    done = subprocess.run(
+        [sys.executable, "-c", LIMITED, str(tmp_path / "talker.py"), "-O", str(tmp_path / "trip")],
+        capture_output=True, text=True, check=False, timeout=60,
+    )  # fmt: skip
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert "No space left on device" in done.stderr
+
+
+def test_a_disk_that_fails_ends_the_recording(graph, tmp_path, monkeypatch):
+    """Any error of the system, at any moment: here the fifth time that something is written."""
+    recorder = record(graph, tmp_path / "x", "/chatter", chunksize=100)
+    publisher = graph.node("talker").publisher("chatter", String, queue_size=None)
+    graph.run(0.1)
+    real, calls = Writer._put, []
+
+    def put(self, *parts):
+        calls.append(parts)
+        if len(calls) == 5:
+            raise OSError(errno.EIO, "Input/output error")
+        real(self, *parts)
+
+    monkeypatch.setattr(Writer, "_put", put)
+    for number in range(10):
+        publisher.publish("x" * 200 + str(number))
+    with pytest.raises(OSError, match="Input/output error"):
+        graph.run(0.5)
+    assert (recorder.done, recorder.exit_status, recorder.error.errno) == (True, 1, errno.EIO)
+    reindex(recorder.path)
+    assert Bag(recorder.path).get_message_count() >= 4
 
 
 def test_under_sim_time_messages_have_the_time_of_the_clock_topic(graph, tmp_path):
