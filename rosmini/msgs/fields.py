@@ -31,6 +31,7 @@ __all__ = [
     "array_freezer",
     "as_bool",
     "check",
+    "check_field",
     "checked_text",
     "explain",
     "freeze_bytes",
@@ -181,31 +182,34 @@ def _check(cls: type[Message], message: Any, prefix: str) -> None:
             where = f"field {prefix[:-1]}" if prefix else "the message"
             problem = f"{where} must be of type {cls._type}, {missing}"
             raise SerializationError(problem) from None
-        if field.size is None:
-            _check_value(cls, field, path, value)
-            continue
-        if isinstance(value, (str, dict)) or (isinstance(value, bytes) and field.base not in BYTES):
-            raise SerializationError(
-                f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]"
-            )
-        try:
-            elements = list(value)
-        except TypeError:
-            problem = f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]"
-            raise SerializationError(problem) from None
-        if isinstance(value, np.ndarray) and value.ndim != 1:
-            problem = f"field {path} must have one dimension, not {value.ndim} (ravel() flattens an array) [{field.type}]"
-            raise SerializationError(problem)
-        if field.size >= 0 and len(elements) != field.size:
-            problem = (
-                f"field {path} must have exactly {field.size} elements, not {len(elements)} [{field.type}]"
-            )
-            raise SerializationError(problem)
-        for index, element in enumerate(elements):
-            _check_value(cls, field, f"{path}[{index}]", element)
+        check_field(field, path, value, cls._nested.get(field.base))
 
 
-def _check_value(cls: type[Message], field: Field, path: str, value: Any) -> None:
+def check_field(field: Field, path: str, value: Any, nested: type[Message] | None) -> None:
+    """Raise ``SerializationError`` unless ``value`` can stand in a field, which errors call ``path``; ``nested`` is the class of a field of messages."""
+    if field.size is None:
+        _check_value(nested, field, path, value)
+        return
+    if isinstance(value, (str, dict)) or (isinstance(value, bytes) and field.base not in BYTES):
+        raise SerializationError(
+            f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]"
+        )
+    try:
+        elements = list(value)
+    except TypeError:
+        problem = f"field {path} must be a list or tuple type, not {_shown(value)} [{field.type}]"
+        raise SerializationError(problem) from None
+    if isinstance(value, np.ndarray) and value.ndim != 1:
+        problem = f"field {path} must have one dimension, not {value.ndim} (ravel() flattens an array) [{field.type}]"
+        raise SerializationError(problem)
+    if field.size >= 0 and len(elements) != field.size:
+        problem = f"field {path} must have exactly {field.size} elements, not {len(elements)} [{field.type}]"
+        raise SerializationError(problem)
+    for index, element in enumerate(elements):
+        _check_value(nested, field, f"{path}[{index}]", element)
+
+
+def _check_value(nested: type[Message] | None, field: Field, path: str, value: Any) -> None:
     kind = field.base
     if kind == "string":
         _check_text(path, value)
@@ -217,8 +221,7 @@ def _check_value(cls: type[Message], field: Field, path: str, value: Any) -> Non
             _check_number("uint32" if kind == "time" else "int32", f"{path}.{part}", getattr(value, part))
     elif field.builtin:
         _check_number(kind, path, value)
-    else:
-        nested: type[Message] = cls._nested[kind]
+    elif nested is not None:
         _check(nested, value, f"{path}.")
 
 

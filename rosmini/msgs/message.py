@@ -103,6 +103,22 @@ class Message:
             return None
         return cls._thaw_numpy if numpy else cls._thaw
 
+    # ---- classes written by hand ----
+
+    def __init_subclass__(cls, **kwds: Any) -> None:
+        super().__init_subclass__(**kwds)
+        if "_slot_types" in cls.__dict__ and not hasattr(cls, "_spec"):
+            from .by_hand import complete
+
+            complete(cls, Message)
+
+    if not TYPE_CHECKING:  # the classes that are made from definitions have constructors of their own
+
+        def __init__(self, *args: Any, **kwds: Any) -> None:
+            from .by_hand import set_slots
+
+            set_slots(self, args, kwds)
+
     # ---- genpy's interface ----
 
     def serialize(self, buff: BytesIO) -> None:
@@ -197,7 +213,8 @@ class Message:
         return args
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        return self._registry.reduce(self) or super().__reduce_ex__(protocol)
+        made_by = getattr(type(self), "_registry", None)
+        return (made_by and made_by.reduce(self)) or super().__reduce_ex__(protocol)
 
     def __getstate__(self) -> list[Any]:
         return [getattr(self, field.name) for field in self._spec.fields]
@@ -248,7 +265,9 @@ def make_message_class(
     """
     names = [field.name for field in spec.fields]
     fields_class = type(
-        f"_{spec.short_name}Fields", (Message,), {"__slots__": tuple(names), "__module__": module}
+        f"_{spec.short_name}Fields",
+        (Message,),
+        {"__slots__": tuple(names), "__module__": module, "__init__": object.__init__},
     )
     namespace: dict[str, Any] = {
         "__slots__": (),

@@ -55,6 +55,7 @@ _HOMES = {
             "dynamic_reconfigure.encoding",
             "dynamic_reconfigure.server",
             "genpy",
+            "genpy.dynamic",
             "genpy.message",
             "genpy.rostime",
             "message_filters",

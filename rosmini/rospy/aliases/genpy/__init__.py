@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import message, rostime
+from . import dynamic, message, rostime
 from .message import DeserializationError, Message, MessageException, SerializationError
 from .rostime import Duration, Time, TVal
 
@@ -14,6 +14,7 @@ __all__ = [
     "SerializationError",
     "TVal",
     "Time",
+    "dynamic",
     "message",
     "rostime",
 ]
