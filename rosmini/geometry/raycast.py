@@ -23,11 +23,15 @@ from .angles import normalize_angle
 from .errors import GeometryError
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 VARIABLE = "ROSMINI_RAYCAST"
 """The environment variable that chooses a backend where the caller does not."""
 
 BACKENDS = ("numba", "numpy")
+
+EVERY: Ints = np.empty((0, 2), dtype=np.int64)
+"""No rows: each thing concerns every ray."""
 
 
 class BackendMissing(RosminiError):
@@ -59,11 +63,7 @@ def raycast(
     Raises `GeometryError` for a number that is nan or infinite (`max_range` may be infinite), a negative radius, range or count or an array of
     another shape, and `BackendMissing` for "numba" without numba.
     """
-    walls, pillars = _table(segments, 4, "segments"), _table(discs, 3, "discs")
-    if len(pillars) and pillars[:, 2].min() < 0:
-        row = int(pillars[:, 2].argmin())
-        msg = f"disc {row} has the radius {pillars[row, 2]}; a radius is 0 or more"
-        raise GeometryError(msg)
+    walls, pillars = _tables(segments, discs)
     if not math.isfinite(x + y + angle_min + angle_increment):
         msg = f"a ray starts at a place and looks somewhere, not x={x}, y={y}, angle_min={angle_min}, angle_increment={angle_increment}"
         raise GeometryError(msg)
@@ -78,6 +78,7 @@ def raycast(
     angles = normalize_angle(float(angle_min)) + step * np.arange(count)
     if step < 0:
         angles = angles[::-1].copy()
+    here = np.zeros(count)
     cast(
         walls,
         pillars,
@@ -89,13 +90,97 @@ def raycast(
         abs(step),
         float(max_range),
         ranges,
+        here,
+        here,
+        0.0,
+        0.0,
+        EVERY,
+        EVERY,
     )
     return ranges[::-1].copy() if step < 0 else ranges
+
+
+def raycast_each(
+    segments: ArrayLike,
+    discs: ArrayLike,
+    origins: ArrayLike,
+    angles: ArrayLike,
+    max_range: float,
+    *,
+    segment_rays: ArrayLike | None = None,
+    disc_rays: ArrayLike | None = None,
+    backend: str | None = None,
+) -> Floats:
+    """As `raycast`, with rays that each start at a place of their own, `origins` (n, 2), and look to an angle of their own, `angles` (n,).
+
+    It is as fast if the places are near to one another, and the angles nearly evenly spaced and not wrapped: those of a laser that turns while it is
+    carried. `segment_rays` (k, 2) says for each segment from which ray on, and before which, it is there; `disc_rays` for each disc; without them
+    they are there for all. Raises what `raycast` raises.
+    """
+    walls, pillars = _tables(segments, discs)
+    places, looks = _table(origins, 2, "origins"), np.array(angles, dtype=np.float64)
+    count = len(looks)
+    if looks.shape != (len(places),) or not np.isfinite(looks).all():
+        msg = f"rays need finite angles (n,) and origins (n, 2), not {looks.shape} and {places.shape}"
+        raise GeometryError(msg)
+    if not max_range >= 0:
+        raise GeometryError(f"max_range ({max_range}) is 0 or more")
+    spans = [_spans(segment_rays, len(walls), count), _spans(disc_rays, len(pillars), count)]
+    cast = _kernel(_chosen(backend))
+    ranges = np.full(count, np.inf)
+    if not count:
+        return ranges
+    back = bool(looks[-1] < looks[0])
+    if back:
+        places, looks = places[::-1], looks[::-1]
+        spans = [count - span[:, ::-1] for span in spans]
+    x, y = places[count // 2].tolist()
+    dx, dy = places[:, 0] - x, places[:, 1] - y
+    step = float(looks[-1] - looks[0]) / max(count - 1, 1)
+    even = looks[0] + step * np.arange(count)
+    cast(
+        walls,
+        pillars,
+        x,
+        y,
+        np.cos(looks),
+        np.sin(looks),
+        float(normalize_angle(looks[0])),
+        step,
+        float(max_range),
+        ranges,
+        dx,
+        dy,
+        float(np.hypot(dx, dy).max()),
+        float(np.abs(looks - even).max()),
+        *(np.ascontiguousarray(span) for span in spans),
+    )
+    return ranges[::-1].copy() if back else ranges
 
 
 def backend() -> str:
     """The backend that `raycast` uses when it is not told: "numba" or "numpy". Imports numba, if it is installed."""
     return _chosen(None)
+
+
+def _tables(segments: ArrayLike, discs: ArrayLike) -> tuple[Floats, Floats]:
+    walls, pillars = _table(segments, 4, "segments"), _table(discs, 3, "discs")
+    if len(pillars) and pillars[:, 2].min() < 0:
+        row = int(pillars[:, 2].argmin())
+        msg = f"disc {row} has the radius {pillars[row, 2]}; a radius is 0 or more"
+        raise GeometryError(msg)
+    return walls, pillars
+
+
+def _spans(rays: ArrayLike | None, size: int, count: int) -> Ints:
+    """For each of `size` things from which of `count` rays on, and before which, it is there."""
+    if rays is None:
+        return EVERY
+    spans = np.array(rays, dtype=np.int64).reshape(-1, 2)
+    if len(spans) != size or (size and (spans.min() < 0 or spans.max() > count)):
+        msg = f"which rays see each of {size} things is an array ({size}, 2) of numbers from 0 to {count}, not {spans.shape}"
+        raise GeometryError(msg)
+    return spans
 
 
 def _table(rows: ArrayLike, width: int, what: str) -> Floats:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 # These are compiled in, and numba's cache looks at the age of this file only.
 TURN = 2 * math.pi
@@ -44,14 +45,29 @@ def cast(
     step: float,
     max_range: float,
     ranges: Floats,
+    dx: Floats,
+    dy: Floats,
+    away: float,
+    spread: float,
+    segment_rays: Ints,
+    disc_rays: Ints,
 ) -> None:
     """As `rosmini.geometry.raycast_numpy.cast`."""
+    low, high = 0, len(ranges)
     for n in range(segments.shape[0]):
+        if segment_rays.shape[0]:
+            low, high = segment_rays[n, 0], segment_rays[n, 1]
         x1, y1 = segments[n, 0] - x, segments[n, 1] - y
         x2, y2 = segments[n, 2] - x, segments[n, 3] - y
-        cast_segment(x1, y1, x2, y2, cos, sin, first, step, max_range, ranges)
+        cast_segment(
+            x1, y1, x2, y2, cos, sin, first, step, max_range, ranges, dx, dy, away, spread, low, high
+        )
+    low, high = 0, len(ranges)
     for n in range(discs.shape[0]):
-        cast_disc(discs[n, 0] - x, discs[n, 1] - y, discs[n, 2], cos, sin, first, step, max_range, ranges)
+        if disc_rays.shape[0]:
+            low, high = disc_rays[n, 0], disc_rays[n, 1]
+        px, py, radius = discs[n, 0] - x, discs[n, 1] - y, discs[n, 2]
+        cast_disc(px, py, radius, cos, sin, first, step, max_range, ranges, dx, dy, away, spread, low, high)
 
 
 def cast_segment(
@@ -65,23 +81,30 @@ def cast_segment(
     step: float,
     max_range: float,
     ranges: Floats,
+    dx: Floats,
+    dy: Floats,
+    away: float,
+    spread: float,
+    low: int,
+    high: int,
 ) -> None:
-    """`cast` for one segment that is seen from the sensor."""
-    far = max_range + SLACK
+    """`cast` for one segment that is seen from the sensor, by the rays from `low` to before `high`."""
+    far = max_range + SLACK + away
     if max(x1, x2) < -far or min(x1, x2) > far or max(y1, y2) < -far or min(y1, y2) > far:
         return
     distance = segment_distance(x1, y1, x2, y2)
     if distance > far:
         return
     begin, width = 0.0, math.inf
-    if distance >= NEAR and step >= FLAT:
+    if distance >= NEAR + 2 * away and step >= FLAT:
+        more = spread + math.asin(away / distance)
         sweep = math.atan2(x1 * y2 - y1 * x2, x1 * x2 + y1 * y2)
-        begin = before(math.atan2(y1, x1) + min(sweep, 0.0), first)
-        width = abs(sweep) + 2 * MARGIN
+        begin = before(math.atan2(y1, x1) + min(sweep, 0.0) - more, first)
+        width = abs(sweep) + 2 * (MARGIN + more)
     pitch, last = max(step, FLAT), len(ranges) - 1
     while begin <= step * last:
-        for i in range(max(math.ceil(begin / pitch), 0), int(min((begin + width) / pitch, last)) + 1):
-            met = meet_segment(x1, y1, x2, y2, cos[i], sin[i])
+        for i in range(max(math.ceil(begin / pitch), low), int(min((begin + width) / pitch, high - 1)) + 1):
+            met = meet_segment(x1 - dx[i], y1 - dy[i], x2 - dx[i], y2 - dy[i], cos[i], sin[i])
             if met < ranges[i] and met <= max_range:
                 ranges[i] = met
         begin += TURN
@@ -97,23 +120,33 @@ def cast_disc(
     step: float,
     max_range: float,
     ranges: Floats,
+    dx: Floats,
+    dy: Floats,
+    away: float,
+    spread: float,
+    low: int,
+    high: int,
 ) -> None:
-    """`cast` for one disc that is seen from the sensor."""
+    """`cast` for one disc that is seen from the sensor, by the rays from `low` to before `high`."""
     distance = math.sqrt(x * x + y * y)
-    if distance - radius <= SLACK:
-        for i in range(len(ranges)):
-            ranges[i] = 0.0
-        return
-    if distance - radius > max_range:
+    gap = distance - radius
+    if gap <= SLACK + away:
+        for i in range(low, high):
+            px, py = x - dx[i], y - dy[i]
+            if math.sqrt(px * px + py * py) - radius <= SLACK:
+                ranges[i] = 0.0
+    if gap <= SLACK - away or gap > max_range + away:
         return
     begin, width = 0.0, math.inf
-    if distance >= NEAR and step >= FLAT:
-        half = math.asin(radius / distance)
+    if distance >= NEAR and gap >= 2 * away and step >= FLAT:
+        half = math.asin(radius / distance) + spread
+        if away > 0.0:
+            half += math.asin(away / gap)
         begin, width = before(math.atan2(y, x) - half, first), 2 * half + 2 * MARGIN
     pitch, last = max(step, FLAT), len(ranges) - 1
     while begin <= step * last:
-        for i in range(max(math.ceil(begin / pitch), 0), int(min((begin + width) / pitch, last)) + 1):
-            met = meet_disc(x, y, radius, cos[i], sin[i])
+        for i in range(max(math.ceil(begin / pitch), low), int(min((begin + width) / pitch, high - 1)) + 1):
+            met = meet_disc(x - dx[i], y - dy[i], radius, cos[i], sin[i])
             if met < ranges[i] and met <= max_range:
                 ranges[i] = met
         begin += TURN
@@ -165,7 +198,9 @@ def compiled() -> Callable[..., None]:
     number = numba.float64
     table: Any = numba.types.Array(number, 2, "C", readonly=True)
     read: Any = numba.types.Array(number, 1, "C", readonly=True)
-    signature = numba.void(table, table, number, number, read, read, number, number, number, number[::1])
+    rays: Any = numba.types.Array(numba.int64, 2, "C", readonly=True)
+    plain = (table, table, number, number, read, read, number, number, number, number[::1])
+    signature = numba.void(*plain, read, read, number, number, rays, rays)
     try:
         return numba.njit([signature], cache=True)(cast)
     except Exception as error:

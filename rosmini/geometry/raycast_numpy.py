@@ -16,6 +16,8 @@ from .raycast_numba import FLAT, MARGIN, NEAR, SLACK, TURN
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Origins = tuple[Floats, Floats, float, float]
+"""From where rays start, seen from the sensor, how far that is at the most, and by how much their angles are not evenly spaced."""
 
 BLOCK = 1 << 19
 """How many pairs are looked at at once, lest a large world fill the memory."""
@@ -32,28 +34,49 @@ def cast(
     step: float,
     max_range: float,
     ranges: Floats,
+    dx: Floats,
+    dy: Floats,
+    away: float,
+    spread: float,
+    segment_rays: Ints,
+    disc_rays: Ints,
 ) -> None:
     """Lower `ranges` (count,) to what each ray meets within `max_range`.
 
-    Ray i starts at (x, y) and looks to (cos[i], sin[i]), which is the angle `first + i * step`; `step` is not negative.
+    Ray i starts at (x + dx[i], y + dy[i]), `away` from (x, y) at the most, and looks to (cos[i], sin[i]), which is the angle `first + i * step` but for
+    `spread`; `step` is not negative. Segment k concerns the rays from segment_rays[k, 0] to before segment_rays[k, 1] only, and disc k likewise;
+    where these arrays have no rows, each of them concerns all.
     """
-    cast_segments(segments - (x, y, x, y), cos, sin, first, step, max_range, ranges)
-    cast_discs(discs - (x, y, 0.0), cos, sin, first, step, max_range, ranges)
+    origins = (dx, dy, away, spread)
+    cast_segments(segments - (x, y, x, y), cos, sin, first, step, max_range, ranges, origins, segment_rays)
+    cast_discs(discs - (x, y, 0.0), cos, sin, first, step, max_range, ranges, origins, disc_rays)
 
 
 def cast_segments(
-    segments: Floats, cos: Floats, sin: Floats, first: float, step: float, max_range: float, ranges: Floats
+    segments: Floats,
+    cos: Floats,
+    sin: Floats,
+    first: float,
+    step: float,
+    max_range: float,
+    ranges: Floats,
+    origins: Origins,
+    rays: Ints,
 ) -> None:
     """`cast` for segments that are seen from the sensor."""
+    dx, dy, away, spread = origins
     distances = _distances(segments)
-    within = distances <= max_range + SLACK
+    within = distances <= max_range + SLACK + away
     segments, distances = segments[within], distances[within]
     x1, y1, x2, y2 = segments.T
     sweeps = np.arctan2(x1 * y2 - y1 * x2, x1 * x2 + y1 * y2)
-    starts = np.arctan2(y1, x1) + np.minimum(sweeps, 0)
-    for which, ray in _pairs(starts, np.abs(sweeps), distances < NEAR, first, step, len(ranges)):
+    near = distances < NEAR + 2 * away
+    more = spread + np.arcsin(np.where(near, 0.0, away / np.maximum(distances, NEAR)))
+    starts = np.arctan2(y1, x1) + np.minimum(sweeps, 0) - more
+    own = rays[within] if len(rays) else rays
+    for which, ray in _pairs(starts, np.abs(sweeps) + 2 * more, near, first, step, len(ranges), own):
         c, s = cos[ray], sin[ray]
-        px, py, qx, qy = segments[which].T
+        px, py, qx, qy = segments[which].T - np.stack([dx[ray], dy[ray], dx[ray], dy[ray]])
         # How far the ends lie to the left of the ray and ahead of the sensor. A common end of two segments gets the same
         # numbers in both, so no ray passes between them.
         k1, k2 = c * py - s * px, c * qy - s * qx
@@ -70,25 +93,36 @@ def cast_segments(
 
 
 def cast_discs(
-    discs: Floats, cos: Floats, sin: Floats, first: float, step: float, max_range: float, ranges: Floats
+    discs: Floats,
+    cos: Floats,
+    sin: Floats,
+    first: float,
+    step: float,
+    max_range: float,
+    ranges: Floats,
+    origins: Origins,
+    rays: Ints,
 ) -> None:
     """`cast` for discs that are seen from the sensor."""
+    dx, dy, away, spread = origins
     distances = np.sqrt(discs[:, 0] * discs[:, 0] + discs[:, 1] * discs[:, 1])
     gaps = distances - discs[:, 2]
-    if (gaps <= SLACK).any():
-        ranges[:] = 0.0
-        return
-    within = gaps <= max_range
-    discs, distances = discs[within], distances[within]
-    halves = np.arcsin(discs[:, 2] / distances)
+    within = gaps <= max_range + away
+    discs, distances, gaps = discs[within], distances[within], gaps[within]
+    near = (distances < NEAR) | (gaps < 2 * away) | (gaps <= SLACK + away)
+    safe = np.where(near, 1.0, distances)
+    halves = np.arcsin(np.where(near, 0.0, discs[:, 2] / safe)) + spread
+    halves += np.arcsin(np.where(near, 0.0, away / np.where(near, 1.0, gaps)))
     starts = np.arctan2(discs[:, 1], discs[:, 0]) - halves
-    for which, ray in _pairs(starts, 2 * halves, distances < NEAR, first, step, len(ranges)):
+    own = rays[within] if len(rays) else rays
+    for which, ray in _pairs(starts, 2 * halves, near, first, step, len(ranges), own):
         c, s = cos[ray], sin[ray]
-        px, py, radius = discs[which].T
+        px, py, radius = discs[which].T - np.stack([dx[ray], dy[ray], np.zeros(len(ray))])
+        inside = np.sqrt(px * px + py * py) - radius <= SLACK
         aside, ahead = np.abs(c * py - s * px), c * px + s * py
         half_chord = np.sqrt(np.maximum((radius - aside) * (radius + aside), 0.0))
-        entry = ahead - half_chord
-        met = (aside <= radius) & (ahead > 0) & (entry <= max_range)
+        entry = np.where(inside, 0.0, ahead - half_chord)
+        met = inside | ((aside <= radius) & (ahead > 0) & (entry <= max_range))
         np.minimum.at(ranges, ray[met], np.maximum(entry[met], 0.0))
 
 
@@ -105,12 +139,18 @@ def _distances(segments: Floats) -> Floats:
 
 
 def _pairs(
-    starts: Floats, widths: Floats, near: NDArray[np.bool_], first: float, step: float, count: int
+    starts: Floats,
+    widths: Floats,
+    near: NDArray[np.bool_],
+    first: float,
+    step: float,
+    count: int,
+    rays: Ints,
 ) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of a sector and a ray in it, as two arrays of indices.
 
     The sectors go from `starts` counter-clockwise by `widths`; rays that go round more than once pass each of them more than once. What is
-    `near` is paired with every ray.
+    `near` is paired with every ray; each sector with those between its two of `rays` (n, 2) only, if there are any.
     """
     turns = int(step * (count - 1) // TURN) + 2
     pitch = max(step, FLAT)
@@ -119,8 +159,9 @@ def _pairs(
     begins = np.where(everywhere, 0.0, begins - TURN * (np.floor(begins / TURN) + 1))
     begins = begins[:, None] + TURN * np.arange(turns)
     ends = begins + np.where(everywhere, np.inf, widths + 2 * MARGIN)[:, None]
-    low = np.maximum(np.ceil(begins / pitch), 0.0).ravel()
-    high = np.minimum(np.floor(ends / pitch), count - 1.0).ravel()
+    least, most = (rays[:, :1], rays[:, 1:] - 1.0) if len(rays) else (0.0, count - 1.0)
+    low = np.maximum(np.ceil(begins / pitch), least).ravel()
+    high = np.minimum(np.floor(ends / pitch), most).ravel()
     lengths = np.maximum(high - low + 1, 0.0).astype(np.int64)
     upto = np.cumsum(lengths)
     total = int(upto[-1]) if len(upto) else 0

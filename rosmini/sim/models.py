@@ -22,7 +22,7 @@ from typing import Literal, get_args
 
 from rosmini.errors import RosminiError, nearest
 
-from .shapes import Box, Cylinder, Part, is_finite
+from .shapes import Box, Cylinder, Part, is_finite, reach_of
 
 __all__ = [
     "BURGER",
@@ -108,6 +108,11 @@ class LidarModel:
         if self.angle_max is None:
             return 2 * math.pi / self.beams
         return (self.angle_max - self.angle_min) / (self.beams - 1) if self.beams > 1 else 0.0
+
+    @property
+    def beam_time(self) -> float:
+        """From one beam to the next, of a laser that spins once for a scan [s]."""
+        return abs(self.increment) / (2 * math.pi) / self.rate
 
     @property
     def last_angle(self) -> float:
@@ -283,6 +288,11 @@ class RobotModel:
     def reach(self) -> float:
         """The distance from base_footprint to the farthest corner of the footprint."""
         return max(math.hypot(x, y) for x, y in self.footprint)
+
+    @cached_property
+    def extent(self) -> float:
+        """The distance from base_footprint to the farthest that others can see of it."""
+        return max(math.hypot(*part.pose[:2]) + reach_of(part.shape) for part in self.solid)
 
     @cached_property
     def girth(self) -> tuple[float, float, float]:

@@ -261,6 +261,7 @@ class _Run:
             commands=since(given, 0.0),
             scan_times=scan_times[kept],
             scans=np.array(turned, dtype=float).reshape(len(turned), 0 if lidar is None else lidar.beams),
+            time_increment=float(scans.rows[-1].time_increment) if turned else 0.0,
             name=self.name if len(self._recorder.names) > 1 else "",
         )
 

@@ -106,6 +106,8 @@ class Recording:
     """(k,)"""
     scans: Floats
     """(k, beams): ranges [m], inf where nothing was hit, -inf where it was too near; beam i looks at angle_min + i increment of the laser's model, counter-clockwise: 2 pi i / beams, if all around."""
+    time_increment: float = 0.0
+    """From one beam of a scan to the next [s], as the messages said: negative where the last beam in a scan was measured first."""
     name: str = ""
     """The robot's, where there are several."""
     others: tuple[Recording, ...] = ()
@@ -204,6 +206,11 @@ class Recording:
     def pose_at(self, time: float) -> tuple[float, float, float]:
         """Where the robot was at a time of the run; before its begin and after its end, where it was then."""
         return _between(self.times, self.truth, time)
+
+    def scan_poses(self, which: int) -> Floats:
+        """Where the robot was at each beam of a scan (beams, 3)."""
+        times = self.scan_times[which] + self.time_increment * np.arange(self.scans.shape[1])
+        return np.column_stack([np.interp(times, self.times, column) for column in self.truth.T])
 
     def window(self, t0: float, t1: float) -> Recording:
         """The part of the run from `t0` to `t1`; times stay what they were, and the command in force at `t0` is there.

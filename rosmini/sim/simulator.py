@@ -4,6 +4,10 @@ Each subscribes to `cmd_vel` and publishes `scan`, `odom`, `/tf`, `joint_states`
 camera sees, and beside them `base_pose_ground_truth`, where the robot really is (Stage's name; no real robot knows that). With `_board:=true` there are
 `sensor_state`, `battery_state`, `motor_power` and `reset` too. It offers `reset_positions` (Stage's name too).
 
+As on the real robot, the heading of `odom` comes from the IMU (`_odometry:=wheels` takes the wheels, as Gazebo does), and the laser takes 0.2 s for a scan,
+while the robot moves on (`_sweep:=false` measures all beams at once, as Stage and Gazebo do). See `rosmini.sim.engine.odometry`, `rosmini.sim.sensors.imu` and
+`rosmini.sim.sensors.lidar`.
+
 As on the real robot (firmware 1.2.3) and in Stage, a command holds for a moment only: half a second after the last `cmd_vel` the robot stops. So
 whoever drives it repeats the command, as `rostopic pub -r 10` does. `_cmd_vel_timeout:=0` lets it go on, as in Gazebo.
 
@@ -14,6 +18,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rosmini.errors import RosminiError
 from rosmini.geometry.poses import Pose
@@ -33,6 +40,8 @@ from .turtlebot import COMMAND_TIMEOUT, ODOMETRY, Options, TurtleBot
 from .world import World
 from .worlds import world as world_called
 
+Floats = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class SimulatorParameters(Parameters):
@@ -50,6 +59,9 @@ class SimulatorParameters(Parameters):
     noise: float = parameter(1.0, "scales every error of wheels and sensors; 0: none", minimum=0.0)
     odometry: str = parameter(
         ODOMETRY[0], "what says how far a robot has turned, for its odometry", choices=ODOMETRY
+    )
+    sweep: bool = parameter(
+        True, "measure a scan's beams one after the other, as a real LDS-01 does, and not all at once"
     )
     cmd_vel_timeout: float = parameter(
         COMMAND_TIMEOUT, "how long a command holds; 0: until the next", unit="s", minimum=0.0
@@ -106,7 +118,14 @@ class Simulator:
         self.model = model if isinstance(model, RobotModel) else model_called(model)
         own = self.parameters
         self._options = Options(
-            own.noise, own.cmd_vel_timeout, own.tf, own.use_rep_117, own.board, own.battery, own.odometry
+            own.noise,
+            own.cmd_vel_timeout,
+            own.tf,
+            own.use_rep_117,
+            own.board,
+            own.battery,
+            own.odometry,
+            own.sweep,
         )
         self.engine = Engine(world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=own.noise)
         pose = start_pose(world, own.x, own.y, own.yaw)
@@ -231,6 +250,12 @@ class Simulator:
     def scan_pose(self) -> Pose:
         """Where the robot was when it took the last scan."""
         return self._first.robot.start if self._first.laser is None else self._first.laser.pose
+
+    @property
+    def scan_poses(self) -> Floats:
+        """Where the robot was at each beam of the last scan (beams, 3); (1, 3) if all of them were measured at once."""
+        laser = self._first.laser
+        return np.array([self.scan_pose]) if laser is None or laser.poses is None else laser.poses
 
     def truth(self, robot: str = "") -> Pose:
         """Where the robot really is now: x [m], y [m], heading [rad, not wrapped], in the frame map. Raises `RobotGone`."""

@@ -53,6 +53,8 @@ class Options:
     """How full the battery is at first."""
     odometry: str = ODOMETRY[0]
     """One of `ODOMETRY`; of a robot without an IMU, or not on two wheels, it is always the wheels."""
+    sweep: bool = True
+    """Whether the laser measures one beam after the other."""
 
 
 class TurtleBot:
@@ -88,6 +90,7 @@ class TurtleBot:
                     noise=options.noise,
                     rep_117=options.use_rep_117,
                     always=True,
+                    sweep=options.sweep,
                 )
             )
         self.imu: ImuDevice | None = None

@@ -29,6 +29,8 @@ class Beams:
     range_max: float
     """[m]"""
     frame: str = ""
+    starts: Floats | None = None
+    """(n, 3): where the laser was at each beam, x [m], y [m] and heading [rad], seen from where it was at the first; None: there, all the time."""
 
     @property
     def hits(self) -> NDArray[np.bool_]:
@@ -38,7 +40,11 @@ class Beams:
     def points(self) -> Floats:
         """The ends (n, 2) of the beams, seen from the laser; where nothing was hit, at `range_max`, where it was too near, at the laser."""
         reach = np.where(self.hits, self.ranges, np.where(self.ranges < 0, 0.0, self.range_max))
-        return np.column_stack([reach * np.cos(self.angles), reach * np.sin(self.angles)])
+        if self.starts is None:
+            return np.column_stack([reach * np.cos(self.angles), reach * np.sin(self.angles)])
+        x, y, heading = self.starts.T
+        angles = self.angles + heading
+        return np.column_stack([x + reach * np.cos(angles), y + reach * np.sin(angles)])
 
     def nearest(self) -> int | None:
         """The beam with the nearest hit; of those that differ by less than a hair, the one that looks ahead most."""

@@ -16,7 +16,7 @@ from rosmini.viz.rounding import degrees, fixed, kept, snap
 from rosmini.viz.rqt.wording import plural
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
-from rosmini.viz.world import HEIGHT, Other, Scene, laser_pose, pose_text
+from rosmini.viz.world import HEIGHT, Other, Scene, pose_text
 from rosmini.viz.world_drawing import DASHES
 
 if TYPE_CHECKING:
@@ -51,8 +51,8 @@ class RunScene(Scene):
         if scan:
             if not len(recording.scans):
                 raise ViewError("no scan was recorded: leave scan=True out, or let the simulation run longer")
-            self.beams = beams_of(recording.scans[-1], self.model.laser)
-            self.laser = laser_pose(recording.pose_at(float(recording.scan_times[-1])), self.model)
+            each = recording.scan_poses(-1)
+            self.look(beams_of(recording.scans[-1], self.model.laser), _pose(each[0]), each)
 
     def text(self, title: str | None) -> str:
         """What happened, in numbers."""

@@ -47,7 +47,7 @@ def simulation_picture(
         robot=simulator.truth(),
         model=simulator.model,
         scan=simulator.last_scan() if scan else None,
-        scan_from=simulator.scan_pose,
+        scan_from=simulator.scan_poses,
         trail=way,
         odom=odom,
         others=[

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.geometry.poses import Pose, compose
+from rosmini.geometry.poses import Pose, compose, inverse
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.sim.world import Obstacle, World
 from rosmini.viz.beams import Beams, beams_of
@@ -69,7 +69,7 @@ def world_picture(
     robot: Sequence[float] | None = None,
     model: RobotModel | None = None,
     scan: Any = None,
-    scan_from: Sequence[float] | None = None,
+    scan_from: Sequence[float] | Floats | None = None,
     trail: ArrayLike | None = None,
     odom: ArrayLike | None = None,
     others: Iterable[Other] = (),
@@ -84,7 +84,7 @@ def world_picture(
         robot: where the robot is: x [m], y [m], heading [rad], in the world's frame.
         model: which robot; TurtleBot3 Burger if not given.
         scan: what its laser sees: a `sensor_msgs/LaserScan`, or ranges [m] of which beam i looks at 2 pi i / beams.
-        scan_from: where the robot was when it saw that; where it is, if not given.
+        scan_from: where the robot was when it saw that, or where it was at each beam (beams, 3); where it is, if not given.
         trail: where the robot was, (n, 2) or (n, 3), in the world's frame: a solid line.
         odom: where its odometry believes that it was, likewise: a dashed line.
         others: more robots, each an `Other`: they are drawn in other colours, with their names.
@@ -153,7 +153,7 @@ class Scene:
         """Where things were moved along, (n, 2), and their colours."""
 
     def fill(
-        self, *, robot: Sequence[float] | None, model: RobotModel | None, scan: Any, scan_from: Sequence[float] | None,
+        self, *, robot: Sequence[float] | None, model: RobotModel | None, scan: Any, scan_from: Sequence[float] | Floats | None,
         trail: ArrayLike | None, odom: ArrayLike | None, others: Iterable[Other], name: str,
     ) -> None:  # fmt: skip
         """Add robots and what they saw and did, as `world_picture` takes them. Raises `ViewError`."""
@@ -161,14 +161,22 @@ class Scene:
         if robot is not None:
             self.robot = pose_of(robot, "the robot's pose")
         if scan is not None:
-            seen_from = self.robot if scan_from is None else pose_of(scan_from, "the pose of a scan")
-            if seen_from is None:
+            each: Any = self.robot if scan_from is None else scan_from
+            if each is None:
                 raise ViewError("a scan is drawn from where it was taken: give robot=(x, y, heading) with it")
-            self.beams = beams_of(scan, self.model.laser)
-            self.laser = laser_pose(seen_from, self.model)
+            several = np.ndim(each) == 2
+            first = pose_of(each[0] if several else each, "the pose of a scan")
+            self.look(beams_of(scan, self.model.laser), first, each if several else None)
         self.trail = None if trail is None else _line(trail, "trail")
         self.odom = None if odom is None else _line(odom, "odom")
         self.others, self.name = [other.checked() for other in others], name
+
+    def look(self, beams: Beams, robot: Pose, each: Floats | None) -> None:
+        """Add what the laser saw of a robot that was at a pose, or at each beam at one of the poses `each` (beams, 3)."""
+        self.laser = laser_pose(robot, self.model)
+        x, y, _ = self.model.laser.mount
+        starts = None if each is None else compose(inverse(self.laser), compose(each, (x, y, 0.0)))
+        self.beams = replace(beams, starts=starts)
 
     def picture(self, title: str | None, size: tuple[float, float]) -> Picture:
         """The drawing of it."""

@@ -16,7 +16,7 @@ from rosmini.errors import RosminiError
 from rosmini.geometry import raycast as module
 from rosmini.geometry import raycast_numba, raycast_numpy
 from rosmini.geometry.errors import GeometryError
-from rosmini.geometry.raycast import backend, raycast
+from rosmini.geometry.raycast import backend, raycast, raycast_each
 
 HAS_NUMBA = importlib.util.find_spec("numba") is not None
 TURN = 2 * math.pi
@@ -307,8 +307,10 @@ def test_the_loops_agree_before_they_are_compiled(segments, discs, fan):
         fan["reach"],
     )
     loops, arrays = np.full(fan["count"], np.inf), np.full(fan["count"], np.inf)
-    raycast_numba.cast(*arguments, loops)
-    raycast_numpy.cast(*arguments, arrays)
+    here = np.zeros(fan["count"])
+    origins = (here, here, 0.0, 0.0, module.EVERY, module.EVERY)
+    raycast_numba.cast(*arguments, loops, *origins)
+    raycast_numpy.cast(*arguments, arrays, *origins)
     np.testing.assert_allclose(loops, arrays, rtol=0, atol=1e-9)
 
 
@@ -453,5 +455,91 @@ def test_a_cache_that_cannot_be_written_is_done_without(monkeypatch):
     monkeypatch.setattr(numba, "njit", njit)
     kernel = raycast_numba.compiled.__wrapped__()
     ranges = np.full(1, np.inf)
-    kernel(ROOM, NO_DISCS, 0.0, 0.0, np.ones(1), np.zeros(1), 0.0, 0.1, 9.0, ranges)
+    here = np.zeros(1)
+    origins = (here, here, 0.0, 0.0, module.EVERY, module.EVERY)
+    kernel(ROOM, NO_DISCS, 0.0, 0.0, np.ones(1), np.zeros(1), 0.0, 0.1, 9.0, ranges, *origins)
     assert ranges[0] == 3.0
+
+
+# -- rays that each start somewhere ------------------------------------------------------------------------------------
+
+
+@st.composite
+def sweeps(draw):
+    """A world, the way of a laser through it, and which rays see which thing."""
+    near = st.floats(-3.0, 3.0)
+    walls = draw(st.lists(st.tuples(near, near, near, near), max_size=6))
+    pillars = draw(st.lists(st.tuples(near, near, st.floats(0.0, 0.5)), max_size=4))
+    count = draw(st.integers(1, 40))
+    steps = draw(st.lists(st.tuples(*[st.floats(-0.02, 0.02)] * 3), min_size=count, max_size=count))
+    way = np.cumsum(np.array(steps), axis=0)
+    step = draw(st.sampled_from([TURN / 40, -TURN / 40, 0.3, 0.0]))
+    angles = draw(st.floats(-7.0, 7.0)) + step * np.arange(count) + way[:, 2]
+    which = st.tuples(st.integers(0, count), st.integers(0, count)).map(sorted)
+    rays = [draw(st.lists(which, min_size=len(each), max_size=len(each))) for each in (walls, pillars)]
+    return (
+        np.array(walls, dtype=float).reshape(-1, 4),
+        np.array(pillars, dtype=float).reshape(-1, 3),
+        way[:, :2] + draw(st.tuples(near, near)),
+        angles,
+        rays,
+    )
+
+
+@both
+@settings(deadline=None, max_examples=150)
+@given(sweep=sweeps())
+def test_each_ray_sees_what_it_would_see_alone(name, sweep):
+    walls, pillars, origins, angles, rays = sweep
+    ranges = raycast_each(
+        walls, pillars, origins, angles, 4.0, segment_rays=rays[0], disc_rays=rays[1], backend=name
+    )
+    spans = [np.array(each, dtype=int).reshape(-1, 2) for each in rays]
+    for i, ((x, y), angle) in enumerate(zip(origins.tolist(), angles.tolist(), strict=True)):
+        there = [(span[:, 0] <= i) & (i < span[:, 1]) for span in spans]
+        alone = raycast(walls[there[0]], pillars[there[1]], x, y, angle, 0.1, 1, 4.0, backend=name)[0]
+        if ranges[i] != alone:
+            nudged = [
+                raycast(
+                    walls[there[0]], pillars[there[1]], x, y, angle + off, 0.1, 1, 4.0 + 1e-8, backend=name
+                )[0]
+                for off in (-1e-7, 0.0, 1e-7)
+            ]  # at an edge a hair's breadth changes a range by metres
+            assert min(nudged) - 1e-5 <= ranges[i] <= max(*nudged, alone) + 1e-5
+
+
+@both
+def test_a_turning_laser_that_is_carried_through_a_room_sees_the_walls_where_they_are(name):
+    count = 360
+    origins = np.column_stack([np.linspace(0.0, 0.05, count), np.linspace(0.0, -0.02, count)])
+    angles = 1.0 + np.radians(np.arange(count)) * 0.93
+    ranges = raycast_each(ROOM, NO_DISCS, origins, angles, 50.0, backend=name)
+    ends = origins + ranges[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+    off = np.min([abs(ends[:, 0] + 2), abs(ends[:, 0] - 3), abs(ends[:, 1] + 1), abs(ends[:, 1] - 4)], axis=0)
+    assert off.max() < 1e-9
+
+
+@both
+def test_rays_of_one_place_are_those_of_a_scan(name):
+    angles = 0.3 + TURN / 360 * np.arange(360)
+    pillars = np.array([(1.0, 0.5, 0.2), (-1.5, 0.0, 0.3)])
+    each = raycast_each(ROOM, pillars, np.full((360, 2), 0.25), angles, 9.0, backend=name)
+    np.testing.assert_allclose(
+        each, look(ROOM, pillars, 0.25, 0.25, start=0.3, reach=9.0, backend=name), atol=1e-12
+    )
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"angles": [0.0, math.nan]}, "finite angles"),
+        ({"angles": [0.0]}, "finite angles"),
+        ({"origins": [(0.0, math.inf), (0.0, 0.0)]}, "origins is not finite"),
+        ({"max_range": -1.0}, "max_range"),
+        ({"segment_rays": [(0, 3)]}, "which rays"),
+    ],
+)
+def test_what_is_wrong_with_rays_is_said(change, words):
+    given = {"origins": [(0.0, 0.0)] * 2, "angles": [0.0, 1.0], "max_range": 9.0, **change}
+    with pytest.raises(GeometryError, match=words):
+        raycast_each([(1.0, -1.0, 1.0, 1.0)], NO_DISCS, **given)

@@ -122,7 +122,7 @@ def test_the_scan_is_that_of_the_lds(graph):
     assert (scan.angle_min, len(scan.ranges), len(scan.intensities)) == (0.0, 360, 0)
     assert scan.angle_increment == pytest.approx(math.radians(1))
     assert scan.angle_max == pytest.approx(math.radians(359))
-    assert (scan.time_increment, scan.scan_time) == (0.0, pytest.approx(0.2))
+    assert (scan.time_increment, scan.scan_time) == (pytest.approx(-0.2 / 360), pytest.approx(0.2))
     assert (scan.range_min, scan.range_max) == (pytest.approx(0.12), 3.5)
     assert scan.ranges[0] == pytest.approx(1.532)
     assert scan.ranges[90] == pytest.approx(2.0)

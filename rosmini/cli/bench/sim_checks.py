@@ -6,7 +6,6 @@ one of them has no figure.
 
 from __future__ import annotations
 
-import bisect
 import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 from rosmini.errors import RosminiError
 from rosmini.geometry.angles import yaw_from_quaternion
 from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.geometry.raycast import raycast
+from rosmini.geometry.raycast import raycast_each
 from rosmini.sim.models import RobotModel
 from rosmini.sim.world import Cylinder, World
 
@@ -183,18 +182,28 @@ def check_odometry(heard: Heard, truth: Floats, model: RobotModel) -> None:
 
 
 def check_scans(heard: Heard, truth: Floats, others: list[Floats], world: World, model: RobotModel) -> None:
-    """Each range is the exact one plus noise, and the noise is as large as it says. `others` are where the other robots were."""
+    """Each range is the exact one at the time of its beam plus noise, and the noise is as large as it says. `others` are where the other robots were."""
     lidar = model.laser
     stamps = [row[0] for row in heard["base_pose_ground_truth"]]
     residuals = []
     for when, _, start, step, ranges in heard["scan"]:
-        if not stamps[0] <= when <= stamps[-1]:
-            continue
         expect(len(ranges) == lidar.beams, f"a scan has {len(ranges)} ranges, not {lidar.beams}")
-        x, y, heading = compose(_at(truth, stamps, when), (lidar.mount[0], lidar.mount[1], start))
-        discs = np.array([*world.discs, *(_disc(model, _at(other, stamps, when)) for other in others)])
-        near = discs[np.hypot(discs[:, 0] - x, discs[:, 1] - y) < lidar.range_max + 2]
-        exact = raycast(world.segments, near, x, y, heading, step, lidar.beams, lidar.range_max + 1)
+        beams = np.arange(lidar.beams)
+        times = when - beams * lidar.beam_time * 1e9
+        if times[-1] < stamps[0] or when > stamps[-1]:
+            continue
+        places = compose(_at(truth, stamps, times), (lidar.mount[0], lidar.mount[1], start))
+        discs = [world.discs, *(_discs(model, _at(other, stamps, times)) for other in others)]
+        rays = [np.tile((0, len(beams)), (len(world.discs), 1))]
+        rays += [np.column_stack([beams, beams + 1])] * len(others)
+        exact = raycast_each(
+            world.segments,
+            np.vstack(discs),
+            places[:, :2],
+            places[:, 2] + step * beams,
+            lidar.range_max + 1,
+            disc_rays=np.vstack(rays),
+        )
         steady = _steady(exact)
         outside = steady & (exact > lidar.range_max + 0.1)
         inside = steady & (exact > lidar.range_min + 0.1) & (exact < lidar.range_max - 0.1)
@@ -269,23 +278,21 @@ def _steady(exact: Floats) -> NDArray[np.bool_]:
     return steady
 
 
-def _at(track: Floats, stamps: list[int], when: int) -> Floats:
-    """The pose in between two that were heard, as if the path were straight."""
-    after = min(max(bisect.bisect_right(stamps, when), 1), len(stamps) - 1)
-    part = (when - stamps[after - 1]) / (stamps[after] - stamps[after - 1])
-    pose: Floats = track[after - 1] + part * (track[after] - track[after - 1])
-    return pose
+def _at(track: Floats, stamps: list[int], when: Floats) -> Floats:
+    """The poses (n, 3) in between those that were heard, as if the path were straight."""
+    return np.column_stack([np.interp(when, stamps, column) for column in track.T])
 
 
-def _disc(model: RobotModel, pose: Floats) -> tuple[float, float, float]:
-    """What a laser of the same model sees of a robot: the round laser on top."""
+def _discs(model: RobotModel, poses: Floats) -> Floats:
+    """What a laser of the same model sees of a robot: the round laser on top, at each of its poses."""
     height = model.laser.mount[2]
     (part,) = (part for part in model.solid if part.bottom <= height <= part.top)
     if not isinstance(part.shape, Cylinder):
         msg = f"the benchmark does not know what a laser sees of {part.shape}"
         raise RosminiError(msg)
-    x, y, _ = compose(_pose(pose), part.pose)
-    return (float(x), float(y), part.shape.radius)
+    discs: Floats = compose(poses, part.pose)
+    discs[:, 2] = part.shape.radius
+    return discs
 
 
 def _pose(row: Floats) -> Pose:

@@ -56,6 +56,8 @@ class RangeDevice(Device):
         """Where the robot was when it measured last."""
         self.ranges: Floats | None = None
         """What it measured last, as it was published; None before the first time."""
+        self.poses: Floats | None = None
+        """Where it was at each beam of that (beams, 3), of a laser that sweeps; None where all beams are measured at once."""
         self._rng = host.rng(name)
         self._told = ScanMessage(lidar, frame, self.rate)
         self._publisher = host.node.publisher(topic, type(self._told.message), queue_size=queue_size)
@@ -72,11 +74,11 @@ class RangeDevice(Device):
 
     def state(self) -> Any:
         """The noise that is still to come, and what was measured last."""
-        return copy.deepcopy(self._rng), self.pose, self.ranges
+        return copy.deepcopy(self._rng), self.pose, self.ranges, self.poses
 
     def restore(self, state: Any) -> None:
         """Draw the noise that was drawn after that."""
-        rng, self.pose, self.ranges = state
+        rng, self.pose, self.ranges, self.poses = state
         self._rng = copy.deepcopy(rng)
         if self.ranges is not None:
             self._told.fill(self.ranges)
@@ -99,6 +101,7 @@ class Laser(RangeDevice):
         noise: scales the noise of the laser's model; 0: none.
         rep_117: tell inf of what is too far and -inf of what is too near; else 0.0, as a real LDS-01 does.
         always: measure even if nobody listens, so that `last` is there.
+        sweep: measure one beam after the other, as a laser that spins does, and each from where the robot is then; see `rosmini.sim.sensors.lidar`.
         name: the device's; without it robot/lidar.
 
     """
@@ -115,6 +118,7 @@ class Laser(RangeDevice):
         noise: float = 1.0,
         rep_117: bool = True,
         always: bool = False,
+        sweep: bool = False,
         name: str | None = None,
     ) -> None:
         if lidar is None:
@@ -125,6 +129,11 @@ class Laser(RangeDevice):
         self.measures = always
         self._deviation = lidar.noise * noise
         self._rep_117 = rep_117
+        self._beam_time = lidar.beam_time / (self.rate / lidar.rate) if sweep else 0.0
+        if sweep:
+            # its stamp is the time of the first beam in the message, which is measured last
+            self._told.message.time_increment = -self._beam_time
+            host.engine.trails.remember(1.01 * self._beam_time * lidar.beams)
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Measure. Noise is drawn even if nobody listens, so that it does not depend on who does."""
@@ -134,13 +143,11 @@ class Laser(RangeDevice):
         heard = self._publisher.num_connections()
         if not heard and not self.measures:
             return
-        own = self.lidar is self.robot.model.lidar
-        engine = self.host.engine
-        ranges = (
-            engine.scan(self.robot.name, noise)
-            if own
-            else engine.scan(self.robot.name, noise, lidar=self.lidar)
-        )
+        engine, name = self.host.engine, self.robot.name
+        if self._beam_time:
+            ranges, self.poses = engine.sweep(name, self._beam_time, noise, self.lidar)
+        else:
+            ranges = engine.scan(name, noise, self.lidar)
         self.pose = self.robot.pose
         self.ranges = ranges if self._rep_117 else unmeasured(ranges)
         message = self._told.fill(self.ranges)

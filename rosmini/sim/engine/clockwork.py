@@ -145,10 +145,13 @@ class Clockwork:
 
     def _commit(self, rolled: Rolled, names: set[str], blocked: list[Mover], end: float) -> None:
         """Let those go where they rolled that touch nothing on the way; the others have not moved yet."""
+        trails, now = self.engine.trails, self.engine.now
         for robot, before, pose, moved in rolled:
             if robot.name in names:
                 robot.set_wheel_state(before)
             else:
+                if trails.span:
+                    trails.goes(robot.name, now, robot.pose, before, robot.course(before))
                 robot.settle()
                 robot.pose = pose
                 robot.room -= moved
@@ -157,6 +160,8 @@ class Clockwork:
         dt = end - self.engine.now
         for mover in self.engine.movers.values():
             if mover not in blocked:
+                if trails.span:
+                    trails.goes(mover.obstacle.name, now, mover.pose, mover.clock, False)
                 mover.go(dt)
 
     def _together(
@@ -210,10 +215,16 @@ class Clockwork:
             engine.contacts.place(mover.obstacle.name, mover.pose)
         while end - engine.now > EPSILON:
             grid = (math.floor(engine.now / engine.step + 1e-6) + 1) * engine.step
+            if engine.trails.span:
+                for robot in robots:
+                    engine.trails.carried(robot.name, engine.now, robot.pose)
             self._step(min(grid, end), robots, movers)
         for crate, before in zip(crates, places, strict=True):
             if crate.pose != before:
                 self._crate_moved(crate)
+                if engine.trails.span:
+                    engine.trails.carried(crate.obstacle.name, begin, before)
+                    engine.trails.carried(crate.obstacle.name, engine.now, crate.pose)
             if not crate.shown:
                 thing = engine.robots[crate.obstacle.name]
                 if isinstance(thing, Thing):
@@ -228,7 +239,10 @@ class Clockwork:
         if movers:
             self._tell(robots)
             for mover in movers:
+                pose, clock = mover.pose, mover.clock
                 mover.try_to_go(dt, contacts)
+                if engine.trails.span:
+                    engine.trails.goes(mover.obstacle.name, engine.now, pose, clock, mover.waiting)
         ways, free = {}, not (self.moving or movers)
         for robot in robots:
             if not robot.touching:

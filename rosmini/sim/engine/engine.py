@@ -38,6 +38,8 @@ from .odometry import RealWheels
 from .robot import Robot, Thing, make_robot
 from .sights import Sights, parts_of, parts_of_robot
 from .state import EngineState, bring_back, taken
+from .sweep import Sweeps
+from .trails import Trails
 
 if TYPE_CHECKING:
     from .physics import Contacts, Surface
@@ -80,7 +82,9 @@ class Engine:
         self._rng = rng
         self._contacts: Contacts | None = None
         self.sights = Sights(world)
+        self.trails = Trails()
         self.clockwork = Clockwork(self)
+        self._sweeps = Sweeps(self)
         self.changed = 0
         """How often something came, went, or was put elsewhere."""
         for obstacle in world.obstacles:
@@ -142,6 +146,7 @@ class Engine:
         """Take a robot out of the world, even while it moves. Raises `RobotGone`."""
         gone = self.robot(name)
         del self.robots[name]
+        self.trails.forget(name)
         if isinstance(gone, Thing):
             self.contacts.take_away(name)
         else:
@@ -173,7 +178,7 @@ class Engine:
             msg = f"{name!r} cannot be placed at {pose} with the velocity {velocity}: all of it has to be finite numbers"
             raise WorldError(msg)
         if name not in self.robots:
-            self._put_obstacle(self._obstacle(name), pose, velocity)
+            self._put_obstacle(self.obstacle(name), pose, velocity)
         else:
             lifted = self.robots[name]
             lifted.pose = self._free(lifted.model, pose, name)
@@ -184,6 +189,7 @@ class Engine:
                 self.contacts.place(name, lifted.pose, velocity)
             else:
                 self.contacts.move(name, lifted.pose)
+        self.trails.forget(name)
         self.clockwork.moving = self.contacts.moving
         self._look_again()
 
@@ -204,6 +210,7 @@ class Engine:
 
     def reset(self) -> None:
         """Put every robot and every obstacle back to where it began, with encoders at zero."""
+        self.trails.clear()
         self.contacts.reset()
         for mover in self.movers.values():
             mover.start()
@@ -294,7 +301,8 @@ class Engine:
 
     def take_away(self, name: str) -> None:
         """Take an obstacle out of the world while time goes on. Raises `RobotGone` if there is none of this name."""
-        self._obstacle(name)
+        self.obstacle(name)
+        self.trails.forget(name)
         self.contacts.take_away(name)
         self.movers.pop(name, None)
         self.world = replace(
@@ -304,7 +312,8 @@ class Engine:
         self.clockwork.moving = self.contacts.moving
         self._look_again()
 
-    def _obstacle(self, name: str) -> Obstacle:
+    def obstacle(self, name: str) -> Obstacle:
+        """The obstacle of this name, as it was when it came. Raises `RobotGone`."""
         names = {obstacle.name: obstacle for obstacle in self.world.obstacles}
         if name not in names:
             hint = nearest(name, [*names, *self.robots])
@@ -321,7 +330,7 @@ class Engine:
         """Where a robot or an obstacle is now. Raises `RobotGone`."""
         if name in self.robots:
             return self.robots[name].pose
-        obstacle = self._obstacle(name)
+        obstacle = self.obstacle(name)
         if name in self.movers:
             return self.movers[name].pose
         crate = self.contacts.crate(name)
@@ -336,7 +345,7 @@ class Engine:
             v, vy, w = self.robots[name].velocity
             c, s = math.cos(self.robots[name].pose[2]), math.sin(self.robots[name].pose[2])
             return (c * v - s * vy, s * v + c * vy, w)
-        self._obstacle(name)
+        self.obstacle(name)
         return self.movers[name].velocity if name in self.movers else (0.0, 0.0, 0.0)
 
     def touching(self, name: str) -> list[Touch]:
@@ -347,7 +356,7 @@ class Engine:
         from .touching import touches
 
         if name not in self.robots:
-            obstacle = self._obstacle(name)
+            obstacle = self.obstacle(name)
             if obstacle.fixed:
                 msg = (
                     f"the obstacle {name!r} is fixed: ask the robots and the things that move what they touch"
@@ -447,6 +456,16 @@ class Engine:
         viewer = self.robot(name)
         laser = viewer.model.laser if lidar is None else lidar
         return measure(laser, viewer.pose, *self.scenery(name, laser), noise)
+
+    def sweep(
+        self, name: str, beam_time: float, noise: Floats | None = None, lidar: LidarModel | None = None
+    ) -> tuple[Floats, Floats]:
+        """As `scan`, of a laser that measures its first beam now and each further one `beam_time` [s] before: the ranges, and where the robot was at each beam (beams, 3).
+
+        See `rosmini.sim.engine.sweep`. `trails.remember` has to have been told how long that takes altogether.
+        """
+        viewer = self.robot(name)
+        return self._sweeps.scan(viewer, viewer.model.laser if lidar is None else lidar, beam_time, noise)
 
     def visible(self, name: str = "") -> list[Part]:
         """All that stands in the world now, but for its thin walls: parts with their poses in the frame map, each with the name of whose it is.

@@ -9,6 +9,8 @@ from rosmini.sim.motion import Door, Walk
 from rosmini.sim.shapes import reach_of
 from rosmini.sim.world import Obstacle
 
+from .trails import Leg
+
 if TYPE_CHECKING:
     from .physics import Contacts
 
@@ -49,6 +51,11 @@ class Mover:
         self.pose = self.obstacle.at(self.clock)
         self.room -= self.way(dt)
         self.waiting = False
+
+    def later(self, leg: Leg, dt: float) -> Pose:
+        """Where it was so long [s] after the begin of a leg of its trail, whose state is its clock, and whose course is whether it waits."""
+        _, _, clock, waiting = leg
+        return self.obstacle.at(clock if waiting else clock + dt)
 
     def try_to_go(self, dt: float, contacts: Contacts) -> None:
         """Go on for `dt` seconds if nothing that can give way is in its way there, or where it will be a little later; else wait."""

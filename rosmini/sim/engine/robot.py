@@ -27,6 +27,7 @@ from .drive import (
     unicycle,
 )
 from .odometry import RealWheels, ticks
+from .trails import Leg
 
 Floats = NDArray[np.float64]
 
@@ -123,6 +124,28 @@ class Robot:
     def set_wheel_state(self, state: WheelState) -> None:
         """Come back to a state of the wheels."""
         self.left, self.right, self.left_way, self.right_way = state
+
+    def course(self, state: WheelState) -> tuple[Any, ...]:
+        """What says how it goes on from a state of its wheels: what it was told, and how its wheels roll; and whether they turn as they were told."""
+        left, right = self.left_target, self.right_target
+        return (left, right, self.wheels.left, self.wheels.right, state[:2] == (left, right))
+
+    def set_course(self, course: tuple[Any, ...]) -> None:
+        """Come back to a course."""
+        self.left_target, self.right_target, self.wheels.left, self.wheels.right, _ = course
+
+    def later(self, leg: Leg, dt: float) -> Pose:
+        """Where it was so long [s] after the begin of a leg of its trail."""
+        pose, state = self.pose, self.wheel_state()
+        course = self.course(state)
+        self.pose = leg[1]
+        self.set_wheel_state(leg[2])
+        self.set_course(leg[3])
+        found, _ = self.roll(dt)
+        self.pose = pose
+        self.set_wheel_state(state)
+        self.set_course(course)
+        return found
 
     # -- what it is told -----------------------------------------------------------------------------------------
 
@@ -316,6 +339,14 @@ class HolonomicRobot(Robot):
         """Come back to a state of its wheels."""
         v, vy, w, x, y, theta = state
         self.speeds, self.reckoned = (v, vy, w), (x, y, theta)
+
+    def course(self, state: WheelState) -> tuple[Any, ...]:  # noqa: ARG002
+        """What says how it goes on from a state of its wheels: what it was told, and how its wheels roll."""
+        return (self.targets, self.wheels.left, self.wheels.right)
+
+    def set_course(self, course: tuple[Any, ...]) -> None:
+        """Come back to a course."""
+        self.targets, self.wheels.left, self.wheels.right = course
 
     def drive(self, v: float, vy: float, w: float) -> None:
         """Be told to go ahead and to the left side [m/s], and to turn to the left [rad/s], cut to what it can do."""

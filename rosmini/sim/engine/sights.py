@@ -225,21 +225,26 @@ class Sights:
         crates: Iterable[Crate],
         movers: Iterable[Mover],
         moment: Hashable,
+        moved: float = 0.0,
     ) -> Cut:
-        """What a laser on one of the robots can see: all that may be within its reach, other robots among them, in the frame map."""
+        """What a laser on one of the robots can see: all that may be within its reach, other robots among them, in the frame map.
+
+        So much [m] it may have moved while it measured.
+        """
         x, y, theta = viewer.pose
         c, s = math.cos(theta), math.sin(theta)
         mx, my, height = laser.mount
         x, y = x + c * mx - s * my, y + s * mx + c * my
         radius = laser.range_max + 6 * laser.noise
-        found = [self.fixed_around(viewer.name, x, y, height, radius)]
+        # the margin of what is kept covers all but a great haste
+        found = [self.fixed_around(viewer.name, x, y, height, radius + math.floor(moved / MARGIN) * MARGIN)]
         found += [self.thing(crate.obstacle, height, crate.pose) for crate in crates]
         found += [self.thing(mover.obstacle, height, mover.pose) for mover in movers]
         if len(robots) > 1:
             poses = [each.pose for each in robots]
             crowd = self.crowd(moment, height, [each.model for each in robots], poses)
             own = next(i for i, each in enumerate(robots) if each is viewer)
-            found.append(crowd.around(x, y, radius, own))
+            found.append(crowd.around(x, y, radius + moved, own))
         return stacked(found)
 
 

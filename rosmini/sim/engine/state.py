@@ -10,6 +10,7 @@ from rosmini.sim.models import RobotModel
 from rosmini.sim.world import World
 
 from .movers import Mover
+from .trails import Leg
 
 if TYPE_CHECKING:
     from .engine import Engine
@@ -45,6 +46,8 @@ class EngineState:
     """What moves by itself: its clock, its place, its room, and whether it waits."""
     bodies: dict[str, RoverMemory]
     """What the bodies of robots have that may touch something."""
+    trails: dict[str, tuple[Leg, ...]]
+    """Where all were lately."""
 
 
 def taken(engine: Engine) -> EngineState:
@@ -65,6 +68,7 @@ def taken(engine: Engine) -> EngineState:
         things=things,
         movers={name: mover.state() for name, mover in engine.movers.items()},
         bodies=bodies,
+        trails=engine.trails.state(),
     )
 
 
@@ -95,6 +99,7 @@ def bring_back(engine: Engine, state: EngineState) -> None:
         engine.movers[name].restore(mover)
     engine.clockwork.slips, engine.clockwork.moving = state.slips, state.moving
     engine.clockwork.plan()
+    engine.trails.restore(state.trails)
     engine.sights.forget(engine.world)
     engine.changed += 1
 
