@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ParameterError, RosminiError, nearest
+from rosmini.errors import ParameterError, RosminiError, nearest, shown
 from rosmini.geometry.poses import Pose
 from rosmini.names import check_name
 
 from .models import RobotModel
 from .models import model as model_called
-from .world import World
+from .world import World, WorldError
 
 if TYPE_CHECKING:
     from rosmini.graph import Node
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 KEYS = ("name", "model", "x", "y", "yaw", "namespace", "tf_prefix")
 """What an entry of the parameter `~robots` may say."""
+
+MOST_ROBOTS = 1000
+"""How many robots may begin."""
 
 GAP, RINGS = 0.05, 60
 """A robot without a place looks for one on squares around the first start, so far from one another [m] and so many to each side."""
@@ -53,10 +56,13 @@ def read_starts(
     if given is None:
         return [Start(model.name, model, pose, "", tf_prefix)]
     where = node.resolve_parameter("~robots")
-    if isinstance(given, int) and not isinstance(given, bool) and given > 0:
+    if isinstance(given, int) and not isinstance(given, bool) and 0 < given <= MOST_ROBOTS:
         given = [f"tb3_{i}" for i in range(given)]
-    if not isinstance(given, list) or not given:
-        msg = f"parameter {where} is {given!r}; it has to be a number of robots, or a list of their names or of what is to be known of each"
+    if not isinstance(given, list) or not 0 < len(given) <= MOST_ROBOTS:
+        msg = (
+            f"parameter {where} is {shown(given)}; it has to be a number of robots, up to {MOST_ROBOTS}, or a list of their names or of "
+            "what is to be known of each"
+        )
         raise ParameterError(msg)
     starts = [_read(f"{where}[{i}]", entry, model, world) for i, entry in enumerate(given)]
     names = [start.name for start in starts]
@@ -72,7 +78,7 @@ def _read(where: str, entry: Any, model: RobotModel, world: World) -> Start:
     if isinstance(entry, str):
         entry = {"name": entry}
     if not isinstance(entry, dict) or not isinstance(entry.get("name"), str) or not entry["name"]:
-        msg = f"parameter {where} is {entry!r}; it has to be the name of a robot, or a mapping with a 'name' and any of {', '.join(KEYS[1:])}"
+        msg = f"parameter {where} is {shown(entry)}; it has to be the name of a robot, or a mapping with a 'name' and any of {', '.join(KEYS[1:])}"
         raise ParameterError(msg)
     for key, value in entry.items():
         if key not in KEYS:
@@ -81,7 +87,7 @@ def _read(where: str, entry: Any, model: RobotModel, world: World) -> Start:
         number = key in ("x", "y", "yaw")
         if not isinstance(value, (int, float) if number else str) or isinstance(value, bool):
             kind = "a number" if number else "a string"
-            raise ParameterError(f"parameter {where}/{key} is {value!r}; it has to be {kind}")
+            raise ParameterError(f"parameter {where}/{key} is {shown(value)}; it has to be {kind}")
     name = entry["name"]
     space = str(entry.get("namespace", name))
     return Start(
@@ -119,6 +125,9 @@ def add(engine: Engine, start: Start) -> Robot:
         for pose in chain(engine.world.starts, _around(engine.world, 2 * model.reach + GAP)):
             if engine.hindrance(model, pose) is None:
                 return engine.add(start.name, model, pose)
+    outside = None if start.pose is None else engine.world.outside(start.pose)
+    if outside and start.name not in engine.robots:
+        raise WorldError(f"the robot {start.name!r} cannot start there: {outside}")
     return engine.add(start.name, model, start.pose)
 
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from rosmini.geometry import polygons
 from rosmini.geometry.poses import Pose, transform_points
+from rosmini.geometry.raycast import raycast
 from rosmini.graph.show import show
 
 from .motion import Door, Motion, Walk
@@ -61,6 +62,12 @@ __all__ = [
     "WorldError",
     "edges",
 ]
+
+RAYS = 72
+"""In so many directions from its start a world has to be bounded to have an outside."""
+
+FAR = 10_000.0
+"""How far an open world goes on beyond what stands in it [m]."""
 
 
 @dataclass(frozen=True)
@@ -272,6 +279,29 @@ class World:
             return (-5.0, -5.0, 5.0, 5.0)
         low, high = every.min(axis=0), every.max(axis=0)
         return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+
+    @cached_property
+    def closed(self) -> bool:
+        """Whether there is an outside: the world is traced from a plan, or what is fixed stands around its first start on all sides."""
+        if len(self.walls):
+            return True
+        x, y, _ = self.starts[0]
+        seen = raycast(self.segments, self.discs, x, y, 0.0, math.tau / RAYS, RAYS, math.inf, backend="numpy")
+        return bool(np.isfinite(seen).all())
+
+    def outside(self, pose: Pose) -> str | None:
+        """Why a place is not in the world, in words that fit into a sentence; None if it is. An open world ends `FAR` from all that stands in it.
+
+        Raises `WorldError` for a pose that is not finite.
+        """
+        problem = pose_problem("pose", pose)
+        if problem:
+            raise WorldError(f"nothing can be placed there: {problem}")
+        x0, y0, x1, y1 = self.bounds
+        more = 0.0 if self.closed else FAR
+        if x0 - more <= pose[0] <= x1 + more and y0 - more <= pose[1] <= y1 + more:
+            return None
+        return f"({pose[0]:.6g}, {pose[1]:.6g}) is outside of the world {self.name!r}, which goes from ({x0:.2f}, {y0:.2f}) to ({x1:.2f}, {y1:.2f})"
 
     def blocked(self, pose: Pose, footprint: Footprint, height: float = 0.0) -> str | None:
         """What of the fixed things a footprint at `pose` overlaps with, in words that fit into a sentence; None if it is free.

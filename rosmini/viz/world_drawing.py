@@ -29,6 +29,8 @@ Floats = NDArray[np.float64]
 
 TINT = 0.32
 """How strong the fill of an obstacle is."""
+DARKEST, LIGHTEST = 0.2, 0.7
+"""A colour whose luma (ITU-R BT.601, from 0 to 1) is beyond these is hard to see on a page of a dark or of a light theme."""
 SEEN, ONE_BEAM = 0.11, 0.5
 """How strong the fill of what a laser sees is."""
 TRAIL_WIDTH = 2.0
@@ -66,7 +68,7 @@ def _obstacle(axes: Axes, obstacle: Obstacle) -> None:
             axes,
             shape,
             fill=colour,
-            edge=colour,
+            edge=_edge(colour),
             opacity=1.0 if solid else TINT / 2 if over else TINT,
             width=0.5 if solid or over else LINE_WIDTH,
             z=3.1 if over else 3.0,
@@ -74,7 +76,9 @@ def _obstacle(axes: Axes, obstacle: Obstacle) -> None:
     if isinstance(obstacle.motion, Walk):
         ways = obstacle.motion.waypoints
         line = snap(np.array([*ways, ways[0]] if obstacle.motion.loop else ways))
-        axes.plot(*line.T, color=_paint(colour), linewidth=1.2, zorder=2.5, clip_on=False, dashes=(2.0, 3.0))
+        axes.plot(
+            *line.T, color=_paint(_edge(colour)), linewidth=1.2, zorder=2.5, clip_on=False, dashes=(2.0, 3.0)
+        )
 
 
 def _shape_path(shape: Simple, pose: Pose) -> Path:
@@ -86,6 +90,16 @@ def _shape_path(shape: Simple, pose: Pose) -> Path:
 def _paint(colour: str) -> str:
     """A colour of the palette by its name, or any other as it is."""
     return LIGHT.get(colour, colour)
+
+
+def _edge(colour: str) -> str:
+    """What a thing of this colour is outlined with: the colour itself, if it shows on a light page and on a dark one, else a neutral one."""
+    from matplotlib.colors import to_rgb
+
+    if colour in LIGHT:
+        return colour
+    r, g, b = to_rgb(colour)
+    return colour if DARKEST <= 0.299 * r + 0.587 * g + 0.114 * b <= LIGHTEST else "line"
 
 
 def draw_scan(axes: Axes, beams: Beams, laser: Pose, scale: float) -> None:
@@ -138,14 +152,15 @@ def draw_place(axes: Axes, obstacle: Obstacle) -> None:
     """Where a thing stood before it was moved: a dashed outline."""
     colour = "line" if obstacle.colour in ("grey", "wall") else obstacle.colour
     for shape, pose in obstacle.parts():
-        _patch(axes, _shape_path(shape, pose), edge=colour, width=1.2, dash=(3.0, 2.0), z=2.6)
+        _patch(axes, _shape_path(shape, pose), edge=_edge(colour), width=1.2, dash=(3.0, 2.0), z=2.6)
 
 
 def draw_way(axes: Axes, points: Floats, colour: str, scale: float) -> None:
     """Where a thing was moved along: a fine line through points (n, 2)."""
     line = _thinned(snap(points), scale)
     colour = "line" if colour in ("grey", "wall") else colour
-    axes.plot(*line.T, color=_paint(colour), linewidth=1.2, zorder=2.7, clip_on=False, dashes=(3.0, 2.0))
+    paint = _paint(_edge(colour))
+    axes.plot(*line.T, color=paint, linewidth=1.2, zorder=2.7, clip_on=False, dashes=(3.0, 2.0))
 
 
 def name_box(

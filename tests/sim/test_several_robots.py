@@ -19,7 +19,7 @@ from rosmini.packages import assets_dir
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.models import BURGER, WAFFLE, UnknownModel
 from rosmini.sim.simulator import Simulator
-from rosmini.sim.world import Box, Obstacle, World, WorldError
+from rosmini.sim.world import Box, Cylinder, Obstacle, World, WorldError
 
 Twist = message_class("geometry_msgs/Twist")
 TOPICS = {
@@ -646,3 +646,29 @@ def test_the_launch_files_say_what_the_simulator_understands(graph, name):
     simulator = Simulator(node)
     assert simulator.world.name == "room"
     assert len(simulator.robots) == {"simulator": 1, "robots": 3}[name]
+
+
+@pytest.mark.parametrize(
+    ("parameters", "said"),
+    [
+        ({"x": 1000.0}, r"the robot 'burger' cannot start there: \(1000, 0\) is outside of the world 'arena', which goes from \(-2\.08, -2\.08\) to \(2\.08, 2\.08\)"),
+        ({"y": -3.0}, "outside of the world 'arena'"),
+        ({"x": 1e308}, "outside of the world 'arena'"),
+        ({"robots": [{"name": "a", "x": 50.0}]}, "the robot 'a' cannot start there"),
+        ({"robots": 10**9}, r"/simulator/robots is 1000000000; it has to be a number of robots, up to 1000"),
+        ({"robots": ["a"] * 1001}, r"/simulator/robots is \['a', 'a', .*\.\.\.; it has to be a number of robots, up to 1000"),
+    ],
+)  # fmt: skip
+def test_a_start_outside_of_the_world_and_too_many_robots_are_errors(graph, parameters, said):
+    node = graph.node("simulator")
+    for name, value in {"world": "arena", **parameters}.items():
+        node.set_param(f"~{name}", value)
+    with pytest.raises(RosminiError, match=said):
+        Simulator(node)
+
+
+def test_an_open_world_has_no_outside(graph):
+    pillar = Obstacle("pillar", Cylinder(0.1), (3.0, 0.0, 0.0))
+    node = graph.node("simulator")
+    node.set_param("~x", -20.0)
+    assert Simulator(node, world=World("field", (pillar,))).robots["burger"].robot.pose[0] == -20.0

@@ -276,3 +276,14 @@ def test_importing_viz_loads_neither_numpy_nor_matplotlib_and_names_are_there():
     )
     done = run([sys.executable, "-c", code], check=True, cwd=ROOT)
     assert done.stdout.splitlines() == ["[]", "['numpy']"]
+
+
+@pytest.mark.parametrize(
+    ("colour", "edge"),
+    [("#ffffff", "line"), ("#f0f0e0", "line"), ("#000000", "line"), ("#0066cc", None), ("blue", None)],
+)
+def test_what_is_as_light_or_dark_as_a_page_has_a_neutral_edge(colour, edge):
+    made = World("w", (Obstacle("pillar", Cylinder(0.2), (0.0, 0.0, 0.0), colour=colour),))
+    svg = world_picture(made)._repr_mimebundle_()[0]["image/svg+xml"]
+    (pillar,) = (each for each in ET.fromstring(svg).iter(f"{SVG}path") if each.get("fill-opacity"))
+    assert pillar.get("stroke") == style.LIGHT.get(edge or colour, colour)

@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import RosminiError, nearest
+from rosmini import files, images
+from rosmini.errors import RosminiError, nearest, shown
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -30,8 +31,11 @@ OPTIONAL = ("mode",)
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 
-LONGEST = 60
-"""So many characters of a wrong value are told."""
+AT_ONCE = 1_000_000
+"""So many pixels are computed with at a time: for each it takes many bytes."""
+
+LARGEST_TEXT = 1_000_000
+"""Bytes of a YAML file."""
 
 SMALLEST, LARGEST = 1e-6, 1e9
 """Of a cell and of a whole map [m]: what is beyond is a mistake, and cannot be calculated with."""
@@ -165,25 +169,26 @@ def _fields(document: _Document) -> _Fields:
 def _document(path: Path) -> _Document:
     import yaml
 
+    from rosmini.yaml_text import documents
+
     try:
-        text = path.read_text(encoding="utf-8")
-        found = yaml.safe_load(text)
-        root = yaml.compose(text, Loader=yaml.SafeLoader)
+        text = files.read(path, LARGEST_TEXT).decode("utf-8")
     except FileNotFoundError as error:
         raise MapError(f"there is no map {path}: {_nearest_file(path)}".rstrip(": ")) from error
     except OSError as error:
         raise MapError(f"the map {path} cannot be read: {error.strerror}") from error
-    except (UnicodeDecodeError, yaml.YAMLError, RecursionError) as error:
-        reason = " ".join(str(error).split())
-        mark = getattr(error, "problem_mark", None)
-        place = f"{path}:{mark.line + 1}: this" if mark is not None else str(path)
-        raise MapError(
-            f"{place} is not YAML: {reason}. A map is the YAML file, which names the image"
-        ) from error
+    except UnicodeDecodeError as error:
+        raise _no_yaml(f"this is not YAML: {error}", str(path), None) from error
+    found, root = next(documents(text, str(path), _no_yaml), (None, None))
     if not isinstance(found, dict) or not isinstance(root, yaml.MappingNode):
         raise MapError(f"{path} is not a map: it has no fields; it needs {', '.join(REQUIRED)}")
     lines = {key.value: key.start_mark.line + 1 for key, _ in root.value if isinstance(key, yaml.ScalarNode)}
     return _Document(path, found, lines)
+
+
+def _no_yaml(message: str, path: str, line: int | None) -> MapError:
+    place = path if line is None else f"{path}:{line}"
+    return MapError(f"{place}: {message}. A map is the YAML file, which names the image")
 
 
 def _origin(document: _Document, value: object) -> tuple[float, float, float]:
@@ -205,17 +210,14 @@ def _number(document: _Document, name: str, value: object) -> float:
 
 
 def _wrong(document: _Document, name: str, value: object, wanted: str) -> MapError:
-    shown = repr(value)
-    shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST]}..."
-    return MapError(f"{document.place(name)}: the field {name!r} is {shown}; it has to be {wanted}")
+    return MapError(f"{document.place(name)}: the field {name!r} is {shown(value)}; it has to be {wanted}")
 
 
 def _nearest_file(path: Path) -> str:
     if not path.parent.is_dir():
         return f"there is no folder {path.parent}"
-    return nearest(
-        path.name, [each.name for each in path.parent.iterdir() if each.suffix in (".yaml", ".yml")]
-    )
+    there = files.names_in(path.parent)
+    return nearest(path.name, [name for name in there if name.endswith((".yaml", ".yml"))])
 
 
 # ---- the image ----
@@ -223,17 +225,13 @@ def _nearest_file(path: Path) -> str:
 
 def _channels(image: Path, place: str) -> NDArray[np.uint8]:
     """The pixels (h, w, channels), row 0 at the bottom."""
-    from PIL import Image, UnidentifiedImageError
-
     try:
-        with Image.open(image) as opened:
+        with images.opened(image) as opened:
             pixels = _eight_bits(opened)
     except FileNotFoundError as error:
         raise MapError(f"{place}: the field 'image' names {image}, which is not there") from error
-    except (UnidentifiedImageError, Image.DecompressionBombError) as error:
-        raise MapError(f"{place}: the field 'image' names {image}, which is no image: {error}") from error
-    except (OSError, SyntaxError, ValueError) as error:  # what Pillow raises for a broken one
-        raise MapError(f"{place}: the image {image} cannot be read: {error}") from error
+    except images.ImageError as error:
+        raise MapError(f"{place}: the field 'image' names {image}, which cannot be read: {error}") from error
     if not pixels.size:
         raise MapError(f"{place}: the image {image} has no pixels")
     return pixels[::-1]
@@ -242,8 +240,7 @@ def _channels(image: Path, place: str) -> NDArray[np.uint8]:
 def _eight_bits(image: Image) -> NDArray[np.uint8]:
     """The pixels (h, w, channels) with 8 bits a channel: grey alone, or colours, with alpha if there is any."""
     if image.mode.startswith("I"):  # 16 bits: the lower ones are dropped
-        wide = np.asarray(image).astype(np.int64)
-        grey: NDArray[np.uint8] = np.clip(wide >> 8, 0, 255).astype(np.uint8)[..., None]
+        grey: NDArray[np.uint8] = np.clip(np.asarray(image) >> 8, 0, 255).astype(np.uint8)[..., None]
         return grey
     if image.mode == "1":
         image = image.convert("L")
@@ -256,6 +253,14 @@ def _eight_bits(image: Image) -> NDArray[np.uint8]:
 
 
 def _occupancy(pixels: NDArray[np.uint8], fields: _Fields) -> NDArray[np.int8]:
+    cells: NDArray[np.int8] = np.empty(pixels.shape[:2], dtype=np.int8)
+    rows = max(1, AT_ONCE // pixels.shape[1])
+    for first in range(0, len(pixels), rows):
+        cells[first : first + rows] = _cells(pixels[first : first + rows], fields)
+    return cells
+
+
+def _cells(pixels: NDArray[np.uint8], fields: _Fields) -> NDArray[np.int8]:
     channels = pixels.shape[2]
     colours = 3 if channels == 4 and fields.mode != "trinary" else channels
     grey = pixels[..., :colours].sum(axis=2, dtype=np.int64) / colours

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini import images
 from rosmini.geometry.contours import outlines
 from rosmini.geometry.polygons import area, crossing_sides
 
@@ -24,9 +25,6 @@ Size = tuple[float, float, float]
 THRESHOLD = 127
 EDGE = 0.01
 """How thick a boundary is [m]."""
-
-LARGEST = 100_000_000
-"""Pixels of an image."""
 
 
 @dataclass(frozen=True)
@@ -74,16 +72,10 @@ def block(points: Floats, bottom: float, top: float, place: Place) -> Block:
 
 def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, float, float, float], str]:
     """The outlines of what is dark, in pixels, y up; the smallest box around it (x0, y0, x1, y1); and what is odd about it, or nothing."""
-    from PIL import Image
-
     try:
-        with Image.open(path) as opened:
-            if opened.width * opened.height > LARGEST:
-                raise StageError(
-                    place, f"the bitmap {path} has {opened.width} x {opened.height} pixels, too many"
-                )
-            first = np.asarray(opened.convert("RGB"))[:, :, 0]
-    except (OSError, SyntaxError, ValueError) as error:  # PIL raises all of these for a broken file
+        with images.opened(path) as found:
+            first = np.asarray(found.convert("RGB"))[:, :, 0]
+    except (images.ImageError, OSError) as error:
         raise StageError(place, f"the bitmap {path} cannot be read: {error}") from error
     dark = first[::-1] <= THRESHOLD
     if not dark.any():

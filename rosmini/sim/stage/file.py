@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.files import exists, is_file
 from rosmini.geometry.polygons import sides_of
 from rosmini.packages import PackageIndex
 from rosmini.sim.shapes import Compound
@@ -26,12 +27,15 @@ from .parse import Entity, Parsed, parse_file
 from .robots import BASE, StageRobot, robot
 from .solids import Solid, filled, placed, solid
 from .things import UNUSED, Maker, Thing
+from .tokens import expanded
 from .values import Reader, Units, units_of
 
 SCHEME = "package://"
 DEFAULT_RESOLUTION = 0.02
 DEFAULT_INTERVAL = 0.1
 """How long a step of the simulation is [s]."""
+
+MOST_ROBOTS = 1000
 
 WORLD = ("name", "resolution", "interval_sim", "speedup", "paused", "quit_time", "unit_length", "unit_angle")
 IGNORED = (
@@ -90,9 +94,9 @@ class StageWorld:
 def load(path: str | os.PathLike[str]) -> StageWorld:
     """Read a Stage world file, by its path or its `package://` address. Raises `StageError`, which names file and line."""
     text = os.fspath(path)
-    file = Path(PackageIndex().resolve(text)) if text.startswith(SCHEME) else Path(text).expanduser()
-    if not file.is_file():
-        raise StageError(Place(file, 1), "there is no such file" if not file.exists() else "this is no file")
+    file = Path(PackageIndex().resolve(text)) if text.startswith(SCHEME) else expanded(text)
+    if not is_file(file):
+        raise StageError(Place(file, 1), "there is no such file" if not exists(file) else "this is no file")
     return _World(parse_file(file)).make()
 
 
@@ -129,7 +133,7 @@ class _World:
         made = StageWorld(
             name=name,
             path=parsed.path,
-            world=self._world(name),
+            world=self._with_starts(self._world(name)),
             robots=tuple(self.robots),
             interval=interval,
             speedup=speedup,
@@ -167,6 +171,8 @@ class _World:
     def _take(self, thing: Thing) -> None:
         """Take a model of the top into the world."""
         if thing.kind == "position":
+            if len(self.robots) == MOST_ROBOTS:
+                raise StageError(thing.place, f"there are more than {MOST_ROBOTS} robots in this world")
             self.robots.append(robot(thing, len(self.robots), self.units))
             return
         for each in thing.family():
@@ -270,6 +276,14 @@ class _World:
         except WorldError as error:
             raise StageError(thing.place, str(error)) from error
         self.obstacles.append(found)
+
+    def _with_starts(self, world: World) -> World:
+        """The same world. Raises `StageError` if a robot starts outside of it."""
+        for each in self.robots:
+            outside = world.outside(each.pose)
+            if outside:
+                raise StageError(each.place, f"{each.name} cannot start there: {outside}")
+        return world
 
     def _world(self, name: str) -> World:
         starts = tuple(each.pose for each in self.robots) or ((0.0, 0.0, 0.0),)

@@ -7,11 +7,14 @@ the world file (as Stage does), beside the file that includes it, and in the fol
 
 from __future__ import annotations
 
+import itertools
 import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal, NamedTuple
+
+from rosmini import files
 
 from .errors import Place, StageError
 
@@ -19,6 +22,9 @@ Kind = Literal["word", "number", "string", "(", ")", "[", "]"]
 
 VARIABLE = "STAGEPATH"
 """The environment variable with folders of files to include, as `PATH` has them."""
+
+MOST_FILES = 1000
+"""So many files a world may include, each counted as often as it is."""
 
 _TOKEN = re.compile(
     r"""(?P<space>[ \t\r\f\v]+|\#[^\n]*)
@@ -73,12 +79,14 @@ def _complaint(text: str, at: int) -> str:
 
 def read(path: Path) -> Iterator[Token]:
     """The words of a world file and of all that it includes. Raises `StageError`."""
-    return _included(path, path, ())
+    return _included(path, path, (), itertools.count())
 
 
-def _included(path: Path, root: Path, above: tuple[Path, ...]) -> Iterator[Token]:
+def _included(path: Path, root: Path, above: tuple[Path, ...], count: Iterator[int]) -> Iterator[Token]:
+    if next(count) == MOST_FILES:
+        raise StageError(Place(path, 1), f"the world includes more than {MOST_FILES} files")
     try:
-        text = path.read_bytes().decode("utf-8", errors="replace").replace("\r\n", "\n").replace("\r", "\n")
+        text = files.read(path).decode("utf-8", errors="replace").replace("\r\n", "\n").replace("\r", "\n")
     except OSError as error:
         where = Place(path, 1)
         raise StageError(where, f"the file cannot be read: {error.strerror or error}") from error
@@ -93,20 +101,29 @@ def _included(path: Path, root: Path, above: tuple[Path, ...]) -> Iterator[Token
         target = find_file(name.text, root, path)
         if target is None:
             raise StageError(name.place, f'there is no file "{name.text}" to include {searched(root, path)}')
-        if target.resolve() in {each.resolve() for each in (*above, path)}:
-            raise StageError(name.place, f'"{name.text}" includes itself')
-        yield from _included(target, root, (*above, path))
+        chain = [each.resolve() for each in (*above, path)]
+        if target.resolve() in chain:
+            circle = [*chain[chain.index(target.resolve()) :], target.resolve()]
+            way = " -> ".join(each.name for each in circle)
+            raise StageError(name.place, f'"{name.text}" includes itself: {way}')
+        yield from _included(target, root, (*above, path), count)
 
 
 def find_file(name: str, root: Path, mentioned_in: Path) -> Path | None:
     """The file that a world file means by `name`; None if there is none."""
-    expanded = Path(name).expanduser()
+    path = expanded(name)
     folders = [root.parent, mentioned_in.parent]
-    found = [folder / expanded for folder in folders]  # an absolute path stays what it is
-    found += [
-        Path(folder) / expanded.name for folder in os.environ.get(VARIABLE, "").split(os.pathsep) if folder
-    ]
-    return next((each for each in found if each.is_file()), None)
+    found = [folder / path for folder in folders]  # an absolute path stays what it is
+    found += [Path(folder) / path.name for folder in os.environ.get(VARIABLE, "").split(os.pathsep) if folder]
+    return next((each for each in found if files.is_file(each)), None)
+
+
+def expanded(name: str) -> Path:
+    """A path with the home of whom it names in place of ``~``; of somebody whom the system does not know, it stays what it is."""
+    try:
+        return Path(name).expanduser()
+    except RuntimeError:
+        return Path(name)
 
 
 def searched(root: Path, mentioned_in: Path) -> str:

@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.errors import shown
 from rosmini.geometry import polygons
 from rosmini.sim.motion import Walk
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Shape, is_finite
@@ -29,6 +30,8 @@ NARROWEST = 2.0
 HEIGHT = 0.6
 COLOURS = ("blue", "orange", "green", "vermilion", "sky")
 TRIES = 400
+MOST = 10_000
+"""How many of a kind there may be, and how long the floor may be [m]."""
 
 
 def random_world(
@@ -69,12 +72,16 @@ def random_world(
 
 
 def _check(size: tuple[float, float], **counts: int) -> None:
-    if len(size) != 2 or not all(is_finite(side) and side >= NARROWEST for side in size):
-        raise WorldError(f"size is {size!r}; it has to be a length and a width of {NARROWEST:g} m or more")
+    if len(size) != 2 or not all(is_finite(side) and NARROWEST <= side <= MOST for side in size):
+        raise WorldError(
+            f"size is {shown(size)}; it has to be a length and a width of {NARROWEST:g} m to {MOST} m"
+        )
     for name, value in counts.items():
         least = 1 if name in ("rooms", "starts") else 0
         if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
-            raise WorldError(f"{name} is {value!r}; it has to be a whole number, {least} or more")
+            raise WorldError(f"{name} is {shown(value)}; it has to be a whole number, {least} or more")
+        if name != "seed" and value > MOST:
+            raise WorldError(f"{name} is {value}; it has to be {MOST} or less")
 
 
 Floats = NDArray[np.float64]

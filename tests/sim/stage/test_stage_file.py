@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import os
 import re
 from pathlib import Path
 
@@ -432,7 +433,7 @@ def test_bounds_and_odometry(world):
         ("model( block( points 4 point[0] [0 0] point[1] [2 2] point[2] [2 0] point[3] [0 1] ) )", "the sides of a block meet"),
         ("model( gripper_return 1 mass 0 )", "its mass has to be more than 0 kg"),
         ('model( bitmap "nothing.png" )', 'there is no bitmap "nothing.png" in'),
-        ('model( bitmap "text.png" )', "cannot be read: cannot identify image file"),
+        ('model( bitmap "text.png" )', "cannot be read: this is no image"),
         ('model( bitmap "white.png" )', "nothing in the bitmap"),
         ("interval_sim 0", "interval_sim is 0; it has to be more than 0"),
         ('unit_length "inch"', 'unit_length is "inch"; it has to be "m" or "cm" or "mm"'),
@@ -491,3 +492,65 @@ def test_our_own_worlds_say_nothing_odd(path: Path):
     assert stage.robots
     for each in stage.robots:
         assert stage.world.blocked(each.pose, 0.25) is None, each.name
+
+
+# ---- what wants to break something ----
+
+
+def test_includes_that_fan_out_end(tmp_path, monkeypatch):
+    monkeypatch.setattr("rosmini.sim.stage.tokens.MOST_FILES", 100)
+    for i in range(20):
+        (tmp_path / f"{i}.inc").write_text(2 * f'include "{i + 1}.inc"\n')
+    (tmp_path / "20.inc").write_text("")
+    with pytest.raises(StageError, match=r"inc:1: the world includes more than 100 files"):
+        load(tmp_path / "0.inc")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names are a matter of POSIX")
+def test_what_is_no_file_is_not_opened(tmp_path):
+    os.mkfifo(tmp_path / "pipe.world")
+    (tmp_path / "a.world").write_text('include "pipe.world"')
+    (tmp_path / "b.world").write_text('model( bitmap "/dev/zero" )')
+    for name, said in (
+        ("pipe.world", "this is no file"),
+        ("a.world", "there is no file"),
+        ("b.world", "there is no bitmap"),
+    ):
+        with pytest.raises(StageError, match=said):
+            load(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["~nobody_has_this_name/a", "a\0b", "x" * 5000, "~x", "/" * 5000, "."])
+def test_no_name_of_a_file_breaks_more_than_its_world(tmp_path, name):
+    with pytest.raises(StageError):
+        load(name)
+    path = tmp_path / "a.world"
+    path.write_text(f'include "{name}"')
+    with pytest.raises(StageError, match=r"a.world:1: there is no file"):
+        load(path)
+    path.write_text(f'model( bitmap "{name}" )')
+    with pytest.raises(StageError, match=r"a.world:1: there is no bitmap"):
+        load(path)
+
+
+def test_a_bitmap_of_too_many_pixels_is_refused_by_its_header(tmp_path):
+    (tmp_path / "a.pgm").write_bytes(b"P5 100000 100000 255\n")
+    (tmp_path / "a.world").write_text('model( bitmap "a.pgm" )')
+    with pytest.raises(
+        StageError, match=r"a.world:1: the bitmap .*a.pgm cannot be read: it has too many pixels"
+    ):
+        load(tmp_path / "a.world")
+
+
+def test_robots_have_a_number_and_a_world_to_stand_in(tmp_path, monkeypatch):
+    monkeypatch.setattr("rosmini.sim.stage.file.MOST_ROBOTS", 2)
+    path = tmp_path / "a.world"
+    path.write_text("position()\nposition()\nposition()")
+    with pytest.raises(StageError, match=r"a.world:3: there are more than 2 robots"):
+        load(path)
+    Image.fromarray(np.pad(np.full((20, 20), 255, dtype=np.uint8), 1)).save(tmp_path / "plan.png")
+    path.write_text('model( size [10 10 1] bitmap "plan.png" )\nposition( pose [50 0 0 0] name "r" )')
+    with pytest.raises(
+        StageError, match=r"a.world:2: r cannot start there: \(50, 0\) is outside of the world 'a'"
+    ):
+        load(path)

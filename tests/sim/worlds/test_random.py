@@ -121,3 +121,14 @@ def test_a_seed_may_come_from_numpy():
     assert [o.pose for o in random_world(np.int64(4)).obstacles] == [
         o.pose for o in random_world(4).obstacles
     ]
+
+
+@pytest.mark.parametrize("what", ["rooms", "obstacles", "movable", "walkers", "starts"])
+def test_nobody_asks_for_a_billion_things(what):
+    with pytest.raises(WorldError, match=f"{what} is 1000000000; it has to be 10000 or less"):
+        random_world(0, **{what: 10**9})
+
+
+def test_a_floor_has_an_end():
+    with pytest.raises(WorldError, match="size is"):
+        random_world(0, size=(1e12, 8.0))
