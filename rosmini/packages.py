@@ -33,6 +33,7 @@ __all__ = [
     "Package",
     "PackageIndex",
     "assets_dir",
+    "package_around",
     "search_paths",
 ]
 
@@ -66,6 +67,11 @@ def search_paths(environ: Mapping[str, str] | None = None) -> tuple[Path, ...]:
     """Where packages are looked for: the folders of ``ROS_PACKAGE_PATH``, then rosmini's own assets."""
     value = (os.environ if environ is None else environ).get("ROS_PACKAGE_PATH", "")
     return (*(Path(part) for part in value.split(os.pathsep) if part), assets_dir() / "ros")
+
+
+def package_around(path: str | os.PathLike[str]) -> Path | None:
+    """Return the folder of the package that a file is in, if it is in one: the nearest above it with a ``package.xml``."""
+    return next((folder for folder in Path(path).absolute().parents if (folder / MANIFEST).is_file()), None)
 
 
 class InterfaceFiles(NamedTuple):

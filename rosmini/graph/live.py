@@ -84,12 +84,12 @@ class LoopDrive(ABC):
 
     def _drive(self, until_ns: int | None = None, until: Callable[[], bool] | None = None) -> str:
         """Run until then, but not longer than the budget; return why it ended."""
-        deadline = time.monotonic() + BUDGET_S
+        deadline = time.perf_counter() + BUDGET_S
         scheduler = self.graph.scheduler
         if not scheduler.simulated:
             until_ns, until = scheduler.now_ns() + int(BUDGET_S * scheduler.rate * 1e9), scheduler.quiet
         return scheduler.run(
-            until_ns, lambda: time.monotonic() > deadline or (until is not None and until())
+            until_ns, lambda: time.perf_counter() > deadline or (until is not None and until())
         ).reason
 
     # Between cells ipykernel ignores an interrupt: it is for the live graph then.
@@ -125,7 +125,7 @@ class LiveDrive(LoopDrive):
             raise RosminiError(msg)
         self.rate = rate
         self._graph_start = graph.scheduler.now_ns()
-        self._start = time.monotonic()
+        self._start = time.perf_counter()
         super().__init__(graph, loop)
 
     def __repr__(self) -> str:
@@ -139,7 +139,7 @@ class LiveDrive(LoopDrive):
         return SLICE_S
 
     def _target(self) -> int:
-        now, wall = self.graph.scheduler.now_ns(), time.monotonic()
+        now, wall = self.graph.scheduler.now_ns(), time.perf_counter()
         target = self._graph_start + int((wall - self._start) * self.rate * 1e9)
         latest = now + int(LAG_S * self.rate * 1e9)
         if now <= target <= latest:

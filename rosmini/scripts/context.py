@@ -33,8 +33,9 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
 from rosmini.graph.lanes import LaneExit
+from rosmini.packages import package_around
 
-from .environment import ScriptEnviron
+from .environment import ScriptEnviron, folders_of_the_users
 from .failures import user_traceback
 from .imports import Importer
 from .shims import copy_of
@@ -98,9 +99,12 @@ class ScriptContext:
         self._setup_threads()
 
     def _setup_modules(self, folders: Sequence[str], modules: Mapping[str, ModuleType]) -> None:
-        own = [] if self.filename.startswith("<") else [str(Path(self.filename).absolute().parent)]
+        is_file = not self.filename.startswith("<")
+        own = [str(Path(self.filename).absolute().parent)] if is_file else []
+        self.package = package_around(self.filename) if is_file else None
+        """The folder of the ROS package that the script is in, if it is in one."""
         self._own_folders = (*own, *folders)
-        self._host_path = frozenset(sys.path)
+        self._host_path = frozenset(sys.path) - frozenset(folders_of_the_users())
         self._folders: tuple[str, ...] = ()
         self._folders_for: list[str] = []
         self.importer = Importer(self, modules)
@@ -129,6 +133,8 @@ class ScriptContext:
         self._host: Any = None
         self._entered = False
         self._environ = ScriptEnviron()
+        if self.package is not None:
+            self._environ.add_package(self.package)
         self._filters: Any = list(warnings.filters)
         self._replaced: dict[str, ModuleType | None] = {}
         self._numpy: NumpyRandom | None = None

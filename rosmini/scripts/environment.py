@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import Any
 
 _Environ: Any = type(os.environ)
@@ -23,6 +24,12 @@ class ScriptEnviron(_Environ):  # type: ignore[misc]  # the class of os.environ 
             host.decodevalue,
         )
 
+    def add_package(self, folder: Path) -> None:
+        """Let the script find the package that it is in, as after sourcing its workspace: ``ROS_PACKAGE_PATH``."""
+        given = self.get("ROS_PACKAGE_PATH", "")
+        if not any(folder.is_relative_to(Path(root).absolute()) for root in given.split(os.pathsep) if root):
+            self["ROS_PACKAGE_PATH"] = os.pathsep.join(filter(None, (str(folder), given)))
+
     def __setitem__(self, key: str, value: str) -> None:
         self._changed.add(key)
         super().__setitem__(key, value)
@@ -39,3 +46,9 @@ class ScriptEnviron(_Environ):  # type: ignore[misc]  # the class of os.environ 
             else:
                 os.unsetenv(key)
         self._changed.clear()
+
+
+def folders_of_the_users() -> list[str]:
+    """Return the folders of ``PYTHONPATH`` that hold a user's own modules, and no installed libraries."""
+    given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    return [item for item in given if item and Path(item).name not in ("site-packages", "dist-packages")]

@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
 from rosmini.msgs.registry import registry
+from rosmini.msgs.sources import PackageSource
 
 from .shims import BUILDERS, PRIVATE_COPIES, finish_copy
 from .source import compile_script
@@ -99,6 +100,8 @@ class Importer:
             module = self.private[name] = self._given[name]
         elif name in PRIVATE_COPIES:
             module = self._copy(name)
+        elif parent_name in self.local and child in ("msg", "srv") and self._is_of_messages(name, parent):
+            module = self._message_module(name)
         elif parent_name in self.local:
             module = self._load_local_child(name, parent)
         elif parent_name in self._given or parent.__name__.startswith(_MESSAGES):
@@ -147,6 +150,11 @@ class Importer:
         known = registry()
         return bool(known.messages(package) or known.services(package))
 
+    def _is_of_messages(self, name: str, parent: ModuleType) -> bool:
+        """Tell whether ``my_package.msg`` is that of the definitions: the Python package has none of its own."""
+        own = self._find(name, list(getattr(parent, "__path__", ())))
+        return self._defines_messages(parent.__name__) and (own is None or own.loader is None)
+
     def _message_module(self, name: str) -> ModuleType:
         """``std_msgs.msg``, from :mod:`rosmini.msgs`, also where a ROS is installed: ours goes with our rospy."""
         try:
@@ -162,7 +170,23 @@ class Importer:
         """Where the script's own folders have the top-level module ``name``; None if they have not."""
         if name in _NEVER_LOCAL or name in sys.builtin_module_names:
             return None
-        return self._find(name, self._context.local_folders())
+        found = self._find(name, self._context.local_folders())
+        if found is not None and found.loader is not None:
+            return found
+        return self._package_spec(name) or found  # a plain folder gives way to a package
+
+    def _package_spec(self, name: str) -> ModuleSpec | None:
+        """Where a ROS package has a Python package: in ``src``, from where ``catkin_python_setup()`` installs it.
+
+        The script's own may have any, another one that of its name.
+        """
+        source, homes = registry().source, [self._context.package]
+        if isinstance(source, PackageSource) and name in source.index:
+            homes.append(source.index.path(name))
+        for home in homes:
+            if home is not None and (home / "src" / name / "__init__.py").is_file():
+                return self._find(name, [str(home / "src")])
+        return None
 
     def _find(self, name: str, folders: Sequence[str]) -> ModuleSpec | None:
         portions: list[str] = []
