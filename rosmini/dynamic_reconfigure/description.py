@@ -55,7 +55,10 @@ def cast_value(name: str, kind: str, value: Any) -> Any:
 
 @dataclass(frozen=True)
 class ReconfigurableParameter:
-    """One parameter: ``type`` is bool, int, str or double, ``level`` a bit mask that the callback is given when the parameter changes.
+    """One parameter: ``type`` is bool, int, str or double, ``level`` a bit mask.
+
+    The callback is given the bitwise or of the levels of all parameters that changed: so one bit can stand for several parameters, and
+    ``level & bit`` tells whether one of them changed.
 
     ``edit_method`` is the text of a dictionary that tells user interfaces how to show it (an enumeration), or empty.
     """

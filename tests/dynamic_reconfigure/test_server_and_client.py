@@ -15,7 +15,7 @@ from rosmini.msgs.dynamic_reconfigure.msg import Config as ConfigMessage
 from rosmini.msgs.dynamic_reconfigure.msg import GroupState, IntParameter
 from rosmini.msgs.dynamic_reconfigure.srv import Reconfigure
 
-from .conftest import TREE
+from .conftest import TREE, number
 from .test_description import Settings
 
 
@@ -45,6 +45,17 @@ def test_a_change_reaches_the_node_the_parameter_server_and_other_clients(graph)
     assert other.get_configuration(1.0) == heard[-1]
     assert [one["name"] for one in described[0]] == ["gain", "mode", "window", "on", "depth"]
     assert described[0][0]["max"] == 10.0
+
+
+def test_levels_are_joined_by_bitwise_or(graph):
+    """Two parameters may share bits: what is counted twice is there once."""
+    levels = {"slow": 0b001, "fast": 0b011, "left": 0b110, "right": 0b100}
+    tree = {"name": "Default", "parameters": [number(name, level=level) for name, level in levels.items()]}
+    served = Served(graph, {**tree, "groups": []})
+    for changes in (["slow", "fast"], ["fast", "left"], list(levels), ["right"], []):
+        served.server.update_configuration(dict.fromkeys(changes, float(len(served.calls))))
+    served.server.update_configuration({"left": served.server.config["left"]})  # no change
+    assert [level for _, level in served.calls] == [-1, 0b011, 0b111, 0b111, 0b100, 0, 0]
 
 
 def test_groups(graph):

@@ -7,6 +7,7 @@ import json
 import sys
 import types
 
+import dynamic_reconfigure
 import rospy
 from dynamic_reconfigure import (
     DynamicReconfigureCallbackException,
@@ -167,6 +168,28 @@ client.config_callback = late.append
 facts["late"] = [values(one)["int_"] for one in late[:1]]
 client.config_callback = None
 client.close()
+
+facts["joined levels"] = []
+for changes in (
+    {"int_": 7, "double_": 2.5},
+    {"int_": 7},
+    {"int_": 8, "str_": "s", "bool_": True},
+    {},
+    {"bool_": False},
+):
+    server.update_configuration(changes)
+    facts["joined levels"].append(calls[-1][2])
+facts["found"] = [
+    dynamic_reconfigure.find_reconfigure_services(),
+    sorted(dynamic_reconfigure.get_parameter_names(TestConfig)),
+]
+client.set_config_callback(print)
+facts["callbacks"] = [
+    client.get_config_callback() is print,
+    client.config_callback is print,
+    client.get_description_callback() is client.description_callback,
+]
+client.set_config_callback(None)
 
 inner = Server(TestConfig, lambda config, level: config, "inner/part")
 facts["namespace"] = sorted(

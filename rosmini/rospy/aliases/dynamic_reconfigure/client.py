@@ -25,3 +25,19 @@ class Client(dynamic_reconfigure.Client):
     ) -> None:
         node = require_node(f"a dynamic_reconfigure client of {name}")
         super().__init__(node, name, timeout, config_callback, description_callback)
+
+    def get_config_callback(self) -> Callable[[Any], object] | None:
+        """Return what is called with each new configuration: the attribute ``config_callback``."""
+        return self.config_callback
+
+    def set_config_callback(self, value: Callable[[Any], object] | None) -> None:
+        """Set it."""
+        self.config_callback = value
+
+    def get_description_callback(self) -> Callable[[Any], object] | None:
+        """Return what is called with each new description: the attribute ``description_callback``."""
+        return self.description_callback
+
+    def set_description_callback(self, value: Callable[[Any], object] | None) -> None:
+        """Set it."""
+        self.description_callback = value
