@@ -65,6 +65,7 @@ _HOMES = {
             "rosgraph.masterapi",
             "rosgraph.names",
             "rosgraph.rosenv",
+            "rosgraph.roslogging",
             "roslib",
             "roslib.message",
             "roslib.names",

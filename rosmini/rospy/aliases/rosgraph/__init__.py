@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from rosmini.rospy.client import myargv
 
-from . import masterapi, names, rosenv
+from . import masterapi, names, rosenv, roslogging
 from .masterapi import Master, MasterError, MasterException, MasterFailure
 from .masterapi import is_online as is_master_online
-from .rosenv import get_master_uri
+from .rosenv import ROS_HOSTNAME, ROS_IP, ROS_IPV6, ROS_MASTER_URI, ROS_NAMESPACE, get_master_uri
 
 __all__ = [
+    "ROS_HOSTNAME",
+    "ROS_IP",
+    "ROS_IPV6",
+    "ROS_MASTER_URI",
+    "ROS_NAMESPACE",
     "Master",
     "MasterError",
     "MasterException",
@@ -20,4 +25,5 @@ __all__ = [
     "myargv",
     "names",
     "rosenv",
+    "roslogging",
 ]

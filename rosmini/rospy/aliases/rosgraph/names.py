@@ -36,6 +36,7 @@ __all__ = [
     "namespace",
     "ns_join",
     "resolve_name",
+    "script_resolve_name",
 ]
 
 SEP = "/"
@@ -45,6 +46,8 @@ REMAP = ":="
 ANYTYPE = "*"
 MSG_EXT = ".msg"
 SRV_EXT = ".srv"
+
+ROS_NAMESPACE = "ROS_NAMESPACE"
 
 ns_join = join
 is_legal_remap = is_remapping
@@ -90,3 +93,12 @@ def make_caller_id(name: str) -> str:
 def anonymous_name(id: str) -> str:
     """Return ``id`` with numbers that make it unique: the same on each run in simulated time."""
     return default_graph().anonymous_name(id)
+
+
+def script_resolve_name(script_name: str, name: str | None) -> str:
+    """Return the global name that ``name`` means for a script that is no node; an empty one means the namespace. Remappings do not count."""
+    if not name:
+        return get_ros_namespace()
+    if is_private(name):
+        return ns_join(make_caller_id(script_name), name[1:])
+    return name if is_global(name) else get_ros_namespace() + name

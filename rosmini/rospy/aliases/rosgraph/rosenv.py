@@ -6,12 +6,25 @@ from typing import Any
 
 from rosmini.graph import default_graph
 
-__all__ = ["get_master_uri"]
+__all__ = [
+    "DEFAULT_MASTER_PORT",
+    "DEFAULT_MASTER_URI",
+    "ROS_HOSTNAME",
+    "ROS_IP",
+    "ROS_IPV6",
+    "ROS_MASTER_URI",
+    "ROS_NAMESPACE",
+    "get_master_uri",
+]
 
 ROS_MASTER_URI = "ROS_MASTER_URI"
 ROS_NAMESPACE = "ROS_NAMESPACE"
 ROS_HOSTNAME = "ROS_HOSTNAME"
 ROS_IP = "ROS_IP"
+ROS_IPV6 = "ROS_IPV6"
+
+DEFAULT_MASTER_PORT = 11311
+DEFAULT_MASTER_URI = f"http://localhost:{DEFAULT_MASTER_PORT}/"
 
 
 def get_master_uri(env: Any = None, argv: Any = None) -> str:  # noqa: ARG001 - rosgraph's signature; there is one Master here

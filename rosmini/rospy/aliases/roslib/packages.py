@@ -1,25 +1,110 @@
-"""``roslib.packages``: where packages are."""
+"""``roslib.packages``: where packages are, and what is in them."""
 
 from __future__ import annotations
 
-from rosmini.errors import UnknownPackage
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import RosminiError, UnknownPackage
 from rosmini.packages import PackageIndex
 
-__all__ = ["InvalidROSPkgException", "get_pkg_dir"]
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = [
+    "InvalidROSPkgException",
+    "MultipleNodesException",
+    "ROSPkgException",
+    "find_node",
+    "find_resource",
+    "get_dir_pkg",
+    "get_pkg_dir",
+    "get_pkg_subdir",
+    "resource_file",
+]
+
+MANIFEST_FILE = "manifest.xml"
+PACKAGE_FILE = "package.xml"
 
 
-class InvalidROSPkgException(UnknownPackage):
+class ROSPkgException(RosminiError):
+    """Something is wrong with a package."""
+
+
+class InvalidROSPkgException(ROSPkgException, UnknownPackage):
     """No package of this name is there."""
+
+
+class MultipleNodesException(ROSPkgException):
+    """A package has several nodes of one name."""
 
 
 def get_pkg_dir(
     package: str, required: bool = True, ros_root: str | None = None, ros_package_path: str | None = None
 ) -> str | None:
-    """Return the folder of a package. Raises ``InvalidROSPkgException``, or returns None unless ``required``."""
-    del ros_root, ros_package_path  # of the days before the package path
+    """Return the folder of a package. Raises ``InvalidROSPkgException``, or returns None unless ``required``.
+
+    ``ros_package_path`` is searched instead of the environment's.
+    """
+    del ros_root  # of the days before the package path
     try:
-        return str(PackageIndex().path(package))
+        return str(
+            PackageIndex(ros_package_path.split(os.pathsep) if ros_package_path else None).path(package)
+        )
     except UnknownPackage as error:
         if not required:
             return None
         raise InvalidROSPkgException(str(error)) from error
+
+
+def get_dir_pkg(d: str) -> tuple[str | None, str | None]:
+    """Return the folder of the package in which a folder or file lies, and its name; (None, None) outside of packages."""
+    place = Path(d).resolve()
+    for folder in (place, *place.parents):
+        if (folder / PACKAGE_FILE).exists() or (folder / MANIFEST_FILE).exists():
+            return str(folder), folder.name
+    return None, None
+
+
+def get_pkg_subdir(package: str, subdir: str, required: bool = True, env: Any = None) -> str | None:
+    """Return a folder in a package, and make it if it is ``required`` and missing. Raises ``InvalidROSPkgException``."""
+    home = get_pkg_dir(package, required, ros_package_path=(env or {}).get("ROS_PACKAGE_PATH"))
+    if home is None:
+        return None
+    folder = Path(home) / subdir
+    if required:
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise ROSPkgException(
+                f"the folder {folder} of package {package} cannot be made: {error.strerror}"
+            ) from error
+    return str(folder)
+
+
+def resource_file(package: str, subdir: str, resource_name: str) -> str:
+    """Return the path that a file has in a folder of a package, whether it is there or not. Raises ``InvalidROSPkgException``."""
+    folder = get_pkg_subdir(package, subdir, required=False)
+    if folder is None:
+        raise InvalidROSPkgException(f"there is no package {package}")
+    return str(Path(folder) / resource_name)
+
+
+def find_resource(
+    pkg: str, resource_name: str, filter_fn: Callable[[str], bool] | None = None, rospack: Any = None
+) -> list[str]:
+    """Return the paths of all files of this name in a package that pass ``filter_fn(path)``. Raises ``InvalidROSPkgException``."""
+    home = str(get_pkg_dir(pkg)) if rospack is None else rospack.get_path(pkg)
+    found = []
+    for folder, inner, files in os.walk(home):
+        inner[:] = sorted(name for name in inner if not name.startswith("."))
+        path = str(Path(folder) / resource_name)
+        if resource_name in files and (filter_fn is None or filter_fn(path)):
+            found.append(path)
+    return found
+
+
+def find_node(pkg: str, node_type: str, rospack: Any = None) -> list[str]:
+    """Return the paths of the executable files of this name in a package. Raises ``InvalidROSPkgException``."""
+    return find_resource(pkg, node_type, lambda path: os.access(path, os.R_OK | os.X_OK), rospack)

@@ -1,0 +1,87 @@
+"""A script for rosgraph, roslib.names and rosparam's command line. Run by the real ones and by ours."""
+
+import io
+import json
+import logging
+import os
+import sys
+import tempfile
+
+import rosgraph
+import rosgraph.names
+import rosgraph.roslogging
+import roslib.names
+import rosparam
+
+facts = {
+    "constants": [rosgraph.ROS_MASTER_URI, rosgraph.ROS_IP, rosgraph.ROS_HOSTNAME, rosgraph.ROS_NAMESPACE, rosgraph.ROS_IPV6],
+    "defaults": [rosgraph.rosenv.DEFAULT_MASTER_PORT, rosgraph.rosenv.DEFAULT_MASTER_URI],
+    "online": rosgraph.is_master_online(),
+}  # fmt: skip
+facts["script names"] = [
+    rosgraph.names.script_resolve_name("tool", name)
+    for name in ("", None, "a", "/a", "~a", "~a/b", "a/b", "~")
+]
+names = roslib.names
+facts["resource names"] = [
+    [names.resource_name("p", "n"), names.resource_name("p", "n", "p"), names.resource_name("p", "n", "q")],
+    [names.resource_name_base(name) for name in ("p/n", "n", "")],
+    [names.resource_name_package(name) for name in ("p/n", "n")],
+    [list(names.package_resource_name(name)) for name in ("p/n", "n")],
+    [bool(names.is_legal_resource_name(name)) for name in ("p/n", "n", "1n", "a b", "p/n_2")],
+    [bool(names.is_legal_resource_base_name(name)) for name in ("p/n", "n", "1n", "n_2")],
+    [names.PRN_SEPARATOR, names.TYPE_SEPARATOR, names.SEP, names.REMAP, names.ANYTYPE],
+]
+try:
+    names.package_resource_name("a/b/c")
+except ValueError:
+    facts["too many"] = "ValueError"
+
+
+def command(*arguments):
+    """What rosparam prints, how it ends, and whether it complains."""
+    before, code = (sys.stdout, sys.stderr), None
+    sys.stdout, sys.stderr = io.StringIO(), io.StringIO()
+    try:
+        rosparam.yamlmain(["rosparam", *arguments])
+    except SystemExit as end:
+        code = end.code
+    finally:
+        out, err = sys.stdout.getvalue(), sys.stderr.getvalue()
+        sys.stdout, sys.stderr = before
+    out = out.replace(folder, "F")
+    return [out if code in (None, 1) else bool(out), code, bool(err)]
+
+
+folder = tempfile.mkdtemp()
+path = os.path.join(folder, "dump.yaml")
+with open(os.path.join(folder, "text.txt"), "w") as text:
+    text.write("some\ntext\n")
+with open(os.path.join(folder, "bytes.bin"), "wb") as data:
+    data.write(b"\x00\x01\xff")
+facts["commands"] = [
+    [" ".join(line).replace(folder, "F"), [*command(*line)]]
+    for line in [
+        ["set", "/p/int", "5"], ["set", "/p/negative", "-5"], ["set", "/p/float", "-1.5"], ["set", "/p/text", "hello"], ["set", "/p/empty", ""],
+        ["set", "/p/quoted", "'5'"], ["set", "/p/list", "[1, two, 3.0]"], ["set", "/p/tree", "{a: 1, b: {c: x}}"], ["set", "-v", "/p/flag", "true"],
+        ["get", "/p/int"], ["get", "/p/negative"], ["get", "/p/float"], ["get", "/p/text"], ["get", "/p/empty"], ["get", "/p/quoted"],
+        ["get", "/p/list"], ["get", "/p/tree"], ["get", "-p", "/p/tree"], ["get", "-p", "/p/text"], ["get", "-p", "/p"], ["get", "/p"],
+        ["get", "-v", "p/int"], ["get", "/nothing"], ["get"], ["get", "a", "b"], ["set", "/p/int"], ["set"], ["list", "/p"], ["list", "/p/tree"],
+        ["list", "a", "b"], ["set", "-t", folder + "/text.txt", "/p/file"], ["get", "/p/file"], ["get", "-p", "/p"],
+        ["set", "-b", folder + "/bytes.bin", "/p/bytes"], ["delete", "/p/bytes"], ["dump", path, "/p"], ["delete", "/p/tree"], ["list", "/p"],
+        ["delete", "-v", "/p/int"], ["delete", "/p/int"], ["delete"], ["load", path, "/q"], ["list", "/q"], ["get", "/q/tree/b"],
+        ["load", "-v", path, "again"], ["get", "/again/int"], ["load"], ["nonsense"], [],
+    ]
+]  # fmt: skip
+with open(path) as dumped:
+    facts["dumped"] = dumped.read()
+
+# ---- log records ----
+
+os.environ["ROSCONSOLE_FORMAT"] = "${severity} ${logger} ${line} ${function} ${message} ${other}"
+out, err = io.StringIO(), io.StringIO()
+handler = rosgraph.roslogging.RosStreamHandler(stdout=out, stderr=err)
+for level in (10, 20, 30, 40, 50):
+    handler.emit(logging.LogRecord("name", level, "file.py", 7, "text %s %d", ("x", level), None, "function"))
+facts["records"] = [out.getvalue(), err.getvalue()]
+print(json.dumps(facts))

@@ -1,0 +1,25 @@
+"""One script, ``rosgraph_peer.py``, run by real rosgraph, roslib and rosparam and by ours.
+
+Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from rosmini.graph.graph import Graph
+from rosmini.scripts import ScriptSpec
+
+from .test_rospy_api import differences, run_ours, run_real
+
+PEER = Path(__file__).with_name("rosgraph_peer.py")
+
+
+@pytest.mark.ros
+def test_names_commands_and_log_records_are_those_of_ros(master: dict[str, str]) -> None:
+    real = json.loads(run_real(master, [str(PEER)])[0].splitlines()[-1])
+    out, _ = run_ours(Graph(strict=False), ScriptSpec(str(PEER)))
+    assert differences(real, json.loads(out.splitlines()[-1])) == {}
