@@ -15,12 +15,14 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Mapping
 from io import BufferedReader, BytesIO, FileIO, IOBase, TextIOBase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, Self
 
 from rosmini.errors import DeserializationError, shown
+from rosmini.files import check
 from rosmini.graph import default_graph
 from rosmini.graph.show import show
 from rosmini.time import Time
@@ -137,6 +139,8 @@ class Bag(Summaries):
         if self._mode == "a" and not stream and not Path(f).exists():
             self._mode = "w"
         if self._mode == "r":
+            if not (stream or Path(f).is_dir()):
+                check(f, sys.maxsize)  # to open a pipe would be to wait for who writes to it
             self._file = self._input = f if stream else _Input(FileIO(f))
             return self._read_index(self._file, allow_unindexed)
         # no buffer: what a full disk refuses must not wait in one

@@ -228,10 +228,14 @@ def split_action(text: str, name: str, file: str | None = None) -> dict[str, Mes
 
 
 def _check(text: str, name: str, file: str | None) -> None:
-    """Raise :class:`DefinitionError` for what is no name of a type, and for a text that is too long to be a definition."""
+    """Raise :class:`DefinitionError` for what is no name of a type, and for a text that is no definition whatever is in it."""
     if not is_type_name(name):
         problem = f"{shown(name)} is no name of a type: it is written package/Type, of letters, digits and underscores"
         raise DefinitionError(problem, file)
+    if not text.isascii() and any("\ud800" <= char <= "\udfff" for char in text):
+        raise DefinitionError(
+            f"the definition of {name} has halves of characters in it, which no file can hold", file
+        )
     if len(text) > LONGEST_TEXT:
         raise DefinitionError(
             f"the definition of {name} has {len(text):,} characters, at most {LONGEST_TEXT:,} are allowed",

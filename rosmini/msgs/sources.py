@@ -5,7 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 from rosmini.errors import DefinitionError, UnknownPackage
+from rosmini.files import read
 from rosmini.packages import PackageIndex, search_paths
+
+from .definition import LONGEST_TEXT
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -62,15 +65,18 @@ class PackageSource:
         return sorted(self._files(package, kind))
 
     def read(self, package: str, kind: str, name: str) -> tuple[str, str] | None:
-        """As :meth:`Source.read`. Raises :class:`DefinitionError` if the file is not UTF-8 text."""
+        """As :meth:`Source.read`. Raises :class:`DefinitionError` if the file cannot be read, is too large or is not UTF-8 text."""
         path = self._files(package, kind).get(name)
         if path is None:
             return None
         try:
-            return path.read_text(encoding="utf-8"), str(path)
+            text = read(path, LONGEST_TEXT).decode("utf-8")
+        except OSError as error:
+            raise DefinitionError(f"the file cannot be read: {error.strerror}", path) from error
         except UnicodeDecodeError as error:
             line = error.object[: error.start].count(b"\n") + 1
             raise DefinitionError("the file is not UTF-8 text", path, line) from error
+        return text.replace("\r\n", "\n").replace("\r", "\n"), str(path)
 
     def _files(self, package: str, kind: str) -> dict[str, Path]:
         try:

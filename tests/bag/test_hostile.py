@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bz2
 import io
+import os
 import random
 import struct
 import tracemalloc
@@ -309,6 +310,13 @@ def test_a_bag_with_a_damaged_index_is_reindexed(path: Path) -> None:
     with pytest.raises(ROSBagUnindexedException, match=r"'chunk_pos': the file is damaged.*rosbag reindex"):
         Bag(path)
     assert reindex(path).messages == 1
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")
+def test_a_pipe_is_not_waited_for(path: Path) -> None:
+    os.mkfifo(path)
+    with pytest.raises(OSError, match="it is a pipe"):
+        Bag(path)
 
 
 def test_a_stream_is_named(path: Path) -> None:

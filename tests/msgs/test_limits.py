@@ -16,6 +16,7 @@ from rosmini.msgs.limits import MAX_DEPTH, MAX_EMPTY, MAX_FIELDS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
 PAYLOAD = "X(0)\n    __import__('os').abort()\n    y"
 NAMES = [
@@ -124,6 +125,21 @@ def test_a_type_that_is_too_large_names_the_field(
     assert len(str(caught.value)) < 1000
 
 
+def test_a_file_that_is_no_definition_is_not_read(make_registry: Any, tmp_path: Path) -> None:
+    reg = make_registry(
+        {"my_msgs/msg/Long.msg": "#" * (LONGEST_TEXT + 1), "my_msgs/msg/Dos.msg": "int32 a\r\nstring B=x\r\n"}
+    )
+    with pytest.raises(
+        DefinitionError, match=r"Long\.msg: the file cannot be read: it has more than 1.0\d+ MB"
+    ):
+        reg.message_class("my_msgs/Long")
+    assert reg.message_class("my_msgs/Dos").B == "x"
+    assert reg.source.read("my_msgs", "msg", "../../Long") is None
+    (tmp_path / "my_msgs" / "msg" / "a b.msg").write_text("int32 a\n", encoding="utf-8")
+    with pytest.raises(UnknownType, match="'my_msgs/a b' is no message type"):
+        reg.message_class("my_msgs/a b")
+
+
 def test_what_is_large_and_real_is_allowed(make_registry: Any) -> None:
     image = define_message("pkg/Image", f"uint8[{6 * 1024 * 1024}] data\nfloat64[100000] ranges\n")()
     assert len(image.data) == 6 * 1024 * 1024
@@ -158,8 +174,9 @@ def test_empty_messages_on_the_wire_are_counted(make_registry: Any) -> None:
         "int32 a " * 10_000,
         "\0",
         "\ud800 x",
+        "string A=\ud800",
     ],
-    ids=range(12),
+    ids=range(13),
 )
 def test_definitions_with_long_texts_are_refused_in_few_words(text: str) -> None:
     with pytest.raises(DefinitionError, match=r"^f\.msg") as caught:
