@@ -13,6 +13,7 @@ from rosmini.msgs import message_class
 from rosmini.sim.engine import RobotGone
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.simulator import Simulator
+from rosmini.sim.stage.node import Stageros
 from rosmini.sim.world import Cylinder, Obstacle, Walk, World
 from rosmini.viz import simulation_picture, style
 
@@ -51,6 +52,16 @@ def test_a_simulation_shows_the_robot_where_it_is_and_its_last_scan(graph):
     assert re.search(r"scan: 3\d\d of 360 beams hit, nearest 0\.\d\d m", view.text)
     assert "scan" not in simulation_picture(simulator, scan=False).text
     assert simulator.show().html == simulation_picture(simulator).html
+
+
+def test_a_simulation_of_stage_shows_its_robot_and_what_its_laser_saw(graph, tmp_path):
+    world = tmp_path / "one.world"
+    world.write_text(
+        "position( ranger( sensor( range [0 5] fov 180 samples 5 ) ) )\nmodel( pose [2 0 0 0] )\n"
+    )
+    stage = Stageros(graph.node("stageros"), str(world))
+    graph.run(1.0)
+    assert re.search(r"scan: \d of 5 beams hit", stage.show().text)
 
 
 def test_while_the_robot_turns_the_scan_stays_where_it_was_taken(graph):

@@ -21,6 +21,9 @@ import os
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rosmini.errors import IllegalName, RosminiError, ScriptError, nearest
 from rosmini.geometry.angles import quaternion_from_yaw
 from rosmini.geometry.poses import Pose
@@ -316,6 +319,11 @@ class Stageros:
         """Where the first robot was when its laser measured last."""
         robot = self.robot()
         return robot.lasers[0].pose if robot.lasers else robot.base.robot.pose
+
+    @property
+    def scan_poses(self) -> NDArray[np.float64]:
+        """The same for a picture of the scan (1, 3): Stage measures all beams at once."""
+        return np.array([self.scan_pose])
 
     def pad(self, robot: str = "", **options: Any) -> Any:
         """A pad to drive a robot with, the first if none is named; the options are those of the renderer "teleop_pad". Raises `RobotGone`."""
