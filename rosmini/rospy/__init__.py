@@ -7,9 +7,12 @@ or a notebook can ``import rospy``; scripts run by rosmini can always.
 
 from __future__ import annotations
 
-from rosmini.errors import ServiceException
+from typing import Any
+
+from rosmini.errors import ServiceException, nearest
 from rosmini.msgs import message_class
 
+from . import core, names, rostime, timer, topics
 from .client import (
     DEBUG,
     ERROR,
@@ -35,7 +38,6 @@ from .core import (
     get_node_uri,
     get_ros_root,
     is_shutdown,
-    is_shutdown_requested,
     logdebug,
     logdebug_once,
     logdebug_throttle,
@@ -44,7 +46,6 @@ from .core import (
     logerr_once,
     logerr_throttle,
     logerr_throttle_identical,
-    logerror,
     logfatal,
     logfatal_once,
     logfatal_throttle,
@@ -78,7 +79,7 @@ from .msproxy import MasterProxy
 from .names import get_caller_id, get_name, get_namespace, remap_name, resolve_name
 from .rostime import Duration, Time, get_rostime, get_time
 from .service import Service, ServiceProxy, wait_for_service
-from .timer import Rate, Timer, TimerEvent, sleep
+from .timer import Rate, Timer, sleep
 from .topics import Message, Publisher, SubscribeListener, Subscriber
 
 Header = message_class("std_msgs/Header")
@@ -109,7 +110,6 @@ __all__ = [
     "Subscriber",
     "Time",
     "Timer",
-    "TimerEvent",
     "TransportException",
     "TransportInitError",
     "TransportTerminated",
@@ -130,7 +130,6 @@ __all__ = [
     "init_node",
     "install",
     "is_shutdown",
-    "is_shutdown_requested",
     "logdebug",
     "logdebug_once",
     "logdebug_throttle",
@@ -139,7 +138,6 @@ __all__ = [
     "logerr_once",
     "logerr_throttle",
     "logerr_throttle_identical",
-    "logerror",
     "logfatal",
     "logfatal_once",
     "logfatal_throttle",
@@ -168,3 +166,19 @@ __all__ = [
     "wait_for_message",
     "wait_for_service",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Say where else rospy has what it has not here, or what has nearly this name."""
+    if name.startswith("__"):
+        raise AttributeError(f"module 'rospy' has no attribute '{name}'", name=name)
+    if name == "impl":
+        hint = "that is the inside of the real one, its sockets and threads, of which there are none here"
+    else:
+        homes = [part.__name__ for part in (core, names, rostime, timer, topics) if hasattr(part, name)]
+        hint = (
+            f"it is rospy.{homes[0].rpartition('.')[2]}.{name}"
+            if homes
+            else nearest(name, __all__) or "the real one has none either"
+        )
+    raise AttributeError(f"module 'rospy' has no attribute '{name}': {hint}", name=name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rosmini.errors import ROSException
 from rosmini.names import (
     Remappings,
     canonicalize,
@@ -27,6 +28,7 @@ __all__ = [
     "ns_join",
     "remap_name",
     "resolve_name",
+    "scoped_name",
 ]
 
 SEP = "/"
@@ -74,6 +76,13 @@ def remap_name(name: str, caller_id: str | None = None, resolved: bool = True) -
         return name
     target = str(mappings[name])
     return resolve_for(target, caller_id) if resolved else target
+
+
+def scoped_name(caller_id: str, name: str) -> str:
+    """Return the global ``name`` as it is called within the namespace of ``caller_id``. Raises ``ROSException`` if that is not global."""
+    if not is_global(caller_id):
+        raise ROSException(f"caller_id must be global: {caller_id} is not")
+    return canonicalize(name)[len(namespace(caller_id)) :]
 
 
 def _remappings() -> Remappings:

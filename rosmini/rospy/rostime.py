@@ -17,6 +17,7 @@ __all__ = [
     "get_time",
     "is_rostime_initialized",
     "is_wallclock",
+    "switch_to_wallclock",
     "wallsleep",
 ]
 
@@ -83,6 +84,10 @@ def is_rostime_initialized() -> bool:
 def is_wallclock() -> bool:
     """Tell whether the node does without the topic ``/clock``."""
     return not isinstance(any_node().clock, TopicClock)
+
+
+def switch_to_wallclock() -> None:
+    """Do nothing: a node's clock is chosen by ``/use_sim_time`` when it starts, and before that there is the wall clock only."""
 
 
 def wallsleep(duration: float | base.Duration) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import codecs
+import importlib
 import io
 import os
 import select
 import sys
 import threading
+import time
 from collections import deque
 from typing import TYPE_CHECKING, Any, Protocol, TextIO
 
@@ -15,6 +17,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from rosmini.graph.scheduler import Scheduler
+
+KEY_S = 0.01
+"""How often the console of Windows is asked for a key."""
 
 PRETENDED_FD = 0x7FFF_0000
 """The descriptor number of supplied input: no real file has it, so using it elsewhere fails."""
@@ -138,7 +143,8 @@ class HostFeed(Feed):
             self._fd = PRETENDED_FD
         self._reading = False
         self._decoder = io.IncrementalNewlineDecoder(None, translate=True)
-        self._bytes = codecs.getincrementaldecoder("utf-8")("replace")
+        encoding = getattr(stream, "encoding", None) or "utf-8"
+        self._bytes = codecs.getincrementaldecoder(encoding)("replace")
         self._stop: tuple[int, int] | None = None
         self._selecting = 0
         self._closed = False
@@ -220,6 +226,49 @@ class HostFeed(Feed):
             self._close_pipe()
 
 
+class Keyboard(Protocol):
+    """What is used of the module ``msvcrt``."""
+
+    def kbhit(self) -> bool:
+        """Tell whether a key waits to be read."""
+
+    def getwch(self) -> str:
+        """Return the next key."""
+
+
+class ConsoleFeed(HostFeed):
+    """The console of Windows: lines as Python reads them there, or single keys once a script asks for those."""
+
+    def __init__(self, scheduler: Scheduler, stream: TextIO, keyboard: Keyboard) -> None:
+        super().__init__(scheduler, stream)
+        self._keyboard = keyboard
+        self.takes_keys = False
+        """Set by ``tty.setraw`` and its like, and while ``msvcrt`` is asked."""
+
+    def _read_some(self) -> str:
+        if not self.takes_keys:
+            return self._stream.readline()
+        while not self._closed:
+            if self._keyboard.kbhit():
+                return self._keyboard.getwch()
+            time.sleep(KEY_S)  # in a thread of its own; nothing tells of a key
+        return ""
+
+    def _await(self, who: Blocker, timeout_ns: int | None) -> bool:
+        if not self.takes_keys or self._keyboard.kbhit():
+            return True
+        if self._scheduler.simulated and timeout_ns is not None:
+            if timeout_ns > 0:
+                who.pause("a key", timeout_ns)
+            return self._keyboard.kbhit()
+        end = None if timeout_ns is None else self._scheduler.now_ns() + timeout_ns
+        while not self._keyboard.kbhit():
+            if end is not None and self._scheduler.now_ns() >= end:
+                return False
+            who.pause("a key", int(KEY_S * 1e9))
+        return True
+
+
 class ScriptInput(io.TextIOBase):
     """``sys.stdin`` of one script."""
 
@@ -267,9 +316,17 @@ class ScriptInput(io.TextIOBase):
 def make_feed(scheduler: Scheduler, stdin: Any) -> Feed:
     """Return the feed for ``stdin``: a text, timed pieces of text, a file, a function, or None for the host's own."""
     if stdin is None:
-        return HostFeed(scheduler, sys.stdin) if sys.stdin is not None else SuppliedFeed(scheduler, "")
+        return _host_feed(scheduler, sys.stdin) if sys.stdin is not None else SuppliedFeed(scheduler, "")
     if callable(stdin):
         return CallableFeed(stdin)
     if hasattr(stdin, "readline"):
-        return HostFeed(scheduler, stdin)
+        return _host_feed(scheduler, stdin)
     return SuppliedFeed(scheduler, stdin)
+
+
+def _host_feed(scheduler: Scheduler, stream: TextIO) -> HostFeed:
+    try:
+        keyboard: Any = importlib.import_module("msvcrt")
+    except ImportError:
+        return HostFeed(scheduler, stream)
+    return ConsoleFeed(scheduler, stream, keyboard) if stream.isatty() else HostFeed(scheduler, stream)

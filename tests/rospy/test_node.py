@@ -206,10 +206,10 @@ def test_shutdown_runs_hooks_in_order_while_one_can_still_publish(programs):
         rospy.sleep(0.3)
         states = []
         rospy.on_shutdown(lambda: (early.append("first"), publisher.publish("stop")))
-        rospy.on_shutdown(lambda: states.append((rospy.is_shutdown_requested(), rospy.is_shutdown())))
+        rospy.on_shutdown(lambda: states.append((rospy.core.is_shutdown_requested(), rospy.is_shutdown())))
         rospy.core.add_preshutdown_hook(lambda reason: early.append(f"pre: {reason}"))
         rospy.core.add_shutdown_hook(lambda reason: early.append(f"last: {reason}"))
-        assert not rospy.is_shutdown_requested()
+        assert not rospy.core.is_shutdown_requested()
         rospy.signal_shutdown("done")
         rospy.signal_shutdown("again")
         assert rospy.is_shutdown()
@@ -377,3 +377,27 @@ def test_real_threads_know_the_node_of_the_main_program():
     finally:
         graph.shutdown("the test is over")
         set_default_graph(None)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("TimerEvent", "it is rospy.timer.TimerEvent"),
+        ("is_shutdown_requested", "it is rospy.core.is_shutdown_requested"),
+        ("impl", "the inside of the real one"),
+        ("Publsher", "did you mean Publisher"),
+        ("nothing_like_it", "the real one has none either"),
+    ],
+)
+def test_what_rospy_has_not_is_named(name, words):
+    with pytest.raises(AttributeError, match=words):
+        getattr(rospy, name)
+    assert not hasattr(rospy, "__nothing__")
+
+
+def test_a_scoped_name():
+    from rosmini.rospy.names import scoped_name
+
+    assert scoped_name("/foo/node", "/foo/bar/name") == "bar/name"
+    with pytest.raises(rospy.ROSException, match="must be global"):
+        scoped_name("foo", "/foo")

@@ -38,6 +38,7 @@ _BUILDERS_IN = {
     "builtins": "process",
     "datetime": "clock",
     "importlib": "process",
+    "msvcrt": "terminal",
     "select": "terminal",
     "signal": "process",
     "sys": "process",

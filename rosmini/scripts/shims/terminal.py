@@ -1,4 +1,4 @@
-"""``select``, ``termios`` and ``tty`` as keyboard scripts use them: to wait for a key for a tenth of a second.
+"""``select``, ``termios``, ``tty`` and ``msvcrt`` as keyboard scripts use them: to wait for a key for a tenth of a second.
 
 With a real terminal they act on it. With supplied input, or input from a pipe, the terminal settings are
 accepted and mean nothing, so the same script runs in a test.
@@ -11,7 +11,7 @@ import select as real_select
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from rosmini.scripts.stdin import ScriptInput
+from rosmini.scripts.stdin import ConsoleFeed, ScriptInput
 
 from . import as_builtins, copy_of
 
@@ -79,15 +79,52 @@ def _optional(name: str) -> ModuleType | None:
         return None
 
 
+def _console(stdin: object) -> ConsoleFeed | None:
+    """The console of Windows, if that is the script's standard input."""
+    feed = stdin.feed if isinstance(stdin, ScriptInput) else None
+    return feed if isinstance(feed, ConsoleFeed) else None
+
+
+def make_msvcrt(context: ScriptContext) -> ModuleType:
+    """Make an ``msvcrt`` whose keys park the lane. Raises ``ModuleNotFoundError`` where there is none: anywhere but on Windows."""
+    real = _optional("msvcrt")
+    if real is None:
+        raise ModuleNotFoundError("No module named 'msvcrt'", name="msvcrt")
+    module = copy_of(real)
+    stdin = context.get_own("stdin")
+    console = _console(stdin)
+
+    def kbhit() -> bool:
+        if console is not None:
+            console.takes_keys = True
+        return bool(stdin.ready(0))
+
+    def getwch() -> str:
+        if console is not None:
+            console.takes_keys = True
+        return str(stdin.read(1))
+
+    def getch() -> bytes:
+        return getwch().encode()
+
+    if isinstance(stdin, ScriptInput):
+        as_builtins(module, kbhit=kbhit, getwch=getwch, getwche=getwch, getch=getch, getche=getch)
+    return module
+
+
 def make_termios(context: ScriptContext) -> ModuleType:
     """Make a ``termios`` that leaves input alone which is no terminal.
 
-    Raises ``ModuleNotFoundError`` where there is none (Windows) and no input was supplied, as scripts expect.
+    On Windows, which has none, it switches between lines and keys. Raises ``ModuleNotFoundError`` where it can do neither.
     """
     real = _optional("termios")
     stdin = context.get_own("stdin")
-    if real is None and (not isinstance(stdin, ScriptInput) or stdin.isatty()):
-        raise ModuleNotFoundError("No module named 'termios'", name="termios")
+    console = _console(stdin)
+    if real is None and console is None and (not isinstance(stdin, ScriptInput) or stdin.isatty()):
+        raise ModuleNotFoundError(
+            "No module named 'termios': this terminal has none. Run the script in a console of Windows, or give it its input by a pipe",
+            name="termios",
+        )
     module: Any = ModuleType("termios") if real is None else copy_of(real)
     if real is None:
         module.error = type("error", (Exception,), {"__module__": "termios"})
@@ -102,6 +139,8 @@ def make_termios(context: ScriptContext) -> ModuleType:
         return own is not None and not own.isatty()
 
     def tcgetattr(fd: Any, /) -> list[Any]:
+        if console is not None:
+            return [0, 0, 0, 0 if console.takes_keys else module.ICANON | module.ECHO, 0, 0, [b"\0"] * 32]
         if pretended(fd):
             return [0, 0, 0, 0, 0, 0, [b"\0"] * 32]
         return list(real.tcgetattr(_descriptor(fd)))  # type: ignore[union-attr]
@@ -110,6 +149,10 @@ def make_termios(context: ScriptContext) -> ModuleType:
         function = getattr(real, name, None)
 
         def call(fd: Any, *args: Any) -> Any:
+            if console is not None:
+                if name == "tcsetattr":
+                    console.takes_keys = not args[1][3] & module.ICANON
+                return None
             return None if pretended(fd) or function is None else function(_descriptor(fd), *args)
 
         call.__name__ = name
@@ -135,6 +178,10 @@ def make_tty(context: ScriptContext) -> ModuleType:
         function = getattr(real, name, None)
 
         def call(fd: Any, when: int = termios.TCSAFLUSH) -> Any:
+            console = _console(context.get_own("stdin"))
+            if console is not None:
+                console.takes_keys = True
+                return None
             own = _own_input(context, fd)
             if function is None or (own is not None and not own.isatty()):
                 return None
