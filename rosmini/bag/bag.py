@@ -399,7 +399,14 @@ class Bag(Summaries):
         return table(self, topic)
 
     def show(self, **options: Any) -> Any:
-        """Return a picture of what is in the bag over time, as the tool ``rqt_bag`` draws it; the options are those of ``rosmini.viz.rqt_bag``."""
+        """Return a picture of what is in the bag over time, as the tool ``rqt_bag`` draws it.
+
+        Options, with what they are unless given:
+            topics=None: only these topics; None: all
+            gap=3.0: a time without a message is a gap if it is so many times what is usual between two, and a hundredth of the bag
+            title=None: a caption under the picture, and the first words of its text form
+            width=660.0: of the picture [CSS px]
+        """
         return show("bag", self, **options)
 
     # -- writing -----------------------------------------------------------------------------------------------------

@@ -52,5 +52,21 @@ class Console:
         return f"<Console with {len(self._messages)} messages>"
 
     def show(self, **filters: Any) -> Any:
-        """Return a table of the messages; the filters are those of ``rosmini.viz.rqt_console``."""
+        """Return a table of the messages, as the tool ``rqt_console`` shows them, the oldest first.
+
+        Options, with what they are unless given:
+            level='DEBUG': the lowest level that is shown, or a collection of the levels that are
+            node='/': only these nodes: names or regular expressions with commas between, - excludes
+            text='': only messages that contain this
+            exclude='': no messages that contain this
+            highlight='': mark messages that contain this
+            regex=False: these three are regular expressions; else upper and lower case are alike
+            topic='/': only messages of nodes that publish these topics, in the form of `node`
+            location='': only messages whose `file:line function` contains this
+            start=None: nothing earlier [s], or a `rosmini.Time`
+            end=None: nothing later
+            columns=('stamp', 'severity', 'node', 'message', 'location'): which columns, in which order
+            limit=None: the newest so many of what passes the filters; None: all
+            title=None: a caption under the table, and the first words of its text form
+        """
         return show("log_console", self, **filters)

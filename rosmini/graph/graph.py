@@ -199,7 +199,18 @@ class Graph:
         return np.random.default_rng([self.seed, zlib.crc32(name.encode())])
 
     def show(self, **options: Any) -> Any:
-        """Return a picture of the graph, as the tool ``rqt_graph`` draws it; the options are those of ``rosmini.viz.rqt_graph``."""
+        """Return a picture of the graph, as the tool ``rqt_graph`` draws it.
+
+        Options, with what they are unless given:
+            mode='nodes_only': a topic is a label between nodes; 'nodes_topics_active': a box, if it is connected; 'nodes_topics_all': a box in any case
+            hide=('debug', 'dead_sinks', 'leaf_topics', 'params', 'unreachable'): what is left out; 'tf' is possible, too, and () leaves nothing out
+            group=('actions', 'images', 'tf'): what is drawn as one box, where topics are boxes
+            namespaces=2: how deep boxes around namespaces nest; 0 draws none
+            namespace='/': only these nodes: names or regular expressions with commas between, - excludes
+            topics='/': only these topics, in the same form
+            direction='right': or 'down'
+            title=None: a caption under the picture, and the first words of its text form
+        """
         return show("computation_graph", self, **options)
 
     def console(self, **options: Any) -> Console:

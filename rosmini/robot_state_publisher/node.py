@@ -84,7 +84,11 @@ class RobotStatePublisher:
         return f"<RobotStatePublisher {self.node.name} of {self.robot.name}>"
 
     def show(self, **options: Any) -> Any:
-        """A picture of the robot's links and joints; see `Robot.show`."""
+        """A picture of the robot's links and joints.
+
+        Options, with what they are unless given:
+            title=None: a caption under the picture, and the first words of its text form
+        """
         return self.robot.show(**options)
 
     def _send(self, broadcaster: TransformBroadcaster, transforms: list[Sent], stamp_ns: int) -> None:

@@ -243,19 +243,45 @@ class Recording:
         )
 
     def show(self, **options: Any) -> Any:
-        """A picture of the run from above; the options are those of `rosmini.viz.recording_picture`."""
+        """A picture of the run from above.
+
+        Options, with what they are unless given:
+            scan=False: draw the last scan, too, from where it was taken
+            title=None: a caption under the picture, and the first words of its text form
+            size=(660.0, 540.0): the largest width and height [CSS px]
+        """
         return show("recording", self, **options)
 
     def plots(self, **options: Any) -> Any:
-        """Velocities, and the error of odometry, over time; the options are those of `rosmini.viz.recording_plots`."""
+        """Velocities, and the error of odometry, over time.
+
+        Options, with what they are unless given:
+            odometry=True: plot the error of odometry beside the velocities
+            title=None: a caption under the picture, and the first words of its text form
+            width=660.0: of the picture [CSS px]
+        """
         return show("recording_plots", self, **options)
 
     def replay(self, **options: Any) -> Any:
-        """A player for the run, with play, pause, scrub and speed."""
+        """A player for the run, with play, pause, scrub and speed.
+
+        Options, with what they are unless given:
+            title=None: a caption, and the first words of the text form
+        """
         return show("replay", self, **options)
 
     def replay3d(self, **options: Any) -> Any:
-        """The run in three dimensions."""
+        """The run in three dimensions.
+
+        Options, with what they are unless given:
+            focus='robot': the camera follows the robot; 'world': it stands still
+            distance=None: of the camera from what it looks at [m]; None: what shows it well
+            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
+            elevation=None: how high from [deg]; None: what shows it well
+            scans=True: show what the laser saw
+            title=None: a caption under the picture, and the first words of its text form
+            height=420: of the viewer [CSS px]
+        """
         return show("replay_3d", self, **options)
 
 

@@ -353,11 +353,32 @@ class World:
         return replace(self, obstacles=(*self.obstacles, *obstacles))
 
     def show(self, **options: Any) -> Any:
-        """A picture of the world; the options are those of `rosmini.viz.world_picture`."""
+        """A picture of the world from above, in metres.
+
+        Options, with what they are unless given:
+            robot=None: where the robot is: x [m], y [m], heading [rad], in the world's frame; None: there is none
+            model=None: which robot; None: a TurtleBot3 Burger
+            scan=None: what its laser sees: a `sensor_msgs/LaserScan`, or ranges [m] of which beam i looks at 2 pi i / beams
+            scan_from=None: where the robot was when it saw that, or where it was at each beam (beams, 3); None: where it is
+            trail=None: where the robot was, (n, 2) or (n, 3): a solid line
+            odom=None: where its odometry believes that it was, likewise: a dashed line
+            others=(): more robots, each an `Other`: they are drawn in other colours, with their names
+            name='': of the robot, where there are others
+            title=None: a caption under the picture, and the first words of its text form
+            size=(660.0, 540.0): the largest width and height [CSS px]
+        """
         return show("world", self, **options)
 
     def show3d(self, **options: Any) -> Any:
-        """The world in three dimensions; the options are those of `rosmini.viz.meshcat.world_3d`."""
+        """The world in three dimensions.
+
+        Options, with what they are unless given:
+            distance=None: of the camera from what it looks at [m]; None: what shows it well
+            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
+            elevation=None: how high from [deg]; None: what shows it well
+            title=None: a caption under the picture, and the first words of its text form
+            height=420: of the viewer [CSS px]
+        """
         return show("world_3d", self, **options)
 
 

@@ -281,7 +281,11 @@ class Buffer(BufferCore):
         return transform_points(found.transform, points)
 
     def show(self, **options: Any) -> Any:
-        """A picture of the tree, as `rqt_tf_tree` draws it; the options are those of `rosmini.viz.tf_tree`."""
+        """A picture of the tree, as `rqt_tf_tree` draws it.
+
+        Options, with what they are unless given:
+            title=None: a caption under the picture, and the first words of its text form
+        """
         from rosmini.graph.show import show
 
         return show("tf_tree", self, **options)

@@ -292,9 +292,22 @@ class Robot:
         return found
 
     def show(self, **options: Any) -> Any:
-        """A picture of the tree of links and joints; options as for `rosmini.viz.urdf_tree`."""
+        """A picture of the tree of links and joints.
+
+        Options, with what they are unless given:
+            title=None: a caption under the picture, and the first words of its text form
+        """
         return show("robot", self, **options)
 
     def show3d(self, joints: Mapping[str, float] | None = None, **options: Any) -> Any:
-        """The robot in three dimensions with its joints at these positions; options as for `rosmini.viz.meshcat.urdf_3d`."""
+        """The robot in three dimensions with its joints at these positions [rad or m], the others as `positions` has them.
+
+        Options, with what they are unless given:
+            collisions=False: show the shapes that touch others in place of those that one sees
+            distance=None: of the camera from what it looks at [m]; None: what shows it well
+            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
+            elevation=None: how high from [deg]; None: what shows it well
+            title=None: a caption under the picture, and the first words of its text form
+            height=420: of the viewer [CSS px]
+        """
         return show("robot_3d", self, joints=joints, **options)

@@ -244,19 +244,53 @@ class GazeboServer:
         return config
 
     def show(self, **options: Any) -> Any:
-        """A picture of the world as it is now; the options are those of `rosmini.viz.gazebo.gazebo_picture`."""
+        """A picture of the world as it is now.
+
+        Options, with what they are unless given:
+            robot=None: where the robot is that `scan`, `trail` and `odom` belong to: x [m], y [m], heading [rad]; None: where that of `name` is
+            model=None: what robot it is; None: as Gazebo has it
+            scan=None: what its laser measured: a `sensor_msgs/LaserScan`, or ranges [m]
+            scan_from=None: where it was then; None: where it is
+            trail=None: where it was, (n, 2) or (n, 3)
+            odom=None: where its odometry believes that it was, likewise
+            others=(): more robots, each an `Other`
+            name='': of the model that is drawn as the first robot; '': the first that drives
+            title=None: a caption under the picture, and the first words of its text form
+            size=(660.0, 540.0): the largest width and height [CSS px]
+        """
         return self.topics.snapshot().show(**options)
 
     def show3d(self, **options: Any) -> Any:
-        """The world as it is now in three dimensions; the options are those of `rosmini.viz.meshcat.gazebo_3d`."""
+        """The world as it is now in three dimensions.
+
+        Options, with what they are unless given:
+            focus='world': what the camera looks at: 'world', or the name of a model
+            collisions=False: show what is solid in place of what one sees
+            distance=None: of the camera from what it looks at [m]; None: what shows it well
+            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
+            elevation=None: how high from [deg]; None: what shows it well
+            title=None: a caption under the picture, and the first words of its text form
+            height=420: of the viewer [CSS px]
+        """
         return self.topics.snapshot().show3d(**options)
 
     def pad(self, model: str = "", **options: Any) -> Any:
-        """A pad to drive a model with, the first that can be driven if none is named; the options are those of the renderer "teleop_pad"."""
+        """A pad to drive a model with, the first that can be driven if none is named.
+
+        Options, with what they are unless given:
+            topic='cmd_vel': where to publish, as the simulation's node calls it: in its namespace, remapped as it is there
+            name='teleop_pad': the name of the pad's node
+            limits=None: how fast at most; None: as fast as the robot may
+            title=None: a caption under the pad, and the first line of its text form
+        """
         return show("teleop_pad", self, robot=model, **options)
 
     def view(self, **options: Any) -> Any:
-        """The running world, in which models are dragged; the options are those of the renderer "simulation_view" in `rosmini.widgets`."""
+        """The running world, in which models are dragged.
+
+        Options, with what they are unless given:
+            title=None: a caption under the view, and the first line of its text form
+        """
         return show("simulation_view", self, **options)
 
     def _end(self) -> None:
@@ -277,7 +311,7 @@ class Gazebo(GazeboServer):
         node.on_shutdown(lambda: self.gui.node.shutdown("the server ended"))
 
     def show(self, **options: Any) -> Any:
-        """What the client shows."""
+        """What the client shows; the options are those of `GazeboServer.show`."""
         return self.gui.show(**options)
 
 

@@ -83,11 +83,34 @@ class Snapshot:
         return replace(self.flat, name=self.name, obstacles=tuple(found), title=self.title)
 
     def show(self, **options: Any) -> Any:
-        """A picture from above; the options are those of `rosmini.viz.gazebo.gazebo_picture`."""
+        """A picture from above.
+
+        Options, with what they are unless given:
+            robot=None: where the robot is that `scan`, `trail` and `odom` belong to: x [m], y [m], heading [rad]; None: where that of `name` is
+            model=None: what robot it is; None: as Gazebo has it
+            scan=None: what its laser measured: a `sensor_msgs/LaserScan`, or ranges [m]
+            scan_from=None: where it was then; None: where it is
+            trail=None: where it was, (n, 2) or (n, 3)
+            odom=None: where its odometry believes that it was, likewise
+            others=(): more robots, each an `Other`
+            name='': of the model that is drawn as the first robot; '': the first that drives
+            title=None: a caption under the picture, and the first words of its text form
+            size=(660.0, 540.0): the largest width and height [CSS px]
+        """
         return show("gazebo", self, **options)
 
     def show3d(self, **options: Any) -> Any:
-        """The same in three dimensions; the options are those of `rosmini.viz.meshcat.gazebo_3d`."""
+        """The same in three dimensions.
+
+        Options, with what they are unless given:
+            focus='world': what the camera looks at: 'world', or the name of a model
+            collisions=False: show what is solid in place of what one sees
+            distance=None: of the camera from what it looks at [m]; None: what shows it well
+            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
+            elevation=None: how high from [deg]; None: what shows it well
+            title=None: a caption under the picture, and the first words of its text form
+            height=420: of the viewer [CSS px]
+        """
         return show("gazebo_3d", self, **options)
 
 

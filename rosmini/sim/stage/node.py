@@ -326,19 +326,46 @@ class Stageros:
         return np.array([self.scan_pose])
 
     def pad(self, robot: str = "", **options: Any) -> Any:
-        """A pad to drive a robot with, the first if none is named; the options are those of the renderer "teleop_pad". Raises `RobotGone`."""
+        """A pad to drive a robot with, the first if none is named. Raises `RobotGone`.
+
+        Options, with what they are unless given:
+            topic='cmd_vel': where to publish, as the simulation's node calls it: in its namespace, remapped as it is there
+            name='teleop_pad': the name of the pad's node
+            limits=None: how fast at most; None: as fast as the robot may
+            title=None: a caption under the pad, and the first line of its text form
+        """
         return show("teleop_pad", self, robot=self.robot(robot).name, **options)
 
     def view(self, **options: Any) -> Any:
-        """The running world, in which robots and boxes are dragged; the options are those of the renderer "simulation_view" in `rosmini.widgets`."""
+        """The running world, in which robots and boxes are dragged.
+
+        Options, with what they are unless given:
+            title=None: a caption under the view, and the first line of its text form
+        """
         return show("simulation_view", self, **options)
 
     def show3d(self, **options: Any) -> Any:
-        """The world with its robots, to be turned; the options are those of the renderer "simulation_3d" in `rosmini.viz`."""
+        """The world with its robots, to be turned.
+
+        Options, with what they are unless given:
+            focus='robot': what the camera looks at, or 'world'
+            distance=None: of the camera from what it looks at [m]; None: what shows it well
+            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
+            elevation=None: how high from [deg]; None: what shows it well
+            title=None: a caption under the picture, and the first words of its text form
+            height=420: of the viewer [CSS px]
+        """
         return show("simulation_3d", self, **options)
 
     def show(self, **options: Any) -> Any:
-        """A picture of the world with its robots; the options are those of the renderer "simulation" in `rosmini.viz`."""
+        """A picture of the world with its robots.
+
+        Options, with what they are unless given:
+            scan=True: draw the first robot's last scan from where it was taken; there is none before its laser's first revolution
+            trail=None: where the robot was: a `Recording`, of which odometry is drawn, too, or poses (n, 2) or (n, 3)
+            title=None: a caption under the picture, and the first words of its text form
+            size=(660.0, 540.0): the largest width and height [CSS px]
+        """
         return show("simulation", self, **options)
 
 
