@@ -190,5 +190,13 @@ facts["own"] = [
     own.status_tracker is tracker,
     own.action_server is bench.server,
 ]
+facts["names"] = [
+    actionlib.GoalIDGenerator is GoalIDGenerator,
+    actionlib.GoalID is GoalID,
+    actionlib.action_server.StatusTracker is StatusTracker,
+    actionlib.simple_action_client.GoalStatus is actionlib.GoalStatus,
+    actionlib.get_name_of_constant(actionlib.TerminalState, 4),
+    actionlib.get_name_of_constant(actionlib.CommState, 99),
+]
 print(json.dumps(facts, default=int))
 rospy.signal_shutdown("done")

@@ -9,11 +9,22 @@ from __future__ import annotations
 from rosmini.actionlib.errors import ActionException
 from rosmini.msgs.actionlib import msg
 
-from .action_client import ActionClient, ClientGoalHandle, CommState, GoalStatus, TerminalState
-from .action_server import ActionServer
+from .action_client import (
+    ActionClient,
+    ClientGoalHandle,
+    CommState,
+    GoalID,
+    GoalStatus,
+    GoalStatusArray,
+    TerminalState,
+    get_name_of_constant,
+)
+from .action_server import ActionServer, nop_cb
+from .goal_id_generator import GoalIDGenerator
 from .server_goal_handle import ServerGoalHandle
 from .simple_action_client import SimpleActionClient, SimpleGoalState
 from .simple_action_server import SimpleActionServer
+from .status_tracker import StatusTracker
 
 __all__ = [
     "ActionClient",
@@ -21,11 +32,17 @@ __all__ = [
     "ActionServer",
     "ClientGoalHandle",
     "CommState",
+    "GoalID",
+    "GoalIDGenerator",
     "GoalStatus",
+    "GoalStatusArray",
     "ServerGoalHandle",
     "SimpleActionClient",
     "SimpleActionServer",
     "SimpleGoalState",
+    "StatusTracker",
     "TerminalState",
+    "get_name_of_constant",
     "msg",
+    "nop_cb",
 ]

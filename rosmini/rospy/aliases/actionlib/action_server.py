@@ -7,14 +7,27 @@ from typing import TYPE_CHECKING, Any
 from rosmini import actionlib
 from rosmini.rospy.session import require_node
 
+from .action_client import GoalID, GoalStatus, GoalStatusArray
+from .goal_id_generator import GoalIDGenerator
 from .server_goal_handle import ServerGoalHandle
+from .status_tracker import StatusTracker
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rosmini.graph import Node
 
-__all__ = ["ActionServer", "ServerGoalHandle", "nop_cb", "warn_of_auto_start"]
+__all__ = [
+    "ActionServer",
+    "GoalID",
+    "GoalIDGenerator",
+    "GoalStatus",
+    "GoalStatusArray",
+    "ServerGoalHandle",
+    "StatusTracker",
+    "nop_cb",
+    "warn_of_auto_start",
+]
 
 
 def nop_cb(goal_handle: actionlib.ServerGoalHandle) -> None:

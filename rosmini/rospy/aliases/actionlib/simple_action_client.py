@@ -8,7 +8,17 @@ from rosmini import actionlib
 from rosmini.actionlib.states import SimpleGoalState
 from rosmini.rospy.session import require_node
 
-__all__ = ["SimpleActionClient", "SimpleGoalState"]
+from .action_client import ActionClient, ClientGoalHandle, CommState, GoalStatus, TerminalState
+
+__all__ = [
+    "ActionClient",
+    "ClientGoalHandle",
+    "CommState",
+    "GoalStatus",
+    "SimpleActionClient",
+    "SimpleGoalState",
+    "TerminalState",
+]
 
 
 class SimpleActionClient(actionlib.SimpleActionClient):

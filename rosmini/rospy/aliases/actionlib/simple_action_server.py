@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 from rosmini import actionlib
 from rosmini.rospy.session import require_node
 
-from .action_server import warn_of_auto_start
+from .action_client import GoalStatus
+from .action_server import ActionServer, nop_cb, warn_of_auto_start
 from .server_goal_handle import ServerGoalHandle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["SimpleActionServer"]
+__all__ = ["ActionServer", "GoalStatus", "ServerGoalHandle", "SimpleActionServer", "nop_cb"]
 
 
 class SimpleActionServer(actionlib.SimpleActionServer):
