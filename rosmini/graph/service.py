@@ -16,7 +16,7 @@ from rosmini.errors import (
 )
 
 from .mismatch import recast
-from .transport import extra_fields
+from .transport import extra_fields, set_header
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -112,7 +112,7 @@ def receive(frozen: Any, message_class: Any, header: Header, *, numpy: bool) -> 
         frozen = recast(frozen, message_class)
     thaw = message_class._thawer(numpy=numpy)
     message = frozen if thaw is None else thaw(frozen)
-    message._connection_header = header
+    set_header(message, header)
     return message
 
 

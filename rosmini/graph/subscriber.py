@@ -6,19 +6,15 @@ from collections import deque
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.errors import TransportException, TransportInitError, TypeMismatch
-from rosmini.msgs.message import Message
 
 from .mismatch import describe_mismatch, recast
+from .transport import set_header
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from .node import Node
     from .transport import Header
-
-
-_set_header: Callable[[Any, Header], None] = Message.__dict__["_connection_header"].__set__
-"""Sets a message's `_connection_header`, past the check of names that an assignment makes."""
 
 
 def _assign_header(message: Any, header: Header) -> None:
@@ -314,7 +310,7 @@ class Subscription:
         callbacks = [handle.callback for handle in self.handles if handle.callback is not None]
         return _Way(
             None if first is None else first.thaw_for(message_class),
-            _set_header if first is None or first.receipt is None else _assign_header,
+            set_header if first is None or first.receipt is None else _assign_header,
             tuple((callback.caller(), callback) for callback in callbacks),
         )
 

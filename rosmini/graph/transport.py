@@ -11,13 +11,14 @@ the bytes on real threads. Header fields are those of TCPROS (http://wiki.ros.or
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
 from rosmini.errors import TransportException, nearest
+from rosmini.msgs.message import Message
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     from .scheduler import Scheduler
 
@@ -26,6 +27,10 @@ Triple = list[Any]
 
 Header = dict[str, str]
 """A connection header: the fields that two ends show each other before the first message."""
+
+
+set_header: Callable[[Any, Header], None] = Message.__dict__["_connection_header"].__set__
+"""Sets a message's `_connection_header`, past the check of names that an assignment makes."""
 
 
 def extra_fields(headers: Mapping[str, str] | None) -> Header:
