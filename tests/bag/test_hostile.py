@@ -57,31 +57,31 @@ def use(path: Path) -> None:
             str(message)
 
 
-TRAP = "X(0)\n    open({0!r}, 'w')\n    y"
+TRAP = "X=0;open('trap','w');y"
 TRAPS = {
-    "type": ("p/" + TRAP, "int32 a\n"),
-    "package": (TRAP + "/T", "int32 a\n"),
-    "field": ("p/T", "int32 a=0)or(open({0!r},'w')\nint32 a=open({0!r},'w')\n"),
-    "field name": ("p/T", "int32 a;open({0!r},'w')\n"),
+    "type": (f"p/{TRAP}", "int32 a\n"),
+    "type with lines": ("p/X=0\n    open('trap','w')\n    y", "int32 a\n"),
+    "package": (f"{TRAP}/T", "int32 a\n"),
+    "field": ("p/T", f"int32 {TRAP}\n"),
+    "field name": ("p/T", "int32 a;open('trap','w')\n"),
     "field with a tab": ("p/T", "string[]\ta\n"),
-    "type of a field": ("p/T", "p/X;open({0!r},'w') a\n"),
+    "type of a field": ("p/T", f"p/{TRAP} a\n{'=' * 80}\nMSG: p/{TRAP}\nint32 a\n"),
     "nested": (
         "p/T",
-        f"p/N a\n{'=' * 80}\nMSG: p/N\nint32 a\n{'=' * 80}\nMSG: p/" + TRAP + "\nint32 b\nbad line here\n",
+        f"p/N a\n{'=' * 80}\nMSG: p/N\nint32 a\n{'=' * 80}\nMSG: p/{TRAP}\nint32 b\nbad line here\n",
     ),
-    "constant": ("p/T", "bool A=open({0!r},'w')\nint32 a\n"),
+    "constant": ("p/T", "bool A=open('trap','w')\nint32 a\n"),
     "number": ("p/T", "int32 A=__import__('os').abort()\n"),
-    "array": ("p/T", "int32[open({0!r},'w')] a\n"),
+    "array": ("p/T", "int32[open('trap','w')] a\n"),
     "itself": ("p/T", "p/T a\n"),
     "large": ("p/T", "float64[99999999999] a\n"),
 }
 
 
 @pytest.mark.parametrize("name", TRAPS)
-def test_nothing_of_a_bag_is_run(path: Path, name: str) -> None:
-    trap = path.with_name("trap")
-    kind, definition = (text.replace("{0!r}", repr(str(trap))) for text in TRAPS[name])
-    bag_of(path, kind, definition, bytes(4))
+def test_nothing_of_a_bag_is_run(path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(path.parent)
+    bag_of(path, *TRAPS[name], bytes(4))
     if name == "nested":
         use(path)  # a definition that nothing asks for
     else:
@@ -90,7 +90,7 @@ def test_nothing_of_a_bag_is_run(path: Path, name: str) -> None:
         ) as caught:
             use(path)
         assert len(str(caught.value)) < 1000
-    assert not trap.exists()
+    assert not path.with_name("trap").exists()
 
 
 def chunk(compression: str, size: int, packed: bytes) -> bytes:
