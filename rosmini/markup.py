@@ -17,13 +17,19 @@ from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape, quoteattr
 
-from rosmini.errors import DefinitionError, nearest
+from rosmini.errors import DefinitionError, nearest, shown
 from rosmini.files import read
 
 if TYPE_CHECKING:
     from xml.sax.xmlreader import AttributesImpl, Locator
 
-__all__ = ["DEEPEST", "Element", "MarkupError", "parse", "parse_file"]
+__all__ = ["DEEPEST", "FARTHEST", "HEAVIEST", "Element", "MarkupError", "parse", "parse_file"]
+
+FARTHEST = 1e9
+"""No length in metres, and no angle, is larger: what is, is a mistake, and cannot be calculated with."""
+
+HEAVIEST = 1e15
+"""No mass in kilograms, and no inertia, is larger."""
 
 DEEPEST = 200
 """How many elements may stand inside one another."""
@@ -111,35 +117,43 @@ class Element:
             raise self.error(f'{name}="..." {missing} <{self.tag}>{f"; {hint}" if hint else ""}')
         return value
 
-    def number(self, name: str, default: float | None = None) -> float:
+    def number(self, name: str, default: float | None = None, *, most: float = math.inf) -> float:
         """An attribute that is a number; `default` where it is missing. Raises `MarkupError`."""
         if default is not None and name not in self.attributes:
             return default
-        return self.floats(self.attribute(name), 1, name)[0]
+        return self.floats(self.attribute(name), 1, name, most=most)[0]
 
-    def numbers(self, name: str, count: int, default: tuple[float, ...] | None = None) -> tuple[float, ...]:
+    def numbers(
+        self, name: str, count: int, default: tuple[float, ...] | None = None, *, most: float = math.inf
+    ) -> tuple[float, ...]:
         """An attribute of `count` numbers with blanks between; `default` where it is missing. Raises `MarkupError`."""
         if default is not None and name not in self.attributes:
             return default
-        return self.floats(self.attribute(name), count, name)
+        return self.floats(self.attribute(name), count, name, most=most)
 
-    def floats(self, text: str, count: int | None = None, what: str = "") -> tuple[float, ...]:
-        """The numbers in a text of this element; all must be finite. `count` None: any number of them.
+    def floats(
+        self, text: str, count: int | None = None, what: str = "", *, most: float = math.inf
+    ) -> tuple[float, ...]:
+        """The numbers in a text of this element; all must be finite, and none larger than `most`. `count` None: any number of them.
 
         Raises `MarkupError`, which calls them `what`, or else by the tag.
         """
         name = what or f"<{self.tag}>"
         words = text.split()
         if count is not None and len(words) != count:
-            raise self.error(f"{name} takes {_plural(count, 'number')}, not {len(words)}: {text.strip()!r}")
+            raise self.error(
+                f"{name} takes {_plural(count, 'number')}, not {len(words)}: {shown(text.strip())}"
+            )
         values = []
         for word in words:
             try:
                 value = float(word)
             except ValueError:
-                raise self.error(f"{word!r} in {name} of <{self.tag}> is not a number") from None
+                raise self.error(f"{shown(word)} in {name} of <{self.tag}> is not a number") from None
             if not math.isfinite(value):
-                raise self.error(f"{word!r} in {name} of <{self.tag}> is not finite")
+                raise self.error(f"{shown(word)} in {name} of <{self.tag}> is not finite")
+            if abs(value) > most:
+                raise self.error(f"{shown(word)} in {name} of <{self.tag}> is too large: {most:g} is allowed")
             values.append(value)
         return tuple(values)
 
@@ -147,7 +161,7 @@ class Element:
         """What a text of this element says: true or false, 1 or 0. Raises `MarkupError`."""
         value = {"true": True, "1": True, "false": False, "0": False}.get(text.strip().lower())
         if value is None:
-            raise self.error(f"{what or f'<{self.tag}>'} is true or false, not {text.strip()!r}")
+            raise self.error(f"{what or f'<{self.tag}>'} is true or false, not {shown(text.strip())}")
         return value
 
     # ---- back to text ----

@@ -21,7 +21,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage, nearest
+from rosmini import files
+from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage, nearest, shown
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -205,8 +206,8 @@ class PackageIndex:
         if not name:
             raise RosminiError(f"{url!r} names no package; write package://NAME/PATH")
         target = self.path(name) / rest
-        if not target.exists():
-            raise RosminiError(f"{url} is not there: no {target}. {_nearest_file(target)}".rstrip())
+        if not files.exists(target):
+            raise RosminiError(f"{shown(url)} is not there: no {target}. {_nearest_file(target)}".rstrip())
         return target
 
     def executables(self, package: str) -> list[str]:
@@ -306,7 +307,7 @@ def _package_folders(root: Path) -> Iterator[Path]:
 
 def _read(manifest: Path) -> bytes:
     try:
-        return manifest.read_bytes()
+        return files.read(manifest)
     except OSError as error:
         raise DefinitionError(f"cannot be read: {error.strerror}", manifest) from error
 
@@ -412,9 +413,9 @@ def _files(folder: Path) -> list[Path]:
         return (SCRIPT_FOLDERS.index(parts[0]) if parts[0] in SCRIPT_FOLDERS else len(SCRIPT_FOLDERS), parts)
 
     found = []
-    for parent, folders, files in os.walk(folder):
+    for parent, folders, names in os.walk(folder):
         folders[:] = [name for name in folders if not name.startswith(".") and name != "__pycache__"]
-        found += [Path(parent, name) for name in files if not name.startswith(".")]
+        found += [Path(parent, name) for name in names if not name.startswith(".")]
     return sorted(found, key=rank)
 
 
@@ -442,6 +443,6 @@ def _has_run_bit(path: Path) -> bool:
 def _nearest_file(target: Path) -> str:
     """A "did you mean" for a path that is not there: from the deepest folder of it that is."""
     missing = target
-    while not missing.parent.is_dir() and missing.parent != missing:
+    while not files.exists(missing.parent) and missing.parent != missing:
         missing = missing.parent
-    return nearest(missing.name, [path.name for path in missing.parent.iterdir()])
+    return nearest(missing.name, files.names_in(missing.parent))

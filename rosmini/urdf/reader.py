@@ -11,7 +11,7 @@ from typing import TypeVar, get_args
 
 from rosmini import files
 from rosmini.errors import RosminiError, nearest
-from rosmini.markup import NO_PATH, Element, parse, parse_file
+from rosmini.markup import FARTHEST, HEAVIEST, NO_PATH, Element, parse, parse_file
 from rosmini.packages import SCHEME, PackageIndex
 
 from .checks import check_tree, inertia_notes
@@ -166,12 +166,12 @@ class _Reader:
 
     def inertial(self, element: Element, link: str) -> Inertial:
         mass = element.need("mass")
-        value = mass.number("value")
+        value = mass.number("value", most=HEAVIEST)
         if value < 0:
             raise mass.error(f"the mass of the link {link!r} is negative: {value:g} kg")
         tensor = element.need("inertia")
         ixx, ixy, ixz, iyy, iyz, izz = (
-            tensor.number(name) for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+            tensor.number(name, most=HEAVIEST) for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
         )
         found = Inertial(value, ixx, ixy, ixz, iyy, iyz, izz, self.origin(element))
         for problem in inertia_notes(found):
@@ -210,7 +210,7 @@ class _Reader:
     def mesh(self, element: Element) -> Mesh:
         filename = element.attribute("filename")
         words = element.get("scale", "1 1 1")
-        scale = element.floats(words, None, "scale")
+        scale = element.floats(words, None, "scale", most=FARTHEST)
         if len(scale) == 1:
             scale *= 3
         if len(scale) != 3 or 0 in scale:
@@ -304,7 +304,7 @@ class _Reader:
         found = element.find("axis")
         if found is None:
             return (1.0, 0.0, 0.0)
-        x, y, z = found.numbers("xyz", 3, (1.0, 0.0, 0.0))
+        x, y, z = found.numbers("xyz", 3, (1.0, 0.0, 0.0), most=FARTHEST)
         length = math.sqrt(x * x + y * y + z * z)
         if not 1e-9 < length < math.inf:
             raise found.error(
@@ -343,18 +343,18 @@ class _Reader:
         if found is None:
             return Origin()
         nothing = (0.0, 0.0, 0.0)
-        x, y, z = found.numbers("xyz", 3, nothing)
-        roll, pitch, yaw = found.numbers("rpy", 3, nothing)
+        x, y, z = found.numbers("xyz", 3, nothing, most=FARTHEST)
+        roll, pitch, yaw = found.numbers("rpy", 3, nothing, most=FARTHEST)
         return Origin((x, y, z), (roll, pitch, yaw))
 
     def vector(self, element: Element, name: str, *, positive: bool = False) -> Vector:
-        x, y, z = element.numbers(name, 3)
+        x, y, z = element.numbers(name, 3, most=FARTHEST)
         if positive and min(x, y, z) <= 0:
             raise element.error(f"{name} of <{element.tag}> takes numbers above 0, not {element.get(name)!r}")
         return (x, y, z)
 
     def positive(self, element: Element, name: str) -> float:
-        value = element.number(name)
+        value = element.number(name, most=FARTHEST)
         if value <= 0:
             raise element.error(f"{name} of <{element.tag}> is above 0, not {element.get(name)!r}")
         return value

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from rosmini.errors import nearest
-from rosmini.markup import Element
+from rosmini.markup import FARTHEST, Element
 
 from .document import ORIGIN, Pose6
 from .poses import compose, from_quaternion, inverse
@@ -32,11 +32,13 @@ def given(parent: Element) -> Given:
 
 def _pose(element: Element) -> Pose6:
     if element.get("rotation_format") == "quat_xyzw":
-        x, y, z, *quaternion = element.floats(element.text or "0 0 0 0 0 0 1", 7, "<pose> of a quaternion")
+        x, y, z, *quaternion = element.floats(
+            element.text or "0 0 0 0 0 0 1", 7, "<pose> of a quaternion", most=FARTHEST
+        )
         if not any(quaternion):
             raise element.error("a quaternion of four zeros is no rotation; none at all is 0 0 0 1")
         return (x, y, z, *from_quaternion(*quaternion))
-    x, y, z, roll, pitch, yaw = element.floats(element.text or "0 0 0 0 0 0", 6)
+    x, y, z, roll, pitch, yaw = element.floats(element.text or "0 0 0 0 0 0", 6, most=FARTHEST)
     if element.get("degrees", "false").strip().lower() in ("true", "1"):
         roll, pitch, yaw = (math.radians(angle) for angle in (roll, pitch, yaw))
     return (x, y, z, roll, pitch, yaw)

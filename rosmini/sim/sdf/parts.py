@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import get_args
 
 from rosmini.errors import nearest
-from rosmini.markup import Element
+from rosmini.markup import FARTHEST, HEAVIEST, Element
 from rosmini.urdf import meshes
 
 from .colours import colour_of
@@ -77,10 +78,10 @@ def flag(element: Element, way: str, *, default: bool) -> bool:
     return default if found is None or not found.text else found.flag(found.text)
 
 
-def number(element: Element, way: str, default: float) -> float:
+def number(element: Element, way: str, default: float, *, most: float = math.inf) -> float:
     """A child that is a number. Raises `SdfError`."""
     found = element.find(way)
-    return default if found is None or not found.text else found.floats(found.text, 1)[0]
+    return default if found is None or not found.text else found.floats(found.text, 1, most=most)[0]
 
 
 def unique(elements: list[Element], what: str) -> list[Element]:
@@ -134,7 +135,7 @@ def joint(element: Element, scope: Scope) -> SdfJoint:
             element.need(tag)  # the error is said where the name stands
             scope.place(name, element.need(tag))
     axis = element.find("axis/xyz")
-    xyz = axis.floats(axis.text, 3) if axis is not None else (0.0, 0.0, 1.0)
+    xyz = axis.floats(axis.text, 3, most=FARTHEST) if axis is not None else (0.0, 0.0, 1.0)
     at = given(element)
     pose = scope.seen_from(scope.place(child), at) if child in scope else at.pose
     kind = element.attribute("type")
@@ -150,7 +151,7 @@ def _end(element: Element) -> str:
 def _inertial(element: Element | None, scope: Scope, here: Pose6, reading: Reading) -> SdfInertial:
     if element is None:
         return SdfInertial()
-    mass = number(element, "mass", 1.0)
+    mass = number(element, "mass", 1.0, most=HEAVIEST)
     if mass <= 0:
         reading.note(
             element.need("mass"), f"a mass is more than 0 kg, not {mass:g}: taken for 1 kg", warning=True
@@ -159,7 +160,8 @@ def _inertial(element: Element | None, scope: Scope, here: Pose6, reading: Readi
     names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
     defaults = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
     ixx, iyy, izz, ixy, ixz, iyz = (
-        number(element, f"inertia/{name}", default) for name, default in zip(names, defaults, strict=True)
+        number(element, f"inertia/{name}", default, most=HEAVIEST)
+        for name, default in zip(names, defaults, strict=True)
     )
     for name, value in (("ixx", ixx), ("iyy", iyy), ("izz", izz)):
         if value <= 0:
@@ -246,7 +248,7 @@ def geometry(element: Element, reading: Reading) -> SdfGeometry:
 
 
 def _size(element: Element, tag: str) -> float:
-    value = element.need(tag).floats(element.word(tag), 1)[0]
+    value = element.need(tag).floats(element.word(tag), 1, most=FARTHEST)[0]
     if value <= 0:
         raise element.need(tag).error(f"the {tag} of a {element.tag} is more than 0 m, not {value:g}")
     return value
@@ -254,7 +256,7 @@ def _size(element: Element, tag: str) -> float:
 
 def _box(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
     size = element.need("size")
-    numbers = size.floats(size.text, 3)
+    numbers = size.floats(size.text, 3, most=FARTHEST)
     if min(numbers) <= 0:
         raise size.error(f"the sides of a box are more than 0 m, not {size.text}")
     return SdfGeometry("box", size=numbers, line=element.line)
@@ -271,7 +273,7 @@ def _sphere(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
 
 def _plane(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
     normal, size = element.find("normal"), element.find("size")
-    x, y, z = normal.floats(normal.text, 3) if normal is not None else (0.0, 0.0, 1.0)
+    x, y, z = normal.floats(normal.text, 3, most=FARTHEST) if normal is not None else (0.0, 0.0, 1.0)
     if normal is not None and not (x or y or z):
         raise normal.error("the normal of a plane points somewhere; 0 0 0 does not")
     sides = size.floats(size.text, 2) if size is not None else (1.0, 1.0)
@@ -281,7 +283,7 @@ def _plane(element: Element, reading: Reading) -> SdfGeometry:  # noqa: ARG001
 def _polyline(element: Element) -> tuple[tuple[tuple[float, float], ...], float]:
     points = []
     for point in element.all("point"):
-        x, y = point.floats(point.text, 2)
+        x, y = point.floats(point.text, 2, most=FARTHEST)
         points.append((x, y))
     if len(points) > 1 and points[0] == points[-1]:
         points.pop()
@@ -295,7 +297,7 @@ def _polyline(element: Element) -> tuple[tuple[tuple[float, float], ...], float]
 
 def _mesh(element: Element, reading: Reading) -> SdfGeometry:
     uri, scale = element.need("uri"), element.find("scale")
-    x, y, z = scale.floats(scale.text, 3) if scale is not None else (1.0, 1.0, 1.0)
+    x, y, z = scale.floats(scale.text, 3, most=FARTHEST) if scale is not None else (1.0, 1.0, 1.0)
     if scale is not None and not (x and y and z):
         raise scale.error("a mesh is scaled by numbers other than 0")
     try:

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.markup import Element
+from rosmini.markup import FARTHEST, Element
 from rosmini.urdf.kinematics import turn
 
 from .surface import Surface
@@ -134,7 +134,7 @@ class _Reader:
         self.root = root
         self.by_id = {each.get("id"): each for each in root.walk() if each.get("id")}
         meter = root.find("asset/unit")
-        scale = 1.0 if meter is None else meter.number("meter", 1.0)
+        scale = 1.0 if meter is None else meter.number("meter", 1.0, most=FARTHEST)
         if scale <= 0:
             raise root.error(f"the unit of a mesh is more than 0 m, not {scale:g}")
         self.base = np.diag([scale, scale, scale, 1.0])
@@ -167,7 +167,7 @@ class _Reader:
         with np.errstate(over="ignore", invalid="ignore"):
             place = above @ _transform(node)
             size = abs(float(np.linalg.det(place[:3, :3])))
-        if not (np.isfinite(place).all() and 0 < size < math.inf):
+        if not (np.abs(place).max() <= FARTHEST and size > 0):
             raise node.error("the transforms of this node make it infinitely large, or flat")
         if part in (node.get("name"), node.get("id")):
             part = ""
@@ -245,7 +245,7 @@ class _Reader:
 
     def floats(self, source: Element) -> Floats:
         array = source.need("float_array")
-        values = np.array(array.floats(array.text))
+        values = np.array(array.floats(array.text, most=FARTHEST))
         accessor = source.find("technique_common/accessor")
         stride = 3 if accessor is None else int(accessor.number("stride", 3))
         if stride < 3 or len(values) % stride:
@@ -319,13 +319,13 @@ def _transform(node: Element) -> Floats:
     for child in node:
         own = np.eye(4)
         if child.tag == "matrix":
-            own = np.array(child.floats(child.text, 16)).reshape(4, 4)
+            own = np.array(child.floats(child.text, 16, most=FARTHEST)).reshape(4, 4)
         elif child.tag == "translate":
-            own[:3, 3] = child.floats(child.text, 3)
+            own[:3, 3] = child.floats(child.text, 3, most=FARTHEST)
         elif child.tag == "scale":
-            own[:3, :3] = np.diag(child.floats(child.text, 3))
+            own[:3, :3] = np.diag(child.floats(child.text, 3, most=FARTHEST))
         elif child.tag == "rotate":
-            x, y, z, degrees = child.floats(child.text, 4)
+            x, y, z, degrees = child.floats(child.text, 4, most=FARTHEST)
             length = math.sqrt(x * x + y * y + z * z)
             if length > 0:
                 own[:3, :3] = turn((x / length, y / length, z / length), math.radians(degrees))

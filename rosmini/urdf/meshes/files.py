@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rosmini import files
 from rosmini.errors import shown
-from rosmini.markup import MarkupError, parse_file
+from rosmini.markup import FARTHEST, MarkupError, parse_file
 
 from . import collada
 from .surface import Surface
@@ -73,7 +73,7 @@ def _flat(triangles: Floats) -> Surface:
 def _stl(file: Path) -> Floats:
     data = _bytes(file)
     count = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
-    if len(data) == 84 + 50 * count:
+    if count >= 0 and len(data) == 84 + 50 * count:
         rows = np.frombuffer(
             data, dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")], offset=84
         )
@@ -131,6 +131,8 @@ def _three(words: list[str], file: Path, line: int) -> tuple[float, float, float
 def _finite(triangles: Floats, file: Path) -> Floats:
     if not np.isfinite(triangles).all():
         raise MeshError("a corner is not finite", file)
+    if (np.abs(triangles) > FARTHEST).any():
+        raise MeshError(f"a corner is further away than {FARTHEST:g} m", file)
     return triangles
 
 

@@ -276,7 +276,7 @@ BOMB = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n" + "".join(
     ],
 )  # fmt: skip
 def test_a_map_is_small_plain_yaml(tmp_path, text, said):
-    (tmp_path / "map.yaml").write_text(text)
+    (tmp_path / "map.yaml").write_text(text, encoding="utf-8")
     with pytest.raises(MapError, match=said):
         load_map(tmp_path / "map.yaml")
 

@@ -62,7 +62,9 @@ def test_what_is_wrong_with_a_world_or_a_model_is_one_warning(
     monkeypatch.setattr("rosmini.graph.node.Node.logwarn", lambda node, text: said.append(text))
     path = tmp_path / "yard.world"
     massless = WORLD.replace("<mass>1.5</mass>", "<mass>0</mass>")
-    path.write_text(massless.replace("</world>", "\n<include><uri>model://none</uri></include></world>"))
+    path.write_text(
+        massless.replace("</world>", "\n<include><uri>model://none</uri></include></world>"), encoding="utf-8"
+    )
     there = bench(str(path))
     assert list(there.server.world.models) == ["ground_plane", "wall", "crate"]
     (warning,) = said
@@ -85,7 +87,8 @@ def test_a_world_goes_on_without_a_model_that_cannot_come(
     driven = DIFF_DRIVE[DIFF_DRIVE.index("<plugin") : DIFF_DRIVE.index("</gazebo>")]
     model = f"<model name='cart'><link name='l'/>{driven}</model>"
     path.write_text(
-        f"<sdf version='1.6'><world name='w'>{model}{box()[box().index('<model') : -6]}</world></sdf>"
+        f"<sdf version='1.6'><world name='w'>{model}{box()[box().index('<model') : -6]}</world></sdf>",
+        encoding="utf-8",
     )
     there = bench(str(path))
     assert list(there.server.world.models) == ["box"]

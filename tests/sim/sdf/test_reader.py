@@ -333,10 +333,12 @@ def test_the_rest_of_a_world_stands_and_all_that_is_wrong_is_told_at_once(tmp_pa
         folder = tmp_path / name
         folder.mkdir(parents=True)
         (folder / "model.config").write_text(
-            "<model><name>m</name><sdf version='1.4'>old.sdf</sdf><sdf version='1.6'>model.sdf</sdf></model>"
+            "<model><name>m</name><sdf version='1.4'>old.sdf</sdf><sdf version='1.6'>model.sdf</sdf></model>",
+            encoding="utf-8",
         )
         (folder / "model.sdf").write_text(
-            f"<sdf version='1.6'><model name='{name.replace('/', '_')}'>{text}</model></sdf>"
+            f"<sdf version='1.6'><model name='{name.replace('/', '_')}'>{text}</model></sdf>",
+            encoding="utf-8",
         )
     text = world(
         """<include><uri>model://sun</uri></include><include><uri>model://ground_plane</uri></include>
@@ -373,16 +375,19 @@ def test_models_that_include_one_another_end(tmp_path, monkeypatch):
         folder = tmp_path / f"m{i}"
         folder.mkdir()
         two = "".join(f"<include><uri>model://m{i + 1}</uri><name>{side}</name></include>" for side in "ab")
-        (folder / "model.sdf").write_text(f"<sdf version='1.6'><model name='m{i}'>{two}</model></sdf>")
+        (folder / "model.sdf").write_text(
+            f"<sdf version='1.6'><model name='m{i}'>{two}</model></sdf>", encoding="utf-8"
+        )
     (tmp_path / "m18").mkdir()
     (tmp_path / "m18" / "model.sdf").write_text(
-        "<sdf version='1.6'><model name='m18'><link name='l'/></model></sdf>"
+        "<sdf version='1.6'><model name='m18'><link name='l'/></model></sdf>", encoding="utf-8"
     )
     reading = world("<include><uri>model://m0</uri></include>")
     with pytest.raises(SdfError, match="more than 1000 models in what this file includes"):
         load(reading, models=[tmp_path])
     (tmp_path / "m1" / "model.sdf").write_text(
-        "<sdf version='1.6'><model name='m1'><include><uri>model://m1</uri></include></model></sdf>"
+        "<sdf version='1.6'><model name='m1'><include><uri>model://m1</uri></include></model></sdf>",
+        encoding="utf-8",
     )
     with pytest.raises(SdfError, match=r"m1.model\.sdf:1: .* does 'model://m1' include itself"):
         load(reading, models=[tmp_path])
@@ -392,7 +397,9 @@ def test_an_address_of_a_file_is_a_path_as_this_system_has_them(tmp_path, monkey
     monkeypatch.setattr(
         "urllib.request.url2pathname", lambda path: {"/C:/house": str(tmp_path)}.get(path, path)
     )
-    (tmp_path / "model.sdf").write_text("<sdf version='1.6'><model name='m'><link name='l'/></model></sdf>")
+    (tmp_path / "model.sdf").write_text(
+        "<sdf version='1.6'><model name='m'><link name='l'/></model></sdf>", encoding="utf-8"
+    )
     (made,) = load(world("<include><uri>file:///C:/house</uri></include>")).worlds
     assert [each.name for each in made.models] == ["m"]
 

@@ -500,8 +500,8 @@ def test_our_own_worlds_say_nothing_odd(path: Path):
 def test_includes_that_fan_out_end(tmp_path, monkeypatch):
     monkeypatch.setattr("rosmini.sim.stage.tokens.MOST_FILES", 100)
     for i in range(20):
-        (tmp_path / f"{i}.inc").write_text(2 * f'include "{i + 1}.inc"\n')
-    (tmp_path / "20.inc").write_text("")
+        (tmp_path / f"{i}.inc").write_text(2 * f'include "{i + 1}.inc"\n', encoding="utf-8")
+    (tmp_path / "20.inc").write_text("", encoding="utf-8")
     with pytest.raises(StageError, match=r"inc:1: the world includes more than 100 files"):
         load(tmp_path / "0.inc")
 
@@ -509,8 +509,8 @@ def test_includes_that_fan_out_end(tmp_path, monkeypatch):
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names are a matter of POSIX")
 def test_what_is_no_file_is_not_opened(tmp_path):
     os.mkfifo(tmp_path / "pipe.world")
-    (tmp_path / "a.world").write_text('include "pipe.world"')
-    (tmp_path / "b.world").write_text('model( bitmap "/dev/zero" )')
+    (tmp_path / "a.world").write_text('include "pipe.world"', encoding="utf-8")
+    (tmp_path / "b.world").write_text('model( bitmap "/dev/zero" )', encoding="utf-8")
     for name, said in (
         ("pipe.world", "this is no file"),
         ("a.world", "there is no file"),
@@ -525,17 +525,17 @@ def test_no_name_of_a_file_breaks_more_than_its_world(tmp_path, name):
     with pytest.raises(StageError):
         load(name)
     path = tmp_path / "a.world"
-    path.write_text(f'include "{name}"')
+    path.write_text(f'include "{name}"', encoding="utf-8")
     with pytest.raises(StageError, match=r"a.world:1: there is no file"):
         load(path)
-    path.write_text(f'model( bitmap "{name}" )')
+    path.write_text(f'model( bitmap "{name}" )', encoding="utf-8")
     with pytest.raises(StageError, match=r"a.world:1: there is no bitmap"):
         load(path)
 
 
 def test_a_bitmap_of_too_many_pixels_is_refused_by_its_header(tmp_path):
     (tmp_path / "a.pgm").write_bytes(b"P5 100000 100000 255\n")
-    (tmp_path / "a.world").write_text('model( bitmap "a.pgm" )')
+    (tmp_path / "a.world").write_text('model( bitmap "a.pgm" )', encoding="utf-8")
     with pytest.raises(
         StageError, match=r"a.world:1: the bitmap .*a.pgm cannot be read: it has too many pixels"
     ):
@@ -545,11 +545,13 @@ def test_a_bitmap_of_too_many_pixels_is_refused_by_its_header(tmp_path):
 def test_robots_have_a_number_and_a_world_to_stand_in(tmp_path, monkeypatch):
     monkeypatch.setattr("rosmini.sim.stage.file.MOST_ROBOTS", 2)
     path = tmp_path / "a.world"
-    path.write_text("position()\nposition()\nposition()")
+    path.write_text("position()\nposition()\nposition()", encoding="utf-8")
     with pytest.raises(StageError, match=r"a.world:3: there are more than 2 robots"):
         load(path)
     Image.fromarray(np.pad(np.full((20, 20), 255, dtype=np.uint8), 1)).save(tmp_path / "plan.png")
-    path.write_text('model( size [10 10 1] bitmap "plan.png" )\nposition( pose [50 0 0 0] name "r" )')
+    path.write_text(
+        'model( size [10 10 1] bitmap "plan.png" )\nposition( pose [50 0 0 0] name "r" )', encoding="utf-8"
+    )
     with pytest.raises(
         StageError, match=r"a.world:2: r cannot start there: \(50, 0\) is outside of the world 'a'"
     ):

@@ -101,7 +101,12 @@ def test_collada_of_others_units_nodes_and_polygons(tmp_path, up):
         ('offset="0"', 'offset="-1"', "an offset is a whole number from 0 to 99"),
         ("<p>0 1 2 3</p>", "<p>0 1 2 99999999999999999999</p>", "<p> holds whole numbers"),
         ("<matrix>2 0", "<matrix>0 0", "or flat"),
-        ("<matrix>2 0", "<matrix>1e300 1e300", "infinitely large"),
+        ("<matrix>2 0", "<matrix>1e300 1e300", "is too large"),
+        (
+            "<node><translate>",
+            "<node><scale>1e9 1 1</scale><scale>1e9 1 1</scale><translate>",
+            "infinitely large",
+        ),
         ("<node><translate>", "<node id='n'><instance_node url='#n'/><translate>", "without end"),
         ('semantic="VERTEX"', 'semantic="NORMAL"', "has no input VERTEX"),
         ("<COLLADA>", "<COLADA>", "closes another element"),
@@ -131,6 +136,7 @@ def test_a_scene_that_fans_out_ends(tmp_path):
     ("name", "data", "message"),
     [
         ("a.stl", b"", "this is no STL"),
+        ("a.stl", b"x" * 34, "this is no STL"),
         ("a.stl", b"x" * 84, "this is no STL: it tells of"),
         ("a.stl", b"\0" * 80 + b"\xff" * 4, "it tells of 4294967295 triangles"),
         ("a.stl", b"\0" * 80 + struct.pack("<I", 2) + bytes(50), "it tells of 2 triangles, which would be 184 bytes, not 134"),
