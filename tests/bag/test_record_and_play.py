@@ -253,10 +253,7 @@ def test_a_recording_on_a_full_disk_fails_and_stays_readable(tmp_path, count, wo
         text.replace('"x" * 1000', "hex((number + 7) ** 1200)[-1000:]") if words == ["--lz4"] else text,
         encoding="utf-8",
     )
-    done = subprocess.run(
-        [sys.executable, "-c", LIMITED, str(script), "-O", str(tmp_path / "trip"), *words],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
+    done = run([sys.executable, "-c", LIMITED, str(script), "-O", str(tmp_path / "trip"), *words])  # fmt: skip
     assert done.returncode == 1, done.stdout + done.stderr
     assert done.stderr.count("[ERROR]") == 1
     assert "cannot grow any more" in done.stderr
@@ -272,10 +269,7 @@ def test_a_recording_on_a_full_disk_fails_and_stays_readable(tmp_path, count, wo
 def test_a_recording_that_cannot_begin_fails(tmp_path):
     (tmp_path / "talker.py").write_text(TALKER.format(count=0), encoding="utf-8")
     (tmp_path / "trip.bag.active").symlink_to("/dev/full")
-    done = subprocess.run(
-        [sys.executable, "-c", LIMITED, str(tmp_path / "talker.py"), "-O", str(tmp_path / "trip")],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
+    done = run([sys.executable, "-c", LIMITED, str(tmp_path / "talker.py"), "-O", str(tmp_path / "trip")])  # fmt: skip
     assert done.returncode == 1, done.stdout + done.stderr
     assert "No space left on device" in done.stderr
 

@@ -20,7 +20,7 @@ _ = graph.node("listener").subscriber("cmd_vel", Twist, lambda t: heard.append((
 pad = sim.pad()
 pad
 """,
-    "print('live', graph.is_live, 'heard', [x for x, _ in heard[:3]], 'moved', sim.truth()[0] > 0.01)",
+    "print('live', graph.is_live, 'heard', round(heard[-1][0], 3), 'moved', sim.truth()[0] > 0.01)",
     "print('rest', pad.teleop.at_rest, pad.twist.linear.x)",
     "end = time.monotonic() + 3\nwhile time.monotonic() < end: pass\nprint('busy over')",
     "pad.press('w'); graph.run(until=lambda: pad.teleop.at_rest); print('stopped while a cell drives')",
@@ -103,8 +103,8 @@ def test_keys_buttons_and_a_busy_kernel(open_lab, shared_tmp):
         seconds, paints = page.locator(".rosmini-pad").evaluate(COUNT)
         print(f"{40 / seconds:.0f} frames/s of the pad, {paints / seconds:.0f} paints/s of the page")
         page.screenshot(path=shared_tmp / "pad_jupyterlab.png")
-        lab.run(1)  # a message may have gone out between `a a` and `d d`, so only the linear part is known
-        lab.says(1, "live True heard [0.005, 0.01, 0.015] moved True")
+        lab.run(1)  # a message may have gone out between any two keys, so only the last is known
+        lab.says(1, "live True heard 0.1 moved True")
 
         # A button stops it.
         page.locator(".rp-key-s").click()

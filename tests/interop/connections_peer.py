@@ -244,7 +244,7 @@ def good(_):
 
 
 failing, going = rospy.Timer(rospy.Duration(0.02), bad), rospy.Timer(rospy.Duration(0.02), good)
-settle(lambda: ticks["good"] >= 5)
+settle(lambda: ticks["good"] >= 5 and not failing.is_alive())
 facts["timer"] = [ticks["bad"], failing.is_alive(), ticks["good"] >= 5, going.is_alive(), rospy.is_shutdown()]
 going.shutdown()
 

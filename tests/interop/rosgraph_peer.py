@@ -55,7 +55,7 @@ def command(*arguments):
 
 folder = tempfile.mkdtemp()
 path = os.path.join(folder, "dump.yaml")
-with open(os.path.join(folder, "text.txt"), "w") as text:
+with open(os.path.join(folder, "text.txt"), "w", encoding="utf-8") as text:
     text.write("some\ntext\n")
 with open(os.path.join(folder, "bytes.bin"), "wb") as data:
     data.write(b"\x00\x01\xff")
@@ -73,7 +73,7 @@ facts["commands"] = [
         ["load", "-v", path, "again"], ["get", "/again/int"], ["load"], ["nonsense"], [],
     ]
 ]  # fmt: skip
-with open(path) as dumped:
+with open(path, encoding="utf-8") as dumped:
     facts["dumped"] = dumped.read()
 
 # ---- log records ----

@@ -13,13 +13,13 @@ import pytest
 from rosmini.graph.graph import Graph
 from rosmini.scripts import ScriptSpec
 
-from .test_rospy_api import differences, master, run_ours, run_real  # noqa: F401 - master is a fixture
+from .test_rospy_api import differences, run_ours, run_real
 
 PEER = Path(__file__).with_name("point_cloud2_peer.py")
 
 
 @pytest.mark.ros
-def test_ours_reads_and_makes_clouds_as_ros_does(master: dict[str, str]) -> None:  # noqa: F811
+def test_ours_reads_and_makes_clouds_as_ros_does(master: dict[str, str]) -> None:
     real = json.loads(run_real(master, [str(PEER)])[0].splitlines()[-1])
     assert len(real["read"]) == 60
     out, _ = run_ours(Graph(strict=False), ScriptSpec(str(PEER)))

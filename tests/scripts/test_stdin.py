@@ -59,9 +59,9 @@ print(''.join(keys))
 
 
 def test_keyboard_script_with_supplied_keys(run):
-    assert run(KEYS, stdin=[(0, "ii"), (0.03, ","), (0.06, "q")]).lines == [
-        "[script] ii.,.q".replace("q", "")
-    ]
+    (line,) = run(KEYS, stdin=[(0, "ii"), (0.03, ","), (0.06, "q")]).lines
+    # On a slow wall all keys may be there before the first time-out.
+    assert line == "[script] ii.,." if run.simulated else line.replace(".", "") == "[script] ii,"
 
 
 def test_select_for_time_only(sim):
