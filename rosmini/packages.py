@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini import files
-from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage, nearest, shown
+from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage, nearest
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -43,6 +43,8 @@ NODES_GROUP = "rosmini.nodes"
 
 MANIFEST = "package.xml"
 SCHEME = "package://"
+LONGEST = 300
+"""So many characters of an address an error tells."""
 SCRIPT_FOLDERS = ("scripts", "nodes", "src", "bin")  # in the order of preference
 INTERFACE_KINDS = ("msg", "srv", "action")
 
@@ -207,7 +209,7 @@ class PackageIndex:
             raise RosminiError(f"{url!r} names no package; write package://NAME/PATH")
         target = self.path(name) / rest
         if not files.exists(target):
-            raise RosminiError(f"{shown(url)} is not there: no {target}. {_nearest_file(target)}".rstrip())
+            raise RosminiError(f"{url[:LONGEST]} is not there: no {target}. {_nearest_file(target)}".rstrip())
         return target
 
     def executables(self, package: str) -> list[str]:
