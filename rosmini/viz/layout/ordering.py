@@ -6,7 +6,7 @@ Toda, "Methods for visual understanding of hierarchical system structures", 1981
 
 from __future__ import annotations
 
-from bisect import bisect_right, insort
+from bisect import bisect_left, bisect_right, insort
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
@@ -130,28 +130,40 @@ def _arrange(
     return result
 
 
+Ends = tuple[list[int], list[int]]
+"""The places of a slot's neighbours in the layer before and in the layer after, each sorted."""
+
+
 def _exchange_neighbours(order: Order) -> None:
     """Swap neighbours of the same group while that removes crossings."""
     place = {id(slot): i for row in order for i, slot in enumerate(row)}
     for _ in range(4):
         improved = False
         for row in order:
+            ends = [_ends(slot, place) for slot in row]
             for i in range(len(row) - 1):
-                a, b = row[i], row[i + 1]
-                if a.groups == b.groups and _pair(b, a, place) < _pair(a, b, place):
-                    row[i], row[i + 1] = b, a
-                    place[id(a)], place[id(b)] = i + 1, i
+                if row[i].groups == row[i + 1].groups and _gains(ends[i], ends[i + 1]):
+                    row[i], row[i + 1] = row[i + 1], row[i]
+                    ends[i], ends[i + 1] = ends[i + 1], ends[i]
                     improved = True
+            for i, slot in enumerate(row):
+                place[id(slot)] = i
         if not improved:
             break
 
 
-def _pair(first: Slot, second: Slot, place: dict[int, int]) -> int:
-    """Crossings between the edges of two neighbours, `first` being ahead of `second`."""
-    total = 0
-    for links_a, links_b in ((first.previous, second.previous), (first.following, second.following)):
-        ends_b = sorted(place[id(other)] for other, _ in links_b)
-        for other, _ in links_a:
-            place_a = place[id(other)]
-            total += sum(1 for end in ends_b if end < place_a)
-    return total
+def _ends(slot: Slot, place: dict[int, int]) -> Ends:
+    return (
+        sorted([place[id(other)] for other, _ in slot.previous]),
+        sorted([place[id(other)] for other, _ in slot.following]),
+    )
+
+
+def _gains(first: Ends, second: Ends) -> bool:
+    """Whether two neighbours in a layer have fewer crossings between their edges the other way round."""
+    now = swapped = 0
+    for a, b in zip(first, second, strict=True):
+        if a and b:
+            now += sum([bisect_left(b, end) for end in a])
+            swapped += sum([bisect_left(a, end) for end in b])
+    return swapped < now

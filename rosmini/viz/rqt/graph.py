@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from rosmini.viz.layout import Direction
+from rosmini.viz.rqt.condensing import condensed
 from rosmini.viz.rqt.drawing import draw
 from rosmini.viz.rqt.selection import Group, Hide, Mode, select
 from rosmini.viz.rqt.state import graph_state
@@ -29,6 +30,8 @@ def rqt_graph(
 ) -> Picture:
     """Draw who publishes what to whom, as rqt_graph does (wiki.ros.org/rqt_graph).
 
+    A graph of more than 300 nodes, topics and arrows is drawn in groups of nodes that are alike, and says so.
+
     Args:
         source: a Master (anything with `getSystemState` and `getTopicTypes`), an object with a `master`, the value
             of `getSystemState`, or a `GraphState`.
@@ -49,7 +52,8 @@ def rqt_graph(
         ViewError: the source has no graph state, or a mode, switch or filter is not known.
 
     """
-    selection = select(graph_state(source), mode, hide=hide, group=group, nodes=namespace, topics=topics)
+    state = graph_state(source)
+    selection = condensed(select(state, mode, hide=hide, group=group, nodes=namespace, topics=topics))
     text, alt = text_form(selection, title), alt_text(selection)
     svg = draw(selection, namespaces=namespaces, direction=direction, title=title or "rqt_graph", alt=alt)
     return Picture(svg, text=text, alt=alt, caption=title)

@@ -43,7 +43,11 @@ TF_TOPICS = ("/tf", "/tf_static")
 
 @dataclass(frozen=True)
 class Selection:
-    """What is shown. `groups` maps a topic that stands for several to those; `hidden` counts what switches hid."""
+    """What is shown.
+
+    `groups` maps a topic that stands for several, as rqt_graph groups them, to those; `bundles` does so for the nodes and
+    topics that a large graph is drawn with. `hidden` counts what switches hid.
+    """
 
     mode: Mode
     nodes: tuple[str, ...]
@@ -54,6 +58,7 @@ class Selection:
     types: dict[str, str]
     unreachable: frozenset[str]
     groups: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    bundles: dict[str, tuple[str, ...]] = field(default_factory=dict)
     hidden_nodes: int = 0
     hidden_topics: int = 0
 
@@ -131,19 +136,19 @@ def select(
     wanted_topics = [t for t in state.topics if matches(t, topics)]
     shown_nodes = [n for n in wanted_nodes if not _hides_node(n, state, hide)]
     shown_topics = _unhidden_topics(state, wanted_topics, hide)
-    connections = [
-        (p, t, s) for p, t, s in state.edges() if p in shown_nodes and s in shown_nodes and t in shown_topics
-    ]
+    among, over = set(shown_nodes), set(shown_topics)
+    connections = [(p, t, s) for p, t, s in state.edges() if p in among and s in among and t in over]
     connected = {t for _, t, _ in connections}
     switched_off = len(wanted_topics) - len(shown_topics)
     if mode != "nodes_topics_all":
         # Without a connection there is nothing to draw in these two modes.
         shown_topics = [t for t in shown_topics if t in connected]
-    publications = _ends(state.publishers, shown_topics, shown_nodes)
-    subscriptions = _ends(state.subscribers, shown_topics, shown_nodes)
+    publications = _ends(state.publishers, shown_topics, among)
+    subscriptions = _ends(state.subscribers, shown_topics, among)
     if mode == "nodes_topics_active":
-        publications = [e for e in publications if e in {(p, t) for p, t, _ in connections}]
-        subscriptions = [e for e in subscriptions if e in {(s, t) for _, t, s in connections}]
+        sources, sinks = {(p, t) for p, t, _ in connections}, {(s, t) for _, t, s in connections}
+        publications = [end for end in publications if end in sources]
+        subscriptions = [end for end in subscriptions if end in sinks]
     used = {t for _, t in publications} | {t for _, t in subscriptions}
     shown_topics = [t for t in shown_topics if t in used]
     selection = Selection(

@@ -31,7 +31,7 @@ def text_form(selection: Selection, title: str | None = None) -> str:
         lines.append(f"{source} -> {topic}{_type(selection, topic)} -> {sink}")
     connected = {name for publishers, _, subscribers in flows for name in (*publishers, *subscribers)}
     lines += [f"{node} (not connected)" for node in selection.nodes if node not in connected]
-    for name, members in sorted(selection.groups.items()):
+    for name, members in sorted((selection.groups | selection.bundles).items()):
         lines.append(f"{name} stands for {', '.join(m + _type(selection, m) for m in members)}")
     lines += [f"{node} does not answer" for node in sorted(selection.unreachable)]
     return "\n".join(lines)
@@ -56,7 +56,11 @@ def alt_text(selection: Selection) -> str:
 
 
 def _counts(selection: Selection, separator: str = ", ") -> str:
-    return plural(len(selection.nodes), "node") + separator + plural(len(selection.topics), "topic")
+    def counted(names: Collection[str], noun: str) -> str:
+        all_of_them = plural(sum(len(selection.bundles.get(name, (name,))) for name in names), noun)
+        return f"{all_of_them} drawn as {len(names)}" if selection.bundles else all_of_them
+
+    return counted(selection.nodes, "node") + separator + counted(selection.topics, "topic")
 
 
 def _type(selection: Selection, topic: str) -> str:
@@ -67,7 +71,7 @@ def _flows(selection: Selection) -> list[tuple[tuple[str, ...], str, tuple[str, 
     """(publishers, topic, subscribers), sorted by topic. Publishers whose subscribers differ are apart."""
     flows: set[tuple[tuple[str, ...], str, tuple[str, ...]]] = set()
     for topic in selection.topics:
-        members = selection.groups.get(topic, (topic,))
+        members = (topic, *selection.groups.get(topic, ()))
         publishers = [n for n, t in selection.publications if t == topic]
         subscribers = [n for n, t in selection.subscriptions if t == topic]
         pairs = {(p, s) for p, t, s in selection.connections if t in members}
