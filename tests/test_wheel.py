@@ -90,12 +90,17 @@ def test_it_finds_its_messages_there(python, tmp_path):
     assert md5 == "992ce8a1687cec8c8bd883ec73ca41d1"
 
 
-def test_the_command_says_what_is_missing_outside_a_checkout(python, tmp_path):
-    done = run_process([python, "-m", "rosmini", "book"], cwd=tmp_path)
+@pytest.mark.parametrize(
+    ("command", "missing"),
+    [
+        ("book", "the book's sources (book/_config.yml and notebooks/) are neither in "),
+        ("bench", "the benchmarks are no part of the installed package: clone the repository"),
+    ],
+)
+def test_a_command_says_what_is_missing_outside_a_checkout(python, tmp_path, command, missing):
+    done = run_process([python, "-m", "rosmini", command], cwd=tmp_path)
     assert done.returncode == 1
-    assert done.stderr.startswith(
-        "rosmini book: the book's sources (book/_config.yml and notebooks/) are neither in "
-    )
+    assert done.stderr.startswith(f"rosmini {command}: {missing}")
     assert "Traceback" not in done.stderr
 
 

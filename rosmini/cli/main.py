@@ -100,15 +100,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"rosmini: {error}", file=sys.stderr)
         return 2
     loaded = {name: cast("Command", importlib.import_module(commands[name].module))} if name else {}
-    parser = build_parser(commands, loaded)
-    args = parser.parse_args(argv)
-    if args.version:
-        print(f"rosmini {__version__}")
-        return 0
-    if name is None:
-        parser.print_help()
-        return 2
     try:
+        parser = build_parser(commands, loaded)
+        args = parser.parse_args(argv)
+        if args.version:
+            print(f"rosmini {__version__}")
+            return 0
+        if name is None:
+            parser.print_help()
+            return 2
         return loaded[name].main(args)
     except RosminiError as error:
         print(f"rosmini {name}: {error}", file=sys.stderr)

@@ -8,9 +8,9 @@ import os
 from typing import TYPE_CHECKING
 
 import pytest
+from rosmini_bench import Figure, Measure, actions, bags, graph, sim, table, transforms
+from rosmini_bench.peer import find_rospy
 
-from rosmini.cli.bench import Figure, Measure, actions, bags, graph, sim, table, transforms
-from rosmini.cli.bench.peer import find_rospy
 from rosmini.cli.main import main
 from rosmini.errors import RosminiError
 

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-
-from rosmini.cli.bench import (
+from rosmini_bench import (
     sim,
     sim_checks,
     sim_engine,
@@ -21,6 +20,7 @@ from rosmini.cli.bench import (
     sim_room,
     sim_run,
 )
+
 from rosmini.cli.main import main
 from rosmini.errors import RosminiError
 from rosmini.sim.models import BURGER

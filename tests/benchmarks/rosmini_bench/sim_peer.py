@@ -24,6 +24,8 @@ from rosmini.sim.models import BURGER
 
 from . import sim_room
 
+HOME = Path(__file__).resolve().parents[1]
+"""Where `python -m rosmini_bench...` finds this package."""
 TIMEOUT_S = 300
 RATE = 10
 WARM_UP = 20
@@ -49,7 +51,7 @@ class Peer:
         command = [sys.executable, "-m", self._module, str(seconds), str(count)]
         try:
             done = subprocess.run(
-                command, capture_output=True, encoding="utf-8", timeout=TIMEOUT_S, check=False
+                command, capture_output=True, encoding="utf-8", timeout=TIMEOUT_S, check=False, cwd=HOME
             )
         except subprocess.TimeoutExpired as error:
             msg = f"{self.name} did not simulate {seconds} s with {count} robots in {TIMEOUT_S} s"

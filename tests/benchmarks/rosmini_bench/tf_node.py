@@ -22,7 +22,7 @@ def parent(number: int) -> int:
 
 def questions(count: int) -> list[tuple[str, str, int]]:
     """Return pairs of frames of a small set, as a robot asks for, at random times within the buffer."""
-    rng = random.Random(7)  # noqa: S311 - the same questions each time
+    rng = random.Random(7)
     pairs = [(f"f{rng.randrange(FRAMES)}", f"f{rng.randrange(FRAMES)}") for _ in range(50)]
     return [
         (*rng.choice(pairs), START_NS + rng.randrange(STEP_NS, (SAMPLES - 1) * STEP_NS)) for _ in range(count)
