@@ -21,10 +21,13 @@ SIMULATED_START_NS = 1_000 * 10**9
 """Where simulated time starts: not at zero, because ``Time(0)`` means "the latest"."""
 
 TICK_QUANTUM_NS = 1_000_000
-"""How far simulated time goes on in the turns of a polling loop, or at an instant with too many events: a microsecond each."""
+"""How far simulated time goes on in the turns of a polling loop, and at an instant that has no end."""
 
-EVENTS_PER_INSTANT = 100_000
-"""So many events at one instant of simulated time are taken for a ping-pong, and time moves on by a quantum."""
+ROUNDS_PER_INSTANT = 10_000
+"""So many rounds of events at one instant of simulated time, each caused by the one before, are taken for nodes that answer each other without end."""
+
+ROUNDS_PER_QUANTUM = 20
+"""From then on so many rounds cost a quantum: 0.1 ms for a message and the callback that answers it, about what they cost on a robot."""
 
 
 class EventQueue:
@@ -44,7 +47,7 @@ class EventQueue:
             time.perf_counter_ns()
         )  # on Windows monotonic() steps by 15.6 ms before Python 3.13
         self._timed = TimedEvents()
-        self._instant = 0
+        self._rounds = 0
         self._inbox: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
         self._holds = 0
         self._hold_lock = threading.Lock()
@@ -112,10 +115,18 @@ class EventQueue:
                 self.ready.append(item)
 
     def _take_due(self) -> None:
-        if self.simulated and self._instant > EVENTS_PER_INSTANT:
-            self._now += TICK_QUANTUM_NS
-            self._instant = 0
         self._timed.take_due(self.now_ns(), self.ready)
+
+    def count_rounds(self, rounds: int) -> None:
+        """Count what a lane did at this instant beside the rounds of the loop. For lanes only."""
+        self._rounds += rounds
+
+    def _creep(self) -> None:
+        """Let simulated time go on although this instant has no end."""
+        due, soon = self._timed.next_ns(), self._now + TICK_QUANTUM_NS
+        self._now = soon if due is None else min(soon, max(due, self._now))
+        self._rounds -= ROUNDS_PER_QUANTUM
+        self._take_due()
 
     def _wait_for_event(self, due_ns: int | None) -> None:
         """Wait until then, or for something from another thread, or, lest a Ctrl-C be overlooked, for a moment."""

@@ -25,6 +25,10 @@ PATIENCE_S = 2.0
 """After how long a call that waits in another thread asks why."""
 
 
+TURNS = 1_000
+"""So many tasks a lane runs before the others get their turn."""
+
+
 class LaneExit(BaseException):
     """Thrown into a lane that is asked to end, at the place where it blocks."""
 
@@ -133,7 +137,13 @@ class Lane:
         scheduler = self._scheduler
         scheduler.enter_lane(self)
         tasks = self._tasks
+        turns = TURNS
         while tasks:
+            if not turns:  # a lane that keeps giving itself work starves nobody
+                scheduler.count_rounds(TURNS)
+                scheduler.ready.append(self._activate_ref)
+                return
+            turns -= 1
             task = tasks.popleft()
             try:
                 task()

@@ -20,7 +20,7 @@ from greenlet import getcurrent, greenlet
 from rosmini.errors import GraphEnded, RosminiError
 
 from . import threads
-from .event_queue import EVENTS_PER_INSTANT, TICK_QUANTUM_NS, EventQueue
+from .event_queue import ROUNDS_PER_INSTANT, TICK_QUANTUM_NS, EventQueue
 from .interrupts import InterruptGuard
 from .lanes import Lane, LaneContext, LaneExit, Waiter
 from .notebook import CellOutput, kernel_shell
@@ -388,9 +388,8 @@ class Scheduler(EventQueue):
         while True:
             try:
                 while True:
-                    count = len(ready)
-                    self._instant += count
-                    for _ in range(count):
+                    self._rounds += 1
+                    for _ in range(len(ready)):
                         if not ready:  # another worker went on while this one was idle
                             break
                         parked: Any = ready.popleft()()
@@ -403,10 +402,10 @@ class Scheduler(EventQueue):
                         self._check_until()
                     if interrupts.noted or not nothing_came():
                         self._take_inbox()
-                    if heap and (
-                        not simulated or heap[0][0] <= self._now or self._instant > EVENTS_PER_INSTANT
-                    ):
+                    if heap and (not simulated or heap[0][0] <= self._now):
                         self._take_due()
+                    if self._rounds > ROUNDS_PER_INSTANT and simulated:
+                        self._creep()
                     if not ready:
                         self._advance()
             except KeyboardInterrupt:
@@ -432,7 +431,7 @@ class Scheduler(EventQueue):
         if self.simulated and not self._holds:
             if due is not None:
                 self._now = due
-                self._instant = 0
+                self._rounds = 0
                 if self._until is None:  # else it is asked before anything happens then
                     self._timed.take_due(due, self.ready)
             elif self._root_waiter is not None and not self._root_waiter.done:

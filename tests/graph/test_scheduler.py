@@ -13,7 +13,7 @@ import pytest
 from rosmini.errors import GraphEnded, RosminiError
 from rosmini.graph import interrupts
 from rosmini.graph.event_queue import TICK_QUANTUM_NS
-from rosmini.graph.lanes import LaneExit
+from rosmini.graph.lanes import Lane, LaneExit
 from rosmini.graph.scheduler import Scheduler
 
 from ..processes import PATIENCE
@@ -394,3 +394,77 @@ def test_many_that_block_do_not_add_up_to_the_limit_of_recursion() -> None:
     assert scheduler.run(scheduler.now_ns() + 2 * 10**9).reason == "time"
     assert done == list(range(1_000))
     scheduler.close()
+
+
+# ---- fairness ------------------------------------------------------------------------------------------------------
+
+
+def answer_each_other(scheduler: Scheduler) -> list[int]:
+    """Two lanes that give each other work without end; returns when each turn was [ns]."""
+    turns: list[int] = []
+    one, other = scheduler.spawn("one"), scheduler.spawn("other")
+
+    def play(lane: Lane, next_one: Lane) -> None:
+        turns.append(scheduler.now_ns())
+        next_one.submit(lambda: play(next_one, lane))
+
+    one.submit(lambda: play(one, other))
+    return turns
+
+
+def test_simulated_time_goes_on_while_two_answer_each_other_without_end() -> None:
+    scheduler = Scheduler()
+    begin = scheduler.now_ns()
+    turns = answer_each_other(scheduler)
+    called: list[int] = []
+    for delay in (1, 333_333, TICK_QUANTUM_NS, SECOND // 10 + 7):
+        scheduler.call_at(begin + delay, lambda: called.append(scheduler.now_ns() - begin))
+    assert scheduler.run(begin + SECOND // 2).reason == "time"
+    assert called == [1, 333_333, TICK_QUANTUM_NS, SECOND // 10 + 7]
+    assert turns == sorted(turns)
+    assert len(turns) < 100_000
+
+
+@pytest.mark.parametrize("kind", ["itself", "each other"])
+def test_a_condition_is_looked_at_while_lanes_give_work_without_end(scheduler: Scheduler, kind: str) -> None:
+    turns: list[int] = []
+    if kind == "each other":
+        turns = answer_each_other(scheduler)
+    else:
+        lane = scheduler.spawn("busy")
+
+        def again() -> None:
+            turns.append(scheduler.now_ns())
+            lane.submit(again)
+
+        lane.submit(again)
+    assert scheduler.run(until=lambda: len(turns) > 30_000).reason == "condition"
+
+
+def test_a_lane_that_gives_itself_work_without_end_starves_nobody() -> None:
+    scheduler = Scheduler()
+    lane = scheduler.spawn("busy")
+    others: list[int] = []
+    scheduler.call_at(scheduler.now_ns() + SECOND // 100, lambda: others.append(scheduler.now_ns()))
+
+    def again() -> None:
+        lane.submit(again)
+
+    lane.submit(again)
+    begin = scheduler.now_ns()
+    assert scheduler.run(begin + SECOND // 50).reason == "time"
+    assert others == [begin + SECOND // 100]
+    lane.kill()
+    assert scheduler.run(begin + SECOND).reason == "time"
+    assert lane.dead
+    assert lane.idle
+
+
+def test_many_events_at_one_instant_that_end_are_one_instant() -> None:
+    scheduler = Scheduler()
+    done: list[int] = []
+    for _ in range(200_000):
+        scheduler.call_soon(lambda: done.append(scheduler.now_ns()))
+    scheduler.run(scheduler.now_ns() + 1)
+    assert len(done) == 200_000
+    assert len(set(done)) == 1
