@@ -239,7 +239,6 @@ def test_what_public_descriptions_write_is_allowed(index):
 
 def test_pypis_xacro_finds_packages_by_itself(index, monkeypatch):
     import xacro
-
     from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(index.paths[0]))
