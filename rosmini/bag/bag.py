@@ -17,7 +17,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
-from io import BufferedReader, BytesIO, FileIO, IOBase, TextIOBase
+from io import BytesIO, FileIO, IOBase, TextIOBase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, Self
 
@@ -35,7 +35,7 @@ from .errors import (
     in_file,
 )
 from .index import Connection, Index, connection
-from .reader import RawMessage, Reader, index_position, read_index
+from .reader import Input, RawMessage, Reader, index_position, read_index
 from .records import Compression, check_compression, check_magic
 from .scan import Scan, scan
 from .summary import BagMessage, BagMessageWithConnectionHeader, Summaries
@@ -50,13 +50,6 @@ if TYPE_CHECKING:
 
     from .summary import ConnectionFilter
     from .table import Table
-
-
-class _Input(BufferedReader):
-    """A file that is read, and closed without a word by whoever forgets to: nothing is lost by it."""
-
-    def __del__(self) -> None:
-        self.close()
 
 
 class Bag(Summaries):
@@ -141,11 +134,11 @@ class Bag(Summaries):
         if self._mode == "r":
             if not (stream or Path(f).is_dir()):
                 check(f, sys.maxsize)  # to open a pipe would be to wait for who writes to it
-            self._file = self._input = f if stream else _Input(FileIO(f))
+            self._file = self._input = f if stream else Input(FileIO(f))
             return self._read_index(self._file, allow_unindexed)
         # no buffer: what a full disk refuses must not wait in one
         self._file = f if stream else FileIO(f, "w+" if self._mode == "w" else "r+")
-        self._input = f if stream else _Input(FileIO(f))
+        self._input = f if stream else Input(FileIO(f))
         if self._mode == "w":
             self._writer = self._new_writer(self._file)
         else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from bisect import bisect_left
 from collections import OrderedDict
+from io import BufferedReader
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
 from .errors import DamagedIndex, ROSBagFormatException, ROSBagUnindexedException, in_file
@@ -39,6 +40,13 @@ if TYPE_CHECKING:
 
 KEPT = 16 * 1024 * 1024
 """Of the chunks that were read, so much stays in memory, and the last in any case [bytes]: those that overlap in time are read in turn."""
+
+
+class Input(BufferedReader):
+    """A file that is read, and closed without a word by whoever forgets to: nothing is lost by it."""
+
+    def __del__(self) -> None:
+        self.close()
 
 
 class RawMessage(NamedTuple):
