@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from rosmini.msgs.importer import how_to_import
+
 from .errors import ActionException
 
 __all__ = ["ActionTypes"]
@@ -32,6 +34,11 @@ class ActionTypes(NamedTuple):
         except (AttributeError, TypeError) as error:
             name = getattr(spec, "__name__", repr(spec))
             ends = [end for end in ("Goal", "Result", "Feedback") if name.endswith(end)]
-            hint = f": give {name.removesuffix(ends[0]).removesuffix('Action')}Action" if ends else ""
-            raise ActionException(f"{name} is not an action type, such as FibonacciAction{hint}") from error
+            hint = (
+                f"give {name.removesuffix(ends[0]).removesuffix('Action')}Action"
+                if ends
+                else how_to_import(spec)
+            )
+            told = f": {hint}" if hint else ""
+            raise ActionException(f"{name} is not an action type, such as FibonacciAction{told}") from error
         return cls(*parts, *inner)

@@ -6,9 +6,11 @@ import queue
 import threading
 import time
 from collections import deque
+from math import inf
+from numbers import Real
 from typing import TYPE_CHECKING
 
-from rosmini.errors import RosminiError
+from rosmini.errors import RosminiError, shown
 
 from .events import TimedEvents
 
@@ -28,6 +30,14 @@ ROUNDS_PER_INSTANT = 10_000
 
 ROUNDS_PER_QUANTUM = 20
 """From then on so many rounds cost a quantum: 0.1 ms for a message and the callback that answers it, about what they cost on a robot."""
+
+
+def span_ns(seconds: float, what: str) -> int:
+    """Return a span of graph time in nanoseconds. Raises ``RosminiError``, saying ``what`` it is, for no finite number from zero on."""
+    if isinstance(seconds, Real) and not isinstance(seconds, bool) and 0 <= seconds < inf:
+        return int(seconds * 1e9)
+    msg = f"{what} is a number of seconds, zero or more, not {shown(seconds)}; leave it out for no limit"
+    raise RosminiError(msg)
 
 
 class EventQueue:

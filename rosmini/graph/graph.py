@@ -13,6 +13,7 @@ from rosmini.names import AnonymousNames
 from rosmini.time import Time
 
 from .console import Console
+from .event_queue import span_ns
 from .lanes import Lane, Waiter
 from .log_file import log_folder
 from .master import Master
@@ -133,9 +134,12 @@ class Graph:
     def run(self, duration: float | None = None, until: Callable[[], bool] | None = None) -> RunReport:
         """Let the graph go on for ``duration`` seconds of its time, until ``until()`` holds, or until nothing is left to happen.
 
-        What a callback raises is raised here when the graph is strict. Ctrl-C stops the drive and leaves the graph in order.
+        What a callback raises is raised here when the graph is strict. Ctrl-C stops the drive and leaves the graph in order. Raises
+        ``RosminiError`` for a duration that is no number of seconds from zero on.
         """
-        until_ns = None if duration is None else self.scheduler.now_ns() + int(duration * 1e9)
+        until_ns = (
+            None if duration is None else self.scheduler.now_ns() + span_ns(duration, "a run's duration")
+        )
         return self.scheduler.run(until_ns, until)
 
     def live(self, rate: float = 1.0) -> LiveDrive:

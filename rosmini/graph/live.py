@@ -6,6 +6,7 @@ Everything runs in the kernel's main thread: what other threads want (JupyterLab
 
 from __future__ import annotations
 
+import re
 import signal
 import sys
 import time
@@ -32,6 +33,9 @@ BUDGET_S = 0.02
 
 LAG_S = 0.1
 """How far a live graph runs after wall time to make up for a delay. After a longer one it goes on from where it stood."""
+
+SLEEP = re.compile(r"\btime\s*\.\s*sleep\s*\(")
+"""What holds up the kernel, in a cell's text."""
 
 STOPPED = "The live graph was stopped. Call live() to go on; with Graph(strict=False) such errors are logged instead, as in ROS."
 
@@ -127,9 +131,24 @@ class LiveDrive(LoopDrive):
         self._graph_start = graph.scheduler.now_ns()
         self._start = time.perf_counter()
         super().__init__(graph, loop)
+        if self._kernel is not None:
+            self._kernel.events.register("pre_run_cell", self._warn_of_sleep)
 
     def __repr__(self) -> str:
         return f"<live graph, {self.rate:g} s a second{'' if self.running else ', stopped'}>"
+
+    def _let_go(self) -> None:
+        super()._let_go()
+        if self._kernel is not None:
+            self._kernel.events.unregister("pre_run_cell", self._warn_of_sleep)
+
+    def _warn_of_sleep(self, info: Any) -> None:
+        """Say before a cell runs that sleeps with Python's own sleep that the graph stands still meanwhile."""
+        if self.running and SLEEP.search(info.raw_cell or ""):
+            sys.stderr.write(
+                "time.sleep() keeps the kernel busy, so the live graph stands still meanwhile. "
+                "Let graph.run(seconds) or a node's sleep(seconds) wait instead: with them it goes on.\n"
+            )
 
     def _slice(self) -> float:
         if self.graph.simulated:

@@ -6,6 +6,7 @@ class objects, because both ask the one registry.
 
 from __future__ import annotations
 
+import re
 import sys
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
@@ -19,7 +20,16 @@ from .registry import MODULE_PREFIX, registry
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["UnknownImport", "UnknownPackageImport", "install", "installed", "uninstall"]
+__all__ = [
+    "UnknownImport",
+    "UnknownPackageImport",
+    "how_to_import",
+    "install",
+    "installed",
+    "uninstall",
+]
+
+_KINDS = ("msg", "srv", "action")
 
 
 class UnknownImport(UnknownType, ImportError):
@@ -28,6 +38,21 @@ class UnknownImport(UnknownType, ImportError):
 
 class UnknownPackageImport(UnknownPackage, ModuleNotFoundError):
     """An import from a package that does not exist, or that defines no messages."""
+
+
+def how_to_import(text: object) -> str:
+    """Say how a script gets the class of the type that ``text`` names ("std_msgs/String", "std_msgs.String"); empty where it names none."""
+    parts = [part for part in re.split(r"[/.]", text) if part not in _KINDS] if isinstance(text, str) else []
+    if len(parts) != 2:
+        return ""
+    package, name = parts
+    known = {"msg": registry().messages(package), "srv": registry().services(package)}
+    wanted = (name, f"{name}Action")
+    found = [(kind, each) for each in wanted for kind, names in known.items() if each in names]
+    if not found:
+        return nearest(name, [each for names in known.values() for each in names])
+    kind, each = found[0]
+    return f"write `from {package}.{kind} import {each}` and give {each} itself, without quotation marks"
 
 
 class _DefinitionsModule(ModuleType):
@@ -88,6 +113,14 @@ class _PackageModule(ModuleType):
             from importlib import import_module
 
             return import_module(f"{self.__name__}.{name}")
+        if name[:1].isupper():  # a type: what `from std_msgs import String` and `std_msgs.String` mean
+            hint = how_to_import(f"{self._package}.{name}").partition(" and give")[0]
+            where = "in its modules " + " and ".join(
+                f"{self._package}.{kind}" for kind in _kinds(self._package)
+            )
+            raise UnknownImport(
+                f"the types of package '{self._package}' are {where}: {hint or f'none is called {name}'}"
+            )
         raise AttributeError(f"module '{self.__name__}' has no attribute '{name}'", name=name, obj=self)
 
 
@@ -141,7 +174,9 @@ class _OwnFinder(MetaPathFinder):
             )
         if kind in _kinds(package):
             return _spec(fullname, package, kind)
-        return None
+        there = " and ".join(f"{package}.{each}" for each in _kinds(package))
+        hint = how_to_import(f"{package}.{kind}").partition(" and give")[0] or f"it has {there}"
+        raise UnknownPackageImport(f"package '{package}' has no module '{kind}': {hint}", name=fullname)
 
 
 class _TopLevelFinder(MetaPathFinder):

@@ -35,7 +35,11 @@ class _Compiled:
     def __get__(self, instance: Any, owner: type[Message]) -> Any:
         from .codegen import compile_function
 
-        home = next(cls for cls in owner.__mro__ if "_spec" in cls.__dict__)
+        home = next((cls for cls in owner.__mro__ if "_spec" in cls.__dict__), None)
+        if home is None:  # help() and inspect look into the classes below those of types, too
+            raise AttributeError(
+                f"{owner.__name__} has no {self.name}: it is not the class of a message type"
+            )
         function = compile_function(home, self.name.removeprefix("_"))
         setattr(home, self.name, staticmethod(function))
         return function

@@ -12,6 +12,7 @@ from rosmini.errors import (
     ServiceException,
 )
 from rosmini.graph.transport import extra_fields
+from rosmini.msgs.importer import how_to_import
 from rosmini.msgs.message import Message
 
 from .session import answer_interrupt, any_node, current_node, current_session
@@ -42,7 +43,8 @@ def wait_for_service(service: str, timeout: float | base.Duration | None = None)
 
 def _check_service_class(service_class: Any) -> None:
     if not inspect.isclass(service_class) or not hasattr(service_class, "_request_class"):
-        raise ValueError(f"{service_class!r} is not a service class; give one such as std_srvs.srv.SetBool")
+        hint = how_to_import(service_class) or "give one such as std_srvs.srv.SetBool"
+        raise ValueError(f"{service_class!r} is not a service class: {hint}")
 
 
 class _Service:

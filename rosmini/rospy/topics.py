@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import IllegalName, ROSException, ROSSerializationException, SerializationError
 from rosmini.graph.transport import extra_fields
+from rosmini.msgs.importer import how_to_import
 from rosmini.msgs.message import Message
 from rosmini.names import is_legal_name
 
@@ -32,9 +33,8 @@ def check_message_class(data_class: Any) -> None:
             "topic parameter 'data_class' is not initialized: give a message class, such as std_msgs.msg.String"
         )
     if not inspect.isclass(data_class):
-        raise ValueError(
-            f"data_class [{data_class!r}] is not a class: give the message class itself, such as std_msgs.msg.String"
-        )
+        hint = how_to_import(data_class) or "give the message class itself, such as std_msgs.msg.String"
+        raise ValueError(f"data_class [{data_class!r}] is not a class: {hint}")
     if not issubclass(data_class, Message):
         hint = (
             " (it is a class of another ROS installation; import messages after rosmini)"

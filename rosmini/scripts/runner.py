@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from rosmini.errors import ROSInterruptException, ScriptError
 from rosmini.graph import Graph, LaneExit, set_default_graph
+from rosmini.graph.event_queue import span_ns
 
 from .context import ScriptContext
 from .executables import BuiltIn
@@ -200,7 +201,9 @@ class _Run:
 
     def drive(self, duration: float | None) -> tuple[str, RunReport | None]:
         """Let the scripts run; return why they stopped and the report."""
-        until_ns = None if duration is None else self.scheduler.now_ns() + round(duration * 1e9)
+        until_ns = (
+            None if duration is None else self.scheduler.now_ns() + span_ns(duration, "a run's duration")
+        )
         for node in self.nodes:
             node.start()
         for script in self.scripts:

@@ -53,8 +53,18 @@ class Feed:
         return self._take(len(self._text) if size < 0 else size)
 
     def ready(self, who: Blocker, timeout_ns: int | None) -> bool:
-        """Wait until something can be read (the end counts), for at most ``timeout_ns``; tell whether it can."""
-        return bool(self._text) or self._ended or self._await(who, timeout_ns)
+        """Wait until something can be read (the end counts), for at most ``timeout_ns``; tell whether it can.
+
+        Once the end was read, asking again takes the whole time-out, which a person would have taken: a loop that waits for keys
+        would else turn for ever at one instant of simulated time.
+        """
+        if self._text:
+            return True
+        if self._ended:
+            if timeout_ns:
+                who.pause("standard input, which has ended", timeout_ns)
+            return True
+        return self._await(who, timeout_ns)
 
     def _take(self, count: int) -> str:
         taken, self._text = self._text[:count], self._text[count:]

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
 import pytest
 
-from rosmini.errors import TransportInitError
+from rosmini.errors import RosminiError, TransportInitError
 from rosmini.graph import Graph
 from rosmini.msgs.std_msgs.msg import String
+from rosmini.scripts import run_source
+from rosmini.time import Time
 
 
 def test_a_graph_shows_itself() -> None:
@@ -15,6 +20,23 @@ def test_a_graph_shows_itself() -> None:
     graph.node("listener").subscriber("chatter", String)
     assert "/talker -> /chatter [std_msgs/String] -> /listener" in repr(graph.show())
     assert "talker" in graph.show(title="Two nodes").alt
+
+
+@pytest.mark.parametrize("duration", [-1, -0.1, "5", float("nan"), float("inf"), True, [1], Time(1)])
+def test_a_duration_that_is_none_is_a_clear_error(duration: Any) -> None:
+    with pytest.raises(RosminiError, match="a run's duration is a number of seconds, zero or more, not"):
+        Graph().run(duration)
+    with pytest.raises(RosminiError, match="a run's duration is a number of seconds"):
+        run_source("print(1)", duration=duration)
+
+
+def test_a_run_of_no_time_does_what_is_due() -> None:
+    graph, heard = Graph(), []
+    graph.scheduler.call_soon(lambda: heard.append(1))
+    assert graph.run(0).reason == "time"
+    assert heard == [1]
+    assert graph.run(np.float32(0.5)).now == 1000.5
+    assert graph.run(None).reason == "drained"
 
 
 def test_a_registered_node_that_does_not_answer_is_unreachable() -> None:

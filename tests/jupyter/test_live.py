@@ -186,3 +186,13 @@ def test_a_graph_that_a_widgets_thread_made_is_refused_to_cells_while_it_has_par
     assert cell.errors == ["RosminiError"]
     assert "Make the graph in a cell" in cell.tracebacks[0]
     kernel.run("theirs.shutdown()", subshell)
+
+
+def test_a_cell_that_sleeps_by_itself_says_why_the_live_graph_stands_still(kernel):
+    live(kernel)
+    told = kernel.ok("import time\ntime.sleep(0.01)").stderr
+    assert "the live graph stands still meanwhile" in told
+    assert "graph.run(seconds)" in told
+    assert kernel.ok("graph.run(0.01).reason").stderr == ""
+    kernel.ok("drive.stop()\nawait asyncio.sleep(0.05)")
+    assert kernel.ok("time.sleep(0.01)").stderr == ""

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import copy
+import inspect
 import io
 import pickle
+import pydoc
 from typing import Any
 
 import numpy as np
@@ -280,3 +282,26 @@ def _pose_with_x(value: Any) -> Any:
     pose = PoseStamped()
     pose.pose.position.x = value
     return pose
+
+
+@pytest.mark.parametrize(
+    "thing",
+    [
+        message_class("geometry_msgs/Twist"),
+        message_class("geometry_msgs/Twist")(),
+        message_class("geometry_msgs/Twist").__mro__[1],
+        service_class("std_srvs/SetBool"),
+        service_class("std_srvs/SetBool")._request_class,
+        Message,
+    ],
+    ids=lambda thing: getattr(thing, "__name__", "a message"),
+)
+def test_help_and_inspect_look_at_every_layer_of_a_class(thing: Any) -> None:
+    assert pydoc.render_doc(thing, renderer=pydoc.plaintext)
+    assert inspect.getmembers(thing)
+    assert dir(thing)
+
+
+def test_a_class_that_is_no_type_has_no_functions_of_one() -> None:
+    with pytest.raises(AttributeError, match="not the class of a message type"):
+        _ = Message._freeze

@@ -150,3 +150,23 @@ def test_importing_the_package_is_light() -> None:
     code = "import sys, rosmini.msgs; print([m for m in ('numpy', 'rosbags', 'yaml', 'catkin_pkg') if m in sys.modules])"
     done = run_process([sys.executable, "-c", code], check=True)
     assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize(
+    ("statement", "words"),
+    [
+        ("from rosmini.msgs.std_msgs import String", r"write `from std_msgs.msg import String`"),
+        (
+            "import rosmini.msgs.std_msgs; rosmini.msgs.std_msgs.String",
+            r"write `from std_msgs.msg import String`",
+        ),
+        ("import rosmini.msgs.std_msgs.String", r"write `from std_msgs.msg import String`"),
+        ("from rosmini.msgs.turtlesim import Spawn", r"write `from turtlesim.srv import Spawn`"),
+        ("from rosmini.msgs.std_msgs import Strin", r"did you mean String"),
+        ("from rosmini.msgs.geometry_msgs.msgs import Twist", r"no module 'msgs': it has geometry_msgs.msg"),
+        ("from rosmini.msgs.std_msgs.srv import String", r"no module 'srv': it has std_msgs.msg"),
+    ],
+)
+def test_an_import_without_its_module_says_what_to_write(statement: str, words: str) -> None:
+    with pytest.raises(ImportError, match=words):
+        exec(statement)

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from rosmini import rospy
+from rosmini.actionlib import ActionException
 from rosmini.msgs.geometry_msgs.msg import PointStamped, Twist
 from rosmini.msgs.rospy_tutorials.msg import Floats
 from rosmini.msgs.sensor_msgs.msg import Image, LaserScan
 from rosmini.msgs.std_msgs.msg import Header, Int32, String
+from rosmini.rospy.aliases.actionlib import SimpleActionClient
 from rosmini.rospy.numpy_msg import numpy_msg
 
 
@@ -361,3 +363,33 @@ def test_publishing_after_the_shutdown_is_said_once(programs, log):
 
     programs(main)
     assert log.read().err.count("after node /main was shut down (enough)") == 1
+
+
+@pytest.mark.parametrize("text", ["std_msgs/String", "std_msgs.msg.String", "std_msgs.String"])
+def test_a_type_given_as_text_says_what_to_write(sim_programs, text):
+    def main():
+        rospy.init_node("main")
+        for make in (
+            lambda: rospy.Publisher("t", text, queue_size=1),
+            lambda: rospy.Subscriber("t", text),
+            lambda: rospy.wait_for_message("t", text, 1),
+        ):
+            with pytest.raises(
+                ValueError, match=r"write `from std_msgs.msg import String` and give String itself"
+            ):
+                make()
+        for make in (
+            lambda: rospy.Service("s", "std_srvs/Empty", print),
+            lambda: rospy.ServiceProxy("s", "std_srvs.srv.Empty"),
+        ):
+            with pytest.raises(ValueError, match=r"write `from std_srvs.srv import Empty`"):
+                make()
+        for name in ("Fibonacci", "FibonacciAction"):
+            with pytest.raises(
+                ActionException, match=r"write `from actionlib_tutorials.msg import FibonacciAction`"
+            ):
+                SimpleActionClient("a", f"actionlib_tutorials/{name}")
+        with pytest.raises(ValueError, match=r"did you mean LaserScan"):
+            rospy.Subscriber("t", "sensor_msgs/LaserScam")
+
+    sim_programs(main)

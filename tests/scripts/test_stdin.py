@@ -140,3 +140,32 @@ def test_two_scripts_share_what_is_typed():
     ask = "print(input())"
     run_scripts([ScriptSpec("a", source=ask), ScriptSpec("b", source=ask)], stdin="one\ntwo\n", stdout=out)
     assert out.getvalue().splitlines() == ["[a] one", "[b] two"]
+
+
+TELEOP = """
+import select, sys, rospy
+from std_msgs.msg import Int32
+rospy.init_node("teleop")
+pub = rospy.Publisher("count", Int32, queue_size=1)
+turns = 0
+while not rospy.is_shutdown():
+    if select.select([sys.stdin], [], [], 0.1)[0]:
+        sys.stdin.read(1)
+    turns += 1
+    pub.publish(turns)
+"""
+
+
+@pytest.mark.parametrize("source", ["text", "file"])
+def test_input_at_its_end_costs_select_its_time_out(sim, source, tmp_path):
+    """As a key-driven teleoperation with ``</dev/null``: graph time goes on, ten turns a second."""
+    (tmp_path / "empty").write_text("", encoding="utf-8")
+    with (tmp_path / "empty").open(encoding="utf-8") as empty:
+        ran = sim(
+            sim.text("teleop", TELEOP + "print(turns)"),
+            stdin="" if source == "text" else empty,
+            duration=2.05,
+        )
+    assert (ran.result.reason, ran.result.status) == ("time", 0)
+    turns = int(ran.lines[-1].removeprefix("[teleop] "))
+    assert 19 <= turns <= 22

@@ -121,8 +121,8 @@ class Resources:
             except (OSError, SdfError):  # what is wrong with a package is no business of a world
                 continue
             for tag in manifest.walk():
-                paths = tag.get("gazebo_model_path").replace("${prefix}", str(folder)).split(os.pathsep)
-                found += [Path(path) for path in paths if path]
+                paths = tag.get("gazebo_model_path").split(":")  # a manifest is the same on all systems
+                found += [Path(path.replace("${prefix}", str(folder))) for path in paths if path]
         return found
 
 

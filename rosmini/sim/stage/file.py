@@ -229,17 +229,16 @@ class _World:
             self._add(thing, Solid(parts, pose, low, high), mass)
 
     def _there(self, thing: Thing) -> bool:
-        """Tell whether anything notices the thing, and note what is not as the file says."""
-        if thing.solid and thing.seen >= 0:
-            return True
-        if not thing.solid and thing.seen < 0:
-            self.units.note(
-                thing.place, "nothing bumps into {} and nothing sees it: it is left out", thing.name
-            )
+        """Tell whether anything bumps into the thing, and note what is not as the file says."""
+        if not thing.solid:
+            what = "nothing bumps into {} and nothing sees it: it is left out"
+            if thing.seen >= 0:
+                what = "nothing bumps into {}: it is left out here, so that no laser sees it either"
+            self.units.note(thing.place, what, thing.name)
             return False
-        name = "obstacle_return" if not thing.solid else "ranger_return"
-        what = "solid" if not thing.solid else "seen by lasers"
-        self.units.note(thing.reader.place(name), f"{name} changes nothing here: {{}} is {what}", thing.name)
+        if thing.seen < 0:
+            what = "ranger_return changes nothing here: {} is seen by lasers"
+            self.units.note(thing.reader.place("ranger_return"), what, thing.name)
         return True
 
     def _filled(self, thing: Thing) -> tuple[Block, ...]:

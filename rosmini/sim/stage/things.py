@@ -114,7 +114,8 @@ class Maker:
     def thing(self, entity: Entity, parent: Thing | None) -> Thing | None:
         """One model; None if nothing of it is simulated."""
         if entity.kind in LEFT_OUT:
-            self.units.note(entity.place, f"a {entity.kind} is not simulated and is left out")
+            article = "an" if entity.kind[0] in "aeiou" else "a"
+            self.units.note(entity.place, f"{article} {entity.kind} is not simulated and is left out")
             return None
         if entity.kind not in SIMULATED:
             raise unknown_kind(entity, (*SIMULATED, *LEFT_OUT, "window"), self.parsed.macros)

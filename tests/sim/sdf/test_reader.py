@@ -250,16 +250,18 @@ def test_actors_are_included_and_lights_are_not_models(brick):
         load(model("<include><uri>model://brick</uri></include>"))
 
 
-def test_packages_may_bring_models(tmp_path, monkeypatch, brick):
+@pytest.mark.parametrize("separator", [":", ";"], ids=["unix", "windows"])
+def test_packages_may_bring_models(tmp_path, monkeypatch, brick, separator):
     package = tmp_path / "ws" / "bricks"
     package.mkdir(parents=True)
     (package / "package.xml").write_text(
         "<package><name>bricks</name><version>0.1.0</version><description>d</description><maintainer email='a@b.invalid'>m</maintainer>"
-        "<license>l</license><export><gazebo_ros gazebo_model_path='${prefix}/../../models'/></export></package>",
+        "<license>l</license><export><gazebo_ros gazebo_model_path='${prefix}/no:${prefix}/../../models'/></export></package>",
         encoding="utf-8",
     )
     monkeypatch.delenv("GAZEBO_MODEL_PATH")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ws"))
+    monkeypatch.setattr("os.pathsep", separator)  # what a manifest says is the same on all systems
     assert load(world("<include><uri>model://brick</uri></include>")).worlds[0].models[0].name == "brick"
     (package / "a.sdf").write_text(model("<link name='l'/>", "a"), encoding="utf-8")
     assert load("package://bricks/a.sdf").models[0].name == "a"

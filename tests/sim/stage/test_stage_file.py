@@ -277,6 +277,17 @@ def test_what_can_be_pushed(world):
     assert heap.height == pytest.approx(0.5)
 
 
+def test_a_robot_may_start_on_what_nothing_bumps_into(world):
+    stage = world(
+        'define zone model( size [4 4 0.01] obstacle_return 0 )\nzone( name "source" )\nposition( )\nactuator( )'
+    )
+    assert [each.name for each in stage.world.obstacles] == []
+    assert [note.split(":", 1)[1] for note in stage.notes] == [
+        "4: an actuator is not simulated and is left out",
+        "2: nothing bumps into source: it is left out here, so that no laser sees it either",
+    ]
+
+
 def test_what_nothing_notices_is_left_out_and_told(world):
     stage = world('model( name "ghost" obstacle_return 0 ranger_return -1 )\nmodel( name "glass" ranger_return -1 )\nfiducial( )' )  # fmt: skip
     assert [each.name for each in stage.world.obstacles] == ["glass"]
