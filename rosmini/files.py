@@ -66,9 +66,11 @@ def check(path: Path, largest: int = LARGEST) -> os.stat_result:
 
 def read(path: Path, largest: int = LARGEST) -> bytes:
     """The bytes of a file. Raises `OSError` as `check` does."""
-    check(path, largest)
+    size = check(path, largest).st_size
     with open(path, "rb") as file:  # noqa: PTH123 (a path of any kind)
-        data = file.read(largest + 1)  # some files of the system say that they are empty
+        data = file.read(size + 1)  # as much memory is taken as is asked for
+        if len(data) > size:  # some files of the system say that they are empty
+            data += file.read(largest + 1 - len(data))
     if len(data) > largest:
         raise _too_large(path, largest)
     return data
