@@ -255,7 +255,7 @@ class Simulator:
     def scan_poses(self) -> Floats:
         """Where the robot was at each beam of the last scan (beams, 3); (1, 3) if all of them were measured at once."""
         laser = self._first.laser
-        return np.array([self.scan_pose]) if laser is None or laser.poses is None else laser.poses
+        return np.array([self.scan_pose]) if laser is None else laser.seen_from
 
     def truth(self, robot: str = "") -> Pose:
         """Where the robot really is now: x [m], y [m], heading [rad, not wrapped], in the frame map. Raises `RobotGone`."""

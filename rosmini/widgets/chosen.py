@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose
 from rosmini.sim.devices import DifferentialDrive
@@ -15,6 +18,8 @@ from rosmini.sim.world import World
 
 from .teleop import Limits, TeleopError
 from .watch import Running
+
+Floats = NDArray[np.float64]
 
 HIGHEST = 1000.0
 """A robot of Gazebo has no bound on its speed: from here on it is taken as none [m/s, rad/s]."""
@@ -104,6 +109,12 @@ class Chosen:
         """Where it was when its laser measured last."""
         pose: Pose = self._laser.pose
         return pose
+
+    @property
+    def scan_poses(self) -> Floats:
+        """Where it was at each beam of that (beams, 3); (1, 3) if all of them were measured at once."""
+        poses: Floats = self._laser.seen_from
+        return poses
 
     def truth(self, robot: str = "") -> Pose:
         """Where it, or another one, is now: x [m], y [m], heading [rad]. Raises `RobotGone`."""

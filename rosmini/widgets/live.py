@@ -70,7 +70,7 @@ class Link:
         self._last: tuple[Any, ...] = ()
         self._last_sent = 0.0
         self._scan: NDArray[np.float32] | None = None
-        """A scan that the page has not got: ranges, and the pose that they were measured from."""
+        """A scan that the page has not got: ranges, and where the robot was at its stamp; that of a laser that sweeps is bent there while the robot turns."""
         self._scans: Subscriber | None = None
         data = pad_data(pad)
         if pad.sight is not None and pad.gone is None:

@@ -65,6 +65,11 @@ class RangeDevice(Device):
         """Where it is published, as a global name."""
 
     @property
+    def seen_from(self) -> Floats:
+        """Where the robot was at each beam of what it measured last (beams, 3); (1, 3) if all beams were measured at once."""
+        return np.array([self.pose]) if self.poses is None else self.poses
+
+    @property
     def message(self) -> Any:
         """A copy of the last message, whether anybody heard it or not; None before the first."""
         if self.ranges is None:

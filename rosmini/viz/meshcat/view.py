@@ -170,7 +170,8 @@ def replay_3d(
 ) -> MeshcatView:  # fmt: skip
     """A recorded run to play: the robot on its way, its wheels turning, its trail and where odometry saw it.
 
-    The camera follows the robot, or stands still if the focus is the world. `scans` shows what the laser saw.
+    The camera follows the robot, or stands still if the focus is the world. `scans` shows what the laser saw, from where the robot
+    was at the stamp of the scan: one of a laser that sweeps is bent while the robot turns.
     """
     world, model, truth = recording.world, recording.model, recording.truth
     start: Pose = tuple(truth[0].tolist())

@@ -3,6 +3,9 @@
 Numbers become whole ones (millimetres, tenths of a milliradian, milliseconds), then differences from one to the next,
 then bytes, most of them one a number, then base64. A run of a minute with a scan of 360 beams five times a second takes
 about 170 kB so. It could be compressed further, but another zlib writes other bytes, and nbval compares HTML to the byte.
+
+The player draws a scan from where the robot was at its stamp. That of a laser that sweeps is bent there while the robot turns, as the message is; the picture
+of a recording, `show`, draws each beam from where it was measured.
 """
 
 from __future__ import annotations
