@@ -101,7 +101,7 @@ def test_a_model_of_gazebo_is_driven(graph):
 
 
 def test_a_second_robot_of_the_simulator_is_driven(simulator, graph):
-    simulator.spawn("second", pose=(1.0, -1.0, 0.0))
+    simulator.spawn("second", pose=(1.0, 1.0, 0.0))
     pad = simulator.pad("second")
     assert pad.topic == "/second/cmd_vel"
     pad.press("x", times=10)
