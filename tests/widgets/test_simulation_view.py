@@ -355,7 +355,7 @@ def test_what_comes_and_goes_is_told(simulator):
     page.say("hello")
     page.run(0.1)
     page.sent.clear()
-    simulator.spawn("second", pose=(1.0, -1.0, 0.0))
+    simulator.spawn("second", pose=(1.0, 1.0, 0.0))
     page.run(0.1)
     (content, (scans,)) = page.of("scene")[-1]
     assert [body["name"] for body in content["data"]["bodies"]] == ["burger", "second", "crate"]
