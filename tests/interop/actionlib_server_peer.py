@@ -39,6 +39,12 @@ class Bench:
         self.cancel = rospy.Publisher(name + "/cancel", GoalID, queue_size=10)
         wait(lambda: self.goal.get_num_connections() and self.cancel.get_num_connections(), "the server")
         wait(ear.get_num_connections, "its results")
+        # A subscriber counts a connection before the publisher does, and what is published in between is lost.
+        results = self.server.result_pub
+        wait(
+            getattr(results, "get_num_connections", None) or results.num_connections,
+            "a listener to its results",
+        )
 
     def count(self, message):
         self.heard += 1
