@@ -526,6 +526,7 @@ def test_a_connect_callback_may_publish_to_the_newcomer_alone(graph: Graph) -> N
 def test_waiting_for_subscribers_gives_up_with_what_is_there(graph: Graph) -> None:
     publisher = graph.node("talker").publisher("t", String)
     graph.node("listener").subscriber("t", String)
+    publisher.wait_for_subscribers(1, timeout=LONG_ENOUGH)
     with pytest.raises(ROSException, match=r"after 2 s .* 2 subscribers of /t: 1 of 2 subscribers"):
         publisher.wait_for_subscribers(2, timeout=2.0)
 

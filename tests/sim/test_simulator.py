@@ -482,9 +482,10 @@ def test_in_wall_time_it_runs_too():
         driver.publisher.wait_for_subscribers()
         graph.run(100.0, until=lambda: len(driver.heard["odom"]) > 0)
         driver.command.linear.x = 0.2
-        driver.publisher.publish(driver.command)
-        graph.run(200.0, until=lambda: len(driver.heard["scan"]) > 20)
-        assert simulator.truth()[0] == pytest.approx(0.1, abs=0.02)
+        # On a slow machine a command may be too old when it is heard.
+        driver.node.timer(0.1, lambda _: driver.publisher.publish(driver.command))
+        far = graph.run(10_000.0, until=lambda: len(driver.heard["scan"]) > 20 and simulator.truth()[0] > 0.1)
+        assert far.reason == "condition"
         stamps = [seconds(message) for message in driver.heard["odom"]]
         assert stamps == sorted(stamps)
         assert len(driver.heard["imu"]) > len(driver.heard["odom"])
