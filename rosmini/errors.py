@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
     from pathlib import Path
     from types import TracebackType
 
@@ -22,6 +22,7 @@ __all__ = [
     "DuplicateNode",
     "GraphEnded",
     "IllegalName",
+    "MasterUnreachable",
     "MessageException",
     "ParameterError",
     "ParameterNotSet",
@@ -41,6 +42,7 @@ __all__ = [
     "TypeMismatch",
     "UnknownPackage",
     "UnknownType",
+    "UsageError",
     "nearest",
     "shown",
 ]
@@ -90,7 +92,14 @@ class TransportException(ROSInternalException):
 
 
 class TransportInitError(TransportException):
-    """A connection between two nodes could not be made (the header was refused, for instance)."""
+    """A connection between two nodes could not be made (the header was refused, for instance).
+
+    ``header`` has what the refusing end said about itself (``type``, ``md5sum``, ``callerid`` ...), if anything.
+    """
+
+    def __init__(self, message: str = "", header: Mapping[str, str] | None = None) -> None:
+        super().__init__(message)
+        self.header = dict(header or {})
 
 
 class TransportTerminated(TransportException):
@@ -145,6 +154,10 @@ class DefinitionError(RosminiError):
         return f"{place}: {self.message}" if place else self.message
 
 
+class MasterUnreachable(ROSException):
+    """The Master did not answer: it is not running, or its address is wrong."""
+
+
 class TypeMismatch(RosminiError):
     """Two ends of a topic or a service disagree about its type."""
 
@@ -162,6 +175,10 @@ class ParameterNotSet(ParameterError, KeyError):
 
 class ScriptError(RosminiError):
     """A script is not there, is not Python, or failed while it was being loaded."""
+
+
+class UsageError(RosminiError):
+    """A command line that makes no sense."""
 
 
 class CallbackError(RosminiError):
@@ -206,8 +223,8 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> str:
 def shown(value: object, limit: int = 60) -> str:
     """``repr(value)`` for an error message: one line of at most ``limit`` characters, and cut before it is made.
 
-    Of a text, a list or a message only as much is looked at as is shown, so a value of a gigabyte costs nothing. Large numbers and
-    arrays are described. What cannot say what it is, because its ``__repr__`` fails, is shown by its class.
+    Of a text, a list or a message only as much is looked at as is shown, so a value of a gigabyte costs nothing. Large
+    numbers and arrays are described. What cannot say what it is, because its ``__repr__`` fails, is shown by its class.
 
     >>> shown("a" * 10**6, 20)
     "'aaaaaaaaaaaaaaaa..."

@@ -1,6 +1,7 @@
 """Files from outside: looked at before they are read.
 
-Whatever a path from outside names, asking whether it is there raises nothing, and reading it blocks on no pipe and fills no memory.
+Whatever a path from outside names: testing it raises nothing, and reading it never blocks on a pipe or fills the
+memory.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ def path_of(address: str) -> str:
 
 
 def check(path: Path, largest: int = LARGEST) -> os.stat_result:
-    """What the system knows of a file that can be read. Raises `OSError`: it is not there, it is no regular file, it is too large."""
+    """The `stat` of a file that can be read. Raises `OSError` if it is missing, not a regular file, or too large."""
     try:
         found = os.stat(path)  # noqa: PTH116 (a path of any kind)
     except ValueError as error:  # a NUL in it, or what the file system's encoding has not

@@ -32,7 +32,7 @@ class ImageError(RosminiError):
 
 @contextmanager
 def opened(path: str | os.PathLike[str]) -> Iterator[Image]:
-    """An image whose pixels can be read. Raises `ImageError`, also for what goes wrong while they are, and `FileNotFoundError`."""
+    """An image whose pixels can be read. Raises `ImageError`, also while they are read, and `FileNotFoundError`."""
     from PIL import Image, UnidentifiedImageError
 
     try:

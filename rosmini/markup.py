@@ -1,8 +1,8 @@
 """XML as a tree that knows its lines: what URDF, SDF and launch files are read from.
 
-Everything that is wrong with such a file is told as ``file:line: what``; `Element.error` makes such an error for those who
-read the tree further. What comes from outside may be hostile: entities, which a few lines can blow up to gigabytes or make
-read other files, are refused (by defusedxml), and so is a tree deeper than any that a robot needs.
+Everything that is wrong with such a file is told as ``file:line: what``; `Element.error` makes such an error for those
+who read the tree further. What comes from outside may be hostile: entities, which a few lines can blow up to gigabytes
+or make read other files, are refused (by defusedxml), and so is a tree deeper than any that a robot needs.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class MarkupError(DefinitionError):
 
 @dataclass(eq=False)
 class Element:
-    """An element: its tag and attributes, the text directly inside it, the elements inside it, and where it was written."""
+    """An element: its tag, attributes, text and child elements, and where it was written."""
 
     tag: str
     attributes: dict[str, str] = field(default_factory=dict)
@@ -134,7 +134,7 @@ class Element:
     def floats(
         self, text: str, count: int | None = None, what: str = "", *, most: float = math.inf
     ) -> tuple[float, ...]:
-        """The numbers in a text of this element; all must be finite, and none larger than `most`. `count` None: any number of them.
+        """The numbers in a text of this element, `count` of them or any; all must be finite and at most `most`.
 
         Raises `MarkupError`, which calls them `what`, or else by the tag.
         """
@@ -181,8 +181,8 @@ def parse(
 ) -> Element:
     """The root of an XML text, which errors say is in `path`.
 
-    Raises `MarkupError`, or the kind of it that `failure` names, for what is not XML, defines entities, or is nested deeper
-    than `DEEPEST`; `Element.error` of every element makes errors of that kind too.
+    Raises `MarkupError`, or the kind of it that `failure` names, for what is not XML, defines entities, or is nested
+    deeper than `DEEPEST`; `Element.error` of every element makes errors of that kind too.
     """
     from defusedxml.common import DefusedXmlException
     from defusedxml.sax import make_parser
@@ -266,7 +266,10 @@ def _reason(message: str, column: int, text: bytes, builder: _Builder) -> str:
         inner = builder.open[-1][0]
         return f"the file ends, but <{inner.tag}> of line {inner.line} is still open"
     if "declaration not at start" in message:
-        return "<?xml ...?> must be the very first thing in the file: nothing may stand before it, not even a blank line"
+        return (
+            "<?xml ...?> must be the very first thing in the file: nothing may stand before it, not even a "
+            "blank line"
+        )
     return f"this is not XML: {message} at column {column + 1}"
 
 

@@ -63,7 +63,7 @@ def check_base_name(name: str, what: str = "node name") -> str:
 
 
 def is_legal_name(name: str | None) -> bool:
-    """Tell whether ``name`` is a legal graph resource name, by ``rosgraph.names``: with '//' in it, it works and is none.
+    """Tell whether ``name`` is a legal graph resource name by ``rosgraph.names``: '//' works, but is none.
 
     Raises ``TypeError`` for what is no text.
     """
@@ -84,7 +84,8 @@ def split_resource_name(name: str, package: str | None = None) -> tuple[str, str
     match = PACKAGE_RESOURCE.fullmatch(full) if isinstance(full, str) else None
     if match is None:
         raise IllegalName(
-            f"{name!r} is not a package resource name: write package/Type, such as std_msgs/String (letters, digits and '_')"
+            f"{name!r} is not a package resource name: write package/Type, such as std_msgs/String "
+            "(letters, digits and '_')"
         )
     return match[1], match[2]
 

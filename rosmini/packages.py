@@ -73,7 +73,7 @@ def search_paths(environ: Mapping[str, str] | None = None) -> tuple[Path, ...]:
 
 
 def package_around(path: str | os.PathLike[str]) -> Path | None:
-    """Return the folder of the package that a file is in, if it is in one: the nearest above it with a ``package.xml``."""
+    """Return the folder of the package that holds a file: the nearest one above it with a ``package.xml``."""
     return next((folder for folder in Path(path).absolute().parents if (folder / MANIFEST).is_file()), None)
 
 

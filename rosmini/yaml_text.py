@@ -1,7 +1,8 @@
 """YAML from outside: its documents, one by one, with errors that name the line.
 
-It is PyYAML's safe loader (YAML 1.1: ``yes`` is a truth value, ``010`` is eight, ``1e5`` without a point is text), which makes plain data only; but
-a few lines of aliases (``*name``) can grow to gigabytes there, or hold themselves: such documents are refused before anything is made of them.
+It is PyYAML's safe loader (YAML 1.1: ``yes`` is a truth value, ``010`` is eight, ``1e5`` without a point is text),
+which makes plain data only. A few lines of aliases (``*name``) could grow to gigabytes there, or contain themselves:
+such documents are refused before they are constructed.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ Loader.add_constructor("tag:yaml.org,2002:int", Loader.construct_yaml_int)
 def documents(
     text: str, source: str, failure: Failure, loader: type[Loader] = Loader
 ) -> Iterator[tuple[Any, yaml.Node]]:
-    """The values of the documents in a text, and the nodes they were made of. Raises what `failure` makes, with `source` and a line."""
+    """The documents in a text, as values and as nodes. Raises what `failure` makes, with `source` and a line."""
     reading: Loader | None = None
     try:
         reading = loader(text)

@@ -30,7 +30,7 @@ settings.load_profile("rosmini")
 
 
 def pytest_configure() -> None:
-    """Give SIGINT its meaning back: a shell that starts a program in the background has it ignored, and all children inherit that."""
+    """Give SIGINT its meaning back: a shell's background programs, and all their children, have it ignored."""
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
@@ -44,7 +44,7 @@ def codes(function: Any) -> Iterator[CodeType]:
 
 
 def starts_something(item: pytest.Function) -> bool:
-    """Whether a test, or a function or fixture of its file that it uses, has to do with processes, signals or threads."""
+    """Whether a test, or a function or fixture that it uses, has to do with processes, signals or threads."""
     used = vars(item.module)
     seen, todo = set(item.fixturenames), [item.function, *map(used.get, item.fixturenames)]
     while todo:

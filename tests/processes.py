@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
 PATIENCE = 300.0
-"""So many seconds a test waits for what must come, on a machine however slow; it never waits so long when all is well."""
+"""How many seconds a test waits for what must come on the slowest machine; usually it comes at once."""
 
 
 @contextmanager
@@ -69,7 +69,7 @@ def run(
 
 
 def wait_until(condition: Callable[[], object], what: str, process: Any = None) -> None:
-    """Wait until a condition holds. Fails when it does not come, or as soon as the process that should bring it has ended."""
+    """Wait until a condition holds. Fails if it takes too long, or once the process that should bring it has ended."""
     deadline = time.monotonic() + PATIENCE
     while not condition():
         assert process is None or process.poll() is None, (

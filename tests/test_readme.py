@@ -11,8 +11,6 @@ import pytest
 import yaml
 from packaging.specifiers import SpecifierSet
 
-from rosmini.book.pictures import talker_and_listener
-
 from .processes import run
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -31,11 +29,6 @@ def test_the_example_prints_what_is_shown(tmp_path):
 
 def test_the_example_has_ten_lines():
     assert len([line for line in block("python").splitlines() if line.strip()]) == 10
-
-
-def test_the_picture_is_the_graph_as_it_is_drawn_now():
-    stored = (ROOT / "book" / "static" / "talker_listener.svg").read_text(encoding="utf-8")
-    assert stored == talker_and_listener() + "\n", "run `python -m rosmini.book.pictures`"
 
 
 @pytest.mark.parametrize("target", re.findall(r'(?:\]\(|src=")([^)"#:]+)[)"]', README))

@@ -1,7 +1,8 @@
 """Actions: goals that take time, report how they get on, and can be cancelled (http://wiki.ros.org/actionlib).
 
-The object API, on a :class:`rosmini.graph.Node`. What scripts import as ``actionlib`` is the same in rospy's style, :mod:`rosmini.rospy.aliases.actionlib`.
-The two state machines are apart from nodes, in :mod:`~rosmini.actionlib.client_machine` and :mod:`~rosmini.actionlib.server_machine`.
+The object API, on a :class:`rosmini.graph.Node`. What scripts import as ``actionlib`` is the same in rospy's style,
+:mod:`rosmini.rospy.aliases.actionlib`. The two state machines are apart from nodes, in
+:mod:`~rosmini.actionlib.client_machine` and :mod:`~rosmini.actionlib.server_machine`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Action clients with goal handles: http://wiki.ros.org/actionlib.
 
-A client talks to its server over five topics under the action's name: it publishes ``goal`` and ``cancel``, and subscribes to
-``status``, ``feedback`` and ``result``. That is all there is to an action: no service is called.
+A client talks to its server over five topics under the action's name: it publishes ``goal`` and ``cancel``, and
+subscribes to ``status``, ``feedback`` and ``result``. That is all there is to an action: no service is called.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ __all__ = ["ActionClient", "ClientGoalHandle"]
 
 
 def new_goal_id(node: Node, now: Time) -> str:
-    """Return a goal id in rospy's form, ``/node-number-seconds``: the goals of a node are numbered, whichever of its clients sends them."""
+    """Return a goal id in rospy's form, ``/node-number-seconds``; all clients of a node share the numbers."""
     return f"{node.name}-{next(numbers_of(node, 'goal'))}-{now.to_sec():.3f}"
 
 
@@ -213,8 +213,8 @@ class ActionClient:
     ) -> ClientGoalHandle:
         """Send a goal and return its handle.
 
-        ``transition_cb(handle)`` is called in each state that the client comes through, ``feedback_cb(handle, feedback)`` on feedback.
-        Raises ``ActionException`` for a goal of another type.
+        ``transition_cb(handle)`` is called in each state that the client comes through, ``feedback_cb(handle,
+        feedback)`` on feedback. Raises ``ActionException`` for a goal of another type.
         """
         return self.node.scheduler.on_hub(lambda: self._send(goal, transition_cb, feedback_cb))
 
@@ -238,7 +238,7 @@ class ActionClient:
         self._goals.pop(handle.id, None)
 
     def send_cancel(self, stamp: Time, goal_id: str) -> None:
-        """Ask the server to cancel: the goal ``goal_id``, all goals sent up to ``stamp``, or with both empty all goals."""
+        """Ask the server to cancel the goal ``goal_id``, all goals sent up to ``stamp``, or with both empty all."""
         message = self._cancel.message_class()
         message.stamp, message.id = stamp, goal_id
         self._cancel.publish(message)
@@ -254,10 +254,13 @@ class ActionClient:
     # -- the server ----------------------------------------------------------------------------------------------
 
     def wait_for_server(self, timeout: Timeout = None) -> bool:
-        """Block until a server is there and all five topics are connected; False after ``timeout`` (None or 0: no limit)."""
+        """Block until a server is there and all five topics are connected.
+
+        False after ``timeout`` (None or 0: no limit).
+        """
         node = self.node
         waiter = node.waiter(f"an action server on {self.ns}")
-        node.scheduler.on_hub(lambda: node.graph.watch(self._connected, waiter))
+        node.scheduler.on_hub(lambda: node.graph.changes.watch(self._connected, waiter))
         try:
             return wait_on(node, waiter, timeout, self._connected)
         finally:

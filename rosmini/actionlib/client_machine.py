@@ -1,7 +1,8 @@
-"""The client's state machine: what a client concludes from what the server tells (http://wiki.ros.org/actionlib/DetailedDescription).
+"""The client's state machine, driven by what the server says (http://wiki.ros.org/actionlib/DetailedDescription).
 
-Pure: statuses in, states out. The server publishes the status of a goal only now and then, so that a client may miss some: on hearing
-``SUCCEEDED`` while ``PENDING`` it goes through ``ACTIVE`` first, as if it had heard of it. :data:`CLIENT_TRANSITIONS` has all of these ways.
+Pure: statuses in, states out. The server publishes the status of a goal only now and then, so that a client may miss
+some: on hearing ``SUCCEEDED`` while ``PENDING`` it goes through ``ACTIVE`` first, as if it had heard of it.
+:data:`CLIENT_TRANSITIONS` has all of these ways.
 
 >>> machine = ClientMachine()
 >>> machine.hear(Status.SUCCEEDED)
@@ -41,7 +42,8 @@ _HEARD = (
     Status.ABORTED,
 )
 
-# One row for each state, one column for each status above: through which states it goes. "-": it stays; "!": this cannot be.
+# One row for each state, one column for each status above: through which states it goes. "-": it stays; "!": this
+# cannot be.
 _TABLE = """
     WAITING_FOR_GOAL_ACK    P  A  Pr Ap PW PW  ApW AW AW
     PENDING                 -  A  r  Ap W  rW  ApW AW AW
@@ -60,13 +62,16 @@ CLIENT_TRANSITIONS: dict[CommState, dict[Status, tuple[CommState, ...] | None]] 
     }
     for row in _TABLE.strip().splitlines()
 }
-"""For each state and each status heard: through which states the client goes, the last one stays; None where that cannot be."""
+"""For each state and each status heard: through which states the client goes, the last one stays.
+
+None where that cannot be.
+"""
 
 CANCELLABLE = frozenset({CommState.WAITING_FOR_GOAL_ACK, CommState.PENDING, CommState.ACTIVE})
 """Where asking for cancellation makes sense; elsewhere the goal is being cancelled already, or over."""
 
 _MAY_BE_UNHEARD = frozenset({CommState.WAITING_FOR_GOAL_ACK, CommState.WAITING_FOR_RESULT, CommState.DONE})
-"""Where a status list without the goal means nothing: the server has not got it yet, or has forgotten what it finished."""
+"""States where a status list without the goal means nothing: the server has not got it yet, or has forgotten it."""
 
 
 def path(state: CommState, status: int) -> tuple[CommState, ...]:
@@ -123,7 +128,10 @@ class ClientMachine:
         return True
 
     def finish(self, status: int, text: str = "") -> None:
-        """Learn of the result, which comes with the last status. Raises ``IllegalTransition``, and is done all the same."""
+        """Learn of the result, which comes with the last status.
+
+        Raises ``IllegalTransition``, and is done all the same.
+        """
         if self.state is CommState.DONE:
             raise IllegalTransition(
                 f"a second result arrived for a goal that is over ({Status.to_string(self.status)}): "

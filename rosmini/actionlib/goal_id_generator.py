@@ -16,13 +16,16 @@ __all__ = ["GoalIDGenerator", "numbers_of"]
 
 
 def numbers_of(node: Node, of: str) -> Iterator[int]:
-    """Return the numbers 1, 2, ... that a node gives to what it makes of one kind, whichever of its clients or servers asks."""
+    """Return the numbers 1, 2, ... that a node gives to what it makes of one kind, for all its clients and servers."""
     numbers: Iterator[int] = vars(node).setdefault(f"_{of}_numbers", count(1))
     return numbers
 
 
 class GoalIDGenerator:
-    """Makes ids in the form ``name-number-secs.nsecs``, stamped with the node's time; ``name`` is the node's unless given."""
+    """Makes ids in the form ``name-number-secs.nsecs``, stamped with the node's time.
+
+    ``name`` is the node's unless given.
+    """
 
     def __init__(self, node: Node, name: str | None = None) -> None:
         self._node = node

@@ -1,11 +1,13 @@
 """Action servers with goal handles: http://wiki.ros.org/actionlib.
 
-The server decides what becomes of a goal, and publishes the list of its goals on ``status``: on each change, and five times a second.
+The server decides what becomes of a goal, and publishes the list of its goals on ``status``: on each change, and five
+times a second.
 """
 
 from __future__ import annotations
 
 from functools import partial
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from rosmini.msgs import message_class
@@ -33,6 +35,9 @@ STATUS_HZ = 5.0
 STATUS_LIST_TIMEOUT = 5.0
 """How long a goal that is over stays in the list [s], so that every client hears of its end."""
 
+SHARE = 16
+"""A list of n goals is published after n/16 changes at the latest; after each change if nothing else is due."""
+
 STALE = "it was sent at or before the time up to which goals were cancelled"
 """Why a goal is refused that arrives after its own cancellation."""
 
@@ -51,8 +56,8 @@ class ActionServer:
         strict: whether illegal steps raise; as the graph if not given.
         handle_class: of which class the handles are.
 
-    Parameters (http://wiki.ros.org/actionlib): ``actionlib_status_frequency``, searched upwards from the node [Hz, 5; 0 for changes only];
-    ``<ns>/status_list_timeout`` [s, 5]. Raises ``ActionException`` for what is no action type.
+    Parameters (http://wiki.ros.org/actionlib): ``actionlib_status_frequency``, searched upwards from the node [Hz, 5; 0
+    for changes only]; ``<ns>/status_list_timeout`` [s, 5]. Raises ``ActionException`` for what is no action type.
 
     A goal that is over leaves the list ``status_list_timeout`` after its end.
 
@@ -83,6 +88,10 @@ class ActionServer:
         self.cancel_callback = cancel_cb
         self._numpy = numpy
         self.status_list: list[StatusTracker] = []
+        self._by_id: dict[str, StatusTracker] = {}
+        self._unpublished = 0
+        self._catching_up = False
+        self._stale_from = inf
         self.status_list_timeout = Duration()
         self.last_cancel = Time()
         """Up to which stamp goals were cancelled: one that comes later with an older stamp is cancelled, too."""
@@ -173,20 +182,50 @@ class ActionServer:
     def publish_status(self) -> None:
         """Publish the list of goals now; those that are over for long enough leave it."""
         now = self.node.now()
-        self.status_list[:] = [tracker for tracker in self.status_list if not self._is_stale(tracker, now)]
+        self._drop_stale(now)
+        self._unpublished = 0
         if self._open:
             message = self.status_pub.message_class(status_list=[one.status for one in self.status_list])
             message.header.stamp = now
             self.status_pub.publish(message)
 
-    def _is_stale(self, tracker: StatusTracker, now: Time) -> bool:
-        over = tracker.handle_destruction_time
-        return bool(over) and over + self.status_list_timeout < now
+    def publish_change(self) -> None:
+        """Publish the list of goals because one has changed: at once, or, if it is long, with further changes.
+
+        Each publication costs as much as the list is long. A list that is published after a fixed share of its length
+        has changed costs the same for each goal, however many there are.
+        """
+        self._unpublished += 1
+        if self._unpublished * SHARE >= len(self.status_list):
+            self.publish_status()
+        elif not self._catching_up:
+            self._catching_up = True
+            self.node.scheduler.call_last(self._catch_up)
+
+    def _catch_up(self) -> None:
+        self._catching_up = False
+        if self._unpublished:
+            self.publish_status()
+
+    def _drop_stale(self, now: Time) -> None:
+        """Drop the goals that have been over for long enough."""
+        limit = now.to_nsec() - self.status_list_timeout.to_nsec()
+        if limit <= self._stale_from:
+            return
+        ends = [(tracker, tracker.handle_destruction_time.to_nsec()) for tracker in self.status_list]
+        self.status_list[:] = [tracker for tracker, end in ends if not 0 < end < limit]
+        self._by_id = {tracker.status.goal_id.id: tracker for tracker in self.status_list}
+        self._stale_from = min((end for _, end in ends if end >= limit), default=inf)
+
+    def end(self, tracker: StatusTracker) -> None:
+        """Note that nothing more is to be told of a goal. For the handles."""
+        tracker.handle_destruction_time = now = self.node.now()
+        self._stale_from = min(self._stale_from, now.to_nsec())
 
     def publish_result(self, status: Any, result: Any) -> None:
         """Publish a result, and the list of goals after it. For the handles."""
         self._say("result", status, result)
-        self.publish_status()
+        self.publish_change()
 
     def publish_feedback(self, status: Any, feedback: Any) -> None:
         """Publish feedback on the goal of ``status``. For the handles."""
@@ -212,12 +251,12 @@ class ActionServer:
 
     def internal_goal_callback(self, action_goal: Any) -> None:
         """Take what arrives on ``goal``."""
-        known = [one for one in self.status_list if one.status.goal_id.id == action_goal.goal_id.id]
-        if known:
-            self._take_again(known[0])
+        known = self._by_id.get(action_goal.goal_id.id)
+        if known is not None:
+            self._take_again(known)
             return
         tracker = StatusTracker(self.id_generator, self.node.now(), goal=action_goal)
-        self.status_list.append(tracker)
+        self._list(tracker)
         handle = tracker.handle_tracker = self._handle(tracker)
         stamp = action_goal.goal_id.stamp
         if stamp and stamp <= self.last_cancel:
@@ -225,22 +264,25 @@ class ActionServer:
         else:
             self.node.guarded(self.goal_callback, handle, what=f"a goal of {self.ns}")
 
+    def _list(self, tracker: StatusTracker) -> None:
+        self.status_list.append(tracker)
+        self._by_id[tracker.status.goal_id.id] = tracker
+
     def _take_again(self, known: StatusTracker) -> None:
         """Take a goal whose id is in the list: sent twice, or cancelled before it came."""
         if known.status.status == Status.RECALLING:
             known.status.status = Status.RECALLED
-            known.handle_destruction_time = (
-                self.node.now()
-            )  # actionlib forgets to, and lists the goal for ever
+            self.end(known)  # actionlib forgets to, and lists the goal for ever
             self.publish_result(known.status, self.get_default_result())
         elif known.handle_tracker is None:
-            known.handle_destruction_time = self.node.now()
+            self.end(known)
 
     def internal_cancel_callback(self, request: Any) -> None:
         """Take what arrives on ``cancel``."""
         everything = not request.id and not request.stamp
         found = False
-        for tracker in list(self.status_list):
+        named = self._by_id.get(request.id)
+        for tracker in list(self.status_list) if named is None or request.stamp else [named]:
             goal_id = tracker.status.goal_id
             before = request.stamp and goal_id.stamp <= request.stamp
             if everything or before or goal_id.id == request.id:
@@ -254,12 +296,12 @@ class ActionServer:
         handle = self._handle(tracker)
         if tracker.handle_tracker is None:
             tracker.handle_tracker = handle
-            tracker.handle_destruction_time = self.node.now()
+            self.end(tracker)
         if handle.set_cancel_requested() and self.cancel_callback is not None:
             self.node.guarded(self.cancel_callback, handle, what=f"a cancellation of {self.ns}")
 
     def _note_early(self, request: Any) -> None:
         """Remember the cancellation of a goal that has not arrived yet: topics may overtake one another."""
         note = StatusTracker(self.id_generator, self.node.now(), request, Status.RECALLING)
-        note.handle_destruction_time = self.node.now()
-        self.status_list.append(note)
+        self.end(note)
+        self._list(note)

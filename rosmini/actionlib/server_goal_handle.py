@@ -30,8 +30,11 @@ class GoalServer(Protocol):
     def get_default_result(self) -> Any:
         """Return an empty result."""
 
-    def publish_status(self) -> None:
-        """Publish the list of goals."""
+    def publish_change(self) -> None:
+        """Publish the list of goals because one has changed."""
+
+    def end(self, tracker: StatusTracker) -> None:
+        """Note that nothing more is to be told of a goal."""
 
     def publish_result(self, status: Any, result: Any) -> None:
         """Publish a result."""
@@ -43,8 +46,9 @@ class GoalServer(Protocol):
 class ServerGoalHandle:
     """One goal at the server: its message, its status, and what to make of it.
 
-    A step that the machine does not have (:mod:`rosmini.actionlib.server_machine`) raises ``IllegalTransition``, and one of a handle
-    without a goal ``ActionException``; at a server of rospy's style it is logged as an error and nothing happens, as there.
+    A step that the machine does not have (:mod:`rosmini.actionlib.server_machine`) raises ``IllegalTransition``, and
+    one of a handle without a goal ``ActionException``; at a server of rospy's style it is logged as an error and
+    nothing happens, as there.
     """
 
     def __init__(
@@ -138,7 +142,7 @@ class ServerGoalHandle:
             self.status.status = next_status(self.state, GoalEvent.CANCEL_REQUEST)
         except IllegalTransition:
             return False
-        self._server().publish_status()
+        self._server().publish_change()
         return True
 
     def publish_feedback(self, feedback: Any) -> None:
@@ -152,7 +156,7 @@ class ServerGoalHandle:
         if self.goal is None:
             self._complain(ActionException(f"{event.value}() was called on a goal handle that has no goal"))
         else:
-            self._server().node.scheduler.on_hub(lambda: self._go(event, text, result))
+            self._server().node.scheduler.on_hub(self._go, event, text, result)
 
     def _go(self, event: GoalEvent, text: str, result: Any) -> None:
         server, status = self._server(), self.status
@@ -163,10 +167,10 @@ class ServerGoalHandle:
             return
         status.status, status.text = state, str(text)
         if state.is_terminal and self.status_tracker is not None:
-            self.status_tracker.handle_destruction_time = server.node.now()
+            server.end(self.status_tracker)
             server.publish_result(status, server.get_default_result() if result is None else result)
         else:
-            server.publish_status()
+            server.publish_change()
 
     def _server(self) -> GoalServer:
         if self.action_server is None:

@@ -1,13 +1,14 @@
 """The server's state machine: what may become of a goal (http://wiki.ros.org/actionlib/DetailedDescription).
 
-Pure: a status and an event in, a status out. A client only asks (:attr:`GoalEvent.CANCEL_REQUEST`); all else the server decides.
+Pure: a status and an event in, a status out. A client only asks (:attr:`GoalEvent.CANCEL_REQUEST`); all else the server
+decides.
 
 >>> next_status(Status.PENDING, GoalEvent.ACCEPT).name
 'ACTIVE'
->>> next_status(Status.SUCCEEDED, GoalEvent.ABORT)
+>>> next_status(Status.SUCCEEDED, GoalEvent.ABORT)  # doctest: +ELLIPSIS
 Traceback (most recent call last):
 ...
-rosmini.actionlib.errors.IllegalTransition: set_aborted() is for a goal that is ACTIVE or PREEMPTING; this one is SUCCEEDED, which is final.
+rosmini.actionlib.errors.IllegalTransition: set_aborted() is for a goal that is ACTIVE or PREEMPTING; this one is ...
 """
 
 from __future__ import annotations

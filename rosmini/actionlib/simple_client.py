@@ -21,8 +21,9 @@ __all__ = ["SimpleActionClient"]
 class SimpleActionClient:
     """Sends one goal after another, and follows the latest.
 
-    Arguments and errors are those of :class:`~rosmini.actionlib.ActionClient`; with ``strict`` (as the graph if not given) a question
-    about a goal that was never sent raises ``ActionException``, else it is logged as an error, as in rospy.
+    Arguments and errors are those of :class:`~rosmini.actionlib.ActionClient`; with ``strict`` (as the graph if not
+    given) a question about a goal that was never sent raises ``ActionException``, else it is logged as an error, as in
+    rospy.
     """
 
     def __init__(
@@ -42,7 +43,10 @@ class SimpleActionClient:
         return f"<{type(self).__name__} of {self.action_client.ns} in {self.node.name}>"
 
     def wait_for_server(self, timeout: Timeout = None) -> bool:
-        """Block until a server is there and all five topics are connected; False after ``timeout`` (None or 0: no limit)."""
+        """Block until a server is there and all five topics are connected.
+
+        False after ``timeout`` (None or 0: no limit).
+        """
         return self.action_client.wait_for_server(timeout)
 
     # -- the goal ------------------------------------------------------------------------------------------------
@@ -73,7 +77,8 @@ class SimpleActionClient:
     ) -> Status:
         """Send a goal, wait for its end, and return how it ended.
 
-        After ``execute_timeout`` the goal is cancelled, and ``preempt_timeout`` is how long the server gets to obey (None or 0: no limit).
+        After ``execute_timeout`` the goal is cancelled, and ``preempt_timeout`` is how long the server gets to obey
+        (None or 0: no limit).
         """
         self.send_goal(goal)
         if not self.wait_for_result(execute_timeout):
@@ -84,7 +89,10 @@ class SimpleActionClient:
         return self.get_state()
 
     def wait_for_result(self, timeout: Timeout = None) -> bool:
-        """Block until the goal has ended and ``done_cb`` has returned; False after ``timeout`` (None or 0: no limit)."""
+        """Block until the goal has ended and ``done_cb`` has returned.
+
+        False after ``timeout`` (None or 0: no limit).
+        """
         if self.gh is None:
             self._complain("wait_for_result() was called, and no goal was sent")
             return False

@@ -1,4 +1,4 @@
-"""The server for one goal at a time, in which a new goal preempts the old one: http://wiki.ros.org/actionlib/DetailedDescription."""
+"""The server for one goal at a time; a new goal preempts it (http://wiki.ros.org/actionlib/DetailedDescription)."""
 
 from __future__ import annotations
 
@@ -25,13 +25,14 @@ BUMPED = "another goal arrived, and this server works on one at a time"
 class SimpleActionServer:
     """Works on one goal at a time.
 
-    With ``execute_cb`` each goal is worked on by ``execute_cb(goal)``, which may block (sleep, wait, call services): it has a lane of
-    its own. It looks at :meth:`is_preempt_requested` now and then, and ends with one of :meth:`set_succeeded`, :meth:`set_aborted` and
-    :meth:`set_preempted`. Without it, ``register_goal_callback`` names what is called when a goal can be taken with
-    :meth:`accept_new_goal`, and ``register_preempt_callback`` what is called when the goal shall stop.
+    With ``execute_cb`` each goal is worked on by ``execute_cb(goal)``, which may block (sleep, wait, call services): it
+    has a lane of its own. It looks at :meth:`is_preempt_requested` now and then, and ends with one of
+    :meth:`set_succeeded`, :meth:`set_aborted` and :meth:`set_preempted`. Without it, ``register_goal_callback`` names
+    what is called when a goal can be taken with :meth:`accept_new_goal`, and ``register_preempt_callback`` what is
+    called when the goal shall stop.
 
-    A new goal waits until the current one has ended, and asks it to end; of several that wait, the newest is kept. The other arguments
-    are those of :class:`~rosmini.actionlib.ActionServer`.
+    A new goal waits until the current one has ended, and asks it to end; of several that wait, the newest is kept. The
+    other arguments are those of :class:`~rosmini.actionlib.ActionServer`.
     """
 
     def __init__(
@@ -83,10 +84,14 @@ class SimpleActionServer:
         self.action_server.stop()
 
     def register_goal_callback(self, cb: Callable[[], object]) -> None:
-        """Call ``cb()`` when a new goal is there to be accepted. Without effect beside ``execute_cb``, which a warning says."""
+        """Call ``cb()`` when a new goal is there to be accepted.
+
+        Without effect beside ``execute_cb``, which a warning says.
+        """
         if self.execute_callback is not None:
             self.node.logwarn(
-                f"{self.action_server.ns} has an execute callback, which gets the goals: the goal callback is not registered"
+                f"{self.action_server.ns} has an execute callback, which gets the goals: the goal callback is not "
+                "registered"
             )
         else:
             self.goal_callback = cb
@@ -218,8 +223,8 @@ class SimpleActionServer:
             return
         if self.is_active() and self.current_goal is handle:
             self.node.logwarn(
-                f"the execute callback of {self.action_server.ns} returned and has not said how the goal ended: it is ABORTED. "
-                "End it with set_succeeded(), set_aborted() or set_preempted()."
+                f"the execute callback of {self.action_server.ns} returned and has not said how the goal ended: it is "
+                "ABORTED. End it with set_succeeded(), set_aborted() or set_preempted()."
             )
             self._abort(handle, "the execute callback did not say how the goal ended")
 

@@ -1,6 +1,7 @@
 """The states that actionlib names: those of a goal, of a client's view of it, and of the simple client.
 
-Numbers and names are those of ``actionlib_msgs/GoalStatus`` and of actionlib's Python classes (http://wiki.ros.org/actionlib/DetailedDescription).
+Numbers and names are those of ``actionlib_msgs/GoalStatus`` and of actionlib's Python classes
+(http://wiki.ros.org/actionlib/DetailedDescription).
 """
 
 from __future__ import annotations

@@ -18,8 +18,8 @@ __all__ = ["StatusTracker"]
 class StatusTracker:
     """One goal in a server's list: its message, its status, and since when nothing more is to be told of it.
 
-    Made of an action goal (``FibonacciActionGoal``), which is ``PENDING`` and gets an id and a stamp if it has none; or of an id and a status,
-    for a goal that has not arrived and is cancelled already.
+    Made of an action goal (``FibonacciActionGoal``), which is ``PENDING`` and gets an id and a stamp if it has none; or
+    of an id and a status, for a goal that has not arrived and is cancelled already.
     """
 
     def __init__(

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Self
 
 from rosmini.errors import DeserializationError, shown
 from rosmini.files import check
-from rosmini.graph import default_graph
+from rosmini.graph import running_graph
 from rosmini.graph.show import show
 from rosmini.time import Time
 
@@ -35,11 +35,12 @@ from .errors import (
     in_file,
 )
 from .index import Connection, Index, connection
+from .info import info_text, info_yaml
 from .reader import Input, RawMessage, Reader, index_position, read_index
-from .records import Compression, check_compression, check_magic
+from .records import Compression, check_compression, check_magic, check_threshold
 from .scan import Scan, scan
 from .summary import BagMessage, BagMessageWithConnectionHeader, Summaries
-from .types import Types
+from .types import Types, serialized
 from .writer import CHUNK_THRESHOLD, Writer
 
 if TYPE_CHECKING:
@@ -66,8 +67,8 @@ class Bag(Summaries):
         numpy: give numeric arrays as read-only numpy arrays, else as rospy's tuples and bytes.
 
     Raises:
-        ROSBagException: the file is empty, damaged, encrypted or not a bag; `ROSBagUnindexedException` if it has no index, or a
-            damaged one.
+        ROSBagException: the file is empty, damaged, encrypted or not a bag; `ROSBagUnindexedException` if it has no
+            index, or a damaged one.
         OSError: the file cannot be opened.
         ValueError: the file is no path and no stream, or the mode, the compression or the threshold is none.
 
@@ -95,7 +96,7 @@ class Bag(Summaries):
             raise ValueError(f"options are a dict, not {shown(options)}")
         given = options or {}
         self._compression = check_compression(given.get("compression", compression))
-        self._chunk_threshold = _positive(given.get("chunk_threshold", chunk_threshold))
+        self._chunk_threshold = check_threshold(given.get("chunk_threshold", chunk_threshold))
         if isinstance(f, TextIOBase):
             raise ROSBagException("In Python 3 the bag file must be opened in binary mode")
         self._mode = mode
@@ -300,7 +301,7 @@ class Bag(Summaries):
 
     @chunk_threshold.setter
     def chunk_threshold(self, chunk_threshold: int) -> None:
-        _positive(chunk_threshold)
+        check_threshold(chunk_threshold)
         self.flush()
         self._chunk_threshold = chunk_threshold
         if self._writer is not None:
@@ -346,7 +347,7 @@ class Bag(Summaries):
         raw: bool = False,
         return_connection_header: bool = False,
     ) -> Iterator[Any]:
-        """Yield (topic, message, time) in the order of time, of one topic, some, or all, between two times (both included).
+        """Yield (topic, message, time) of one topic, some, or all, in time order, between two times (both included).
 
         With ``raw`` a message is (type, bytes, md5 sum, (chunk, offset), class). Raises ``ROSBagException`` at damage.
         """
@@ -370,6 +371,7 @@ class Bag(Summaries):
                     raise DeserializationError(
                         f"{self._name}: the message on {conn.topic} at {place} cannot be read: {error}"
                     ) from error
+            del data  # its memory is free for the next one then, which saves a large one much time
             time = Time(*divmod(nanoseconds, 1_000_000_000))
             if with_header:
                 yield BagMessageWithConnectionHeader(conn.topic, message, time, dict(conn.header))
@@ -386,17 +388,27 @@ class Bag(Summaries):
         return self.read_messages()
 
     def table(self, topic: str) -> Table:
-        """Return a topic as columns, ready for ``pandas.DataFrame``; see :func:`rosmini.bag.table.table`."""
+        """Return a topic as columns, see :func:`rosmini.bag.table.table`. Raises ``ROSBagException`` without one."""
         from .table import table
 
-        return table(self, topic)
+        return table(self.message_class(topic), self.read_messages(topic))
+
+    def info(self, *, freq: bool = False, utc: bool = False) -> str:
+        """Return what ``rosbag info`` prints, with frequencies if asked for; times are local, or of UTC."""
+        return info_text(self, freq=freq, utc=utc)
+
+    def __str__(self) -> str:
+        return info_text(self)
+
+    def _get_yaml_info(self, key: str | None = None) -> str | None:
+        return info_yaml(self, key)
 
     def show(self, **options: Any) -> Any:
         """Return a picture of what is in the bag over time, as the tool ``rqt_bag`` draws it.
 
         Options, with what they are unless given:
             topics=None: only these topics; None: all
-            gap=3.0: a time without a message is a gap if it is so many times what is usual between two, and a hundredth of the bag
+            gap=3.0: a pause is a gap if it is this many times the usual one, and a hundredth of the bag
             title=None: a caption under the picture, and the first words of its text form
             width=660.0: of the picture [CSS px]
         """
@@ -414,9 +426,10 @@ class Bag(Summaries):
     ) -> None:
         """Write a message, recorded at ``t`` (the graph's time now, if not given).
 
-        With ``raw`` a message is (type, bytes, md5 sum, class), or the same with a position before the class. Messages with another
-        ``connection_header`` get a connection of their own. Raises ``ValueError`` for a closed bag, an empty topic or no message,
-        ``BagFull`` when there is no more room, ``SerializationError`` for a field of the wrong type.
+        With ``raw`` a message is (type, bytes, md5 sum, class), or the same with a position before the class. Messages
+        with another ``connection_header`` get a connection of their own. Raises ``ValueError`` for a closed bag, an
+        empty topic or no message, ``BagFull`` when there is no more room, ``SerializationError`` for a field of the
+        wrong type.
         """
         if self._file is None:
             raise ValueError(f"I/O operation on a closed bag: {self._name}")
@@ -433,8 +446,8 @@ class Bag(Summaries):
         if raw:
             kind, data, md5sum, cls = msg[0], msg[1], msg[2], msg[-1]
         else:
-            kind, data, md5sum, cls = msg._type, _serialized(msg), msg._md5sum, type(msg)
-        time = default_graph().now() if t is None else t
+            kind, data, md5sum, cls = msg._type, serialized(msg), msg._md5sum, type(msg)
+        time = running_graph().now() if t is None else t
         number = self._by_topic.get(topic) if connection_header is None else None
         if number is None or writer.index.connections[number].md5sum != md5sum:
             number = self._connect(topic, kind, md5sum, cls, connection_header)
@@ -482,17 +495,3 @@ class Bag(Summaries):
             raise ROSBagEncryptNotSupportedException(
                 f"bags are not encrypted here ({encryptor}): use real ROS's `rosbag encrypt`"
             )
-
-
-def _serialized(msg: Any) -> bytes:
-    if hasattr(type(msg), "_encode"):
-        return type(msg)._encode(msg)  # type: ignore[no-any-return]
-    buffer = BytesIO()
-    msg.serialize(buffer)
-    return buffer.getvalue()
-
-
-def _positive(size: Any) -> int:
-    if not isinstance(size, int) or size < 0:
-        raise ValueError(f"chunk_threshold must be a number of bytes, not {shown(size)}")
-    return size

@@ -1,4 +1,7 @@
-"""What goes wrong with bags. The names and relatives are those of ROS's ``rosbag``, so an ``except`` of a script catches ours."""
+"""What goes wrong with bags.
+
+The names and relatives are those of ROS's ``rosbag``, so an ``except`` of a script catches ours.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The expression of ``rosbag filter``, confined: it may look at ``topic``, ``m`` and ``t`` and compute, and nothing else.
+"""The expression of ``rosbag filter``, confined: it reads ``topic``, ``m`` and ``t``, computes, and nothing else.
 
-ROS's tool evaluates any Python. Here it is one of :mod:`rosmini.expressions`, which knows what is listed and nothing else: of a message its
-fields and constants (and ``_type``), of a time its two numbers and what makes one number of it.
+ROS's tool evaluates any Python. Here it is one of :mod:`rosmini.expressions`, which knows what is listed and nothing
+else: of a message its fields and constants (and ``_type``), of a time its two numbers and what makes one number of it.
 """
 
 from __future__ import annotations
@@ -25,8 +25,9 @@ _METHODS: dict[type, tuple[str, ...]] = {TVal: ("to_sec", "to_nsec", "is_zero")}
 def compile_expression(text: str) -> Callable[[str, Any, Any], Any]:
     """Return ``f(topic, m, t)`` that evaluates an expression on a message.
 
-    Raises ``FilterError``, which says what is not allowed or where the expression breaks off; the function raises it, too, when an
-    expression fails on a message (a field that this type does not have, for instance), or would take too long or too much memory.
+    Raises ``FilterError``, which says what is not allowed or where the expression breaks off; the function raises it,
+    too, when an expression fails on a message (a field that this type does not have, for instance), or would take too
+    long or too much memory.
     """
     try:
         expression = Expression(text, names=("topic", "m", "t"), fields=_field, methods=_METHODS)
@@ -39,7 +40,8 @@ def compile_expression(text: str) -> Callable[[str, Any, Any], Any]:
         except ExpressionError as error:
             kind = getattr(m, "_type", type(m).__name__)
             raise FilterError(
-                f"{shown(text)} failed on a {kind} of {topic}: {error}. Test the topic first: topic == {topic!r} and ..."
+                f"{shown(text)} failed on a {kind} of {topic}: {error}. Test the topic first: topic == {topic!r} and "
+                "..."
             ) from error
 
     return evaluate

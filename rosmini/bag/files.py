@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def base_name(output: str | None, prefix: str | None, now: Time, *, simulated: bool) -> str:
-    """Return a recording's path without its number and ``.bag``: ``output`` (-O) as it is, else ``prefix`` (-o) and the date.
+    """Return a recording's path without number and ``.bag``: ``output`` (-O), else ``prefix`` (-o) and the date.
 
     The date is the local one, as ROS's, and that of UTC in simulated time, where nothing may depend on the machine.
     """

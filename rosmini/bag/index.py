@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 class Connection:
     """A publisher's connection, as it was recorded: the topic it stood under, and its header to the byte.
 
-    ``raw`` holds the fields of the connection header (http://wiki.ros.org/ROS/Connection%20Header) as the file has them.
+    ``raw`` holds the fields of the connection header (http://wiki.ros.org/ROS/Connection%20Header) as the file has
+    them.
     """
 
     id: int

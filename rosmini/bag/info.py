@@ -4,66 +4,15 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import yaml
-
-from rosmini.time import Time
 
 from .errors import ROSBagException
 from .records import Compression
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from .bag import Bag
-    from .index import Connection
-    from .reader import Reader
-
-
-class TopicLine(NamedTuple):
-    """What there is of a topic."""
-
-    topic: str
-    type: str
-    messages: int
-    connections: int
-    frequency: float | None
-
-
-def frequency(reader: Reader, connections: Iterable[Connection]) -> float | None:
-    """Return one over the median of the time between messages [Hz]; None for fewer than two messages, or all at one time."""
-    # to_sec(), as in ROS: the last bit of a float shows where messages lie microseconds apart
-    stamps = sorted(Time.from_nsec(stamp).to_sec() for conn in connections for stamp in reader.times(conn.id))
-    periods = sorted(after - before for before, after in pairwise(stamps))
-    if not periods:
-        return None
-    middle = len(periods) // 2
-    median = periods[middle] if len(periods) % 2 else (periods[middle - 1] + periods[middle]) / 2
-    return 1 / median if median > 0 else None
-
-
-def topic_lines(bag: Bag, *, freq: bool) -> list[TopicLine]:
-    """Return what there is of each topic, sorted by name; frequencies only if asked for, since they need all index data."""
-    reader = bag.reader()
-    index = bag.index
-    lines = []
-    for topic in sorted({conn.topic for conn in index.connections.values()}):
-        here = bag.connections(topic)
-        count = sum(index.count(conn.id) for conn in here)
-        lines.append(
-            TopicLine(topic, here[0].type, count, len(here), frequency(reader, here) if freq else None)
-        )
-    return lines
-
-
-def types_of(bag: Bag) -> list[tuple[str, str]]:
-    """Return the types with their md5 sums, sorted."""
-    found: dict[str, str] = {}
-    for conn in bag.index.connections.values():
-        found.setdefault(conn.type, conn.md5sum)
-    return sorted(found.items())
+    from .summary import Summaries, TopicTuple
 
 
 def human_size(size: float) -> str:
@@ -102,7 +51,7 @@ def human_time(seconds: float, *, utc: bool = False) -> str:
     return time.strftime("%b %d %Y %H:%M:%S", clock) + fraction
 
 
-def info_text(bag: Bag, *, freq: bool = True, path: str | None = None, utc: bool = False) -> str:
+def info_text(bag: Summaries, *, freq: bool = True, path: str | None = None, utc: bool = False) -> str:
     """Return what ``rosbag info`` prints; with frequencies only with ``--freq``, while ``str(bag)`` has them as in ROS.
 
     ``path`` is shown in place of the file's own; ``utc`` shows times of UTC in place of the machine's time zone.
@@ -115,14 +64,14 @@ def info_text(bag: Bag, *, freq: bool = True, path: str | None = None, utc: bool
     if bag.index.messages:
         rows += _summary(bag, utc=utc)
         rows += _labelled("types", _type_rows(bag))
-        rows += _labelled("topics", _topic_rows(topic_lines(bag, freq=freq)))
+        rows += _labelled("topics", _topic_rows(bag.topics(freq=freq)))
     else:
         rows.append(("size", human_size(bag.size)))
     width = max(len(name) for name, _ in rows) + 1
     return "\n".join(f"{name + ':' if name else '':<{width}} {value}" for name, value in rows).rstrip()
 
 
-def _version(bag: Bag) -> str:
+def _version(bag: Summaries) -> str:
     return f"{bag.version // 100}.{bag.version % 100}"
 
 
@@ -130,7 +79,7 @@ def _labelled(name: str, values: list[str]) -> list[tuple[str, str]]:
     return [(name if number == 0 else "", value) for number, value in enumerate(values)]
 
 
-def _summary(bag: Bag, *, utc: bool) -> list[tuple[str, str]]:
+def _summary(bag: Summaries, *, utc: bool) -> list[tuple[str, str]]:
     start, end = bag.get_start_time(), bag.get_end_time()
     return [
         ("duration", human_duration(end - start)),
@@ -142,7 +91,7 @@ def _summary(bag: Bag, *, utc: bool) -> list[tuple[str, str]]:
     ]
 
 
-def _compression_rows(bag: Bag, duration: float) -> list[tuple[str, str]]:
+def _compression_rows(bag: Summaries, duration: float) -> list[tuple[str, str]]:
     chunks = bag.index.chunks
     counts = Counter(chunk.compression for chunk in chunks)
     parts = []
@@ -165,28 +114,32 @@ def _compression_rows(bag: Bag, duration: float) -> list[tuple[str, str]]:
     return [*rows, ("uncompressed", first), ("compressed", f"{second} ({100 * packed / plain:.2f}%)")]
 
 
-def _type_rows(bag: Bag) -> list[str]:
-    types = types_of(bag)
-    width = max(len(name) for name, _ in types)
-    return [f"{name:<{width}} [{md5}]" for name, md5 in types]
+def _type_rows(bag: Summaries) -> list[str]:
+    types = bag.md5sums()
+    width = max(map(len, types))
+    return [f"{name:<{width}} [{md5}]" for name, md5 in types.items()]
 
 
-def _topic_rows(lines: list[TopicLine]) -> list[str]:
-    topic = max(len(line.topic) for line in lines)
-    count = max(len(str(line.messages)) for line in lines)
-    kind = max(len(line.type) for line in lines)
-    shown = {line.topic: human_frequency(line.frequency) for line in lines if line.frequency is not None}
+def _topic_rows(topics: dict[str, TopicTuple]) -> list[str]:
+    topic = max(map(len, topics))
+    count = max(len(str(found.message_count)) for found in topics.values())
+    kind = max(len(found.msg_type) for found in topics.values())
+    shown = {
+        name: human_frequency(found.frequency)
+        for name, found in topics.items()
+        if found.frequency is not None
+    }
     wide = max(map(len, shown.values()), default=0)
     rows = []
-    for line in lines:
-        row = f"{line.topic:<{topic}}   {line.messages:>{count}} {'msgs' if line.messages > 1 else 'msg '}"
-        row += f" @ {shown[line.topic]:>{wide}}" if line.topic in shown else f"   {'':>{wide}}"
-        row += f" : {line.type:<{kind}}"
-        rows.append(row + (f" ({line.connections} connections)" if line.connections > 1 else ""))
+    for name, found in topics.items():
+        row = f"{name:<{topic}}   {found.message_count:>{count}} {'msgs' if found.message_count > 1 else 'msg '}"
+        row += f" @ {shown[name]:>{wide}}" if name in shown else f"   {'':>{wide}}"
+        row += f" : {found.msg_type:<{kind}}"
+        rows.append(row + (f" ({found.connections} connections)" if found.connections > 1 else ""))
     return rows
 
 
-def info_yaml(bag: Bag, key: str | None = None, *, freq: bool = True) -> str | None:
+def info_yaml(bag: Summaries, key: str | None = None, *, freq: bool = True) -> str | None:
     """Return what ``rosbag info -y`` prints, or the value at ``key`` (such as ``topics[0].type``) as ``-k`` does.
 
     Raises ``ROSBagException`` if there is no such key.
@@ -201,7 +154,7 @@ def info_yaml(bag: Bag, key: str | None = None, *, freq: bool = True) -> str | N
     return _shown(_lookup(tree, key))
 
 
-def _yaml(bag: Bag, *, freq: bool) -> str:
+def _yaml(bag: Summaries, *, freq: bool) -> str:
     lines = [f"path: {bag.filename}"] if bag.filename is not None else []
     lines.append(f"version: {_version(bag)}")
     if not bag.index.messages:
@@ -220,19 +173,19 @@ def _yaml(bag: Bag, *, freq: bool) -> str:
     if {chunk.compression for chunk in bag.index.chunks} != {Compression.NONE}:
         lines += [f"uncompressed: {plain}", f"compressed: {packed}"]
     lines.append("types:")
-    for name, md5 in types_of(bag):
+    for name, md5 in bag.md5sums().items():
         lines += [f"    - type: {name}", f"      md5: {md5}"]
     lines.append("topics:")
-    for line in topic_lines(bag, freq=freq):
+    for name, found in bag.topics(freq=freq).items():
         lines += [
-            f"    - topic: {line.topic}",
-            f"      type: {line.type}",
-            f"      messages: {line.messages}",
+            f"    - topic: {name}",
+            f"      type: {found.msg_type}",
+            f"      messages: {found.message_count}",
         ]
-        if line.connections > 1:
-            lines.append(f"      connections: {line.connections}")
-        if line.frequency is not None:
-            lines.append(f"      frequency: {line.frequency:.4f}")
+        if found.connections > 1:
+            lines.append(f"      connections: {found.connections}")
+        if found.frequency is not None:
+            lines.append(f"      frequency: {found.frequency:.4f}")
     return "\n".join(lines) + "\n"
 
 

@@ -1,4 +1,7 @@
-"""The keys of ``rosbag play`` in a terminal: space pauses and goes on, s publishes the next message; and its line that tells where it is."""
+"""The keys of ``rosbag play`` in a terminal: space pauses and goes on, s publishes the next message.
+
+And its line that tells where it is.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +60,8 @@ class Keys:
                 return
             if not key:
                 return
-            self._scheduler.call_soon_threadsafe(lambda key=key: self.press(key.decode("ascii", "ignore")))  # type: ignore[misc]
+            press = lambda key=key: self.press(key.decode("ascii", "ignore"))  # noqa: E731
+            self._scheduler.call_soon_threadsafe(press)
 
     def press(self, key: str) -> None:
         """Do what a key means."""

@@ -1,4 +1,4 @@
-"""The executables of the package ``rosbag``: ``rosrun rosbag record -O trip /scan``, ``rosrun rosbag play trip.bag``."""
+"""The executables of the package ``rosbag``: ``rosrun rosbag record -O trip /scan``, ``rosrun rosbag play t.bag``."""
 
 from __future__ import annotations
 
@@ -19,7 +19,10 @@ def record(node: Node, *args: str) -> Recorder:
 
 
 def play(node: Node, *args: str) -> Player:
-    """Play what the arguments say; with ``--keys`` the terminal pauses and steps. Raises ``UsageError`` for arguments that make no sense, else as `Player`."""
+    """Play what the arguments say; with ``--keys`` the terminal pauses and steps.
+
+    Raises ``UsageError`` for arguments that make no sense, else as `Player`.
+    """
     keys = "--keys" in args
     bags, options = play_options([word for word in args if word != "--keys"])
     player = Player(node, bags, options)

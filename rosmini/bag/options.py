@@ -1,9 +1,11 @@
-"""The command lines of ``rosbag record`` and ``rosbag play``: ROS's options, read into what a recorder and a player take."""
+"""The command lines of ``rosbag record`` and ``rosbag play``: ROS's options, for our recorder and player."""
 
 from __future__ import annotations
 
 from optparse import OptionParser, Values
 from typing import TYPE_CHECKING, Any, NoReturn
+
+from rosmini.errors import UsageError
 
 from .errors import ROSBagException
 from .player import PlayOptions
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-class UsageError(ROSBagException):
+class BagUsageError(ROSBagException, UsageError):
     """A command line that makes no sense; ``usage`` says which ones do."""
 
     def __init__(self, usage: str, problem: str) -> None:
@@ -30,7 +32,13 @@ class Parser(OptionParser):
 
     def error(self, msg: str) -> NoReturn:
         """Raise ``UsageError``."""
-        raise UsageError(self.get_usage().rstrip(), msg)
+        raise BagUsageError(self.get_usage().rstrip(), msg)
+
+    def parse(self, words: Sequence[str], /) -> Values:
+        """Return the options, with the words that are none as ``words``, and all as ``argv``. Raises ``UsageError``."""
+        values, rest = self.parse_args(list(words))
+        values.words, values.argv = rest, list(words)
+        return values
 
 
 _UNITS = {"s": 1.0, "m": 60.0, "h": 3600.0}
@@ -210,7 +218,8 @@ def play_options(args: Sequence[str]) -> tuple[list[str], PlayOptions]:
 
 def _play_options(given: Values) -> PlayOptions:
     names = (
-        "rate", "start", "duration", "loop", "pause", "immediate", "clock", "hz", "delay", "queue", "skip_empty", "keep_alive",
+        "rate", "start", "duration", "loop", "pause", "immediate", "clock", "hz", "delay", "queue", "skip_empty",
+        "keep_alive",
         "prefix", "wait_for_subscribers", "quiet",
     )  # fmt: skip
     values = {name: getattr(given, name) for name in names}

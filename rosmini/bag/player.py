@@ -1,6 +1,7 @@
 """``rosbag play`` as a node: publishes what is in bags, at the times between which it was recorded.
 
-It goes by the graph's own time, simulated or wall, even if nodes go by ``/clock``, which it can publish (``clock=True``).
+It goes by the graph's own time, simulated or wall, even if nodes go by ``/clock``, which it can publish
+(``clock=True``).
 """
 
 from __future__ import annotations
@@ -23,12 +24,15 @@ if TYPE_CHECKING:
     from rosmini.graph import Node, Publisher
 
 PLAYED_LATCHED = frozenset({"/tf_static"})
-"""What is latched whether the bag says so or not, since nothing else would be of use (http://wiki.ros.org/tf2#tf_static)."""
+"""Topics that are latched whatever the bag says, as they are useless otherwise (http://wiki.ros.org/tf2#tf_static)."""
 
 
 @dataclass(frozen=True)
 class PlayOptions:
-    """How to play; the names are those of ROS's options, times are in seconds. Raises ``ROSBagException`` for what makes no sense."""
+    """How to play; the names are those of ROS's options, times are in seconds.
+
+    Raises ``ROSBagException`` for what makes no sense.
+    """
 
     rate: float = 1.0
     start: float = 0.0

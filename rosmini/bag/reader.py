@@ -20,6 +20,8 @@ from .records import (
     OP_CHUNK_INFO,
     OP_CONNECTION,
     OP_INDEX,
+    OP_MESSAGE,
+    Compression,
     Record,
     Truncated,
     check_magic,
@@ -39,7 +41,11 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
 KEPT = 16 * 1024 * 1024
-"""Of the chunks that were read, so much stays in memory, and the last in any case [bytes]: those that overlap in time are read in turn."""
+"""How much of the read chunks stays in memory [bytes]; always the last one. Overlapping chunks are read in turn."""
+
+
+LARGE = 64 * 1024
+"""From this mean length on, the messages of an uncompressed chunk are read one by one [bytes]."""
 
 
 class Input(BufferedReader):
@@ -68,15 +74,16 @@ def read_data(file: BinaryIO, record: Record, what: str) -> bytes:
 def read_index(file: BinaryIO, name: str) -> Index:
     """Read the index at the end of a bag.
 
-    Raises ``ROSBagUnindexedException`` if it has none or a damaged one, ``ROSBagFormatException`` if the file is no bag,
-    ``ROSBagEncryptNotSupportedException`` if it is encrypted.
+    Raises ``ROSBagUnindexedException`` if it has none or a damaged one, ``ROSBagFormatException`` if the file is no
+    bag, ``ROSBagEncryptNotSupportedException`` if it is encrypted.
     """
     check_magic(file, name)
     try:
         return _index(file, name)
     except Truncated as error:
         raise ROSBagUnindexedException(
-            f"{name} is truncated: {error.value} Its index is lost with its end: `rosbag reindex {name}` makes a new one."
+            f"{name} is truncated: {error.value} Its index is lost with its end: `rosbag reindex {name}` makes a new "
+            "one."
         ) from error
     except ROSBagFormatException as error:  # rosbag, too, takes a bag with a damaged index for one without
         raise DamagedIndex(
@@ -123,7 +130,8 @@ def _expected(file: BinaryIO, position: int, op: int) -> Record:
         raise Truncated("the file ends within its index.")
     if record.op != op:
         raise ROSBagFormatException(
-            f"the index has a record of kind {record.op} at byte {position} where kind {op} belongs: the file is damaged"
+            f"the index has a record of kind {record.op} at byte {position} where kind {op} belongs: the file is "
+            "damaged"
         )
     return record
 
@@ -183,9 +191,10 @@ class Reader:
     def messages(
         self, wanted: Collection[int] | None = None, start: int | None = None, end: int | None = None
     ) -> Iterator[RawMessage]:
-        """Yield the messages of the ``wanted`` connections from ``start`` to ``end`` [ns], both included, in the order of time.
+        """Yield the messages of ``wanted`` connections from ``start`` to ``end`` [ns], both included, in time order.
 
-        Messages of the same time come in the order in which they were recorded. Raises ``ROSBagFormatException`` at damage.
+        Messages of the same time come in the order in which they were recorded. Raises ``ROSBagFormatException`` at
+        damage.
         """
         if wanted is None:
             wanted = self.index.connections.keys()
@@ -201,7 +210,8 @@ class Reader:
             pending.sort()
             if pending and pending[-1][0] > LATEST:
                 raise ROSBagFormatException(
-                    f"{self._name}: a message in the chunk at byte {chunk.position} has no time that ROS can write: the file is damaged"
+                    f"{self._name}: a message in the chunk at byte {chunk.position} has no time that ROS can write: "
+                    "the file is damaged"
                 )
         yield from self._read(pending)
 
@@ -225,7 +235,7 @@ class Reader:
                     yield time, number, offset, conn
 
     def entries(self, chunk: Chunk) -> dict[int, bytes]:
-        """Return the packed entries (see `Chunk`) of each connection's messages in a chunk, from the records that follow it."""
+        """Return the packed entries (see `Chunk`) of each connection in a chunk, from the records that follow it."""
         if chunk.entries is not None:
             return chunk.entries
         entries: dict[int, bytes] = {}
@@ -256,14 +266,35 @@ class Reader:
 
     def _read(self, entries: list[tuple[int, int, int, int]]) -> Iterator[RawMessage]:
         connections, chunks = self.index.connections, self.index.chunks
-        last, data = -1, b""
+        last, data, large = -1, b"", False
         with in_file(self._name):
             for time, number, offset, conn in entries:
+                chunk = chunks[number]
                 if number != last:
-                    data = self.data(chunks[number])
                     last = number
-                message = message_at(data, offset, chunks[number])
-                yield RawMessage(connections[conn], time, message, number, offset)
+                    large = chunk.compression == Compression.NONE and chunk.size > LARGE * sum(
+                        chunk.counts.values()
+                    )
+                    data = b"" if large else self.data(chunk)
+                # Without a name for the message, so that its memory is free again for the next one.
+                yield RawMessage(
+                    connections[conn],
+                    time,
+                    self._large_message(chunk, offset) if large else message_at(data, offset, chunk),
+                    number,
+                    offset,
+                )
+
+    def _large_message(self, chunk: Chunk, offset: int) -> bytes:
+        """A message of an uncompressed chunk, read from the file without the rest of the chunk; as `message_at`."""
+        position, end = chunk.data_position + offset, chunk.data_position + chunk.size
+        while (record := read_record(self._file, position)) is not None and record.end <= end:
+            if record.op == OP_MESSAGE:
+                return read_data(self._file, record, f"the message at byte {position}")
+            position = record.end
+        raise ROSBagFormatException(
+            f"the chunk at byte {chunk.position} has no message at its byte {offset}: the file is damaged"
+        )
 
 
 def message_at(data: bytes, offset: int, chunk: Chunk) -> bytes:

@@ -1,6 +1,7 @@
 """``rosbag record`` as a node: subscribes to topics and writes what arrives, with the connections it came over.
 
-No message is lost: what a callback is given is written before the graph goes on, at any rate, in simulated time and in wall time.
+No message is lost: what a callback is given is written before the graph goes on, at any rate, in simulated time and in
+wall time.
 """
 
 from __future__ import annotations
@@ -146,7 +147,8 @@ class Recorder:
 
     def __repr__(self) -> str:
         state = "ended" if self._ended else "recording"
-        return f"<Recorder {self.node.name}: {state}, {sum(self.counts.values()):,} messages of {len(self.counts)} topics>"
+        count = f"{sum(self.counts.values()):,} messages of {len(self.counts)} topics"
+        return f"<Recorder {self.node.name}: {state}, {count}>"
 
     @property
     def done(self) -> bool:
@@ -224,7 +226,7 @@ class Recorder:
     # -- which topics ----------------------------------------------------------------------------------------------
 
     def _wanted(self) -> list[str]:
-        state = self.node.graph.master.getSystemState(self.node.name)[2]
+        state = self.node.master.ask("getSystemState")
         published = {topic for topic, names in state[0] if names != [self.node.name]}
         followed = self.options.of_node and self.node.resolve(self.options.of_node)
         subscribed = {topic for topic, names in state[1] if followed in names} if followed else set()
@@ -237,7 +239,7 @@ class Recorder:
     def _keep_following(self) -> None:
         """Subscribe to topics as they come up, at once: before their publisher can send anything."""
         while not self._ended:
-            self.node.wait_until(
+            self.node.wait_for_master(
                 lambda: self._ended or bool(self._wanted()), None, "new topics to record", lambda: ""
             )
             self._follow()
@@ -322,7 +324,7 @@ class Recorder:
         bag.write_raw(number, time, data)
 
     def _keep_safe(self) -> None:
-        """Have what is recorded in the file within a second of wall time, and in simulated time at the next message after one."""
+        """Flush the file within a second of wall time; in simulated time at the next message after one."""
         scheduler, bag = self.node.scheduler, None if self._files is None else self._files.bag
         now = scheduler.now_ns()
         if bag is None or self._sync_due:
@@ -375,7 +377,10 @@ class Recorder:
         self.node.shutdown(f"the recording ended: {error}")
 
     def stop(self) -> list[Path]:
-        """End the recording, and its node; return the bags. Raises ``BagFull`` or ``OSError`` if the last one could not be written to its end."""
+        """End the recording, and its node; return the bags.
+
+        Raises ``BagFull`` or ``OSError`` if the last one could not be written to its end.
+        """
         error = self.error
         self.node.shutdown("the recording ended")
         if self.error is not None and error is None:

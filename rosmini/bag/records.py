@@ -2,8 +2,9 @@
 
 A record is a header and data, each after its length. A header is a row of ``name=value`` fields, each after its length.
 
-rosbags reads and writes bags, too, and the tests hold ours against it. It cannot be what stands here: it keeps of a connection header
-only the fields that it knows, opens no bag without an index, and writes a chunk's file only at the end of the chunk.
+rosbags reads and writes bags, too, and the tests hold ours against it. It cannot be what stands here: it keeps of a
+connection header only the fields that it knows, opens no bag without an index, and writes a chunk's file only at the
+end of the chunk.
 """
 
 from __future__ import annotations
@@ -224,7 +225,10 @@ def _decompressor(compression: str) -> Any:
 
 
 def _unpack(data: bytes, compression: str, most: int, saved: bytearray) -> None:
-    """Unpack data into ``saved`` and stop when it holds ``most`` bytes. Raises what the decompressor raises at damage."""
+    """Unpack data into ``saved`` and stop when it holds ``most`` bytes.
+
+    Raises what the decompressor raises at damage.
+    """
     decompressor = _decompressor(compression)
     for start in range(0, len(data), PIECE):
         piece = data[start : start + PIECE]
@@ -238,18 +242,20 @@ def _unpack(data: bytes, compression: str, most: int, saved: bytearray) -> None:
 def decompress(data: bytes, compression: str, size: int, position: int) -> bytes:
     """Return a chunk's data, of which no more than ``size`` bytes are unpacked.
 
-    Raises ``ROSBagFormatException`` if it is damaged or would be too large, ``ROSBagException`` if it is compressed in an unknown way.
+    Raises ``ROSBagFormatException`` if it is damaged or would be too large, ``ROSBagException`` if it is compressed in
+    an unknown way.
     """
     if compression not in COMPRESSIONS:
         raise ROSBagException(
-            f"the chunk at byte {position} is compressed with {shown(compression)}; a bag may use {', '.join(COMPRESSIONS)}"
+            f"the chunk at byte {position} is compressed with {shown(compression)}; a bag may use "
+            f"{', '.join(COMPRESSIONS)}"
         )
     plain = data
     if compression != Compression.NONE:
         if size > LONGEST_CHUNK:
             raise ROSBagFormatException(
-                f"the {compression} chunk at byte {position} claims to hold {size:,} bytes, at most {LONGEST_CHUNK:,} are "
-                f"unpacked: the file is damaged, or made to harm"
+                f"the {compression} chunk at byte {position} claims to hold {size:,} bytes, at most {LONGEST_CHUNK:,} "
+                f"are unpacked: the file is damaged, or made to harm"
             )
         saved = bytearray()
         try:
@@ -288,10 +294,18 @@ def check_compression(compression: str) -> str:
     return compression
 
 
+def check_threshold(size: Any) -> int:
+    """Return ``size`` if it is a number of bytes. Raises ``ValueError`` otherwise."""
+    if not isinstance(size, int) or size < 0:
+        raise ValueError(f"chunk_threshold must be a number of bytes, not {shown(size)}")
+    return size
+
+
 def check_magic(file: BinaryIO, name: str) -> int:
     """Go to the first record and return the version of the format, 200 for 2.0.
 
-    As ROS's own reader, this takes a bag of any version 2 for one of 2.0. Raises ``ROSBagFormatException`` if ``file`` is no such bag.
+    As ROS's own reader, this takes a bag of any version 2 for one of 2.0. Raises ``ROSBagFormatException`` if ``file``
+    is no such bag.
     """
     file.seek(0)
     start = file.read(len(MAGIC))

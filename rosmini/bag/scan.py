@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -11,6 +12,7 @@ from .errors import ROSBagException, ROSBagFormatException
 from .index import Chunk, Connection, Index
 from .reader import read_data
 from .records import (
+    COMPRESSIONS,
     MAGIC,
     NSECS,
     OP_BAG_HEADER,
@@ -18,6 +20,7 @@ from .records import (
     OP_CONNECTION,
     OP_INDEX,
     OP_MESSAGE,
+    PIECE,
     Record,
     check_magic,
     decompress,
@@ -35,8 +38,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 
+_CHUNK_MARK = b"\x04\x00\x00\x00op=" + bytes([OP_CHUNK])
+_BEFORE_MARK = (4, *{8 + len(f"compression={name}") for name in COMPRESSIONS})
+"""How many bytes of a chunk's header precede the mark: its length, or the compression too."""
+
 MOST_RESCUED = 256 * 1024 * 1024
-"""So much of chunks that were cut off is kept in memory [bytes]: a recording that broke off has one, of about a megabyte."""
+"""How much of truncated chunks is kept in memory [bytes]: an aborted recording has one, of about a megabyte."""
 
 
 @dataclass
@@ -59,11 +66,15 @@ class Scan:
 
 
 def scan(file: BinaryIO, name: str) -> Scan:
-    """Read all records of a bag. Raises only if the file is no bag, is encrypted, or is damaged from its first record on."""
+    """Read all records of a bag.
+
+    Raises only if the file is no bag, is encrypted, or is damaged from its first record on.
+    """
     check_magic(file, name)
     found = Scan(name, end=len(MAGIC))
-    position = found.end
-    while True:
+    position: int | None = found.end
+    while position is not None:
+        here = position
         try:
             record = read_record(file, position)
             if record is None:
@@ -71,9 +82,7 @@ def scan(file: BinaryIO, name: str) -> Scan:
             if record.op == OP_BAG_HEADER:
                 encryption(record, name)
                 found.end = position = record.end
-            elif (
-                record.op != OP_CHUNK
-            ):  # the index, which is made anew; data of a chunk is no record of its own
+            elif record.op != OP_CHUNK:  # the index, which is made anew
                 position = record.end
             elif _is_open(file, record):
                 _take_tail(file, record, found)
@@ -81,16 +90,42 @@ def scan(file: BinaryIO, name: str) -> Scan:
             else:
                 chunk = _take_chunk(file, record, found)
                 position, records = _after_index(file, record.end)
-                if chunk is not None and records < len(chunk.counts):
+                if chunk is None or records == len(chunk.counts):
+                    found.end = position
+                    continue
+                position = _next_chunk(file, position)
+                if position is None:
                     found.end, found.bare = record.end, chunk
                     found.problems.append(f"the file ends behind the chunk at byte {record.position}")
-                    return found
-                found.end = position
+                else:
+                    # A reader needs the index data: the messages are written again.
+                    found.index.chunks.remove(chunk)
+                    _rescue(read_data(file, record, "a chunk"), chunk.size, chunk.compression, found)
+                    found.problems.append(f"no index data behind the chunk at byte {record.position}")
         except ROSBagFormatException as error:
-            if position == len(MAGIC):
+            if here == len(MAGIC):
                 raise  # to go on from here would be to throw everything away
             found.problems.append(str(error))
-            return found
+            position = _next_chunk(file, here + 1)
+    return found
+
+
+def _next_chunk(file: BinaryIO, position: int) -> int | None:
+    """Return where the next whole chunk begins from ``position`` on, behind damage; None if there is none."""
+    size = file.seek(0, 2)
+    for start in range(position, size, PIECE):
+        file.seek(start)
+        piece = file.read(PIECE + len(_CHUNK_MARK) - 1)  # a mark may lie across two pieces
+        at = -1
+        while (at := piece.find(_CHUNK_MARK, at + 1)) >= 0:
+            for before in _BEFORE_MARK:
+                with suppress(ROSBagFormatException):
+                    record = read_record(file, max(start + at - before, 0))
+                    if record is None or record.op != OP_CHUNK or not record.data_length:
+                        continue
+                    if position <= record.position and record.end <= size:
+                        return record.position
+    return None
 
 
 def _is_open(file: BinaryIO, record: Record) -> bool:
@@ -171,7 +206,10 @@ def _tail_messages(data: bytes, found: Scan) -> Iterator[tuple[Connection, int, 
 
 
 def _messages(data: bytes, found: Scan) -> Iterator[tuple[int, int, int, bytes]]:
-    """Yield (offset, connection, time [ns], message) of a chunk's data, up to where it is cut off; learn of connections."""
+    """Yield (offset, connection, time [ns], message) of a chunk's data, up to where it is cut off.
+
+    Learn of connections.
+    """
     index = found.index
     at, size = 0, len(data)
     while at + 4 <= size:

@@ -1,8 +1,9 @@
-"""What a bag tells of itself, as ``rosbag.Bag`` does, and the tuples in which it answers."""
+"""A summary of a bag from its index, as ``rosbag.Bag`` gives it, and the tuples in which it answers."""
 
 from __future__ import annotations
 
 from collections import Counter
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from rosmini.errors import nearest
@@ -11,7 +12,6 @@ from rosmini.time import Time
 
 from .errors import ROSBagException
 from .index import Connection
-from .info import frequency, info_text, info_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -49,7 +49,7 @@ class CompressionTuple(NamedTuple):
 
 
 class TopicTuple(NamedTuple):
-    """What a bag has of a topic; ``frequency`` is one over the median period [Hz], None if there is none."""
+    """A topic of a bag; ``frequency`` is one over the median period [Hz], None if there is none."""
 
     msg_type: str
     message_count: int
@@ -58,37 +58,51 @@ class TopicTuple(NamedTuple):
 
 
 class TypesAndTopicsTuple(NamedTuple):
-    """The md5 sums of the types by name, and what there is of each topic."""
+    """The md5 sums of the types by name, and the topics by name."""
 
     msg_types: dict[str, str]
     topics: dict[str, TopicTuple]
 
 
-class _Open(Protocol):
-    """What a summary needs of a bag."""
+class Summaries(Protocol):
+    """The methods of a bag that only look at its index, and what they need of it."""
 
     _types: Types
 
     @property
     def _name(self) -> str: ...
     @property
-    def index(self) -> Index: ...
+    def filename(self) -> str | None:
+        """The file's path."""
+
     @property
-    def compression(self) -> str: ...
-    def connections(self, topics: Any = None) -> list[Connection]: ...
-    def no_topic(self, topic: str) -> ROSBagException: ...
-    def reader(self) -> Reader: ...
+    def version(self) -> int:
+        """The version of the format, 200 for 2.0."""
 
+    @property
+    def size(self) -> int:
+        """How long the file is [bytes]."""
 
-class Summaries:
-    """The methods of a bag that only look at its index."""
+    @property
+    def index(self) -> Index:
+        """The connections and chunks."""
+
+    @property
+    def compression(self) -> str:
+        """How chunks are compressed that are written from now on."""
+
+    def reader(self) -> Reader:
+        """Return what reads the bag's bytes."""
 
     def connections(
-        self: _Open,
+        self,
         topics: str | Iterable[str] | None = None,
         connection_filter: ConnectionFilter | None = None,
     ) -> list[Connection]:
-        """Return the connections of one topic, some, or all; ``connection_filter(topic, type, md5, definition, header)`` chooses."""
+        """Return the connections of one topic, some, or all.
+
+        ``connection_filter(topic, type, md5, definition, header)`` chooses among them.
+        """
         if isinstance(topics, str):
             topics = [topics]
         names = None if not topics else {name for topic in topics for name in (topic, canonicalize(topic))}
@@ -104,8 +118,11 @@ class Summaries:
             )
         ]
 
-    def message_class(self: _Open, topic_or_connection: str | Connection) -> Any:
-        """Return the class of the messages on a topic. Raises ``ROSBagException``, with the nearest name, for an unknown topic."""
+    def message_class(self, topic_or_connection: str | Connection) -> Any:
+        """Return the class of the messages on a topic.
+
+        Raises ``ROSBagException``, which suggests similar names, for an unknown topic.
+        """
         if isinstance(topic_or_connection, Connection):
             return self._types.of(topic_or_connection)
         found = self.connections(topic_or_connection)
@@ -113,27 +130,27 @@ class Summaries:
             raise self.no_topic(topic_or_connection)
         return self._types.of(found[0])
 
-    def no_topic(self: _Open, topic: str) -> ROSBagException:
+    def no_topic(self, topic: str) -> ROSBagException:
         """Return the error for a topic that is not in the bag."""
         topics = sorted({found.topic for found in self.index.connections.values()})
         hint = nearest(topic, topics) or f"it has {', '.join(topics) or 'no topics'}"
         return ROSBagException(f"{self._name} has no topic {topic}: {hint}")
 
-    def get_message_count(self: _Open, topic_filters: str | list[str] | None = None) -> int:
+    def get_message_count(self, topic_filters: str | list[str] | None = None) -> int:
         """Return how many messages there are, on one topic, some, or all."""
         if topic_filters is None:
             return self.index.messages
         return sum(self.index.count(found.id) for found in self.connections(topic_filters))
 
-    def get_start_time(self: _Open) -> float:
+    def get_start_time(self) -> float:
         """Return when the first message was recorded [s]. Raises ``ROSBagException`` if there is none."""
         return _time(self.index.start)
 
-    def get_end_time(self: _Open) -> float:
+    def get_end_time(self) -> float:
         """Return when the last message was recorded [s]. Raises ``ROSBagException`` if there is none."""
         return _time(self.index.end)
 
-    def get_compression_info(self: _Open) -> CompressionTuple:
+    def get_compression_info(self) -> CompressionTuple:
         """Return how most chunks are compressed, and their bytes without and with it."""
         chunks = self.index.chunks
         ranked = sorted(
@@ -146,34 +163,42 @@ class Summaries:
             sum(chunk.compressed for chunk in chunks),
         )
 
-    def get_type_and_topic_info(
-        self: _Open, topic_filters: str | list[str] | None = None
-    ) -> TypesAndTopicsTuple:
+    def get_type_and_topic_info(self, topic_filters: str | list[str] | None = None) -> TypesAndTopicsTuple:
         """Return the types, and what there is of one topic, some, or all."""
+        return TypesAndTopicsTuple(self.md5sums(), self.topics(topic_filters))
+
+    def md5sums(self) -> dict[str, str]:
+        """Return the md5 sum of each type, sorted by name."""
+        found: dict[str, str] = {}
+        for connection in self.index.connections.values():
+            found.setdefault(connection.type, connection.md5sum)
+        return dict(sorted(found.items()))
+
+    def topics(
+        self, topic_filters: str | list[str] | None = None, *, freq: bool = True
+    ) -> dict[str, TopicTuple]:
+        """Return what there is of one topic, some, or all, by name; frequencies cost a look at all index data."""
         reader = self.reader()
-        types: dict[str, str] = {}
-        for found in self.index.connections.values():
-            types.setdefault(found.type, found.md5sum)
         topics = {}
         for topic in sorted({found.topic for found in self.connections(topic_filters)}):
             here = self.connections(topic)
+            count = sum(self.index.count(found.id) for found in here)
             topics[topic] = TopicTuple(
-                here[0].type,
-                sum(self.index.count(found.id) for found in here),
-                len(here),
-                frequency(reader, here),
+                here[0].type, count, len(here), _frequency(reader, here) if freq else None
             )
-        return TypesAndTopicsTuple(dict(sorted(types.items())), topics)
+        return topics
 
-    def info(self: Any, *, freq: bool = False, utc: bool = False) -> str:
-        """Return what ``rosbag info`` prints; with how often messages came if asked for, with times of UTC or of this machine's zone."""
-        return info_text(self, freq=freq, utc=utc)
 
-    def __str__(self: Any) -> str:
-        return info_text(self)
-
-    def _get_yaml_info(self: Any, key: str | None = None) -> str | None:
-        return info_yaml(self, key)
+def _frequency(reader: Reader, connections: Iterable[Connection]) -> float | None:
+    """Return one over the median period [Hz]; None for fewer than two messages, or all at one time."""
+    # to_sec(), as in ROS: the last bit of a float shows where messages lie microseconds apart
+    stamps = sorted(Time.from_nsec(stamp).to_sec() for conn in connections for stamp in reader.times(conn.id))
+    periods = sorted(after - before for before, after in pairwise(stamps))
+    if not periods:
+        return None
+    middle = len(periods) // 2
+    median = periods[middle] if len(periods) % 2 else (periods[middle - 1] + periods[middle]) / 2
+    return 1 / median if median > 0 else None
 
 
 def _time(nanoseconds: int | None) -> float:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 
 from rosmini.time import TVal
-
-if TYPE_CHECKING:
-    from .bag import Bag
 
 TIME = "time"
 """The column with the times at which messages were recorded [s]."""
@@ -18,7 +16,8 @@ TIME = "time"
 class Table(dict[str, Any]):
     """Columns by name, all of one length, in the order of the fields: ``pandas.DataFrame(table)`` is a data frame.
 
-    Columns of numbers are numpy arrays; those of texts and of arrays (``ranges`` of a scan) are lists, with one entry a message.
+    Columns of numbers are numpy arrays; those of texts and of arrays (``ranges`` of a scan) are lists with one entry
+    for each message.
     """
 
     @property
@@ -30,19 +29,16 @@ class Table(dict[str, Any]):
         return f"<Table of {self.rows} messages with the columns {', '.join(self)}>"
 
 
-def table(bag: Bag, topic: str) -> Table:
-    """Return the messages of a topic as columns.
+def table(cls: Any, messages: Iterable[tuple[str, Any, TVal]]) -> Table:
+    """Return messages of one class, as `Bag.read_messages` yields them, as columns.
 
-    Fields in fields are written with dots: ``pose.pose.position.x``; ``header.stamp`` and other times are seconds. ``time`` is when the message
-    was recorded [s]. A message array gives a list column of its messages. Raises ``ROSBagException`` if the bag has no such topic.
+    Fields in fields are written with dots: ``pose.pose.position.x``; ``header.stamp`` and other times are seconds.
+    ``time`` is when the message was recorded [s]. A message array gives a list column of its messages.
     """
-    found = bag.connections(topic)
-    if not found:
-        raise bag.no_topic(topic)
     columns: dict[str, list[Any]] = {TIME: []}
-    for name in _columns(bag.message_class(found[0]), ""):
+    for name in _columns(cls, ""):
         columns[name] = []
-    for _, message, time in bag.read_messages(topic):
+    for _, message, time in messages:
         columns[TIME].append(time.to_sec())
         _fill(columns, message, "")
     return Table((name, _packed(values)) for name, values in columns.items())

@@ -1,4 +1,7 @@
-"""What ``rosbag`` does to whole bags: filter, merge, compress, reindex, check. Connections keep their headers to the byte."""
+"""What ``rosbag`` does to whole bags: filter, merge, compress, reindex, check.
+
+Connections keep their headers to the byte.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +40,7 @@ class Reindexed(NamedTuple):
 
 
 class TypeChange(NamedTuple):
-    """A type in a bag that is another one here: ``md5sum`` is the bag's, ``local`` this system's (None: unknown here)."""
+    """A type whose md5 sum in the bag, ``md5sum``, is not that of this system, ``local`` (None: unknown here)."""
 
     type: str
     md5sum: str
@@ -47,7 +50,8 @@ class TypeChange(NamedTuple):
     def __str__(self) -> str:
         where = f"{self.type} [{self.md5sum}] on {', '.join(self.topics)}"
         if self.local is None:
-            return f"{where}: this system does not know the type; it can be read and played with the bag's own definition"
+            known = "it can be read and played with the bag's own definition"
+            return f"{where}: this system does not know the type; {known}"
         return f"{where}: here it is [{self.local}]; nodes that use that one do not get what the bag has"
 
 
@@ -80,8 +84,8 @@ def filter_bag(
 ) -> Copied:
     """Write the messages of ``source`` for which an expression of ``topic``, ``m`` and ``t`` is true to ``target``.
 
-    The expression is text, confined as :mod:`rosmini.bag.expressions` says, or a function. ``tell(kept, topic, m, t)`` hears of each.
-    Raises ``FilterError`` for an expression that is not allowed or fails; ``target`` is not there then.
+    The expression is text, confined as :mod:`rosmini.bag.expressions` says, or a function. ``tell(kept, topic, m, t)``
+    hears of each. Raises ``FilterError`` for an expression that is not allowed or fails; ``target`` is not there then.
     """
     _two_files(source, target)
     chosen = compile_expression(expression) if isinstance(expression, str) else expression
@@ -137,7 +141,9 @@ def recompress(source: PathLike, target: PathLike, compression: str = Compressio
 
 
 def reindex(path: PathLike) -> Reindexed:
-    """Make a new index for a bag, in place; what of it is cut off or damaged at its end is left out, everything else is kept.
+    """Make a new index for a bag, in place.
+
+    What of it is cut off or damaged at its end is left out, everything else is kept.
 
     Raises ``ROSBagException`` if the file is no bag, or is encrypted.
     """

@@ -1,8 +1,9 @@
-"""Message classes for what is in a bag: the one of this system where it is the same, else one made from the bag's own definition."""
+"""Message classes for a bag: this system's where it is the same, else one made from the bag's definition."""
 
 from __future__ import annotations
 
 import re
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import DefinitionError, UnknownPackage, UnknownType, shown
@@ -88,3 +89,12 @@ def recorded_class(connection: Connection) -> Any:
             f"the definition of {shown(connection.type)} on {shown(connection.topic)} is broken: {error}. "
             f"Read with raw=True to get the bytes."
         ) from error
+
+
+def serialized(msg: Any) -> bytes:
+    """Return the bytes of a message, of ours or of real ROS."""
+    if hasattr(type(msg), "_encode"):
+        return type(msg)._encode(msg)  # type: ignore[no-any-return]
+    buffer = BytesIO()
+    msg.serialize(buffer)
+    return buffer.getvalue()

@@ -1,7 +1,8 @@
 """Writing a bag: messages are gathered into chunks, each chunk is followed by its index data, the index comes last.
 
-A bag is whole at each moment up to its last flush: if the power goes, ``rosbag reindex`` finds everything that was flushed. If the disk is full,
-as many of the messages at hand as fit are written, with an index, so that no bag is left without one.
+A bag is whole at each moment up to its last flush: if the power goes, ``rosbag reindex`` finds everything that was
+flushed. If the disk is full, as many of the messages at hand as fit are written, with an index, so that no bag is left
+without one.
 """
 
 from __future__ import annotations
@@ -38,8 +39,11 @@ if TYPE_CHECKING:
 CHUNK_THRESHOLD = 768 * 1024
 """From this size on a chunk is closed [bytes]."""
 
+LARGE = 64 * 1024
+"""Parts of a chunk from this size on are written as they are [bytes]."""
+
 Entry = tuple[int, int, bytes, bytes]
-"""A record of an open chunk: connection (-1: it describes one), time [ns], and its bytes in two parts, of which the second may be large."""
+"""A record of an open chunk: connection (-1: it describes one), time [ns], and its bytes in two parts."""
 
 FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 
@@ -110,7 +114,8 @@ class Writer:
             head = prefix + index_entry.pack(secs, nsecs, len(data))
         except struct.error as error:
             raise ROSBagException(
-                f"{self._name} cannot hold a message of {len(data):,} bytes at {secs} s: times go from 0 to {2**32 - 1} s"
+                f"{self._name} cannot hold a message of {len(data):,} bytes at {secs} s: times go from 0 to "
+                f"{2**32 - 1} s"
             ) from error
         self._records.append((number, nanoseconds, head, data))
         self._size += len(head) + len(data)
@@ -157,17 +162,20 @@ class Writer:
             raise self._salvage(records, error) from error
 
     def _write_chunk(self, records: list[Entry]) -> Chunk:
-        data = b"".join(part for _, _, *parts in records for part in parts)
-        packed = compress(data, self.compression)
+        parts = _gathered(part for _, _, *both in records for part in both)
+        size = length = sum(map(len, parts))
+        if self.compression != Compression.NONE:
+            parts = [compress(b"".join(parts), self.compression)]
+            length = len(parts[0])
         fields = {
             "compression": self.compression.encode(),
             "op": bytes([OP_CHUNK]),
-            "size": u32.pack(len(data)),
+            "size": u32.pack(size),
         }
-        start = record_start(fields, len(packed))
-        chunk = Chunk(self._position, self._position + len(start), self.compression, len(packed), len(data))
+        start = record_start(fields, length)
+        chunk = Chunk(self._position, self._position + len(start), self.compression, length, size)
         entries = _fill(chunk, records)
-        self._put(self._position, start, packed, *index_records(chunk, entries))
+        self._put(self._position, start, *parts, *index_records(chunk, entries))
         return chunk
 
     def _put(self, position: int, *parts: bytes) -> None:
@@ -201,7 +209,10 @@ class Writer:
         )
 
     def _finish_with_some(self, records: list[Entry]) -> bool:
-        """Write half of some records, or a quarter of them and so on, and the index; False if there is no room at all."""
+        """Write half of some records, or a quarter of them and so on, and the index.
+
+        False if there is no room at all.
+        """
         keep = len(records)
         while keep:
             keep //= 2
@@ -278,6 +289,19 @@ class Writer:
             "topic": connection.topic.encode(),
         }
         return pack_record(fields, connection.raw)
+
+
+def _gathered(parts: Iterable[bytes]) -> list[bytes]:
+    """The same bytes in few parts: small ones are joined; copying large ones takes longer than a write."""
+    gathered: list[bytes] = []
+    small: list[bytes] = []
+    for part in parts:
+        if len(part) < LARGE:
+            small.append(part)
+        else:
+            gathered += b"".join(small), part
+            small = []
+    return [*gathered, b"".join(small)]
 
 
 def _fill(chunk: Chunk, records: Iterable[Entry]) -> dict[int, bytes]:

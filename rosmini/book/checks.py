@@ -17,7 +17,10 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import RosminiError, nearest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator
+    from types import UnionType
+
+    from rosmini.graph import Graph, Publisher
 
 
 class UnknownExercise(RosminiError):
@@ -52,13 +55,11 @@ class Verdict:
 class Exercise:
     """One exercise: its number ("11.2"), what is said about a right answer, and the function that examines one.
 
-    `examine(answer)` raises `Wrong` (most simply through `expect`) or returns. `mistakes` are functions without
-    arguments, each returning an answer that `examine` must refuse: the tests call them, so no check passes always.
+    `examine(answer)` raises `Wrong` (most simply through `expect`) or returns.
     """
 
     number: str
     praise: str
-    mistakes: Sequence[Callable[[], Any]]
     examine: Callable[[Any], None]
 
     def grade(self, answer: Any) -> Verdict:
@@ -79,25 +80,36 @@ class Exercise:
         return Verdict(status, f"{text} {more}" if more else text)
 
 
-def exercise(
-    number: str, *, praise: str, mistakes: Sequence[Callable[[], Any]]
-) -> Callable[[Callable[[Any], None]], Exercise]:
-    """Decorate the function that examines an answer: makes an `Exercise` of it. See there for the arguments."""
-    if not mistakes:
-        raise ValueError(
-            f"exercise {number} lists no mistakes: give at least one answer that its check refuses"
-        )
-
-    def decorate(examine: Callable[[Any], None]) -> Exercise:
-        return Exercise(number, praise, tuple(mistakes), examine)
-
-    return decorate
+def exercise(number: str, *, praise: str) -> Callable[[Callable[[Any], None]], Exercise]:
+    """Make an `Exercise` of the decorated function, which examines an answer."""
+    return lambda examine: Exercise(number, praise, examine)
 
 
 def expect(condition: object, message: str, hint: str = "") -> None:
     """Raise `Wrong` with `message` and `hint` unless `condition` is true."""
     if not condition:
         raise Wrong(message, hint)
+
+
+def expect_type(
+    found: object, kinds: type | UnionType | tuple[type, ...], said: str, wanted: str, hint: str = ""
+) -> None:
+    """Expect an object of one of `kinds`; else "`said` a TYPE, not `wanted`.", as "It returned a str, not a list."."""
+    expect(isinstance(found, kinds), f"{said} a {type(found).__name__}, not {wanted}.", hint)
+
+
+def expect_node(graph: Graph, name: str) -> None:
+    """Expect a node with this full name in a graph."""
+    expect(name in graph.nodes, f"There is no node {name}.", f'graph.node("{name.rpartition("/")[2]}")')
+
+
+def expect_heard(publisher: Publisher) -> None:
+    """Expect that somebody subscribes to what `publisher` publishes."""
+    kind = publisher.message_class._type.rpartition("/")[2]
+    topic = publisher.topic
+    expect(
+        publisher.num_connections(), f"Nobody subscribes to {topic}.", f"subscriber(...) with the type {kind}"
+    )
 
 
 def check(number: str, answer: Any) -> None:

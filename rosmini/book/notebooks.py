@@ -14,8 +14,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rosmini.viz.book_form import BOOK, VARIABLE
 from rosmini.viz.embed import LIVE
-from rosmini.viz.form import BOOK, VARIABLE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

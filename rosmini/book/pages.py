@@ -35,7 +35,7 @@ IN_STYLE = re.compile(r"(?:url\(|@import)\s*[\"']?\s*((?:https?:)?//[^\"')\s]+)"
 VIEWER_CALL = "globalThis.rosminiMeshcat.mount("
 """What a page says once for each three-dimensional picture."""
 MOST_VIEWERS = 6
-"""Browsers draw no more than some eight pictures with WebGL at a time: what comes after them takes the place of the first."""
+"""Browsers draw only about eight WebGL pictures at a time: each one more takes the place of the oldest."""
 IN_SCRIPT = re.compile(r"\b(?:import\s*\(?|from|fetch\(|importScripts\(|require\()\s*[\"'](https?://[^\"']+)")
 # What the scripts of moving pictures have no use for, whatever the address.
 ASKING = re.compile(
@@ -114,7 +114,7 @@ class Page(HTMLParser):
 
 
 def script_problems(text: str, *, ours: bool = True) -> list[str]:
-    """What a script that moving pictures load may not contain; one that is not `ours` may have code that is never called."""
+    """What a script of a moving picture may not contain; one that is not `ours` may have code that never runs."""
     harmless = NAMESPACES if ours else NAMESPACES | UNUSED
     problems = [f"names {address}" for address in ADDRESS.findall(text) if address not in harmless]
     if "127.0.0.1" in text or "localhost" in text:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from rosmini.viz.form import BOOK, VARIABLE
+from rosmini.viz.book_form import BOOK, VARIABLE
 
 
 @pytest.hookimpl(wrapper=True)

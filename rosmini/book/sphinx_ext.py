@@ -102,7 +102,7 @@ def silence_thebe(app: Sphinx) -> None:
 
 
 def add_viz_files(app: Sphinx) -> None:
-    """Add the style sheet of the pictures that `rosmini.viz` makes, and lay its scripts beside it, for pages to load."""
+    """Add the style sheet of `rosmini.viz`'s pictures, and put its scripts beside it for pages to load."""
     app.config.html_static_path.append(str(STATIC))
     app.add_css_file("rosmini.css")
 

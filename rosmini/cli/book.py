@@ -15,7 +15,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "book",
         help="build the book from the stored outputs and open it",
-        description="Build the book as static HTML in book/_build/html, from the outputs stored in the notebooks, and open it.",
+        description="Build the book as static HTML in book/_build/html, from the stored outputs, and open it.",
     )
     parser.add_argument("--no-open", action="store_true", help="only build it, and print where it is")
     parser.add_argument("--output", type=Path, metavar="FOLDER", help="write FOLDER/_build/html instead")

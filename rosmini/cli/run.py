@@ -29,9 +29,9 @@ NODE is the file of a script, or PACKAGE/EXECUTABLE: a script in a package on RO
 brings, such as rosmini_sim/simulator. These are shut down when all scripts have ended.
 
 The options of `rosmini run` stand before the first node or at the very end. Anything else belongs to the node
-before it, remappings (chatter:=/news, __name:=talker2, _rate:=5) included. If a script has to get an argument at the end that looks like an option of
-`rosmini run`, put a lone `--` after it: `rosmini run plot.py --duration 5 --`. For an argument that is a
-plus sign, write `++`.
+before it, remappings (chatter:=/news, __name:=talker2, _rate:=5) included. If the last argument of a
+script looks like an option of `rosmini run`, put a lone `--` after it: `rosmini run plot.py --duration 5 --`. For an
+argument that is a plus sign, write `++`.
 
 In simulated time everything happens as fast as the machine allows, and in the same order on each run. In wall time
 one second takes a second. Ctrl-C asks the nodes to shut down; a second one ends them at once.
@@ -122,8 +122,7 @@ def nodes_in(words: Sequence[str]) -> list[ScriptSpec | NodeSpec]:
 
 def spec_of(name: str, args: tuple[str, ...]) -> ScriptSpec | NodeSpec:
     """Return what ``name`` stands for: a file where there is one, else PACKAGE/EXECUTABLE if it has that form."""
-    from rosmini.scripts import NodeSpec, ScriptSpec
-    from rosmini.scripts.executables import find
+    from rosmini.scripts import NodeSpec, ScriptSpec, find
 
     words = EXECUTABLE.fullmatch(name)
     if words is None or Path(name).exists():

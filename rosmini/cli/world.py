@@ -1,87 +1,123 @@
-"""`rosmini world`: which worlds there are, and whether files of worlds, maps and robots are sound."""
+"""`rosmini world`: list the worlds that rosmini brings, and check files of worlds, maps and robots."""
 
 from __future__ import annotations
 
-import argparse
-import sys
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError
 
+from .verbs import ArgumentParser, Call, Result, Tool
+
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Callable
 
     from rosmini.sim.sdf.document import Note
     from rosmini.sim.world import World
 
+TOOL = Tool("world", "list worlds, and check files of worlds, maps and robots")
+add_parser, main = TOOL.add_parser, TOOL.main
+
 LONG = 1e6
 """From so many metres on decimals say nothing."""
 
 
-def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
-    """Add `world` to the parser of `rosmini`."""
-    summary = "list the worlds that rosmini brings, and check files of worlds, maps and robots"
-    parser = subparsers.add_parser("world", help=summary, description=summary)
-    verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True)
-    verbs.add_parser("list", help="list the worlds that rosmini brings")
-    check = verbs.add_parser(
-        "check",
-        help="check files, and say what is wrong with them, where, and what would be left out",
-        description="Check files: Gazebo worlds and models (SDF), Stage worlds, ROS maps (YAML) and robots (URDF). What a file is, is told from what "
-        "stands in it. The exit status is 1 if something is wrong with one of them; notes are no errors.",
+@dataclass(frozen=True, kw_only=True)
+class Worlds(Result):
+    """The worlds that rosmini brings: names and titles."""
+
+    titles: dict[str, str]
+
+    def __str__(self) -> str:
+        width = max(map(len, self.titles))
+        return "\n".join(f"{name:<{width}}  {title}" for name, title in self.titles.items())
+
+
+def _list_parser() -> ArgumentParser:
+    return ArgumentParser("rosmini world list", "List the worlds that rosmini brings.")
+
+
+@TOOL.verb("list the worlds that rosmini brings", name="list", parser=_list_parser)
+def list_(_given: argparse.Namespace, _call: Call) -> Worlds:
+    """Return the worlds that rosmini brings."""
+    from rosmini.sim.worlds import names, title
+
+    return Worlds(titles={name: title(name) for name in names()})
+
+
+@dataclass(frozen=True)
+class FileCheck:
+    """What a sound file holds, and what is doubtful in it."""
+
+    file: str
+    what: str
+    notes: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return "\n".join([f"{self.file}: sound: {self.what}", *(f"  {note}" for note in self.notes)])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Checked(Result):
+    """The sound ones of the files that were checked; what is wrong with the others are complaints."""
+
+    sound: tuple[FileCheck, ...]
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.sound))
+
+
+def _check_parser() -> ArgumentParser:
+    parser = ArgumentParser(
+        "rosmini world check",
+        "Check files: Gazebo worlds and models (SDF), Stage worlds, ROS maps (YAML), robots (URDF). What a file is, is "
+        "read from its contents. The exit status is 1 if something is wrong with one of them; notes are no errors.",
     )
-    check.add_argument(
+    parser.add_argument(
         "files", nargs="+", metavar="FILE", help="a file, or the name of a world that rosmini brings"
     )
-    check.add_argument(
-        "--unconfined", action="store_true",
+    parser.add_argument(
+        "--unconfined",
+        action="store_true",
         help="let expressions of xacro files do whatever Python can; only for files that you trust",
-    )  # fmt: skip
+    )
     return parser
 
 
-def main(args: argparse.Namespace) -> int:
-    """Do what the verb says; the exit status."""
-    if args.verb == "list":
-        return _list()
-    sound = [_check(file, confined=not args.unconfined) for file in args.files]
-    return 0 if all(sound) else 1
+@TOOL.verb(
+    "check files, and say what is wrong with them, where, and what would be left out", parser=_check_parser
+)
+def check(given: argparse.Namespace, _call: Call) -> Checked:
+    """Check files."""
+    sound: list[FileCheck] = []
+    complaints: list[str] = []
+    for file in given.files:
+        try:
+            sound.append(_checked(file, confined=not given.unconfined))
+        except (RosminiError, OSError) as error:
+            complaints.append(_placed(file, str(error)))
+    return Checked(sound=tuple(sound), complaints=tuple(complaints), status=1 if complaints else 0)
 
 
-def _list() -> int:
-    from rosmini.sim.worlds import names, title
-
-    width = max(map(len, names()))
-    for name in names():
-        print(f"{name:<{width}}  {title(name)}")
-    return 0
-
-
-def _check(file: str, *, confined: bool) -> bool:
-    """Check one file and print what there is to say; whether it is sound."""
+def _checked(file: str, *, confined: bool) -> FileCheck:
+    """Check one file. Raises what its reader raises."""
     from rosmini.sim.worlds import kind_of, names, source, world
 
-    try:
-        if file in names() and not Path(file).exists():
-            path = source(file)
-            if path is None:
-                print(f"{file}: sound: made in Python: {_measures(world(file))}")
-                return True
-        else:
-            path = _resolved(file)
-        checks: dict[str, Callable[[Path], tuple[str, list[str]]]] = {
-            "sdf": _sdf, "stage": _stage, "map": _map, "urdf": partial(_urdf, confined=confined), "xml": _sdf,
-        }  # fmt: skip
-        what, notes = checks[kind_of(path)](path)
-    except (RosminiError, OSError) as error:
-        print(_placed(file, str(error)), file=sys.stderr)
-        return False
-    print(f"{path}: sound: {what}")
-    for note in notes:
-        print(f"  {note}")
-    return True
+    path: Path | None
+    if file in names() and not Path(file).exists():
+        path = source(file)
+        if path is None:
+            return FileCheck(file, f"made in Python: {_measures(world(file))}")
+    else:
+        path = _resolved(file)
+    checks: dict[str, Callable[[Path], tuple[str, list[str]]]] = {
+        "sdf": _sdf, "stage": _stage, "map": _map, "urdf": partial(_urdf, confined=confined), "xml": _sdf,
+    }  # fmt: skip
+    what, notes = checks[kind_of(path)](path)
+    return FileCheck(str(path), what, tuple(notes))
 
 
 def _resolved(file: str) -> Path:

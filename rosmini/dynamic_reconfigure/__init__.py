@@ -1,7 +1,8 @@
 """Parameters that are changed while a node runs (http://wiki.ros.org/dynamic_reconfigure).
 
-The object API, on a :class:`rosmini.graph.Node`. What scripts import as ``dynamic_reconfigure`` is the same in rospy's style,
-:mod:`rosmini.rospy.aliases.dynamic_reconfigure`. What can be changed is described in :mod:`~rosmini.dynamic_reconfigure.description`.
+The object API, on a :class:`rosmini.graph.Node`. What scripts import as ``dynamic_reconfigure`` is the same in rospy's
+style, :mod:`rosmini.rospy.aliases.dynamic_reconfigure`. What can be changed is described in
+:mod:`~rosmini.dynamic_reconfigure.description`.
 """
 
 from __future__ import annotations

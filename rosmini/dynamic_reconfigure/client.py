@@ -27,8 +27,9 @@ _PATIENCE = 1.0
 class Client:
     """Changes the parameters of the server ``name`` (usually the name of its node), and hears of changes.
 
-    Waits for the server, for at most ``timeout`` seconds of the node's time. ``config_callback(config)`` is called with each new
-    configuration, ``description_callback(parameters)`` with each description. Raises ``ROSException`` after the timeout.
+    Waits for the server, for at most ``timeout`` seconds of the node's time. ``config_callback(config)`` is called with
+    each new configuration, ``description_callback(parameters)`` with each description. Raises ``ROSException`` after
+    the timeout.
     """
 
     def __init__(
@@ -77,17 +78,26 @@ class Client:
     # -- what the server says ------------------------------------------------------------------------------------
 
     def get_configuration(self, timeout: float | None = None) -> Config | None:
-        """Return the latest configuration; wait for the first. None after ``timeout`` seconds, or when the node shuts down."""
+        """Return the latest configuration; wait for the first.
+
+        None after ``timeout`` seconds, or when the node shuts down.
+        """
         self._wait(lambda: self.config is not None, timeout, "configuration")
         return self.config
 
     def get_parameter_descriptions(self, timeout: float | None = None) -> list[dict[str, Any]] | None:
-        """Return a dictionary for each parameter: name, type, default, min, max, level, description, edit_method. None as above."""
+        """Return a dictionary for each parameter: name, type, default, min, max, level, description, edit_method.
+
+        None as above.
+        """
         self._wait(lambda: self.description is not None, timeout, "description")
         return None if self.description is None else [one.as_dict() for one in self.description.parameters]
 
     def get_group_descriptions(self, timeout: float | None = None) -> Config | None:
-        """Return the tree of groups: each has id, parent, name, type, state, ``parameters`` as above, and the ``groups`` in it. None as above."""
+        """Return the tree of groups: id, parent, name, type, state, ``parameters`` as above, and ``groups``.
+
+        None as above.
+        """
         self._wait(lambda: self.description is not None, timeout, "description")
         if self.description is None:
             return None
@@ -142,9 +152,9 @@ class Client:
     def update_configuration(self, changes: Mapping[str, Any]) -> Config:
         """Change parameters, and states of groups (``{"groups": {name: state}}``); return what holds then.
 
-        Values become what their parameters are, if they can: the text "2.5" a double, "yes" and "true" a bool, the name in an
-        enumeration its value. Raises ``DynamicReconfigureParameterException`` for a parameter that is not there and a value that cannot
-        become one, ``DynamicReconfigureCallbackException`` if the server refuses.
+        Values become what their parameters are, if they can: the text "2.5" a double, "yes" and "true" a bool, the name
+        in an enumeration its value. Raises ``DynamicReconfigureParameterException`` for a parameter that is not there
+        and a value that cannot become one, ``DynamicReconfigureCallbackException`` if the server refuses.
         """
         self._wait(lambda: self.description is not None, None, "description")
         description = self.description

@@ -1,7 +1,8 @@
 """What can be reconfigured: parameters with types, ranges and levels, in groups.
 
-A :class:`Description` is made from the module that a ``.cfg`` file becomes (its ``config_description``, or that dictionary itself:
-http://wiki.ros.org/dynamic_reconfigure/Tutorials), or from a node's typed parameters, :class:`rosmini.sim.parameters.Parameters`.
+A :class:`Description` is made from the module that a ``.cfg`` file becomes (its ``config_description``, or that
+dictionary itself: http://wiki.ros.org/dynamic_reconfigure/Tutorials), or from a node's typed parameters,
+:class:`rosmini.parameters.Parameters`.
 """
 
 from __future__ import annotations
@@ -9,9 +10,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any, get_type_hints
+from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import nearest
+from rosmini.parameters import Parameters, declared_fields, is_scalar
 
 from .errors import DynamicReconfigureParameterException
 
@@ -33,9 +35,10 @@ _RANGES: dict[str, tuple[Any, Any, Any]] = {
 
 
 def cast_value(name: str, kind: str, value: Any) -> Any:
-    """Return ``value`` as the Python type of ``kind``. Raises ``DynamicReconfigureParameterException`` if it is of another type.
+    """Return ``value`` as the Python type of ``kind``.
 
-    An int is welcome as a double. Numpy's scalars are taken for Python's.
+    Raises ``DynamicReconfigureParameterException`` if it is of another type. An int is welcome as a double. Numpy's
+    scalars are taken for Python's.
     """
     if hasattr(value, "tolist"):
         value = value.tolist()
@@ -57,8 +60,8 @@ def cast_value(name: str, kind: str, value: Any) -> Any:
 class ReconfigurableParameter:
     """One parameter: ``type`` is bool, int, str or double, ``level`` a bit mask.
 
-    The callback is given the bitwise or of the levels of all parameters that changed: so one bit can stand for several parameters, and
-    ``level & bit`` tells whether one of them changed.
+    The callback is given the bitwise or of the levels of all parameters that changed: so one bit can stand for several
+    parameters, and ``level & bit`` tells whether one of them changed.
 
     ``edit_method`` is the text of a dictionary that tells user interfaces how to show it (an enumeration), or empty.
     """
@@ -73,7 +76,10 @@ class ReconfigurableParameter:
     edit_method: str = ""
 
     def clamp(self, value: Any) -> Any:
-        """Return the value nearest to ``value`` in the range; a text's bound counts only if it is not empty, as in ROS."""
+        """Return the value nearest to ``value`` in the range.
+
+        A text's bound counts only if it is not empty, as in ROS.
+        """
         if self.max != "" and value > self.max:
             return self.max
         if self.min != "" and value < self.min:
@@ -87,7 +93,10 @@ class ReconfigurableParameter:
 
 @dataclass(frozen=True)
 class ParameterGroup:
-    """Parameters that belong together, and groups within; ``type`` says how it is shown (``collapse``, ``tab``, ``hide``...)."""
+    """Parameters that belong together, and groups within.
+
+    ``type`` says how it is shown (``collapse``, ``tab``, ``hide``...).
+    """
 
     name: str
     type: str = ""
@@ -175,11 +184,11 @@ class Description:
         tree = getattr(source, "config_description", None)
         if isinstance(tree, Mapping):
             return cls(_with_module_values(_group_of(tree, _Numbers()), source))
-        if isinstance(source, type) and hasattr(source, "__dataclass_fields__"):
+        if isinstance(source, type) and issubclass(source, Parameters):
             return cls(_group_of_fields(source))
         raise DynamicReconfigureParameterException(
-            f"{source!r} does not describe parameters: give the module of a .cfg file (with config_description), such a dictionary, "
-            "or a class derived from Parameters"
+            f"{source!r} does not describe parameters: give the module of a .cfg file (with config_description), such "
+            "a dictionary, or a class derived from Parameters"
         )
 
 
@@ -245,7 +254,7 @@ def _parameter(
 
 
 def _with_module_values(group: ParameterGroup, module: Any) -> ParameterGroup:
-    """Return the group with the values that a module has in ``defaults``, ``min`` and ``max``: a program may have changed them there."""
+    """Return the group with a module's ``defaults``, ``min`` and ``max``, which a program may have changed."""
     tables = [
         (field, getattr(module, table, {}))
         for field, table in (("default", "defaults"), ("min", "min"), ("max", "max"))
@@ -269,33 +278,43 @@ def _with_module_values(group: ParameterGroup, module: Any) -> ParameterGroup:
 _KIND_OF = {python: kind for kind, python in KINDS.items()}
 
 
-def _group_of_fields(source: Any) -> ParameterGroup:
-    """Return the parameters of a dataclass whose fields have the metadata of :func:`rosmini.sim.parameters.parameter`."""
-    types = get_type_hints(source)
+def _enumeration(choices: tuple[str, ...], meaning: str) -> str:
+    """Return the ``edit_method`` of a text that is one of ``choices``, as ``.cfg`` files make it."""
+    constants = [
+        {"name": each, "type": "str", "value": each, "description": "", "ctype": "std::string"}
+        for each in choices
+    ]
+    return repr({"enum": constants, "enum_description": meaning})
+
+
+def _group_of_fields(source: type[Parameters]) -> ParameterGroup:
+    """Return the declared parameters of a class. Namespaces and lists are read only when the node starts."""
     members: dict[str, list[ReconfigurableParameter]] = {}
-    for declared in fields(source):
+    for declared, python in declared_fields(source):
         about = declared.metadata
-        kind = _KIND_OF.get(types[declared.name])
+        if not is_scalar(python):
+            continue
+        kind = _KIND_OF.get(python)
         if kind is None:
             raise DynamicReconfigureParameterException(
-                f"{source.__name__}.{declared.name} may be {types[declared.name]}; what is reconfigured is one of "
+                f"{source.__name__}.{declared.name} may be {python}; what is reconfigured is one of "
                 f"{', '.join(one.__name__ for one in _KIND_OF)}, and always has a value"
             )
         bounds = [
-            None if about.get(bound) is None else KINDS[kind](about[bound])
-            for bound in ("minimum", "maximum")
+            None if about[bound] is None else KINDS[kind](about[bound]) for bound in ("minimum", "maximum")
         ]
-        unit = f" [{about['unit']}]" if about.get("unit") else ""
+        unit = f" [{about['unit']}]" if about["unit"] else ""
         made = _parameter(
             declared.name,
             kind,
-            about.get("level", 0),
-            about.get("meaning", "") + unit,
+            about["level"],
+            about["meaning"] + unit,
             declared.default,
             bounds[0],
             bounds[1],
+            _enumeration(about["choices"], about["meaning"]) if about["choices"] else "",
         )
-        members.setdefault(about.get("group", ""), []).append(made)
+        members.setdefault(about["group"], []).append(made)
     names: Iterable[str] = (name for name in members if name)
     inner = tuple(
         ParameterGroup(name, id=number, parameters=tuple(members[name]))

@@ -55,7 +55,7 @@ def _message(name: str, *values: Any) -> Any:
 def group_tree(
     group: ParameterGroup, states: Mapping[str, bool], values: Mapping[str, Any] | None = None
 ) -> Config:
-    """Return the item ``groups`` of a configuration: states of groups, the parameters that are in them, and the groups within.
+    """Return the item ``groups`` of a configuration: states of groups, their parameters, and the groups within.
 
     A parameter's value is in ``parameters`` and beside it: ROS's server and client each do one of these.
     """
@@ -117,7 +117,10 @@ def encode_description(description: Description) -> Any:
 
 
 def decode_description(message: Any) -> Description:
-    """Return what a ``ConfigDescription`` message describes. Raises ``DynamicReconfigureParameterException`` if it has no group 0."""
+    """Return what a ``ConfigDescription`` message describes.
+
+    Raises ``DynamicReconfigureParameterException`` if it has no group 0.
+    """
     lows, highs, defaults = (decode_values(one)[0] for one in (message.min, message.max, message.dflt))
 
     def parameters(group: Any) -> Iterator[ReconfigurableParameter]:

@@ -29,14 +29,16 @@ _ALL_LEVELS = -1
 class Server:
     """Offers parameters of ``node`` for change, in ``namespace`` (the node's private one, if not given).
 
-    ``type`` is whatever :meth:`Description.of` takes. Values are those on the Parameter Server, else the defaults, limited to their ranges.
-    ``callback(config, level)`` is called with all values, at once and then for each change, and returns the configuration that is to
-    hold: ``level`` is the bitwise or of the levels of the parameters that changed, 0 if none did, and -1 (all bits set) in the first
-    call. What holds is written to the Parameter Server and published on ``parameter_updates``; ``parameter_descriptions`` has the description, and the service ``set_parameters`` takes changes.
-    Callbacks come one after another. One that fails changes nothing.
+    ``type`` is whatever :meth:`Description.of` takes. Values are those on the Parameter Server, else the defaults,
+    limited to their ranges. ``callback(config, level)`` is called with all values, at once and then for each change,
+    and returns the configuration that is to
+    hold: ``level`` is the bitwise or of the levels of the parameters that changed, 0 if none did, and -1 (all bits set)
+    in the first call. What holds is written to the Parameter Server and published on ``parameter_updates``;
+    ``parameter_descriptions`` has the description, and the service ``set_parameters`` takes changes. Callbacks come one
+    after another. One that fails changes nothing.
 
-    Raises ``DynamicReconfigureParameterException`` for a wrong description and for a value of a wrong type on the Parameter Server,
-    ``DynamicReconfigureCallbackException`` if the callback returns nothing.
+    Raises ``DynamicReconfigureParameterException`` for a wrong description and for a value of a wrong type on the
+    Parameter Server, ``DynamicReconfigureCallbackException`` if the callback returns nothing.
     """
 
     def __init__(
@@ -70,10 +72,11 @@ class Server:
         )
 
     def update_configuration(self, changes: Mapping[str, Any]) -> Config:
-        """Change parameters, and states of groups in the item ``groups`` (as in a configuration); return what holds then.
+        """Change parameters, and states of groups in the item ``groups`` (as in a configuration).
 
-        A value out of its range is limited. Raises ``DynamicReconfigureParameterException`` for a parameter that is not there or a value
-        of another type, what the callback raises, and ``DynamicReconfigureCallbackException`` if that calls this method or returns nothing.
+        Return what holds then. A value out of its range is limited. Raises ``DynamicReconfigureParameterException`` for
+        a parameter that is not there or a value of another type, what the callback raises, and
+        ``DynamicReconfigureCallbackException`` if that calls this method or returns nothing.
         """
         values = {name: value for name, value in changes.items() if name != "groups"}
         return self._update(values, group_states(changes["groups"]) if "groups" in changes else {})
@@ -101,7 +104,8 @@ class Server:
         answer = self.callback(copy.deepcopy(self._config(values, states)), level)
         if answer is None:
             raise DynamicReconfigureCallbackException(
-                f"the callback of the parameters of {self.node.name} returned nothing: it has to return the configuration, changed or as it was"
+                f"the callback of the parameters of {self.node.name} returned nothing: it has to return the "
+                "configuration, changed or as it was"
             )
         unknown = next((name for name in answer if name != "groups" and name not in values), None)
         if unknown is not None:
@@ -146,7 +150,8 @@ class Server:
         me = self.node.scheduler.current()
         if self._owner is me:
             raise DynamicReconfigureCallbackException(
-                "the callback of a server cannot call update_configuration: it returns the configuration that is to hold"
+                "the callback of a server cannot call update_configuration: it returns the configuration that is to "
+                "hold"
             )
         while self._owner is not None:
             waiter = self.node.waiter("another change of parameters to be done")

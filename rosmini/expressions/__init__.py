@@ -1,17 +1,16 @@
-"""Expressions from outside, confined: Python's arithmetic, comparisons, comprehensions and a list of functions, and nothing else.
+"""Expressions from outside, confined: Python's arithmetic, comparisons, comprehensions and a list of functions.
 
-Robot descriptions (``${...}`` of xacro), parameter files (``rad(2*pi)``) and ``rosbag filter`` hold expressions that ROS hands to Python's
-``eval``, which no hiding of builtins can confine. Here the syntax tree is walked once and becomes functions of our own: a kind of node that
-is not listed, a function that is not listed and a method that is not listed do not exist. Attributes of values are read by the caller's
-`Fields`, never by ``getattr``. Sizes and steps are counted before they are spent, so that ``10**10**10`` and ``'a'*10**9`` are errors.
+Robot descriptions (``${...}`` of xacro), parameter files (``rad(2*pi)``) and ``rosbag filter`` hold expressions that
+ROS hands to Python's ``eval``, which cannot be confined by hiding builtins. Here the syntax tree is walked once and
+becomes functions of our own: kinds of nodes, functions and methods that are not listed do not exist. Attributes of
+values are read by the caller's `Fields`, never by ``getattr``. Sizes and steps are counted before they are spent, so
+``10**10**10`` and ``'a'*10**9`` are errors.
 """
 
 from __future__ import annotations
 
-from .budget import Budget
-from .compiler import Fields, no_fields
-from .errors import ExpressionError, NotAllowed
-from .expression import Expression
+from .budget import Budget, ExpressionError, NotAllowed
+from .expression import Expression, Fields, no_fields
 from .functions import FUNCTIONS, MATH, Function, Namespace
 
 __all__ = [

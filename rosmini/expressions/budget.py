@@ -1,16 +1,14 @@
-"""What an expression may cost: counted before it is spent."""
+"""The budget of an expression, counted before it is spent, and the errors of expressions."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from typing import Any
 
-from .errors import NotAllowed
-
-__all__ = ["BITS", "LARGEST", "STEPS", "Budget", "weight"]
+from rosmini.errors import RosminiError
 
 BITS = 4096
-"""How large a whole number may become."""
+"""The size of the largest whole number."""
 
 LARGEST = 1_000_000
 """How many elements and characters, all told, a value may have that an expression makes."""
@@ -19,16 +17,26 @@ STEPS = 2_000_000
 """How many turns of loops, made elements and made characters an evaluation may cost."""
 
 READ_AT_ONCE = 32
-"""So many elements a function of Python's own reads while a loop makes one turn."""
+"""How many elements one of Python's own functions reads while a loop makes one turn."""
 
-
+_SHOWN = 60
 _ATOMS = frozenset({bool, float, int, type(None)})
 _HOLDERS = (list, tuple, dict, set)
-_SIZED = (str, bytes, *_HOLDERS)
+
+
+class ExpressionError(RosminiError):
+    """An expression is not valid, or it failed; ``__cause__`` is Python's error."""
+
+    has_spot = False
+    """Whether the message already names the part of the expression."""
+
+
+class NotAllowed(ExpressionError):
+    """An expression uses what a confined one may not use, or would cost more than it may."""
 
 
 class Budget:
-    """What evaluations may cost together, in steps. One is made for each evaluation that is given none."""
+    """What evaluations may cost together, in steps. By default each evaluation has its own."""
 
     __slots__ = ("left",)
 
@@ -42,7 +50,7 @@ class Budget:
             raise NotAllowed("this would take too many steps")
 
     def read(self, value: Any) -> None:
-        """Pay for a function of Python's own that looks at all of a value."""
+        """Pay for one of Python's own functions that looks at all of a value."""
         if type(value) in _ATOMS:  # most are, in loops
             return
         if isinstance(value, _HOLDERS):
@@ -53,14 +61,13 @@ class Budget:
     def made(self, value: Any) -> Any:
         """Pay for a value that was made, and return it. Raises `NotAllowed` if it is too large."""
         if isinstance(value, int):
-            if value.bit_length() > BITS:
-                raise NotAllowed(f"a whole number of more than {BITS} bits")
-        elif isinstance(value, _SIZED):
+            check_bits(value.bit_length())
+        elif isinstance(value, (str, bytes, *_HOLDERS)):
             self.room(weight(value))
         return value
 
     def room(self, size: int) -> None:
-        """Pay for a value that is going to be made of so many elements. Raises `NotAllowed` if it would be too large."""
+        """Pay for a value of so many elements before it is made. Raises `NotAllowed` if it would be too large."""
         if size > LARGEST:
             raise NotAllowed(f"a value of more than {LARGEST} elements")
         self.spend(size)
@@ -72,8 +79,14 @@ class Budget:
         return list(values)  # a loop of ours pays for itself
 
 
+def check_bits(bits: int) -> None:
+    """Raises `NotAllowed` for a whole number of too many bits."""
+    if bits > BITS:
+        raise NotAllowed(f"a whole number of more than {BITS} bits")
+
+
 def weight(value: Any) -> int:
-    """How many elements and characters a value has, all told; a little more than `LARGEST` if it is more."""
+    """How many elements and characters a value has, all told; slightly more than `LARGEST` if it is more."""
     total, waiting = 0, [value]
     while waiting and total <= LARGEST:
         part = waiting.pop()
@@ -85,3 +98,8 @@ def weight(value: Any) -> int:
                 if not _ATOMS.issuperset(map(type, items)):
                     waiting += items
     return total
+
+
+def cut(text: str) -> str:
+    """A text, shortened if it is long."""
+    return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."

@@ -1,25 +1,74 @@
-"""The functions and methods that an expression may call."""
+"""The operators, functions and methods of expressions."""
 
 from __future__ import annotations
 
+import ast
 import math
+import operator
+import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
 from rosmini.errors import nearest, shown
 
-from .budget import BITS, STEPS, Budget
-from .errors import NotAllowed
+from .budget import BITS, STEPS, Budget, NotAllowed, check_bits, cut, weight
 
-__all__ = ["FUNCTIONS", "MATH", "METHODS", "Function", "Namespace", "method"]
+WIDEST = 2000
+"""A longer number no format makes: its width and its precision have three digits, its value has `BITS`."""
+
+_OPERATORS = (
+    "Add add, Sub sub, Mult mul, Div truediv, FloorDiv floordiv, Mod mod, Pow pow, LShift lshift, RShift rshift, "
+    "BitAnd and_, BitOr or_, BitXor xor, UAdd pos, USub neg, Invert invert, Not not_, "
+    "Eq eq, NotEq ne, Lt lt, LtE le, Gt gt, GtE ge, Is is_, IsNot is_not"
+)
+OPERATORS: Mapping[type[ast.AST], Callable[..., Any]] = {
+    **{getattr(ast, node): getattr(operator, name) for node, name in map(str.split, _OPERATORS.split(","))},
+    ast.In: lambda left, right: left in right,
+    ast.NotIn: lambda left, right: left not in right,
+}
+"""What an operator does, by its kind of node."""
+
+_BITS_OF: dict[Callable[..., Any], Callable[[int, int], int]] = {
+    operator.mul: lambda left, right: left.bit_length() + right.bit_length(),
+    operator.pow: lambda left, right: left.bit_length() * max(right, 0) if abs(left) > 1 else 1,
+    operator.lshift: lambda left, right: left.bit_length() + max(right, 0),
+}
+"""How many bits a whole number will have."""
+
+
+def compute(operate: Callable[[Any, Any], Any], left: Any, right: Any, budget: Budget) -> Any:
+    """The result of an operator of `OPERATORS`, once it is known that it will not be too large."""
+    if operate is operator.mod and isinstance(left, str | bytes):
+        _pay_for_format(left, right, budget)
+    elif isinstance(left, float) or isinstance(right, float):
+        return operate(left, right)
+    elif isinstance(left, int) and isinstance(right, int):
+        if operate in _BITS_OF:
+            check_bits(_BITS_OF[operate](left, right))
+    elif operate is operator.mul:
+        for one, other in ((left, right), (right, left)):
+            if isinstance(one, str | bytes | list | tuple) and hasattr(other, "__index__"):
+                budget.room(len(one) * operator.index(other))
+    elif operate is operator.add and isinstance(left, str | bytes | list | tuple):
+        budget.room(len(left) + len(right))
+    return budget.made(operate(left, right))
+
+
+def _pay_for_format(text: str | bytes, values: Any, budget: Budget) -> None:
+    """``'%1000000000d' % 1`` is a billion characters, and so is ``'%(a)s' * 10**5 % {'a': 'a' * 10**4}``."""
+    found = text if isinstance(text, str) else text.decode("latin-1")
+    budget.room(len(found) + found.count("%") * (WIDEST + weight(budget.made(values))))
+    for width in re.findall(r"%(?:\([^)]*\))?([^a-zA-Z%]*)", found):
+        if "*" in width or re.search(r"\d{4}", width):
+            raise NotAllowed(f"the width of %{cut(width)}")
 
 
 class Function:
     """A function that expressions may call; nothing else can be called.
 
-    ``call`` must be harmless whatever it is given: no access to files or attributes, and a result whose size is bounded by that of the
-    arguments. If it `counts`, it is given the `Budget` first, and pays itself for more.
+    ``call`` must be harmless whatever it is given: no access to files or attributes, and a result whose size is bounded
+    by that of the arguments. If it `counts`, its first argument is the `Budget`, and it pays for more itself.
     """
 
     __slots__ = ("call", "counts", "name")
@@ -50,21 +99,11 @@ class Namespace:
         return f"<names of {self.name}>"
 
     def member(self, name: str) -> Any:
-        """What stands behind the dot."""
+        """The value of a name. Raises ``NameError``."""
         if name not in self.members:
             hint = nearest(name, self.members)
             raise NameError(f"name '{self.name}.{name}' is not defined{f'; {hint}' if hint else ''}")
         return self.members[name]
-
-
-def _text(budget: Budget, value: Any = "") -> str:
-    budget.made(value)
-    return str(value)
-
-
-def _quoted(budget: Budget, value: Any) -> str:
-    budget.made(value)
-    return repr(value)
 
 
 def _sum(values: Iterable[Any], start: Any = 0) -> Any:
@@ -123,63 +162,61 @@ def _replace(budget: Budget, text: str, old: str, new: str, count: int = -1) -> 
     return text.replace(old, new, count)
 
 
-def _filled(budget: Budget, text: str, width: int) -> str:
+def _zfill(budget: Budget, text: str, width: int) -> str:
     budget.room(width)
     return text.zfill(width)
 
 
-def _collector(kind: Callable[[list[Any]], Any]) -> Callable[..., Any]:
-    def collect(budget: Budget, values: Iterable[Any] = (), **named: Any) -> Any:
-        return kind(budget.collect(values), **named)
-
-    return collect
+def _collector(kind: Callable[..., Any]) -> Callable[..., Any]:
+    return lambda budget, values=(), **named: kind(budget.collect(values), **named)
 
 
-def _functions() -> dict[str, Function]:
-    plain = (abs, all, any, bool, divmod, float, int, len, max, min, ord)
-    counting: dict[str, Callable[..., Any]] = {
-        **{kind.__name__: _collector(kind) for kind in (list, set, sorted, tuple)},
-        "dict": _dict,
-        "enumerate": lambda budget, values, start=0: list(enumerate(budget.collect(values), start)),
-        "filter": _filter,
-        "map": _map,
-        "repr": _quoted,
-        "reversed": lambda budget, values: budget.collect(values)[::-1],
-        "str": _text,
-        "zip": lambda budget, *values: list(zip(*map(budget.collect, values), strict=False)),
+def _named(functions: Mapping[str, Callable[..., Any]], *, counts: bool = False) -> dict[str, Function]:
+    return {name: Function(name, function, counts=counts) for name, function in functions.items()}
+
+
+FUNCTIONS: Mapping[str, Function] = MappingProxyType(
+    {
+        **_named(
+            {each.__name__: each for each in (abs, all, any, bool, divmod, float, int, len, max, min, ord)}
+        ),
+        **_named({"range": _range, "round": _round, "sum": _sum}),
+        **_named({each.__name__: _collector(each) for each in (list, set, sorted, tuple)}, counts=True),
+        **_named({"dict": _dict, "filter": _filter, "map": _map}, counts=True),
+        **_named(
+            {
+                "enumerate": lambda budget, values, start=0: list(enumerate(budget.collect(values), start)),
+                "repr": lambda budget, value: repr(budget.made(value)),
+                "reversed": lambda budget, values: budget.collect(values)[::-1],
+                "str": lambda budget, value="": str(budget.made(value)),
+                "zip": lambda budget, *values: list(zip(*map(budget.collect, values), strict=False)),
+            },
+            counts=True,
+        ),
     }
-    others = {"range": _range, "round": _round, "sum": _sum}
-    return {
-        **{function.__name__: Function(function.__name__, function) for function in plain},
-        **{name: Function(name, function, counts=True) for name, function in counting.items()},
-        **{name: Function(name, function) for name, function in others.items()},
-    }
-
-
-_OF_MATH = (
-    "acos acosh asin asinh atan atan2 atanh ceil copysign cos cosh degrees dist erf erfc exp expm1 fabs floor fmod frexp fsum gamma gcd "
-    "hypot isclose isfinite isinf isnan isqrt ldexp lgamma log log10 log1p log2 modf pow radians remainder sin sinh sqrt tan tanh trunc"
 )
-
-FUNCTIONS: Mapping[str, Function] = MappingProxyType(_functions())
 """Python's functions that an expression may call."""
 
+_OF_MATH = (
+    "acos acosh asin asinh atan atan2 atanh ceil copysign cos cosh degrees dist erf erfc exp expm1 fabs floor fmod "
+    "frexp fsum gamma gcd hypot isclose isfinite isinf isnan isqrt ldexp lgamma log log10 log1p log2 modf pow radians "
+    "remainder sin sinh sqrt tan tanh trunc"
+)
 MATH: Mapping[str, Any] = MappingProxyType(
     {
-        **{name: Function(name, getattr(math, name)) for name in _OF_MATH.split()},
-        "factorial": Function("factorial", _factorial),
+        **_named({name: getattr(math, name) for name in _OF_MATH.split()}),
+        **_named({"factorial": _factorial}),
         **{name: getattr(math, name) for name in ("e", "inf", "nan", "pi", "tau")},
     }
 )
 """What an expression may use of Python's ``math``."""
 
 _OF_TEXTS = (
-    "capitalize count endswith find index isalnum isalpha isdecimal isdigit islower isnumeric isspace isupper lower lstrip partition "
-    "removeprefix removesuffix rfind rindex rpartition rsplit rstrip split splitlines startswith strip swapcase title upper"
+    "capitalize count endswith find index isalnum isalpha isdecimal isdigit islower isnumeric isspace isupper lower "
+    "lstrip partition removeprefix removesuffix rfind rindex rpartition rsplit rstrip split splitlines startswith "
+    "strip swapcase title upper"
 )
-
-_COUNTING: dict[str, Callable[..., Any]] = {"join": _join, "replace": _replace, "zfill": _filled}
-
+_COUNTING = _named({"join": _join, "replace": _replace, "zfill": _zfill}, counts=True)
 METHODS: Mapping[type, Collection[str]] = MappingProxyType(
     {
         str: frozenset(_OF_TEXTS.split()) | _COUNTING.keys(),
@@ -195,8 +232,7 @@ def method(kind: type, name: str, methods: Mapping[type, Collection[str]]) -> Fu
     """The method of a type of values, if it may be called."""
     for base in kind.__mro__:
         if name in methods.get(base, ()):
-            if base is str and name in _COUNTING:
-                return Function(name, _COUNTING[name], counts=True)
-            found: Callable[..., Any] = getattr(base, name)
-            return Function(name, found)
+            return (
+                _COUNTING[name] if base is str and name in _COUNTING else Function(name, getattr(base, name))
+            )
     return None

@@ -1,7 +1,7 @@
 """Angles, and the quaternions that messages hold them in.
 
-The first two functions have the names and the meaning of the ROS package `angles` (http://wiki.ros.org/angles). An angle that is
-infinite becomes nan.
+The first two functions have the names and the meaning of the ROS package `angles` (http://wiki.ros.org/angles). An
+angle that is infinite becomes nan.
 """
 
 from __future__ import annotations
@@ -68,13 +68,14 @@ def quaternion_from_yaw(yaw: float) -> tuple[float, float, float, float]:
 def yaw_from_quaternion(x: float, y: float, z: float, w: float) -> float:
     """The yaw of a rotation, in [-pi, pi]: the angle about z when it is taken apart into yaw, then pitch, then roll.
 
-    The quaternion need not have length 1. One of length 0, which an empty message holds, is no rotation: `GeometryError`.
+    The quaternion need not have length 1. One of length 0, which an empty message holds, is no rotation:
+    `GeometryError`.
     """
     square = x * x + y * y + z * z + w * w
     if not 0 < square < math.inf:
         msg = (
-            f"x={x}, y={y}, z={z}, w={w} is no rotation; a quaternion has a length, and no rotation at all is x=y=z=0, w=1 "
-            "(a new geometry_msgs/Quaternion has w=0)"
+            f"x={x}, y={y}, z={z}, w={w} is no rotation; a quaternion has a length, and no rotation at all is "
+            "x=y=z=0, w=1 (a new geometry_msgs/Quaternion has w=0)"
         )
         raise GeometryError(msg)
     return math.atan2(2 * (w * z + x * y), w * w + x * x - y * y - z * z)

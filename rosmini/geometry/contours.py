@@ -1,8 +1,9 @@
 """Outlines of the occupied cells of a grid, with few sides, faithful to half a cell.
 
-First the cells' own edges: a walk with occupied cells on its left closes around each blob, counter-clockwise, and around each hole in one,
-clockwise. Cells that touch at a corner belong together (8-connected), as in a wall that a mapper drew one cell thick: no ray slips through
-between them. Then `staircases.straightened` puts long sides in the place of steps.
+First the cells' own edges: a walk with occupied cells on its left closes around each blob, counter-clockwise, and
+around each hole in one, clockwise. Cells that touch at a corner belong together (8-connected), as in a wall that a
+mapper drew one cell thick: no ray slips through between them. Then `staircases.straightened` puts long sides in the
+place of steps.
 """
 
 from __future__ import annotations
@@ -31,13 +32,14 @@ def trace(
     origin: Pose = (0.0, 0.0, 0.0),
     tolerance: float | None = None,
 ) -> Floats:
-    """Closed outlines of the occupied cells as segments (n, 4), each x1, y1, x2, y2 [m], with what is occupied on their left.
+    """Closed outlines of the occupied cells as segments (n, 4), each x1, y1, x2, y2 [m], the cells on their left.
 
-    `occupied` (h, w) is a mask; row 0 is the lowest. `resolution` is the side of a cell [m] and `origin` the pose of the lower left corner of
-    cell (0, 0), as in nav_msgs/MapMetaData. Segments that follow one another share their corner to the bit. See `outlines` for what holds.
+    `occupied` (h, w) is a mask; row 0 is the lowest. `resolution` is the side of a cell [m] and `origin` the pose of
+    the lower left corner of cell (0, 0), as in nav_msgs/MapMetaData. Segments that follow one another share their
+    corner to the bit. See `outlines` for what holds.
 
-    Raises `GeometryError` for an `occupied` that is not a table, a resolution that is not positive, an origin that is not finite, or a
-    `tolerance` [m] that is not at least 0 and below half a cell; by default it is 0.49 cells.
+    Raises `GeometryError` for an `occupied` that is not a table, a resolution that is not positive, an origin that is
+    not finite, or a `tolerance` [m] that is not at least 0 and below half a cell; by default it is 0.49 cells.
     """
     if not (math.isfinite(resolution) and resolution > 0):
         msg = f"the resolution is {resolution}; the side of a cell is more than 0 m"
@@ -54,12 +56,14 @@ def trace(
 def outlines(occupied: ArrayLike, tolerance: float = TOLERANCE) -> list[Floats]:
     """Closed outlines of the occupied cells, each the corners (k, 2) of one loop in cells, x along the rows.
 
-    A loop passes between the same cells as the edges it stands for, and passes no centre nearer than half a cell less `tolerance` [cells]; with a
-    tolerance of 0 it is the edges themselves. So the centres of occupied cells are inside (by the even-odd rule, and by the winding number),
-    those of free cells outside, and what the cells keep apart stays apart. No point of it is half a cell from the edges, and no edge half
-    a cell's diagonal from it: corners of the stairs of a slanted wall stick out. Blobs of one cell are kept, as squares.
+    A loop passes between the same cells as the edges it stands for, and passes no centre nearer than half a cell less
+    `tolerance` [cells]; with a tolerance of 0 it is the edges themselves. So the centres of occupied cells are inside
+    (by the even-odd rule, and by the winding number), those of free cells outside, and what the cells keep apart stays
+    apart. No point of it is half a cell from the edges, and no edge half a cell's diagonal from it: corners of the
+    stairs of a slanted wall stick out. Blobs of one cell are kept, as squares.
 
-    Raises `GeometryError` for an `occupied` that is not a table or a `tolerance` that is not at least 0 and below half a cell.
+    Raises `GeometryError` for an `occupied` that is not a table or a `tolerance` that is not at least 0 and below half
+    a cell.
     """
     if not 0 <= tolerance < 0.5:
         msg = f"the tolerance is {tolerance:.6g} cells; it is at least 0 and below half a cell"
@@ -70,8 +74,8 @@ def outlines(occupied: ArrayLike, tolerance: float = TOLERANCE) -> list[Floats]:
 def edge_loops(occupied: ArrayLike) -> list[Loop]:
     """The closed outlines of the occupied cells along the cells' edges, each the corners (k, 2) where it turns.
 
-    Corners are whole numbers of cells, x along the rows. The order is fixed: loops by their lowest, then leftmost corner.
-    Raises `GeometryError` for an `occupied` that is not a table.
+    Corners are whole numbers of cells, x along the rows. The order is fixed: loops by their lowest, then leftmost
+    corner. Raises `GeometryError` for an `occupied` that is not a table.
     """
     starts, directions, following = _edges(_mask(occupied))
     turns = (directions[following] != directions).tolist()
@@ -101,7 +105,7 @@ def _mask(occupied: ArrayLike) -> NDArray[np.bool_]:
 
 
 def _edges(cells: NDArray[np.bool_]) -> tuple[Loop, Loop, Loop]:
-    """Each edge between an occupied cell, on its left, and a free one: where it starts (n, 2), its direction, and which edge follows."""
+    """Edges between an occupied cell, on the left, and a free one: start (n, 2), direction, and the next edge."""
     padded = np.pad(cells, 1)
     inner = padded[1:-1, 1:-1]
     neighbours = (

@@ -1,9 +1,13 @@
-"""Polygons in the plane: what is inside, whether sides cross, what overlaps. An outline is its corners (n, 2), closed by itself.
+"""Polygons in the plane: what is inside, whether sides cross, what overlaps.
+
+An outline is its corners (n, 2), and is closed by itself.
 
 Things that only touch do not overlap: what goes in by less than `TOUCH` counts as touching.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,7 +58,7 @@ def each_distance(points: Floats, sides: Floats) -> Floats:
 
 
 def crossing_sides(outline: Floats) -> tuple[int, int] | None:
-    """The first two sides of an outline that meet elsewhere than at their common corner; side i begins at corner i. None if none do."""
+    """The first two sides of an outline that cross, side i beginning at corner i; None if none do."""
     count = len(outline)
     ends = np.roll(outline, -1, axis=0)
     for first in range(count):
@@ -98,6 +102,72 @@ def overlaps_disc(outline: Floats, x: float, y: float, radius: float) -> bool:
     """Tell whether a polygon and a disc share more than their borders."""
     centre, edges = np.array([[x, y]]), sides_of(outline)
     return bool(distances(centre, edges)[0] < radius - TOUCH or inside(centre, edges)[0])
+
+
+def convex_parts(outline: Floats) -> list[Floats]:
+    """Split a counter-clockwise polygon into convex polygons: few, though not always the fewest.
+
+    Triangles are cut off at corners that stick out (Meisters, Polygons have ears, 1975), and then joined again
+    across every side that is not needed (Hertel and Mehlhorn, Fast triangulation of simple polygons, 1983).
+    """
+    corners = [(float(x), float(y)) for x, y in outline]
+    ring = [i for i, corner in enumerate(corners) if corner != corners[i - 1]]
+    if _is_convex(ring, corners):
+        return [np.array([corners[i] for i in ring])]
+    parts: list[list[int]] = []
+    while len(ring) > 3:
+        ear = next((k for k in range(len(ring)) if _is_ear(k, ring, corners)), None)
+        if ear is None:  # for want of digits: what is left has no area
+            break
+        parts.append([ring[ear - 1], ring[ear], ring[(ear + 1) % len(ring)]])
+        del ring[ear]
+    if len(ring) == 3:
+        parts.append(ring)
+    parts = [part for part in parts if _turn(*(corners[i] for i in part)) > 0]
+    joined = True
+    while joined:
+        joined = _join(parts, corners)
+    return [np.array([corners[i] for i in part]) for part in parts]
+
+
+def _turn(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> float:
+    return (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
+
+
+def _is_convex(ring: list[int], corners: Sequence[Sequence[float]]) -> bool:
+    return all(
+        _turn(corners[ring[k - 2]], corners[ring[k - 1]], corners[ring[k]]) >= 0 for k in range(len(ring))
+    )
+
+
+def _is_ear(k: int, ring: list[int], corners: Sequence[Sequence[float]]) -> bool:
+    """Whether the triangle at a corner lies inside, with no other corner in it."""
+    i, j, m = ring[k - 1], ring[k], ring[(k + 1) % len(ring)]
+    a, b, c = corners[i], corners[j], corners[m]
+    if _turn(a, b, c) < 0:
+        return False
+    return not any(
+        min(_turn(a, b, p), _turn(b, c, p), _turn(c, a, p)) >= 0 and p not in (a, b, c)
+        for p in (corners[n] for n in ring if n not in (i, j, m))
+    )
+
+
+def _join(parts: list[list[int]], corners: Sequence[Sequence[float]]) -> bool:
+    """Join the first two parts that are convex together; return whether there were any."""
+    for one in parts:
+        for other in parts:
+            for k, i in enumerate(one):
+                j = one[(k + 1) % len(one)]
+                if one is other or i not in other or other[other.index(i) - 1] != j:
+                    continue
+                at = other.index(i)
+                between = (other[at + 1 :] + other[:at])[:-1]
+                ring = [*one[: k + 1], *between, *one[k + 1 :]]
+                if _is_convex(ring, corners):
+                    parts.remove(other)
+                    one[:] = ring
+                    return True
+    return False
 
 
 def _inner_point(outline: Floats) -> Floats:

@@ -1,7 +1,8 @@
 """Poses in the plane: x [m], y [m] and heading [rad, counter-clockwise from the x axis].
 
-A pose is a tuple of three floats, for which the answer is such a tuple, or an array (..., 3), for which it is an array; arrays are broadcast
-against each other and against single poses. Headings are never wrapped, so turns can be counted; `normalize_angle` wraps them.
+A pose is a tuple of three floats, for which the answer is such a tuple, or an array (..., 3), for which it is an array;
+arrays are broadcast against each other and against single poses. Headings are never wrapped, so turns can be counted;
+`normalize_angle` wraps them.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ def compose(a: Floats, b: Pose | Floats) -> Floats: ...
 @overload
 def compose(a: Pose, b: Floats) -> Floats: ...
 def compose(a: Pose | Floats, b: Pose | Floats) -> Pose | Floats:
-    """The pose `b`, which was seen from `a`, seen from where `a` was seen: frame a -> frame b when a is world -> frame a.
+    """The pose `b`, given in the frame of `a`, in the frame that `a` is given in: a is world -> a, b is a -> b.
 
     >>> compose((1.0, 0.0, math.pi), (2.0, 0.0, 0.0))[0]
     -1.0
@@ -57,7 +58,7 @@ def inverse(pose: Pose | Floats) -> Pose | Floats:
 
 
 def transform_points(pose: Pose | Floats, points: ArrayLike) -> Floats:
-    """Points (..., 2) seen from one `pose`, or from the poses (..., 3) one by one, in the frame that `pose` is given in (..., 2)."""
+    """Points (..., 2) given in the frame of `pose`, or of the poses (..., 3) one by one, in the frame of the pose."""
     array = np.asarray(points, dtype=np.float64)
     if array.ndim == 0 or array.shape[-1] != 2:
         msg = f"points are an array (..., 2) of x and y, not {array.shape}"
@@ -79,10 +80,11 @@ def arc(pose: Pose, v: float, w: Floats, dt: float | Floats) -> Floats: ...
 @overload
 def arc(pose: Pose, v: float, w: float, dt: Floats) -> Floats: ...
 def arc(pose: Pose | Floats, v: float | Floats, w: float | Floats, dt: float | Floats) -> Pose | Floats:
-    """Where a unicycle is after `dt` seconds with the speeds `v` [m/s] ahead and `w` [rad/s] to the left, both constant.
+    """The pose of a unicycle after `dt` seconds at the constant speeds `v` [m/s] ahead and `w` [rad/s] to the left.
 
-    Exact for any `dt`: the way is an arc, its chord is `v dt sin(h) / h` long and points to `theta + h`, where h is `w dt / 2`
-    (Thrun, Burgard and Fox, Probabilistic Robotics, 2005, section 5.3, has the same arc by its centre, which a straight way has not).
+    Exact for any `dt`: the way is an arc, its chord is `v dt sin(h) / h` long and points to `theta + h`, where h is `w
+    dt / 2` (Thrun, Burgard and Fox, Probabilistic Robotics, 2005, section 5.3, has the same arc by its centre, which a
+    straight way has not).
     """
     if not (
         isinstance(v, np.ndarray) or isinstance(w, np.ndarray) or isinstance(dt, np.ndarray)

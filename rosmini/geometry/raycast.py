@@ -1,7 +1,7 @@
 """What a flat laser sees: rays against line segments and discs.
 
-`raycast` does it in machine code where numba is installed, else with numpy, and both give the same ranges: they get the same directions and do the
-same arithmetic in the same order. `backend` tells which one it would be.
+`raycast` does it in machine code where numba is installed, else with numpy, and both give the same ranges: they get the
+same directions and do the same arithmetic in the same order. `backend` tells which one it would be.
 """
 
 from __future__ import annotations
@@ -50,22 +50,25 @@ def raycast(
     *,
     backend: str | None = None,
 ) -> Floats:
-    """How far it is from (x, y) to the nearest thing in each of `count` directions (count,); inf if nothing is within `max_range`.
+    """How far it is from (x, y) to the nearest thing in each of `count` directions (count,).
 
-    `segments` (n, 4) are walls without thickness, each x1, y1, x2, y2; `discs` (m, 3) are solid, each x, y, radius. Both may be empty. Ray
-    i looks to `angle_min + i * angle_increment`; the increment may be negative, and the rays may cover less or more than one turn. All of
-    it is in one frame, in metres and radians.
+    Inf if nothing is within `max_range`. `segments` (n, 4) are walls without thickness, each x1, y1, x2, y2; `discs`
+    (m, 3) are solid, each x, y, radius. Both may be empty. Ray i looks to `angle_min + i * angle_increment`; the
+    increment may be negative, and the rays may cover less or more than one turn. All of it is in one frame, in metres
+    and radians.
 
-    Ends belong to their segment, and 1 nm beyond them still counts, so no ray slips between two walls whose common corner was rounded. Of a wall
-    that a ray runs along it meets the near end. A sensor in or on a disc, or on a wall, sees 0 all around. A segment of no length is a point.
+    Ends belong to their segment, and 1 nm beyond them still counts, so no ray slips between two walls whose common
+    corner was rounded. Of a wall that a ray runs along it meets the near end. A sensor in or on a disc, or on a wall,
+    sees 0 all around. A segment of no length is a point.
 
-    `backend` is "numba" or "numpy"; without it the environment variable `ROSMINI_RAYCAST` decides, and without that numba if it is installed.
-    Raises `GeometryError` for a number that is nan or infinite (`max_range` may be infinite), a negative radius, range or count or an array of
-    another shape, and `BackendMissing` for "numba" without numba.
+    `backend` is "numba" or "numpy"; without it the environment variable `ROSMINI_RAYCAST` decides, and without that
+    numba if it is installed. Raises `GeometryError` for a number that is nan or infinite (`max_range` may be infinite),
+    a negative radius, range or count or an array of another shape, and `BackendMissing` for "numba" without numba.
     """
     walls, pillars = _tables(segments, discs)
     if not math.isfinite(x + y + angle_min + angle_increment):
-        msg = f"a ray starts at a place and looks somewhere, not x={x}, y={y}, angle_min={angle_min}, angle_increment={angle_increment}"
+        given = f"x={x}, y={y}, angle_min={angle_min}, angle_increment={angle_increment}"
+        msg = f"a ray starts at a place and looks somewhere, not {given}"
         raise GeometryError(msg)
     if not (max_range >= 0 and count >= 0):
         msg = f"max_range ({max_range}) and count ({count}) are 0 or more"
@@ -111,11 +114,11 @@ def raycast_each(
     disc_rays: ArrayLike | None = None,
     backend: str | None = None,
 ) -> Floats:
-    """As `raycast`, with rays that each start at a place of their own, `origins` (n, 2), and look to an angle of their own, `angles` (n,).
+    """As `raycast`, with an origin for each ray, `origins` (n, 2), and a direction, `angles` (n,).
 
-    It is as fast if the places are near to one another, and the angles nearly evenly spaced and not wrapped: those of a laser that turns while it is
-    carried. `segment_rays` (k, 2) says for each segment from which ray on, and before which, it is there; `disc_rays` for each disc; without them
-    they are there for all. Raises what `raycast` raises.
+    It is as fast if the places are near to one another, and the angles nearly evenly spaced and not wrapped: those of a
+    laser that turns while it is carried. `segment_rays` (k, 2) says for each segment from which ray on, and before
+    which, it is there; `disc_rays` for each disc; without them they are there for all. Raises what `raycast` raises.
     """
     walls, pillars = _tables(segments, discs)
     places, looks = _table(origins, 2, "origins"), np.array(angles, dtype=np.float64)
@@ -178,7 +181,8 @@ def _spans(rays: ArrayLike | None, size: int, count: int) -> Ints:
         return EVERY
     spans = np.array(rays, dtype=np.int64).reshape(-1, 2)
     if len(spans) != size or (size and (spans.min() < 0 or spans.max() > count)):
-        msg = f"which rays see each of {size} things is an array ({size}, 2) of numbers from 0 to {count}, not {spans.shape}"
+        wanted = f"an array ({size}, 2) of numbers from 0 to {count}"
+        msg = f"which rays see each of {size} things is {wanted}, not {spans.shape}"
         raise GeometryError(msg)
     return spans
 
@@ -205,7 +209,10 @@ def _chosen(name: str | None) -> str:
         return "numpy" if _numba() is None else "numba"
     if wanted not in BACKENDS:
         source = "" if name else f" (from the environment variable {VARIABLE})"
-        msg = f"there is no raycast backend {wanted!r}{source}; there are {' and '.join(BACKENDS)}. {nearest(wanted, BACKENDS)}"
+        there = " and ".join(BACKENDS)
+        msg = (
+            f"there is no raycast backend {wanted!r}{source}; there are {there}. {nearest(wanted, BACKENDS)}"
+        )
         raise GeometryError(msg.rstrip())
     return wanted
 
@@ -232,8 +239,9 @@ def _kernel(name: str) -> Callable[..., None]:
     module = _numba()
     if module is None:
         msg = (
-            "the numba backend was asked for, but numba cannot be imported here. Install it (pip install numba), or leave the choice to "
-            f"rosmini: no backend argument, no environment variable {VARIABLE}; numpy gives the same ranges, slower"
+            "the numba backend was asked for, but numba cannot be imported here. Install it (pip install numba), or "
+            f"leave the choice to rosmini: no backend argument, no environment variable {VARIABLE}; numpy gives the "
+            "same ranges, slower"
         )
         raise BackendMissing(msg)
     kernel: Callable[..., None] = module.compiled()

@@ -1,12 +1,11 @@
 """The raycast in machine code: the loops of `rosmini.geometry.raycast_numpy`, where its geometry is explained.
 
-The functions here are plain Python. `compiled` makes machine code of them, at the first call in about a second, later from numba's cache. Scalars,
-explicit types and no slices keep that second from becoming ten.
+The functions here are plain Python. `compiled` makes machine code of them, at the first call in about a second, later
+from numba's cache. Scalars, explicit types and no slices keep that second from becoming ten.
 """
 
 from __future__ import annotations
 
-import logging
 import math
 from collections.abc import Callable
 from functools import cache
@@ -14,6 +13,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .machine_code import machine_code
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -28,7 +29,7 @@ NEAR = 1e-3
 """A segment nearer than this is tried with every ray [m]: its sector says little once `SLACK` is a part of it."""
 
 MARGIN = 1e-5
-"""What is added to a sector at either side [rad]: more than `SLACK` at the distance `NEAR`, and than what rounding can do."""
+"""What is added to a sector at either side [rad]: more than `SLACK` at distance `NEAR`, and than rounding."""
 
 FLAT = 1e-9
 """Rays closer together than this are all tried [rad]."""
@@ -191,20 +192,12 @@ def meet_disc(x: float, y: float, radius: float, c: float, s: float) -> float:
 def compiled() -> Callable[..., None]:
     """`cast` as machine code. Raises `ImportError` without numba."""
     import numba
-    from numba.extending import register_jitable
 
-    for function in (cast_segment, cast_disc, before, segment_distance, meet_segment, meet_disc):
-        register_jitable(function)
     number = numba.float64
     table: Any = numba.types.Array(number, 2, "C", readonly=True)
     read: Any = numba.types.Array(number, 1, "C", readonly=True)
     rays: Any = numba.types.Array(numba.int64, 2, "C", readonly=True)
     plain = (table, table, number, number, read, read, number, number, number, number[::1])
     signature = numba.void(*plain, read, read, number, number, rays, rays)
-    try:
-        return numba.njit([signature], cache=True)(cast)
-    except Exception as error:
-        # A cache that can be neither written nor read (an installation for all users, a full disk, a broken file) costs
-        # a second at each start and no more. What is wrong with the code itself is raised again below.
-        logging.getLogger(__name__).info("numba cannot cache the raycast: %s", error)
-    return numba.njit([signature])(cast)
+    helpers = (cast_segment, cast_disc, before, segment_distance, meet_segment, meet_disc)
+    return machine_code(cast, signature, helpers)

@@ -1,7 +1,8 @@
 """The raycast with numpy: first who can meet whom, then all those pairs at once.
 
-A segment or disc is seen under a sector of directions. Only the pairs of it and the rays in its sector are looked at, some thousand instead of
-segments times rays. `rosmini.geometry.raycast_numba` does the same with loops; what is written here about the geometry holds there.
+A segment or disc is seen under a sector of directions. Only the pairs of it and the rays in its sector are looked at,
+some thousand instead of segments times rays. `rosmini.geometry.raycast_numba` does the same with loops; what is written
+here about the geometry holds there.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from .raycast_numba import FLAT, MARGIN, NEAR, SLACK, TURN
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Origins = tuple[Floats, Floats, float, float]
-"""From where rays start, seen from the sensor, how far that is at the most, and by how much their angles are not evenly spaced."""
+"""The origins of rays seen from the sensor, their greatest distance, and how uneven their angles are."""
 
 BLOCK = 1 << 19
 """How many pairs are looked at at once, lest a large world fill the memory."""
@@ -43,9 +44,10 @@ def cast(
 ) -> None:
     """Lower `ranges` (count,) to what each ray meets within `max_range`.
 
-    Ray i starts at (x + dx[i], y + dy[i]), `away` from (x, y) at the most, and looks to (cos[i], sin[i]), which is the angle `first + i * step` but for
-    `spread`; `step` is not negative. Segment k concerns the rays from segment_rays[k, 0] to before segment_rays[k, 1] only, and disc k likewise;
-    where these arrays have no rows, each of them concerns all.
+    Ray i starts at (x + dx[i], y + dy[i]), `away` from (x, y) at the most, and looks to (cos[i], sin[i]), which is the
+    angle `first + i * step` but for `spread`; `step` is not negative. Segment k concerns the rays from segment_rays[k,
+    0] to before segment_rays[k, 1] only, and disc k likewise; where these arrays have no rows, each of them concerns
+    all.
     """
     origins = (dx, dy, away, spread)
     cast_segments(segments - (x, y, x, y), cos, sin, first, step, max_range, ranges, origins, segment_rays)
@@ -77,8 +79,8 @@ def cast_segments(
     for which, ray in _pairs(starts, np.abs(sweeps) + 2 * more, near, first, step, len(ranges), own):
         c, s = cos[ray], sin[ray]
         px, py, qx, qy = segments[which].T - np.stack([dx[ray], dy[ray], dx[ray], dy[ray]])
-        # How far the ends lie to the left of the ray and ahead of the sensor. A common end of two segments gets the same
-        # numbers in both, so no ray passes between them.
+        # How far the ends lie to the left of the ray and ahead of the sensor. A common end of two segments gets the
+        # same numbers in both, so no ray passes between them.
         k1, k2 = c * py - s * px, c * qy - s * qx
         a1, a2 = c * px + s * py, c * qx + s * qy
         touched = (np.minimum(k1, k2) <= SLACK) & (np.maximum(k1, k2) >= -SLACK)
@@ -149,8 +151,9 @@ def _pairs(
 ) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of a sector and a ray in it, as two arrays of indices.
 
-    The sectors go from `starts` counter-clockwise by `widths`; rays that go round more than once pass each of them more than once. What is
-    `near` is paired with every ray; each sector with those between its two of `rays` (n, 2) only, if there are any.
+    The sectors go from `starts` counter-clockwise by `widths`; rays that go round more than once pass each of them more
+    than once. What is `near` is paired with every ray; each sector with those between its two of `rays` (n, 2) only, if
+    there are any.
     """
     turns = int(step * (count - 1) // TURN) + 2
     pitch = max(step, FLAT)

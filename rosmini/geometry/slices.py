@@ -13,9 +13,10 @@ Floats = NDArray[np.float64]
 
 
 def convex_hull(points: Floats) -> Floats:
-    """The corners (k, 2), counter-clockwise, of the smallest convex polygon around points (n, 2); none lies on a line between others.
+    """The corners (k, 2), counter-clockwise, of the smallest convex polygon around points (n, 2).
 
-    Andrew's monotone chain (Information Processing Letters 9, 1979). Points on one line give its two ends.
+    None lies on a line between others. Andrew's monotone chain (Information Processing Letters 9, 1979). Points on one
+    line give its two ends.
     """
     ordered = np.unique(np.asarray(points, dtype=np.float64), axis=0)
     if len(ordered) < 3:
@@ -38,7 +39,10 @@ def convex_hull(points: Floats) -> Floats:
 
 
 def cut(triangles: Floats, height: float) -> Floats:
-    """Where triangles (n, 3, 3) meet a level plane: segments (m, 4), each x1, y1, x2, y2. Corners in the plane count as above it."""
+    """Where triangles (n, 3, 3) meet a level plane: segments (m, 4), each x1, y1, x2, y2.
+
+    Corners in the plane count as above it.
+    """
     above = triangles[..., 2] >= height
     sides = above.sum(axis=1)
     crossing = (sides > 0) & (sides < 3)
@@ -62,7 +66,8 @@ def cut(triangles: Floats, height: float) -> Floats:
 def loops(segments: Floats, grain: float = 1e-6) -> list[Floats] | None:
     """Closed outlines, each its corners (k, 2), that segments (n, 4) make up; None if some end where no other begins.
 
-    Ends nearer than about `grain` [m] are one. Each outline goes counter-clockwise; corners in the middle of a straight line are left out.
+    Ends nearer than about `grain` [m] are one. Each outline goes counter-clockwise; corners in the middle of a straight
+    line are left out.
     """
     keys = np.round(segments.reshape(-1, 2) / grain).astype(np.int64)
     _, first, names = np.unique(keys, axis=0, return_index=True, return_inverse=True)
@@ -100,7 +105,7 @@ def _plain(outline: Floats) -> Floats:
 
 
 def thinned(outline: Floats, tolerance: float) -> Floats:
-    """An outline (k, 2) with fewer corners: those kept of which the others' lines stay within `tolerance` [m] (Douglas and Peucker, 1973)."""
+    """An outline (k, 2) with fewer corners, within `tolerance` [m] of the others (Douglas and Peucker, 1973)."""
     if len(outline) <= 4:
         return outline
     far = int(np.hypot(*(outline - outline[0]).T).argmax())
@@ -125,8 +130,9 @@ def thinned(outline: Floats, tolerance: float) -> Floats:
 def pieces(outlines: list[Floats]) -> list[Floats]:
     """Simple polygons, corners counter-clockwise, that together cover what outlines go around by the even-odd rule.
 
-    Outlines that neither cross themselves nor lie in or across others stay whole; the others become trapezoids between the heights of
-    their corners. They cover the same points to the last bit of the arithmetic, and only touch one another.
+    Outlines that neither cross themselves nor lie in or across others stay whole; the others become trapezoids between
+    the heights of their corners. They cover the same points to the last bit of the arithmetic, and only touch one
+    another.
     """
     crossed = any(polygons.crossing_sides(outline) for outline in outlines)
     if not crossed and not any(polygons.overlap(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
@@ -168,7 +174,7 @@ def _crossing_heights(sides: Floats) -> Floats:
 
 
 def within(centres: Floats, half: float, sides: Floats) -> NDArray[np.bool_]:
-    """Through which of some squares, each by its centre (n, 2), with sides of `2 half` [m] along the axes, one of `sides` (m, 4) passes."""
+    """Which squares, by their centres (n, 2), with sides of `2 half` [m], one of `sides` (m, 4) crosses."""
     hit = np.zeros(len(centres), dtype=bool)
     for x1, y1, x2, y2 in sides:
         enter, leave = np.zeros(len(centres)), np.ones(len(centres))

@@ -1,14 +1,14 @@
 """Long straight sides in the place of stairs: closed outlines along the edges of cells, with few corners.
 
-Douglas and Peucker's method (1973) does badly on stairs: it keeps each corner within some distance of a side, and the stairs of a straight
-slanted wall have corners up to 0.7 cells away from it. So a side may take the place of a part of the outline if it passes between the same cells:
-all centres on its left stay on its left, those on its right on its right, none nearer than a margin. Sides go from one corner of
-the cells, or middle of a step, to another; which ones is found by going through all of them, as Imai and Iri (1988) do, and Selinger's potrace
-(2003) for pictures.
+Douglas and Peucker's method (1973) does badly on stairs: it keeps each corner within some distance of a side, and the
+stairs of a straight slanted wall have corners up to 0.7 cells away from it. So a side may take the place of a part of
+the outline if it passes between the same cells: all centres on its left stay on its left, those on its right on its
+right, none nearer than a margin. Sides go from one corner of the cells, or middle of a step, to another; which ones is
+found by going through all of them, as Imai and Iri (1988) do, and Selinger's potrace (2003) for pictures.
 
-Only parts that climb, so that of the four directions they take two, can be straightened. For them the centres beside their own edges are enough: each
-other centre lies behind one of them. From one place the directions of the lines between all centres so far are an interval, so each
-further place costs a few comparisons.
+Only parts that climb, so that of the four directions they take two, can be straightened. For them the centres beside
+their own edges are enough: each other centre lies behind one of them. From one place the directions of the lines
+between all centres so far are an interval, so each further place costs a few comparisons.
 """
 
 from __future__ import annotations
@@ -22,10 +22,14 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 REACH = 500
-"""How many places a side may skip; what would be longer is cut, so that the work grows with the size of the outline and not with its square."""
+"""How many places a side may skip.
+
+What would be longer is cut, so that the work grows with the size of the outline and not with its square.
+"""
 
 _SLACK = 1e-9  # of an angle [rad]
-# A side costs 1, and each place that it skips this times its squared distance [cells]: little, but of as many sides the nearest are taken.
+# A side costs 1, and each place that it skips this times its squared distance [cells]: little, but of as many sides the
+# nearest are taken.
 _SQUARES = 0.05
 
 
@@ -45,7 +49,7 @@ class _Places:
 
 @dataclass(frozen=True)
 class _Sides:
-    """Possible sides: from place `start` over `skip` places, and the sum of the squared distances of the places between [cells2]."""
+    """Possible sides: from index `start` over `skip` indices, and the sum of their squared distances [cells2]."""
 
     start: Ints
     skip: Ints
@@ -53,12 +57,12 @@ class _Sides:
 
 
 def straightened(loops: list[Ints], tolerance: float) -> list[Floats]:
-    """The loops, each the corners (k, 2) of a closed outline along the edges of cells with the inside on its left, with few corners.
+    """The loops, each the corners (k, 2) of a closed outline with the inside on its left, with few corners.
 
-    A side passes no centre of a cell nearer than a half less `tolerance` [cells], which is at least 0 and below a half. Corners of the result
-    are corners of the outline or middles of its single steps. Of all choices the one is taken that costs least: 1 for each side, and a
-    little for what it departs from the edges. A loop is opened at the place that the fewest possible sides skip; where none does, that
-    loses nothing.
+    A side passes no centre of a cell nearer than a half less `tolerance` [cells], which is at least 0 and below a half.
+    Corners of the result are corners of the outline or middles of its single steps. Of all choices the one is taken
+    that costs least: 1 for each side, and a little for what it departs from the edges. A loop is opened at the place
+    that the fewest possible sides skip; where none does, that loses nothing.
     """
     if not loops:
         return []
@@ -150,13 +154,19 @@ def _angle(u: Floats, v: Floats) -> Floats:
 
 
 def _room(centres: Floats, margin: float) -> Floats:
-    """Under which angle a disc of radius `margin` around each of the centres is seen, half of it [rad]; none is nearer than half a cell."""
+    """Under which angle a disc of radius `margin` around each of the centres is seen, half of it [rad].
+
+    None is nearer than half a cell.
+    """
     halves: Floats = np.arcsin(np.minimum(margin / np.hypot(centres[:, 0], centres[:, 1]), 1.0))
     return halves
 
 
 def _anchors(places: _Places, sides: _Sides) -> Ints:
-    """The place of each loop that the fewest sides skip, a corner if there is one; seen from the first place of the loop."""
+    """The place of each loop that the fewest sides skip, a corner if there is one.
+
+    Seen from the first place of the loop.
+    """
     loop = places.loop[sides.start]
     base = places.first[loop] + loop  # one more slot for each loop, for what ends behind its last place
     size = places.size[loop]

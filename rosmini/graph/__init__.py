@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .clock import Rate, Timer, TimerEvent
-from .graph import Graph, default_graph, set_default_graph
+from .graph import Graph, default_graph, running_graph, set_default_graph
 from .lanes import Lane, LaneContext, LaneExit, Waiter
 from .node import Node
 from .publisher import Publisher
@@ -30,5 +30,6 @@ __all__ = [
     "Waiter",
     "Waiting",
     "default_graph",
+    "running_graph",
     "set_default_graph",
 ]

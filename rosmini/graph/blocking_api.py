@@ -1,28 +1,43 @@
-"""The part of a node that blocks: sleeping, waiting, spinning."""
+"""The part of a node that blocks, and that runs what may: sleeping, waiting, spinning, lanes, users' callbacks."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ROSException, ROSInterruptException, ROSTimeMovedBackwardsException
+from rosmini.errors import (
+    MasterUnreachable,
+    ROSException,
+    ROSInterruptException,
+    ROSTimeMovedBackwardsException,
+    ServiceException,
+)
 from rosmini.time import Duration, Time
 
+from .callbacks import describe_failure
 from .clock import GraphClock, TopicClock
+from .lanes import Lane, Waiter
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .graph import Graph
-    from .lanes import Waiter
+    from .graph_core import GraphCore
+    from .lanes import LaneContext
+    from .master_port import MasterProxy
     from .scheduler import Scheduler
+
+POLL_NS = 100_000_000
+"""How often a Master in another process is asked for what may have changed there."""
 
 
 class BlockingApi:
     """Time and waiting, as a :class:`~rosmini.graph.node.Node` offers them."""
 
     name: str
-    graph: Graph
+    graph: GraphCore
     scheduler: Scheduler
+    master: MasterProxy
+    context: LaneContext | None
     clock: GraphClock | TopicClock
     shutdown_reason: str | None
     _stopped: bool
@@ -52,7 +67,12 @@ class BlockingApi:
             return
         clock = self.clock
         if isinstance(clock, GraphClock):
-            self.wait(self.scheduler.waiter("time to pass"), timeout_ns=span)
+            waiter = Waiter(self.scheduler, "time to pass")
+            self._waiters[waiter] = None
+            try:
+                waiter.wait(span)
+            finally:
+                self._waiters.pop(waiter, None)
             return
         if clock.now_ns() == 0:
             self._wait_on_topic(clock, 1, "the first message on /clock")
@@ -100,20 +120,52 @@ class BlockingApi:
     def wait_until(
         self, condition: Callable[[], bool], timeout: float | None, reason: str, failure: Callable[[], str]
     ) -> None:
-        """Block until ``condition()`` holds, which is looked at whenever the graph changes.
+        """Block until ``condition()`` holds: something of this node's own, such as its connections. It must not block.
 
         Raises ``ROSException`` with the text ``failure()`` after ``timeout`` seconds.
         """
         waiter = self.waiter(reason)
 
         def begin() -> None:
-            self.graph.watch(condition, waiter)
+            self.graph.changes.watch(condition, waiter)
 
         self.scheduler.on_hub(begin)
         if not self.wait(waiter, timeout):
             waiter.wake()
             msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure()}"
             raise ROSException(msg)
+
+    def wait_for_master(
+        self, is_so: Callable[[], bool], timeout: float | None, reason: str, failure: Callable[[], str]
+    ) -> None:
+        """Block until ``is_so()``, which asks the Master, returns True: it is called again and again.
+
+        Raises ``ROSException`` with the text ``failure()`` after ``timeout`` seconds.
+        """
+        scheduler = self.scheduler
+        end = None if timeout is None else scheduler.now_ns() + int(timeout * 1e9)
+        while True:
+            waiter = self.waiter(reason)
+            scheduler.on_hub(
+                partial(self.graph.changes.next, waiter)
+            )  # before the question: no change is missed
+            try:
+                if self._is_answered(is_so):
+                    return
+                span = None if end is None else max(end - scheduler.now_ns(), 0)
+                if not self.graph.master.is_local:
+                    span = POLL_NS if span is None else min(span, POLL_NS)
+                if not self.wait(waiter, timeout_ns=span) and end is not None and scheduler.now_ns() >= end:
+                    msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure()}"
+                    raise ROSException(msg)
+            finally:
+                waiter.wake()
+
+    def _is_answered(self, is_so: Callable[[], bool]) -> bool:
+        try:
+            return is_so()
+        except MasterUnreachable:
+            return False  # it may come back: rospy keeps trying, too
 
     def spin(self) -> None:
         """Block until the node is shut down; callbacks go on meanwhile."""
@@ -126,6 +178,47 @@ class BlockingApi:
                 return
             finally:
                 self._waiters.pop(waiter, None)
+
+    # -- lanes and callbacks -------------------------------------------------------------------------------------
+
+    def spawn(self, name: str, task: Callable[[], object] | None = None) -> Lane:
+        """Return a lane of this node; ``task`` may block in it."""
+        lane = Lane(self.scheduler, name, node=self, context=self.context, on_error=self._lane_error)
+        if task is not None:
+            lane.submit(task)
+        return lane
+
+    def guarded(self, callback: Callable[..., object], *arguments: Any, what: str) -> None:
+        """Call a user's callback; an error is reported and goes no further."""
+        try:
+            callback(*arguments)
+        except Exception as error:
+            self.callback_failed(error, callback, what, None)
+
+    def callback_failed(
+        self,
+        error: Exception,
+        callback: Callable[..., object],
+        where: str,
+        message: Any,
+        *,
+        service: bool = False,
+    ) -> None:
+        """Report what a callback raised, with the user's own frame, where it came from, and the message."""
+        if self._is_by_shutdown(error):
+            return
+        problem = describe_failure(error, callback, where, message, self.name)
+        self.graph.report(problem, self, raise_strict=not service)
+
+    def _lane_error(self, error: BaseException) -> None:
+        if not self._is_by_shutdown(error):
+            self.graph.report(error, self)
+
+    def _is_by_shutdown(self, error: BaseException) -> bool:
+        """Return whether an error only says that the node, or the whole graph with the servers in it, ends."""
+        if isinstance(error, ServiceException):
+            return self.graph.closing
+        return self._stopped and isinstance(error, ROSInterruptException)
 
     # -- the end -------------------------------------------------------------------------------------------------
 

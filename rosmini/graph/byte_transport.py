@@ -1,8 +1,9 @@
 """A transport that serialises everything and carries the bytes on real threads.
 
-Nobody needs it to run a graph: it is the proof that the seam of :mod:`rosmini.graph.transport` holds. What crosses it is what crosses a
-network (ROS 1 messages, TCPROS headers, XML-RPC documents), each node has a thread of its own that reads them, and the same tests pass
-on it as on the in-process transport. While bytes are under way, simulated time stands still.
+Nobody needs it to run a graph: it is the proof that the seam of :mod:`rosmini.graph.transport` holds. What crosses it
+is what crosses a network (ROS 1 messages, TCPROS headers, XML-RPC documents), each node has a thread of its own that
+reads them, and the same tests pass on it as on the in-process transport. While bytes are under way, simulated time
+stands still.
 """
 
 from __future__ import annotations
@@ -11,21 +12,24 @@ import queue
 import struct
 import threading
 import xmlrpc.client
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.errors import DeserializationError, TransportException, TransportInitError
 
-from .transport import LocalSender
+from .transport import QueuedSender, slave_uri
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .scheduler import Scheduler
     from .transport import Endpoint, Header, Receiver, ServiceSession, Triple
 
 
 def encode_header(fields: Header) -> bytes:
-    """Return a TCPROS connection header: length-prefixed ``key=value`` fields (http://wiki.ros.org/ROS/Connection%20Header)."""
+    """Return a TCPROS connection header: length-prefixed ``key=value`` fields.
+
+    See http://wiki.ros.org/ROS/Connection%20Header.
+    """
     parts = [f"{key}={value}".encode() for key, value in fields.items()]
     body = b"".join(struct.pack("<I", len(part)) + part for part in parts)
     return struct.pack("<I", len(body)) + body
@@ -45,7 +49,7 @@ def decode_header(data: bytes) -> Header:
         (length,) = struct.unpack_from("<I", data, offset)
         field = data[offset + 4 : offset + 4 + length]
         if len(field) != length:
-            msg = f"a field of the connection header claims {length} bytes, and {len(field)} are left (at byte {offset})"
+            msg = f"at byte {offset} a field of the connection header claims {length} bytes; {len(field)} are left"
             raise DeserializationError(msg)
         try:
             key, separator, value = field.decode().partition("=")
@@ -60,21 +64,28 @@ def decode_header(data: bytes) -> Header:
     return fields
 
 
+OnFailure = Callable[[Exception], None]
+"""What is called when a connection has failed."""
+
+
 class _Wire:
     """The thread that reads what is sent to one node, in order."""
 
     def __init__(self, scheduler: Scheduler, name: str) -> None:
         self._scheduler = scheduler
-        self._queue: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
+        self._queue: queue.SimpleQueue[tuple[Callable[[], None], OnFailure] | None] = queue.SimpleQueue()
         self._closed = False
         self._thread = threading.Thread(target=self._read, name=f"rosmini-wire {name}", daemon=True)
         self._thread.start()
 
-    def carry(self, job: Callable[[], None]) -> None:
-        """Have ``job`` done by the thread; what is sent to a closed wire is lost. In the hub's thread."""
+    def carry(self, job: Callable[[], None], failed: OnFailure) -> None:
+        """Have ``job`` done by the thread; what is sent to a closed wire is lost. In the hub's thread.
+
+        An exception of the job's goes to ``failed``, in the hub's thread.
+        """
         if not self._closed:
             self._scheduler.hold()
-            self._queue.put(job)
+            self._queue.put((job, failed))
 
     def close(self) -> None:
         self._closed = True
@@ -82,15 +93,20 @@ class _Wire:
         self._thread.join()
 
     def _read(self) -> None:
-        while (job := self._queue.get()) is not None:
+        while (item := self._queue.get()) is not None:
+            job, failed = item
             try:
                 job()
+            except Exception as error:
+                self._scheduler.call_soon_threadsafe(partial(failed, error))
             finally:
                 self._scheduler.release()
 
 
-class _ByteSender(LocalSender):
+class _ByteSender(QueuedSender):
     """The publisher's end of a connection: what its queue lets go is carried as bytes."""
+
+    protocol = "BYTES"
 
     __slots__ = ("_scheduler", "_wire")
 
@@ -100,9 +116,20 @@ class _ByteSender(LocalSender):
         self._wire = wire
 
     def _flush(self) -> None:
-        packets = [frozen._encode(frozen) for frozen in self._queue]
+        messages = list(self._queue)
         self._queue.clear()
-        self._wire.carry(lambda: self._arrive(packets))
+        try:
+            packets = [frozen._encode(frozen) for frozen in messages]
+        except Exception as error:
+            self._failed(error)
+        else:
+            self._wire.carry(lambda: self._arrive(packets), self._failed)
+
+    def _failed(self, error: Exception) -> None:
+        """Close the connection at both ends, once."""
+        if not self._closed:
+            self.drop()
+            self._receiver.failed(error)
 
     def _arrive(self, packets: list[bytes]) -> None:
         """Decode, in the receiving node's thread, and hand over to the hub."""
@@ -117,7 +144,7 @@ class _ByteSender(LocalSender):
 
     def _close(self) -> None:
         tell = super()._close
-        self._wire.carry(lambda: self._scheduler.call_soon_threadsafe(tell))
+        self._wire.carry(lambda: self._scheduler.call_soon_threadsafe(tell), self._failed)
 
 
 class _ByteServiceLink:
@@ -133,6 +160,9 @@ class _ByteServiceLink:
         self.header = session.header
 
     def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        def failed(error: Exception) -> None:
+            reply(None, f"transport error completing service call: {type(error).__name__}: {error}")
+
         packet = request._encode(request)
         request_class, response_class = self._class._request_class, self._class._response_class
 
@@ -142,7 +172,7 @@ class _ByteServiceLink:
                 if problem is not None
                 else b"\x01" + bytes(response._encode(response))
             )
-            self._wire.carry(lambda: arrive(body))
+            self._wire.carry(lambda: arrive(body), failed)
 
         def arrive(body: bytes) -> None:
             if body[0]:
@@ -155,7 +185,7 @@ class _ByteServiceLink:
             received = request_class._decode(packet)
             self._scheduler.call_soon_threadsafe(lambda: self._session.handle(received, answer))
 
-        self._wire.carry(ask)
+        self._wire.carry(ask, failed)
 
     def close(self) -> None:
         self._scheduler.call_soon(self._session.close)
@@ -171,10 +201,10 @@ class ByteTransport:
         self._endpoints: dict[str, tuple[Endpoint, _Wire]] = {}
         self._numbers = 0
 
-    def attach(self, endpoint: Endpoint) -> str:
+    def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
         """Make a node reachable, with a thread of its own."""
         self._numbers += 1
-        uri = f"http://bytes:{self._numbers}/"
+        uri = uri or f"http://bytes:{self._numbers}/"
         self._endpoints[uri] = (endpoint, _Wire(self.scheduler, endpoint.name))
         return uri
 
@@ -188,12 +218,20 @@ class ByteTransport:
         """Return the address of the node's services."""
         return uri.replace("http://", "rosrpc://").rstrip("/")
 
-    def topic_parameters(self, uri: str) -> list[Any]:
+    def reaches(self, uri: str) -> bool:
+        """Return whether a node has this slave API or serves its services there."""
+        return slave_uri(uri) in self._endpoints
+
+    def offer(self, caller: str) -> list[Any] | None:
+        """Return what a subscriber offers in ``requestTopic``."""
+        return [self.protocol] if caller in self._endpoints else None
+
+    def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
         """Return the connection parameters of a topic."""
-        return [self.protocol, uri]
+        return [self.protocol, uri] if offer == [self.protocol] and uri in self._endpoints else None
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
-        """Call a method of a node's slave API through an XML-RPC document; blocks."""
+        """Call a method of a node's slave API through an XML-RPC document; blocks. The node's thread answers."""
         request = xmlrpc.client.dumps(arguments, method, allow_none=False)
 
         def serve(endpoint: Endpoint) -> str:
@@ -202,7 +240,7 @@ class ByteTransport:
                 (endpoint.slave_call(cast("str", name), *values),), methodresponse=True
             )
 
-        reply = self._ask(uri, serve)
+        reply = self._ask(uri, serve, on_hub=False)
         return cast("Triple", xmlrpc.client.loads(reply)[0][0])
 
     def connect_topic(
@@ -230,8 +268,7 @@ class ByteTransport:
         def serve(endpoint: Endpoint) -> ServiceSession:
             return endpoint.accept_client(decode_header(request))
 
-        uri = service_uri.replace("rosrpc://", "http://") + "/"
-        session = self._ask(uri, serve)
+        session = self._ask(slave_uri(service_uri), serve)
         return _ByteServiceLink(self, self._wire_of(caller), session, service_class)
 
     def _wire_of(self, caller: str) -> _Wire:
@@ -241,8 +278,8 @@ class ByteTransport:
             raise TransportInitError(msg)
         return found[1]
 
-    def _ask(self, uri: str, serve: Callable[[Endpoint], Any]) -> Any:
-        """Have ``serve`` run in the hub's thread on behalf of the node's own; park the caller meanwhile."""
+    def _ask(self, uri: str, serve: Callable[[Endpoint], Any], *, on_hub: bool = True) -> Any:
+        """Have ``serve`` run in the node's thread, or in the hub's on its behalf; park the caller meanwhile."""
         found = self._endpoints.get(uri)
         if found is None:
             msg = f"no node answers at {uri}: it has been shut down"
@@ -256,6 +293,14 @@ class ByteTransport:
             except Exception as error:
                 waiter.fail(error)
 
-        wire.carry(lambda: self.scheduler.call_soon_threadsafe(work))
+        def failed(error: Exception) -> None:
+            problem = TransportException(
+                f"the connection to {endpoint.name} failed: {type(error).__name__}: {error}"
+            )
+            problem.__cause__ = error
+            waiter.fail(problem)
+
+        job = partial(self.scheduler.call_soon_threadsafe, work) if on_hub else work
+        wire.carry(job, failed)
         waiter.wait()
         return waiter.value

@@ -24,7 +24,7 @@ SHOWN_LINES = 12
 def describe_failure(
     error: BaseException, callback: Callable[..., object], where: str, message: Any, node: str
 ) -> CallbackError:
-    """Return a ``CallbackError`` caused by ``error``: the callback, the user's line, the topic or service, and the message."""
+    """Return a ``CallbackError`` caused by ``error``: callback, user's line, topic or service, and message."""
     name = getattr(callback, "__qualname__", None) or type(callback).__name__
     lines = [
         f"{name.rpartition('<locals>.')[2]} of {node}, called for {where}, raised {type(error).__name__}: {error}"

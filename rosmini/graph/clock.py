@@ -1,7 +1,7 @@
 """Clocks of a node, and the things that wait for them: Rate and Timer.
 
-A node normally lives on the graph's time. With the parameter ``/use_sim_time`` set it lives on what arrives on the topic
-``/clock`` instead, as in ROS (http://wiki.ros.org/Clock): time stands still until somebody publishes it.
+A node normally lives on the graph's time. With the parameter ``/use_sim_time`` set it lives on what arrives on the
+topic ``/clock`` instead, as in ROS (http://wiki.ros.org/Clock): time stands still until somebody publishes it.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from rosmini.time import Duration, Time
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .node import Node
+    from .node_port import NodePort
     from .scheduler import Scheduler
 
 CLOCK_PATIENCE_NS = 2 * 10**9
@@ -80,7 +80,8 @@ class TopicClock:
     def _nobody(self) -> None:
         self._complain(
             "/use_sim_time is true, but nothing arrives on /clock: time stands still at 0 and every sleep hangs. "
-            "Start what publishes /clock (a simulator, or a bag played with --clock), or delete the parameter /use_sim_time."
+            "Start what publishes /clock (a simulator, or a bag played with --clock), or delete the parameter "
+            "/use_sim_time."
         )
 
 
@@ -90,7 +91,7 @@ class Rate:
     With ``reset`` a jump of the clock back to an earlier time restarts the cycle instead of raising.
     """
 
-    def __init__(self, node: Node, hz: float, *, reset: bool = False) -> None:
+    def __init__(self, node: NodePort, hz: float, *, reset: bool = False) -> None:
         if not hz > 0:
             msg = f"a rate must be a positive number of turns a second, not {hz!r}"
             raise RosminiError(msg)
@@ -119,7 +120,8 @@ class Rate:
     def sleep(self) -> None:
         """Sleep to the end of this turn; after a turn that took too long, start afresh.
 
-        Raises ``ROSInterruptException`` when the node shuts down, ``ROSTimeMovedBackwardsException`` when its clock jumps back.
+        Raises ``ROSInterruptException`` when the node shuts down, ``ROSTimeMovedBackwardsException`` when its clock
+        jumps back.
         """
         node = self._node
         clock = node.clock
@@ -149,13 +151,13 @@ class TimerEvent(NamedTuple):
 class Timer:
     """Calls ``callback(event)`` every ``period`` seconds of the node's time, in a lane of its own.
 
-    A callback that takes longer than the period delays the next one; missed ones are not made up for. One that raises ends the timer, as it
-    ends the thread of a ``rospy.Timer``: that is reported, and the node goes on.
+    A callback that takes longer than the period delays the next one; missed ones are not made up for. One that raises
+    ends the timer, as it ends the thread of a ``rospy.Timer``: that is reported, and the node goes on.
     """
 
     def __init__(
         self,
-        node: Node,
+        node: NodePort,
         period: Duration,
         callback: Callable[[TimerEvent], object],
         *,

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
+from .node import Node
 from .show import show
 
 if TYPE_CHECKING:
-    from .graph import Graph
+    from .graph_core import GraphCore
 
 __all__ = ["Console"]
 
@@ -23,11 +24,11 @@ class Console:
 
     """
 
-    def __init__(self, graph: Graph, *, limit: int = 20000, name: str = "rqt_console") -> None:
+    def __init__(self, graph: GraphCore, *, limit: int = 20000, name: str = "rqt_console") -> None:
         self._messages: deque[Any] = deque(maxlen=limit)
         self.total = 0
         """How many messages came; those over the limit are gone."""
-        self._node = graph.node(name)
+        self._node = Node(name, graph)
         self._node.subscriber("/rosout_agg", graph.log_class, self._take)
 
     def _take(self, message: Any) -> None:

@@ -1,10 +1,10 @@
-"""The part of the scheduler that knows no lanes: what time it is, and what is to happen at once, later, or for another thread."""
+"""The part of the scheduler that knows no lanes: the time, and events due now, later, or from another thread."""
 
 from __future__ import annotations
 
-import queue
 import threading
 import time
+from _thread import get_ident
 from collections import deque
 from math import inf
 from numbers import Real
@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 from rosmini.errors import RosminiError, shown
 
 from .events import TimedEvents
+from .inbox import Inbox
+from .interrupts import MAIN_THREAD
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,14 +28,17 @@ TICK_QUANTUM_NS = 1_000_000
 """How far simulated time goes on in the turns of a polling loop, and at an instant that has no end."""
 
 ROUNDS_PER_INSTANT = 10_000
-"""So many rounds of events at one instant of simulated time, each caused by the one before, are taken for nodes that answer each other without end."""
+"""More rounds of events at one instant, each caused by the one before, are nodes that answer each other without end."""
 
 ROUNDS_PER_QUANTUM = 20
-"""From then on so many rounds cost a quantum: 0.1 ms for a message and the callback that answers it, about what they cost on a robot."""
+"""From then on so many rounds cost a quantum: 0.1 ms for a message and its callback, about as on a robot."""
 
 
 def span_ns(seconds: float, what: str) -> int:
-    """Return a span of graph time in nanoseconds. Raises ``RosminiError``, saying ``what`` it is, for no finite number from zero on."""
+    """Return a span of graph time in nanoseconds.
+
+    Raises ``RosminiError``, saying ``what`` it is, for no finite number from zero on.
+    """
     if isinstance(seconds, Real) and not isinstance(seconds, bool) and 0 <= seconds < inf:
         return int(seconds * 1e9)
     msg = f"{what} is a number of seconds, zero or more, not {shown(seconds)}; leave it out for no limit"
@@ -49,7 +54,7 @@ class EventQueue:
             raise RosminiError(msg)
         self.simulated = simulated
         self.rate = rate
-        self.thread = threading.get_ident()
+        self.thread = get_ident()
         self.ready: deque[Callable[[], object]] = deque()
         self._now = SIMULATED_START_NS
         self._wall_start = time.time_ns()
@@ -57,8 +62,9 @@ class EventQueue:
             time.perf_counter_ns()
         )  # on Windows monotonic() steps by 15.6 ms before Python 3.13
         self._timed = TimedEvents()
+        self._last: list[Callable[[], object]] = []
         self._rounds = 0
-        self._inbox: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
+        self._inbox: Inbox[Callable[[], object] | None] = Inbox()
         self._holds = 0
         self._hold_lock = threading.Lock()
 
@@ -69,15 +75,19 @@ class EventQueue:
         return self._wall_start + int((time.perf_counter_ns() - self._mono_start) * self.rate)
 
     def call_at(self, when_ns: int, callback: Callable[[], object]) -> Timer:
-        """Call ``callback`` at graph time ``when_ns`` (at once when that is over). Only from the hub's thread."""
+        """Call ``callback`` at graph time ``when_ns`` (at once if that is past). Only from the hub's thread."""
         return self._timed.add(when_ns, callback)
 
     def call_soon(self, callback: Callable[[], object]) -> None:
         """Call ``callback`` after what is already due now. It must not block: code that may goes into a lane."""
-        if threading.get_ident() == self.thread:
+        if get_ident() == self.thread:
             self.ready.append(callback)
         else:
             self._inbox.put(callback)
+
+    def call_last(self, callback: Callable[[], object]) -> None:
+        """Call ``callback`` as soon as nothing else is due. Only from the hub's thread."""
+        self._last.append(callback)
 
     def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
         """Like :meth:`call_soon`, through the inbox: the only door for other threads."""
@@ -85,11 +95,11 @@ class EventQueue:
 
     def is_hub_thread(self) -> bool:
         """Tell whether the caller is in the thread that runs the queue."""
-        return threading.get_ident() == self.thread
+        return get_ident() == self.thread
 
     def is_in_main_thread(self) -> bool:
         """Tell whether the queue runs in the main thread."""
-        return self.thread == threading.main_thread().ident
+        return self.thread == MAIN_THREAD
 
     def hold(self) -> None:
         """Say that something is under way outside the queue: simulated time stands still until :meth:`release`."""
@@ -108,7 +118,9 @@ class EventQueue:
     def quiet(self) -> bool:
         """Tell whether there is nothing to do at this moment."""
         due = self._timed.next_ns()
-        return not self.ready and self._inbox.empty() and (due is None or due > self.now_ns())
+        return (
+            not self.ready and not self._last and self._inbox.empty() and (due is None or due > self.now_ns())
+        )
 
     def pending(self) -> int:
         """Return how many events there are, due now and later."""
@@ -131,6 +143,10 @@ class EventQueue:
         """Count what a lane did at this instant beside the rounds of the loop. For lanes only."""
         self._rounds += rounds
 
+    def _take_last(self) -> None:
+        self.ready.extend(self._last)
+        self._last.clear()
+
     def _creep(self) -> None:
         """Let simulated time go on although this instant has no end."""
         due, soon = self._timed.next_ns(), self._now + TICK_QUANTUM_NS
@@ -144,9 +160,5 @@ class EventQueue:
         if due_ns is not None and not self.simulated:
             timeout = min(timeout, (due_ns - self.now_ns()) / 1e9 / self.rate)
         if timeout > 0:
-            try:
-                item = self._inbox.get(timeout=timeout)
-            except queue.Empty:
-                return
-            if item is not None:
-                self.ready.append(item)
+            self._inbox.wait(timeout)
+            self._empty_inbox()

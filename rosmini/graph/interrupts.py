@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import signal
+import _signal  # type: ignore[import-not-found]
 import sys
 import threading
 from pathlib import Path
+from signal import SIGINT
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -13,14 +14,20 @@ if TYPE_CHECKING:
     from types import FrameType
 
 PATIENCE_S = 1.0
-"""After how long a Ctrl-C that has ended nothing yet says what it waits for."""
+"""After how long a Ctrl-C that has not ended anything yet says what it waits for."""
+
+MAIN_THREAD = threading.main_thread().ident
+
+# The functions of ``signal`` itself turn numbers into enums and back: 5 us, each time that somebody blocks.
+_get_handler, _set_handler, _SIGINT = _signal.getsignal, _signal.signal, int(SIGINT)
 
 
 class InterruptGuard:
     """Turns the first SIGINT during a drive into a note that the scheduler reads between two events.
 
-    A second SIGINT before the first was read is raised in place: the running callback does not come back. Until then a thread says what
-    is waited for, because nothing else can. Outside the main thread Python delivers no signals, and the guard does nothing.
+    A second SIGINT before the first was read is raised in place: the running callback does not come back. Until then a
+    thread says what is waited for, because nothing else can. Outside the main thread Python delivers no signals, and
+    the guard does nothing.
 
     ``wake`` lets the scheduler look; ``running`` names what it runs.
     """
@@ -35,20 +42,20 @@ class InterruptGuard:
         self._previous: Any = None
 
     def arm(self) -> None:
-        """Start to catch SIGINT, if this is the main thread and Python's handling was not switched off."""
+        """Catch SIGINT if this is the main thread and Python's handling is not switched off."""
         self._depth += 1
-        if self._depth > 1 or threading.current_thread() is not threading.main_thread():
+        if self._depth > 1 or threading.get_ident() != MAIN_THREAD:
             return
-        previous = signal.getsignal(signal.SIGINT)
+        previous = _get_handler(_SIGINT)
         if callable(previous):
             self._previous = previous
-            signal.signal(signal.SIGINT, self._handle)
+            _set_handler(_SIGINT, self._handle)
 
     def disarm(self) -> None:
         """Give SIGINT back."""
         self._depth -= 1
         if self._depth == 0 and self._previous is not None:
-            signal.signal(signal.SIGINT, self._previous)
+            _set_handler(_SIGINT, self._previous)
             self._previous = None
 
     def take(self) -> bool:
@@ -73,12 +80,16 @@ class InterruptGuard:
     def _tell(self, place: str) -> None:
         if self.noted:
             sys.stderr.write(
-                f"Ctrl-C: waiting for {self._running()} to come back from {place}. Press Ctrl-C again to end it at once.\n"
+                f"Ctrl-C: waiting for {self._running()} to come back from {place}. Press Ctrl-C again to end it at "
+                "once.\n"
             )
 
 
 def users_place(frame: FrameType | None) -> str:
-    """Return which function of the user's runs in ``frame``, the outermost one, and at which line; empty for rosmini's own code."""
+    """Return which function of the user's runs in ``frame``, the outermost one, and at which line.
+
+    Empty for rosmini's own code.
+    """
     found: FrameType | None = None
     while frame is not None:
         module = str(frame.f_globals.get("__name__", ""))

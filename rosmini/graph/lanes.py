@@ -8,6 +8,7 @@ blocks therefore reads like a threaded ROS node, and runs in the same order each
 from __future__ import annotations
 
 import threading
+from _thread import get_ident
 from collections import deque
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -18,15 +19,15 @@ if TYPE_CHECKING:
 
     from greenlet import greenlet
 
-    from .scheduler import Scheduler
+    from .events import Timer
 
 
 PATIENCE_S = 2.0
-"""After how long a call that waits in another thread asks why."""
+"""How long a call waits in another thread before it asks why."""
 
 
 TURNS = 1_000
-"""So many tasks a lane runs before the others get their turn."""
+"""How many tasks a lane runs before the others get their turn."""
 
 
 class LaneExit(BaseException):
@@ -34,16 +35,54 @@ class LaneExit(BaseException):
 
 
 class LaneContext(Protocol):
-    """What has to be swapped in and out when a lane runs: a script's ``sys.argv``, its modules, its random state."""
+    """What is swapped in and out when a lane runs: a script's ``sys.argv``, its modules, its random state."""
 
     def enter(self) -> None:
         """Make this context the one that Python code sees."""
 
     def leave(self) -> None:
-        """Put back what was there before."""
+        """Restore what was there before."""
 
     def cut_short(self) -> None:
-        """Learn that a second Ctrl-C ended what a lane of it was running."""
+        """Learn that a second Ctrl-C ended what one of its lanes was running."""
+
+
+class Hub(Protocol):
+    """What lanes and waiters need of the scheduler."""
+
+    simulated: bool
+    rate: float
+    thread: int
+    """The identifier of the thread that runs the queue."""
+    ready: deque[Callable[[], object]]
+    ask_driver: Callable[[Waiter], Callable[[], None]]
+
+    def take_hub(self, *, to_wait: bool = False) -> bool:
+        """Move the hub to the calling thread, which is about to drive; return False if it cannot be moved."""
+
+    def current(self) -> Lane:
+        """Return the caller's lane."""
+
+    def now_ns(self) -> int:
+        """Return the graph time in nanoseconds."""
+
+    def call_at(self, when_ns: int, callback: Callable[[], object]) -> Timer:
+        """Call ``callback`` at graph time ``when_ns``."""
+
+    def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
+        """Call ``callback`` soon in the hub's thread."""
+
+    def count_rounds(self, rounds: int) -> None:
+        """Count what a lane did at this instant besides the rounds of the loop."""
+
+    def enter_lane(self, lane: Lane) -> None:
+        """Make ``lane`` the running one."""
+
+    def lane_failed(self, lane: Lane, error: BaseException) -> None:
+        """Report that a task of ``lane`` raised."""
+
+    def park(self, waiter: Waiter) -> None:
+        """Leave the caller parked until ``waiter`` resumes it."""
 
 
 class Lane:
@@ -59,18 +98,18 @@ class Lane:
         "_busy",
         "_scheduler",
         "_tasks",
-        "_waiter",
         "context",
         "dead",
         "name",
         "node",
         "on_error",
         "on_exit",
+        "waiter",
     )
 
     def __init__(
         self,
-        scheduler: Scheduler,
+        scheduler: Hub,
         name: str,
         *,
         node: Any = None,
@@ -86,28 +125,29 @@ class Lane:
         self.dead = False
         self._tasks: deque[Callable[[], object]] = deque()
         self._busy = False
-        self._waiter: Waiter | None = None
+        self.waiter: Waiter | None = None
+        """What the lane is parked for. Set by the scheduler only."""
         self._activate_ref = self._activate
 
     def __repr__(self) -> str:
-        state = "ended" if self.dead else f"waiting for {self.waiting_for}" if self._waiter else "idle"
+        state = "ended" if self.dead else f"waiting for {self.waiting_for}" if self.waiter else "idle"
         return f"<lane {self.name}: {state}>"
 
     @property
     def idle(self) -> bool:
-        """True when the lane has nothing to run and is not parked in the middle of a task."""
+        """True when the lane has nothing to run and is not parked in a task."""
         return not self._busy
 
     @property
     def waiting_for(self) -> str | None:
         """What the lane is parked for, in words, or None."""
-        waiter = self._waiter
+        waiter = self.waiter
         return None if waiter is None else waiter.reason
 
     def submit(self, task: Callable[[], object]) -> None:
         """Queue ``task``; it runs after the ones before it. From any thread. A dead lane ignores it."""
         scheduler = self._scheduler
-        if not scheduler.is_hub_thread():
+        if get_ident() != scheduler.thread:
             scheduler.call_soon_threadsafe(lambda: self.submit(task))
             return
         self.post(task)
@@ -121,14 +161,23 @@ class Lane:
             self._busy = True
             self._scheduler.ready.append(self._activate_ref)
 
+    def post_if_idle(self, task: Callable[[], object]) -> bool:
+        """Queue ``task`` if nothing else is queued or running; return whether it was. In the hub's thread only."""
+        if self._busy or self.dead:
+            return False
+        self._busy = True
+        self._tasks.append(task)
+        self._scheduler.ready.append(self._activate_ref)
+        return True
+
     def kill(self) -> None:
         """End the lane: forget its queued tasks and throw :class:`LaneExit` where it is parked."""
         if self.dead:
             return
         self.dead = True
         self._tasks.clear()
-        if self._waiter is not None:
-            self._waiter.fail(LaneExit(f"lane {self.name} was asked to end"))
+        if self.waiter is not None:
+            self.waiter.fail(LaneExit(f"lane {self.name} was asked to end"))
         elif not self._busy:
             self._ended()
 
@@ -169,20 +218,23 @@ class Waiter:
     """One thing that somebody blocks for: woken once, with a value or an error, from any thread.
 
     ``wait`` works from a lane (which is parked), from the main program or a notebook cell (which drives the queue
-    meanwhile), and from a real thread (which sleeps).
+    meanwhile), and from another thread: it sleeps while somebody drives. In wall time, if nobody does, it drives the
+    queue itself until it is woken.
     """
 
-    __slots__ = ("_error", "_event", "_greenlet", "_queued", "_scheduler", "done", "reason", "value")
+    __slots__ = ("_error", "_event", "_hub", "done", "greenlet", "queued", "reason", "value")
 
-    def __init__(self, scheduler: Scheduler, reason: str) -> None:
-        self._scheduler = scheduler
+    def __init__(self, hub: Hub, reason: str) -> None:
+        self._hub = hub
         self.reason = reason
         self.done = False
         self.value: Any = None
         self._error: BaseException | None = None
-        self._greenlet: greenlet | None = None
         self._event: threading.Event | None = None
-        self._queued = False
+        self.greenlet: greenlet | None = None
+        """The parked code. For the scheduler only, as is the next one."""
+        self.queued = False
+        """True when :meth:`resume` is among the events that are due."""
 
     def wake(self, value: Any = None) -> None:
         """Let the waiting code go on; ``value`` is kept in :attr:`value`. Later calls do nothing."""
@@ -193,20 +245,21 @@ class Waiter:
         self._finish(None, error)
 
     def _finish(self, value: Any, error: BaseException | None) -> None:
-        scheduler = self._scheduler
-        if not scheduler.is_hub_thread():
-            scheduler.call_soon_threadsafe(lambda: self._finish(value, error))
-            return
-        if self.done:
-            return
-        self.value = value
-        self._error = error
-        self.done = True
+        hub = self._hub
+        if get_ident() != hub.thread:
+            hub.call_soon_threadsafe(lambda: self._finish(value, error))
+        elif not self.done:
+            self.value = value
+            self._error = error
+            self.done = True
+            self._go_on()
+
+    def _go_on(self) -> None:
         if self._event is not None:
             self._event.set()
-        elif self._greenlet is not None and not self._queued:
-            self._queued = True
-            scheduler.ready.append(self._resume)
+        elif self.greenlet is not None and not self.queued:
+            self.queued = True
+            self._hub.ready.append(self.resume)
 
     @property
     def settled(self) -> bool:
@@ -214,10 +267,10 @@ class Waiter:
         event = self._event
         return self.done or event is None or event.is_set()
 
-    def _resume(self) -> greenlet | None:
+    def resume(self) -> greenlet | None:
         """Return the code to go on with; the loop switches to it, and then holds nothing of this waiter."""
-        self._queued = False
-        return self._greenlet
+        self.queued = False
+        return self.greenlet
 
     def wait(self, timeout_ns: int | None = None) -> bool:
         """Block until woken (True) or until ``timeout_ns`` of graph time have passed (False).
@@ -225,51 +278,41 @@ class Waiter:
         Raises what :meth:`fail` was given, and :class:`~rosmini.errors.GraphEnded` when the main program waits in
         simulated time and nothing is left that could wake it.
         """
-        scheduler = self._scheduler
-        if self.done:
-            return self._outcome()
-        if scheduler.may_wait():
-            timer = None
-            if timeout_ns is not None:
-                timer = scheduler.call_at(scheduler.now_ns() + timeout_ns, self._timed_out)
-            try:
-                scheduler.park(self)
-            finally:
-                if timer is not None:
+        hub = self._hub
+        if not self.done:
+            if get_ident() != hub.thread and not hub.take_hub(to_wait=True):
+                self._wait_in_thread(timeout_ns)
+            elif timeout_ns is None:
+                hub.park(self)
+            else:
+                timer = hub.call_at(hub.now_ns() + timeout_ns, self._time_out)
+                try:
+                    hub.park(self)
+                finally:
                     timer.cancel()
-        else:
-            self._wait_in_thread(timeout_ns)
-        return self._outcome()
-
-    def _timed_out(self) -> None:
-        """Resume the waiting code without marking the waiter as done."""
-        if self.done or self._queued:
-            return
-        if self._event is not None:
-            self._event.set()
-        elif self._greenlet is not None:
-            self._queued = True
-            self._scheduler.ready.append(self._resume)
-
-    def _outcome(self) -> bool:
         if self._error is not None:
             raise self._error
         return self.done
 
+    def _time_out(self) -> None:
+        """Resume the waiting code without marking the waiter as done."""
+        if not self.done:
+            self._go_on()
+
     def _wait_in_thread(self, timeout_ns: int | None) -> None:
-        scheduler = self._scheduler
+        hub = self._hub
         event = threading.Event()
         self._event = event
         try:
             if self.done:
                 return
             limit = None
-            if timeout_ns is not None and scheduler.simulated:
-                when = scheduler.now_ns() + timeout_ns
-                scheduler.call_soon_threadsafe(lambda: scheduler.call_at(when, self._timed_out))
+            if timeout_ns is not None and hub.simulated:
+                when = hub.now_ns() + timeout_ns
+                hub.call_soon_threadsafe(lambda: hub.call_at(when, self._time_out))
             elif timeout_ns is not None:
-                limit = timeout_ns / 1e9 / scheduler.rate
-            complain = scheduler.ask_driver(self)
+                limit = timeout_ns / 1e9 / hub.rate
+            complain = hub.ask_driver(self)
             patience = PATIENCE_S if limit is None else min(limit, PATIENCE_S)
             if not event.wait(patience):
                 complain()

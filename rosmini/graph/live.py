@@ -1,7 +1,8 @@
 """A graph that is driven from a Jupyter kernel's own event loop, in small slices.
 
 Between two slices the kernel answers widgets and runs cells; a cell that blocks drives the graph itself meanwhile.
-Everything runs in the kernel's main thread: what other threads want (JupyterLab handles widgets in one) comes through the inbox.
+Everything runs in the kernel's main thread: what other threads want (JupyterLab handles widgets in one) comes through
+the inbox.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     import asyncio
     from collections.abc import Callable
 
-    from .graph import Graph
+    from .graph_core import GraphCore
     from .lanes import Waiter
 
 SLICE_S = 0.01
@@ -32,18 +33,24 @@ BUDGET_S = 0.02
 """How long one turn may take; a single callback that takes longer is not cut."""
 
 LAG_S = 0.1
-"""How far a live graph runs after wall time to make up for a delay. After a longer one it goes on from where it stood."""
+"""How far a live graph runs after wall time to make up for a delay.
+
+After a longer one it goes on from where it stood.
+"""
 
 SLEEP = re.compile(r"\btime\s*\.\s*sleep\s*\(")
 """What holds up the kernel, in a cell's text."""
 
-STOPPED = "The live graph was stopped. Call live() to go on; with Graph(strict=False) such errors are logged instead, as in ROS."
+STOPPED = (
+    "The live graph was stopped. Call live() to go on; with Graph(strict=False) such errors are logged instead, "
+    "as in ROS."
+)
 
 
 class LoopDrive(ABC):
     """Gives ``graph`` its turns in ``loop`` until :meth:`stop`, or until :meth:`over` holds."""
 
-    def __init__(self, graph: Graph, loop: asyncio.AbstractEventLoop) -> None:
+    def __init__(self, graph: GraphCore, loop: asyncio.AbstractEventLoop) -> None:
         self.graph = graph
         self.running = True
         self._loop = loop
@@ -118,12 +125,12 @@ class LoopDrive(ABC):
 class LiveDrive(LoopDrive):
     """Lets ``graph`` go on at ``rate`` seconds of graph time a second until :meth:`stop`; made by :meth:`Graph.live`.
 
-    A graph in simulated time is let go on to where wall time has got to, one in wall time keeps its own rate. What callbacks
-    write appears in the cell that drives, and while none does in the one that called ``live``. An error that would end a
-    ``graph.run()`` is shown there and stops the drive, and so does an interrupt while no cell runs.
+    A graph in simulated time is let go on to where wall time has got to, one in wall time keeps its own rate. What
+    callbacks write appears in the cell that drives, and while none does in the one that called ``live``. An error that
+    would end a ``graph.run()`` is shown there and stops the drive, and so does an interrupt while no cell runs.
     """
 
-    def __init__(self, graph: Graph, loop: asyncio.AbstractEventLoop, *, rate: float = 1.0) -> None:
+    def __init__(self, graph: GraphCore, loop: asyncio.AbstractEventLoop, *, rate: float = 1.0) -> None:
         if not rate > 0:
             msg = f"the rate of a live graph must be positive, not {rate!r}"
             raise RosminiError(msg)
@@ -179,9 +186,9 @@ class LiveDrive(LoopDrive):
 
 
 class Errand(LoopDrive):
-    """Drives ``graph`` in the kernel's main thread for a call that blocks in another thread, unless something else drives it."""
+    """Drives ``graph`` in the kernel's main thread for a call blocked in another thread, unless already driven."""
 
-    def __init__(self, graph: Graph, waiter: Waiter) -> None:
+    def __init__(self, graph: GraphCore, waiter: Waiter) -> None:
         self._waiter = waiter
         self._begun = False
         if not graph.scheduler.is_in_main_thread():
@@ -200,8 +207,9 @@ class Errand(LoopDrive):
         """Say which cell is in the way, if one is. Called in the other thread."""
         if not self._begun and not self.graph.scheduler.driven:
             sys.stderr.write(
-                "A call in another thread is waiting, and the graph stands still because the cell that runs does not drive it. "
-                "It goes on after that cell; interrupt the cell, or let it block with node.sleep() or graph.run().\n"
+                "A call in another thread is waiting, and the graph stands still because the cell that runs does not "
+                "drive it. It goes on after that cell; interrupt the cell, or let it block with node.sleep() or "
+                "graph.run().\n"
             )
 
     def _slice(self) -> float:

@@ -1,4 +1,4 @@
-"""A node's log file: a line for each message, in the form that rospy writes (http://wiki.ros.org/rospy/Overview/Logging)."""
+"""A node's log file: a line for each message, as rospy writes it (http://wiki.ros.org/rospy/Overview/Logging)."""
 
 from __future__ import annotations
 
@@ -36,7 +36,8 @@ def log_folder(asked: str | Path | None, run_id: str) -> Path | None:
     except OSError as error:
         source = "log_dir" if asked else f"the environment variable {VARIABLE}"
         raise RosminiError(
-            f"cannot make the folder {folder} for log files: {error.strerror}. Set {source} to a folder that you may write to."
+            f"cannot make the folder {folder} for log files: {error.strerror}. Set {source} to a folder that you may "
+            "write to."
         ) from error
     return folder
 

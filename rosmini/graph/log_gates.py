@@ -1,4 +1,4 @@
-"""Which log calls are let through: once, at most so often, only what is new (http://wiki.ros.org/rospy/Overview/Logging)."""
+"""Which log calls pass: once, throttled, or only what is new (http://wiki.ros.org/rospy/Overview/Logging)."""
 
 from __future__ import annotations
 

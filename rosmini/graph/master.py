@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Protocol
 from rosmini.errors import ParameterError
 from rosmini.names import resolve_for
 
+from .master_port import METHODS, MasterPort
 from .parameters import ParameterTree, closed, updates, wire_copy
 
 if TYPE_CHECKING:
@@ -47,6 +48,9 @@ class Notifier(Protocol):
 
     def shutdown(self, caller_api: str, reason: str) -> None:
         """Ask the node at ``caller_api`` to shut down."""
+
+    def registrations_changed(self) -> None:
+        """Learn that a node registered or unregistered something."""
 
 
 # ---- the checks that arguments go through; each returns the argument, resolved if it is a name ----
@@ -203,15 +207,17 @@ class _Registry:
         self.entries = {key: entries for key, entries in kept.items() if entries}
 
 
-class Master:
+class Master(MasterPort):
     """A ROS Master with its Parameter Server: a pure object, to be served in process or over XML-RPC.
 
     Args:
-        uri: the address that ``getUri`` tells.
+        uri: the address that ``getUri`` returns.
         notifier: told what other nodes must hear.
         parameters: the Parameter Server's tree; an empty one if not given.
 
     """
+
+    is_local = True
 
     def __init__(self, uri: str, notifier: Notifier, parameters: ParameterTree | None = None) -> None:
         self.uri = uri
@@ -227,6 +233,13 @@ class Master:
         self._param_subscribers = _Registry("parameter")
         # The service's own address beside its node's; None until the first service is registered, as the status shows.
         self._service_apis: dict[str, tuple[str, str]] | None = None
+
+    def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
+        """Answer a call by the method's name; an unknown one gives code -1."""
+        if method not in METHODS:
+            return [-1, f'method "{method}" is not supported', 0]
+        answer: Triple = getattr(self, method)(caller_id, *arguments)
+        return answer
 
     # ---- the Master itself ----
 
@@ -318,7 +331,7 @@ class Master:
 
     @_api(0, _subgraph)
     def getPublishedTopics(self, caller_id: str, subgraph: str) -> Triple:
-        """Return ``[topic, type]`` for each topic in the namespace ``subgraph`` (``""``: in any) that has publishers."""
+        """Return ``[topic, type]`` for each published topic in the namespace ``subgraph`` (``""``: in any)."""
         within = subgraph if subgraph.endswith("/") or not subgraph else subgraph + "/"
         topics = [
             [topic, self._topic_types[topic]]
@@ -410,6 +423,7 @@ class Master:
                 )
         self._nodes[caller_id].holds.add((registry.name, key))
         registry.add(key, (caller_id, caller_api))
+        self._notifier.registrations_changed()
 
     def _unregister(self, registry: _Registry, key: str, caller_id: str, caller_api: str) -> Triple:
         if caller_id not in self._nodes:
@@ -417,6 +431,7 @@ class Master:
         if not registry.remove(key, (caller_id, caller_api)):
             return [1, f"[{caller_id}] is not a known provider of [{key}]", 0]
         self._let_go(caller_id, registry, key)
+        self._notifier.registrations_changed()
         return [1, f"Unregistered [{caller_id}] as provider of [{key}]", 1]
 
     def _let_go(self, caller_id: str, registry: _Registry, key: str) -> None:

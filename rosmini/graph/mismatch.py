@@ -1,9 +1,15 @@
-"""Two ends of a topic or service with two types: what differs, or, where their md5 sums are the same, one message as the other."""
+"""Two ends of a topic or service with two types: what differs.
+
+Or, if their md5 sums are equal, one message as the other.
+"""
 
 from __future__ import annotations
 
 from difflib import ndiff
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .transport import Header
 
 
 def _fields(definition: str) -> list[str]:
@@ -18,42 +24,37 @@ def _fields(definition: str) -> list[str]:
     return lines
 
 
-def describe_mismatch(
-    topic: str,
-    publisher: str,
-    publisher_class: Any,
-    subscriber: str,
-    their_type: str,
-    their_md5: str,
-    their_definition: str | None,
-) -> str:
-    """Return the message of a ``TypeMismatch`` on ``topic``: both nodes, both types, the fields that differ, and what to do."""
-    my_type, my_md5 = publisher_class._type, publisher_class._md5sum
+def describe_mismatch(topic: str, publisher: Header, subscriber: Header) -> str:
+    """Return the message of a ``TypeMismatch``: both nodes, both types, the fields that differ, and what to do.
+
+    The two connection headers have ``callerid``, ``type``, ``md5sum`` and, if the fields are to be compared,
+    ``message_definition``.
+    """
+    mine, theirs = publisher["type"], subscriber["type"]
+    same = mine == theirs
+    sender, receiver = publisher["callerid"], subscriber["callerid"]
     lines = [
-        f"{publisher} publishes {topic} as {my_type}, but {subscriber} subscribes to it as {their_type}: no message will arrive.",
+        f"{sender} publishes {topic} as {mine}, but {receiver} subscribes to it as {theirs}: no message will arrive."
     ]
-    if my_type == their_type:
+    if same:
         lines.append(
-            f"  The definitions differ: md5 {my_md5} at the publisher, {their_md5} at the subscriber."
+            f"  The definitions differ: md5 {publisher['md5sum']} at the publisher, "
+            f"{subscriber['md5sum']} at the subscriber."
         )
-    if their_definition is not None:
+    definitions = [end.get("message_definition") for end in (publisher, subscriber)]
+    if definitions[0] is not None and definitions[1] is not None:
         changes = [
-            line
-            for line in ndiff(_fields(publisher_class._full_text), _fields(their_definition))
-            if line[0] in "+-"
+            line for line in ndiff(_fields(definitions[0]), _fields(definitions[1])) if line[0] in "+-"
         ]
-        lines.append(
-            f"  Fields (- only in {my_type}, + only in {their_type}):"
-            if my_type != their_type
-            else "  Fields (- publisher, + subscriber):"
-        )
+        ends = "- publisher, + subscriber" if same else f"- only in {mine}, + only in {theirs}"
+        lines.append(f"  Fields ({ends}):")
         lines += [f"    {change}" for change in changes[:12]]
         if len(changes) > 12:
             lines.append(f"    ... and {len(changes) - 12} more")
     lines.append(
-        "  Use the same type at both ends, or give one of them another topic name."
-        if my_type != their_type
-        else "  Use the same version of the definition at both ends."
+        "  Use the same version of the definition at both ends."
+        if same
+        else "  Use the same type at both ends, or give one of them another topic name."
     )
     return "\n".join(lines)
 

@@ -16,28 +16,24 @@ heard hello
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.errors import (
     CallbackError,
     DuplicateNode,
     ROSException,
     ROSInterruptException,
-    ServiceException,
     TransportInitError,
     TypeMismatch,
 )
 from rosmini.names import Remappings, canonicalize, check_base_name, check_name, resolve
 from rosmini.time import Duration
 
-from .blocking_api import BlockingApi
-from .callbacks import describe_failure
 from .clock import GraphClock, Rate, Timer, TimerEvent, TopicClock
-from .lanes import Lane, LaneContext, Waiter
-from .logging_api import LoggingApi
+from .master_port import MasterProxy
 from .parameter_api import ParameterApi
 from .publisher import Publication, Publisher
-from .rosout import LEVELS, Logger
+from .rosout import LEVELS, Logger, logger_services
 from .service import ServiceClient, ServiceServer, Session, timed_out
 from .slave import SlaveApi
 from .subscriber import Subscriber, Subscription
@@ -46,39 +42,39 @@ from .transport import extra_fields
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .graph import Graph
+    from .graph_core import GraphCore
+    from .lanes import Lane, LaneContext, Waiter
     from .transport import Header, Sender, Triple
 
 
-class Node(BlockingApi, ParameterApi, LoggingApi):
+class Node(ParameterApi):
     """A node of a :class:`~rosmini.graph.graph.Graph`; made by ``graph.node(name)`` or ``Node(name)``.
 
     Args:
         name: the node's base name (``talker``), resolved in ``namespace``.
         graph: the graph; the process's default graph if not given.
         namespace: where relative names of this node start (``__ns:=``).
-        remappings: ``{"chatter": "/robot1/chatter"}`` as on a ROS command line, or a :class:`~rosmini.names.Remappings`.
+        remappings: ``{"chatter": "/robot1/chatter"}``, or a :class:`~rosmini.names.Remappings`.
         anonymous: append a number that makes the name unique.
 
     A node of the same name that already runs is shut down, as in ROS. Raises ``IllegalName``.
 
     """
 
+    default_graph: ClassVar[Callable[..., GraphCore]]
+    """Returns the graph of a node that is given none."""
+
     def __init__(
         self,
         name: str,
-        graph: Graph | None = None,
+        graph: GraphCore | None = None,
         *,
         namespace: str = "/",
         remappings: dict[str, str] | Remappings | None = None,
         anonymous: bool = False,
         context: LaneContext | None = None,
     ) -> None:
-        if graph is None:
-            from .graph import default_graph  # the graph module builds nodes itself
-
-            graph = default_graph()
-        self.graph = graph
+        self.graph = graph = self.default_graph() if graph is None else graph
         self.scheduler = graph.scheduler
         self.context = context
         if not isinstance(remappings, Remappings):
@@ -89,7 +85,10 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         if anonymous and remappings.node_name is None:
             base = graph.anonymous_name(base)
         self.name = resolve(base, self.namespace)
+        self.master = MasterProxy(graph, self.name, self.is_shutdown)
         self.shutdown_reason: str | None = None
+        self.on_exit: Callable[[], object] | None = None
+        """Called once, when the node has been shut down and the Master has forgotten it."""
         self.publications: dict[str, Publication] = {}
         self.subscriptions: dict[str, Subscription] = {}
         self.services: dict[str, ServiceServer] = {}
@@ -98,6 +97,7 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         self._connections = 0
         self._parameter_callbacks: dict[str, list[Callable[[Any], object]]] = {}
         self._parameter_told: dict[str, Any] = {}
+        self._parameter_lane: Lane | None = None
         self._stopped = False
         self.clock: GraphClock | TopicClock = GraphClock(self.scheduler)
         self.logger = Logger(self)
@@ -109,15 +109,18 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         """Register: the Master hears of the node by its first registration, that of ``/rosout``."""
         graph = self.graph
         self.uri = graph.transport.attach(self)
-        graph.add_node(self)
+        log_file = graph.add_node(self)
+        if log_file is not None:
+            self.logger.open_file(log_file)
         for key, value in self.remappings.private_parameters.items():
-            graph.master.setParam(self.name, resolve("~" + key, self.namespace, self.name), value)
+            name = resolve("~" + key, self.namespace, self.name)
+            self.master.insist("setParam", name, value, warn=self.logwarn)
         publication = Publication(self, "/rosout", graph.log_class)
         publication.latch = True  # as rospy's: the last message is for a listener that comes later, too
-        self.publications["/rosout"] = publication
-        self._ask("registerPublisher", "/rosout", graph.log_class._type, self.uri)
-        graph.offer_logger_services(self)
-        code, _, use_sim_time = graph.master.getParam(self.name, "/use_sim_time")
+        self._publish(publication)
+        for service, service_class, handler in logger_services(self.logger):
+            self.service(service, service_class, handler)
+        code, _, use_sim_time = self.master.insist("getParam", "/use_sim_time", warn=self.logwarn)
         if code == 1 and use_sim_time is True:
             self._follow_clock_topic()
 
@@ -125,14 +128,6 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         clock = TopicClock(self.scheduler, self.logwarn)
         self.clock = clock
         self.subscriber("/clock", self.graph.clock_class, clock.update)
-
-    def _ask(self, method: str, *arguments: Any) -> Any:
-        """Call the Master and return the value of its answer. Raises ``ROSException`` with its status for any code but 1."""
-        code, status, value = getattr(self.graph.master, method)(self.name, *arguments)
-        if code != 1:
-            msg = f"the Master refused {method} of node {self.name}: {status}"
-            raise ROSException(msg)
-        return value
 
     def __repr__(self) -> str:
         return f"<Node {self.name}{' (shut down)' if self._stopped else ''}>"
@@ -158,9 +153,9 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
     ) -> Publisher:
         """Publish ``message_class`` on ``topic``.
 
-        ``queue_size`` bounds what waits for one subscriber between two turns of the queue (None: no bound); ``latch`` gives late
-        subscribers the last message. ``on_connect``/``on_disconnect`` are called with the other node's name. ``headers`` are further
-        fields of the connection header, for subscribers that connect from now on.
+        ``queue_size`` bounds what waits for one subscriber between two turns of the queue (None: no bound); ``latch``
+        gives late subscribers the last message. ``on_connect``/``on_disconnect`` are called with the other node's name.
+        ``headers`` are further fields of the connection header, for subscribers that connect from now on.
         Raises ``TypeMismatch`` when this node publishes the topic with a type of another md5 sum.
         """
         return self.scheduler.on_hub(
@@ -181,18 +176,31 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         self._require_running(f"publish {topic}")
         publication = self.publications.get(topic)
         if publication is None:
-            publication = self.publications[topic] = Publication(self, topic, cls)
+            publication = Publication(self, topic, cls)
             publication.latch, publication.queue_size = latch, queue_size or None
-            self._ask("registerPublisher", topic, cls._type, self.uri)
-            self.graph.changed()
+            self._publish(publication)
         elif publication.message_class._md5sum != cls._md5sum:
-            msg = f"{self.name} already publishes {topic} as {publication.message_class._type}, not {cls._type}: use another topic."
+            mine = publication.message_class._type
+            msg = f"{self.name} already publishes {topic} as {mine}, not {cls._type}: use another topic."
             raise TypeMismatch(msg)
         else:
             publication.latch = publication.latch or latch
             publication.queue_size = queue_size or None
         publication.headers.update(extra_fields(headers))
         return Publisher(publication, *callbacks)
+
+    def _publish(self, publication: Publication) -> None:
+        topic = publication.topic
+        self.publications[topic] = publication
+        self.slave.topics_changed()  # subscribers may ask before the Master's answer is here
+        try:
+            self.master.register(
+                "registerPublisher", topic, publication.message_class._type, self.uri, warn=self.logwarn
+            )
+        except ROSException:
+            del self.publications[topic]
+            self.slave.topics_changed()
+            raise
 
     def subscriber(
         self,
@@ -209,10 +217,10 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
     ) -> Subscriber:
         """Call ``callback(message, *arguments)`` for each message on ``topic``.
 
-        ``queue_size`` bounds what waits while a callback blocks (None: no bound; the oldest are dropped). ``numpy`` gives numeric
-        arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both: see ``Subscriber.thaw_for``. All
-        subscribers of this node to one topic get the same object, of the kind that the first asked for. Raises ``TypeMismatch`` for a
-        type with another md5 sum than that of the first.
+        ``queue_size`` bounds what waits while a callback blocks (None: no bound; the oldest are dropped). ``numpy``
+        gives numeric arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both: see
+        ``Subscriber.thaw_for``. All subscribers of this node to one topic get the same object, of the kind that the
+        first asked for. Raises ``TypeMismatch`` for a type with another md5 sum than that of the first.
         """
 
         def make() -> Subscriber:
@@ -223,7 +231,8 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
             if subscription is None:
                 subscription = self.subscriptions[name] = Subscription(self, name, message_class)
             elif subscription.disagrees_with(message_class):
-                msg = f"{self.name} already subscribes to {name} as {subscription.message_class._type}, not {message_class._type}."
+                mine = subscription.message_class._type
+                msg = f"{self.name} already subscribes to {name} as {mine}, not {message_class._type}."
                 raise TypeMismatch(msg)
             handle = Subscriber(
                 subscription,
@@ -237,37 +246,60 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
                 receipt=receipt,
             )
             if fresh:
-                uris = self._ask("registerSubscriber", name, message_class._type, self.uri)
-                subscription.update_publishers(uris)
-                self.graph.changed()
+                self._subscribe(subscription)
             return handle
 
         return self.scheduler.on_hub(make)
 
+    def _subscribe(self, subscription: Subscription) -> None:
+        topic = subscription.topic
+        self.slave.topics_changed()
+        before = subscription.updates
+        try:
+            uris = self.master.register(
+                "registerSubscriber", topic, subscription.message_class._type, self.uri, warn=self.logwarn
+            )
+        except ROSException:
+            del self.subscriptions[topic]
+            self.slave.topics_changed()
+            raise
+        # What the Master has told since is newer than its answer, and by now the topic may have been left.
+        if subscription.updates == before and self.subscriptions.get(topic) is subscription:
+            subscription.update_publishers(uris)
+
+    def publishers_changed(self, topic: str, uris: list[str]) -> None:
+        """Learn from the Master who publishes a topic now."""
+        subscription = self.subscriptions.get(topic)
+        if subscription is not None:
+            subscription.update_publishers(uris)
+
     def drop_publication(self, publication: Publication) -> None:
         """Leave a topic. For the publisher handles only."""
         self.publications.pop(publication.topic, None)
+        self.slave.topics_changed()
         publication.close()
-        self.graph.master.unregisterPublisher(self.name, publication.topic, self.uri)
-        self.graph.changed()
+        self.master.unregister("unregisterPublisher", publication.topic, self.uri, warn=self.logwarn)
 
     def drop_subscription(self, subscription: Subscription) -> None:
         """Leave a topic. For the subscriber handles only."""
         self.subscriptions.pop(subscription.topic, None)
+        self.slave.topics_changed()
         subscription.close()
-        self.graph.master.unregisterSubscriber(self.name, subscription.topic, self.uri)
-        self.graph.changed()
+        self.master.unregister("unregisterSubscriber", subscription.topic, self.uri, warn=self.logwarn)
 
     def wait_for_message(
         self, topic: str, message_class: Any, timeout: float | None = None, *, numpy: bool = True
     ) -> Any:
-        """Block until one message arrives on ``topic`` and return it. Raises ``ROSException`` after ``timeout`` seconds."""
+        """Block until one message arrives on ``topic`` and return it.
+
+        Raises ``ROSException`` after ``timeout`` seconds.
+        """
         name = self.resolve(topic)
         waiter = self.waiter(f"a message on {name}")
         subscriber = self.subscriber(topic, message_class, waiter.wake, numpy=numpy)
         try:
             if not self.wait(waiter, timeout):
-                raise timed_out(timeout or 0, f"a message on {name}: {self.graph.who_publishes(name)}")
+                raise timed_out(timeout or 0, f"a message on {name}: {self.master.who_publishes(name)}")
         finally:
             subscriber.unregister()
         return waiter.value
@@ -277,20 +309,29 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
     def service(
         self, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True
     ) -> ServiceServer:
-        """Offer a service: ``handler(request)`` returns the response. Raises ``ROSException`` if this node offers it already."""
+        """Offer a service: ``handler(request)`` returns the response.
+
+        Raises ``ROSException`` if this node offers it already.
+        """
 
         def make() -> ServiceServer:
             resolved = self.resolve(name)
             self._require_running(f"offer {resolved}")
             if resolved in self.services:
-                msg = f"service [{resolved}] is already offered by {self.name}: shut the first one down before offering it again"
+                msg = (
+                    f"service [{resolved}] is already offered by {self.name}: "
+                    "shut the first one down before offering it again"
+                )
                 raise ROSException(msg)
             server = self.services[resolved] = ServiceServer(
                 self, resolved, service_class, handler, numpy=numpy
             )
             uri = self.graph.transport.service_uri(self.uri)
-            self._ask("registerService", resolved, uri, self.uri)
-            self.graph.changed()
+            try:
+                self.master.register("registerService", resolved, uri, self.uri, warn=self.logwarn)
+            except ROSException:
+                del self.services[resolved]
+                raise
             return server
 
         return self.scheduler.on_hub(make)
@@ -304,7 +345,10 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         numpy: bool = True,
         headers: Header | None = None,
     ) -> ServiceClient:
-        """Return what calls a service, whether it is there yet or not. ``headers`` are further fields of the connection header."""
+        """Return what calls a service, whether it is there yet or not.
+
+        ``headers`` are further fields of the connection header.
+        """
         return ServiceClient(
             self, self.resolve(name), service_class, persistent=persistent, numpy=numpy, headers=headers
         )
@@ -313,16 +357,14 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         """Withdraw a service. For the server only."""
         if self.services.get(server.name) is server:
             del self.services[server.name]
-        self.graph.master.unregisterService(
-            self.name, server.name, self.graph.transport.service_uri(self.uri)
-        )
-        self.graph.changed()
+        uri = self.graph.transport.service_uri(self.uri)
+        self.master.unregister("unregisterService", server.name, uri, warn=self.logwarn)
 
     def wait_for_service(self, name: str, timeout: float | None = None) -> None:
         """Block until somebody offers the service. Raises ``ROSException`` after ``timeout`` seconds."""
         resolved = self.resolve(name)
-        self.wait_until(
-            lambda: self.graph.master.lookupService(self.name, resolved)[0] == 1,
+        self.wait_for_master(
+            lambda: self.master.find("lookupService", resolved) is not None,
             timeout,
             f"the service {resolved} to be offered",
             lambda: f"nobody offers {resolved}",
@@ -346,51 +388,9 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         span = period if isinstance(period, Duration) else Duration.from_sec(period)
         return self.scheduler.on_hub(lambda: Timer(self, span, callback, oneshot=oneshot, reset=reset))
 
-    def spawn(self, name: str, task: Callable[[], object] | None = None) -> Lane:
-        """Return a lane of this node; ``task`` may block in it."""
-        lane = Lane(self.scheduler, name, node=self, context=self.context, on_error=self._lane_error)
-        if task is not None:
-            lane.submit(task)
-        return lane
-
     def run(self, task: Callable[[], object], name: str | None = None) -> Lane:
         """Run ``task`` as this node's main program: it may sleep, wait and call services while the graph goes on."""
         return self.spawn(name or f"{self.name} {getattr(task, '__name__', 'task')}", task)
-
-    # -- callbacks that fail -------------------------------------------------------------------------------------
-
-    def guarded(self, callback: Callable[..., object], *arguments: Any, what: str) -> None:
-        """Call a user's callback; an error is reported and goes no further."""
-        try:
-            callback(*arguments)
-        except Exception as error:
-            self.callback_failed(error, callback, what, None)
-
-    def callback_failed(
-        self,
-        error: Exception,
-        callback: Callable[..., object],
-        where: str,
-        message: Any,
-        *,
-        service: bool = False,
-    ) -> None:
-        """Report an exception that a callback let out, with the user's own frame, where it came from, and the message."""
-        if self._ended_by_shutdown(error):
-            return
-        self.graph.report(
-            describe_failure(error, callback, where, message, self.name), self, raise_strict=not service
-        )
-
-    def _lane_error(self, error: BaseException) -> None:
-        if not self._ended_by_shutdown(error):
-            self.graph.report(error, self)
-
-    def _ended_by_shutdown(self, error: BaseException) -> bool:
-        """Tell whether an error only says that the node, or the whole graph with the servers in it, ends."""
-        if isinstance(error, ServiceException):
-            return self.graph.closing
-        return self._stopped and isinstance(error, ROSInterruptException)
 
     # -- the end -------------------------------------------------------------------------------------------------
 
@@ -398,46 +398,56 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         """Call ``hook()`` when the node shuts down, while it can still publish."""
         self._hooks.append(hook)
 
-    def shutdown(self, reason: str = "") -> None:
-        """Shut the node down: hooks, then blocked calls, then connections and registrations. Harmless when repeated."""
-        self.scheduler.on_hub(lambda: self._shutdown(reason))
+    def shutdown(self, reason: str = "", *, hooks: bool = True) -> None:
+        """Shut the node down: hooks, then blocked calls, then connections and registrations. Harmless when repeated.
+
+        Without ``hooks`` none is called, and one that is running is not waited for.
+        """
+        self.scheduler.on_hub(lambda: self._shutdown(reason, hooks=hooks))
 
     def shutdown_requested(self, caller: str, reason: str) -> None:
         """Learn by the slave API that the node is to end; it does so in a lane of its own."""
         self.logger.console(LEVELS["WARN"], f"shutdown request: {reason}")
         if caller == "/master" and "same name" in reason:
             problem = DuplicateNode(
-                f"{self.name} was shut down because another node registered under its name. Give one of them another name: "
-                f"__name:=other on the command line, anonymous=True, or another namespace."
+                f"{self.name} was shut down because another node registered under its name. Give one of them another "
+                f"name: __name:=other on the command line, anonymous=True, or another namespace."
             )
             self.graph.report(problem, self, raise_strict=False)
         self.spawn(f"{self.name} shutdown", lambda: self._shutdown(reason))
 
-    def _shutdown(self, reason: str) -> None:
-        if self.shutdown_reason is not None:
+    def _shutdown(self, reason: str, *, hooks: bool = True) -> None:
+        if self._stopped or (hooks and self.shutdown_reason is not None):
             return
-        self.shutdown_reason = reason
-        problem = self._run_hooks()
+        self.shutdown_reason = self.shutdown_reason or reason
+        problem = self._run_hooks() if hooks else None
+        if self._stopped:  # it was ended while a hook was running
+            return
         self._stopped = True
-        graph, master = self.graph, self.graph.master
+        graph = self.graph
         for waiter in list(self._waiters):
             waiter.fail(ROSInterruptException(self._shutdown_message()))
-        for server in list(self.services.values()):
+        servers, subscriptions = list(self.services.values()), list(self.subscriptions.values())
+        publications = list(self.publications.values())
+        for server in servers:
+            server.close_sessions(reason)
+        for subscription in subscriptions:
+            subscription.end()
+        for publication in publications:
+            publication.end()
+        for server in servers:  # the Master last: it may take its time
             server.shutdown(reason)
-        for topic, subscription in self.subscriptions.items():
-            for subscriber in subscription.handles:
-                subscriber.detach()
-            subscription.close()
-            master.unregisterSubscriber(self.name, topic, self.uri)
-        for topic, publication in self.publications.items():
-            for publisher in publication.handles:
-                publisher.detach()
-            publication.close()
-            master.unregisterPublisher(self.name, topic, self.uri)
+        for subscription in subscriptions:
+            self.master.unregister("unregisterSubscriber", subscription.topic, self.uri, warn=self.logwarn)
+        for publication in publications:
+            self.master.unregister("unregisterPublisher", publication.topic, self.uri, warn=self.logwarn)
         if isinstance(self.clock, TopicClock):
             self.clock.close()
         graph.transport.detach(self.uri)
         graph.remove_node(self)
+        self.logger.close_file()
+        if self.on_exit is not None:
+            self.on_exit()
         if problem is not None:
             raise problem
 
@@ -467,7 +477,8 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
         publication = self.publications.get(header.get("topic", ""))
         if publication is None:
             raise TransportInitError(
-                f"[{self.name}] is not a publisher of [{header.get('topic')}]. Topics are {self.slave.getPublications('')[2]}"
+                f"[{self.name}] is not a publisher of [{header.get('topic')}]. Topics are "
+                f"{self.slave.getPublications('')[2]}"
             )
         return publication.accept(header, sender)
 
@@ -485,4 +496,5 @@ class Node(BlockingApi, ParameterApi, LoggingApi):
 
     def connections_changed(self) -> None:
         """Learn that a connection opened or closed."""
-        self.graph.changed()
+        self.slave.connections_changed()
+        self.graph.changes.notify()

@@ -42,9 +42,9 @@ _cell: contextvars.ContextVar[Any] = contextvars.ContextVar("rosmini_cell", defa
 class CellOutput:
     """Sends what lanes write, show and raise to the cell that drives the graph.
 
-    The kernel finds a print's cell in context variables, and each greenlet has a context of its own. A worker starts with
-    a copy of the driver's; a lane that was parked in an earlier cell keeps its own, because callbacks keep settings there too
-    (``numpy.errstate``), and only changes the cell.
+    The kernel finds a print's cell in context variables, and each greenlet has a context of its own. A worker starts
+    with a copy of the driver's; a lane that was parked in an earlier cell keeps its own, because callbacks keep
+    settings there too (``numpy.errstate``), and only changes the cell.
     """
 
     def __init__(self, shell: Any) -> None:

@@ -9,15 +9,28 @@ from rosmini.errors import TransportException
 from .lanes import Lane
 
 if TYPE_CHECKING:
-    from .graph import Graph
+    from collections.abc import Callable
+
+    from .changes import Changes
+    from .scheduler import Scheduler
 
 
 class Notices:
-    """Carries the Master's notices to the nodes."""
+    """Carries the Master's notices to the nodes, after the registration that caused them.
 
-    def __init__(self, graph: Graph) -> None:
-        self._graph = graph
-        self._lane = Lane(graph.scheduler, "the Master", on_error=lambda error: graph.report(error, None))
+    ``call(uri, method, caller_id, *arguments)`` reaches a node's slave API; ``on_error`` gets what else goes wrong.
+    """
+
+    def __init__(
+        self,
+        scheduler: Scheduler,
+        changes: Changes,
+        call: Callable[..., object],
+        on_error: Callable[[BaseException], None],
+    ) -> None:
+        self._changes = changes
+        self._call = call
+        self._lane = Lane(scheduler, "the Master", on_error=on_error)
 
     def publisher_update(self, caller_api: str, topic: str, uris: list[str]) -> None:
         """Tell a subscriber who publishes its topic now."""
@@ -31,14 +44,15 @@ class Notices:
         """Ask a node to shut down."""
         self._post(caller_api, "shutdown", reason)
 
-    def _post(self, caller_api: str, method: str, *arguments: Any) -> None:
-        graph = self._graph
+    def registrations_changed(self) -> None:
+        """Let those ask again who wait for a registration."""
+        self._changes.notify()
 
+    def _post(self, caller_api: str, method: str, *arguments: Any) -> None:
         def deliver() -> None:
             try:
-                graph.transport.call(caller_api, method, "/master", *arguments)
+                self._call(caller_api, method, "/master", *arguments)
             except TransportException:
                 return  # the node has gone meanwhile: its registrations go with it
-            graph.changed()
 
         self._lane.submit(deliver)

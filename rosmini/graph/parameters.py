@@ -69,7 +69,8 @@ class ParameterTree:
     def search(self, ns: str, key: str) -> str | None:
         """Return the nearest match for ``key``, going up from the namespace ``ns``, or None.
 
-        Only the first part of ``key`` is looked for. Raises ``ValueError`` for a private key or a namespace that is not global.
+        Only the first part of ``key`` is looked for. Raises ``ValueError`` for a private key or a namespace that is not
+        global.
         """
         if is_private(key):
             raise ValueError("invalid key")
@@ -99,8 +100,8 @@ class ParameterTree:
 def updates(subscribed: list[str], key: str, value: Any) -> list[Update]:
     """Return which of the ``subscribed`` keys (all with a closing slash) concern a change of ``key`` to ``value``.
 
-    A subscription to a namespace hears of every change within it. A subscription below ``key`` hears its own part of the
-    new value, or ``{}`` (ROS's "deleted") if that has none.
+    A subscription to a namespace hears of every change within it. A subscription below ``key`` hears its own part of
+    the new value, or ``{}`` (ROS's "deleted") if that has none.
     """
     changed = closed(key)
     parts = _subtrees(changed, value) if type(value) is dict else None

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from _thread import get_ident
 from itertools import count
-from threading import get_ident
+from sys import maxsize
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ROSException, TransportInitError, TypeMismatch
@@ -13,8 +14,8 @@ from .mismatch import describe_mismatch, recast
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .node import Node
-    from .transport import Header, Sender
+    from .node_port import NodePort
+    from .transport import DirectReceiver, Header, Sender
 
 
 _NOTHING: Any = object()
@@ -24,21 +25,24 @@ _NOTHING: Any = object()
 class Publication:
     """A node's side of a topic that it publishes: the connections, the latched message, the sequence number."""
 
-    def __init__(self, node: Node, topic: str, message_class: Any) -> None:
+    def __init__(self, node: NodePort, topic: str, message_class: Any) -> None:
         self.node = node
         self.topic = topic
         self.message_class = message_class
         self._latch = False
-        self.queue_size: int | None = None
+        self._queue_size: int | None = None
         self.headers: Header = {}
         """The user's own fields of the connection header; they replace ROS's of the same name, as in rospy."""
         self.handles: list[Publisher] = []
         self.senders: dict[int, Sender] = {}
-        self.sent = 0
         self._next_number = count(1).__next__
         self._scheduler = node.scheduler
         self._list: tuple[Sender, ...] = ()
-        self._only: Callable[[Any, int | None], None] | None = None
+        self.send: Callable[[Any], None] = self._send
+        """Sends a message to every connection: a snapshot, taken now. From any thread.
+
+        Raises ``SerializationError``, which names the field, when the message holds what its type cannot hold.
+        """
         self._latched: Any = None
         self._warned = False
         self._stamp = bool(message_class._has_header)
@@ -58,16 +62,39 @@ class Publication:
         self._latch = latch
         self._connections_changed()
 
+    @property
+    def queue_size(self) -> int | None:
+        """How many messages wait for one connection; None: no bound."""
+        return self._queue_size
+
+    @queue_size.setter
+    def queue_size(self, queue_size: int | None) -> None:
+        self._queue_size = queue_size
+        self._connections_changed()
+
     def _connections_changed(self) -> None:
-        """Note the senders, and the way of most messages: one sender and nothing to keep."""
         self._list = tuple(self.senders.values())
-        self._only = self._list[0].send if len(self._list) == 1 and not self._latch else None
+        self.send = self._send
+        if len(self._list) == 1 and not self._latch and not self._stamp:
+            receiver = self._list[0].receiver
+            if receiver is not None:
+                self.send = self._way_to(receiver, self._queue_size or maxsize)
 
-    def send(self, message: Any) -> None:
-        """Send ``message`` to every connection: a snapshot, taken now. From any thread.
+    def _way_to(self, receiver: DirectReceiver, size: int) -> Callable[[Any], None]:
+        """Return what sends a message to one receiver in this process: all that publishing most messages costs."""
+        freeze, dispatch, scheduler = self._freeze, self._dispatch, self._scheduler
+        incoming, join = receiver.incoming, receiver.incoming.append
 
-        Raises ``SerializationError``, which names the field, when the message holds what its type cannot hold.
-        """
+        def send(message: Any) -> None:
+            frozen = freeze(message)
+            if receiver.pending and len(incoming) < size and get_ident() == scheduler.thread:
+                join(frozen)
+            else:
+                dispatch(frozen)
+
+        return send
+
+    def _send(self, message: Any) -> None:
         if self._stamp:
             header = message.header
             if header.frame_id is None:
@@ -77,22 +104,26 @@ class Publication:
                     self._set_number(header, self._next_number())
                 else:
                     header.seq = self._next_number()
-        frozen = self._freeze(message)
-        if get_ident() != self._scheduler.thread:
-            self._scheduler.call_soon_threadsafe(lambda: self._send(frozen))
-        elif self._only is not None:
-            self.sent += 1
-            self._only(frozen, self.queue_size)
-        else:
-            self._send(frozen)
+        self._dispatch(self._freeze(message))
+
+    def send_frozen(self, frozen: Any) -> None:
+        """Send a frozen message that nobody else holds, with the next number in its header. In the hub's thread."""
+        if self._stamp and self._list:
+            self._set_number(frozen.header, self._next_number())
+        self._hand_out(frozen)
 
     def relay(self, message: Any) -> None:
-        """Send a message that another node published first: its header keeps its number, and it may go unheard without a word."""
+        """Send what another node published first: its header keeps its number, and nobody need listen."""
         frozen = self._freeze(message)
-        self._scheduler.on_hub(lambda: self._send(frozen, warn=False))
+        self._scheduler.on_hub(lambda: self._hand_out(frozen, warn=False))
 
-    def _send(self, frozen: Any, *, warn: bool = True) -> None:
-        self.sent += 1
+    def _dispatch(self, frozen: Any) -> None:
+        if get_ident() == self._scheduler.thread:
+            self._hand_out(frozen)
+        else:
+            self._scheduler.call_soon_threadsafe(lambda: self._hand_out(frozen))
+
+    def _hand_out(self, frozen: Any, *, warn: bool = True) -> None:
         if self._latch:
             self._latched = self._copy(frozen)
         senders = self._list
@@ -100,10 +131,11 @@ class Publication:
             if warn and not self._warned and not self.latch:
                 self._warn_unheard()
             return
-        size = self.queue_size
+        size = self._queue_size
         senders[0].send(frozen, size)
-        for sender in senders[1:]:
-            sender.send(self._copy(frozen), size)
+        if len(senders) > 1:
+            for sender in senders[1:]:
+                sender.send(self._copy(frozen), size)
 
     def send_to(self, destination: str, message: Any) -> None:
         """Send ``message`` to the node ``destination`` only, as rospy's ``peer_publish`` does."""
@@ -117,54 +149,48 @@ class Publication:
 
     def _warn_unheard(self) -> None:
         self._warned = True
-        if self.topic == "/rosout" or self.node.graph.quiet_topic(self.topic):
+        if self.topic in ("/rosout", "/rosout_agg"):
             return
         self.node.logwarn(
-            f"published on {self.topic} while nobody was connected: the message is lost. Connections take a moment: call "
-            "wait_for_subscribers() first, or publish with latch=True if late subscribers need the last message."
+            f"published on {self.topic} while nobody was connected: the message is lost. Connections take a moment: "
+            "call wait_for_subscribers() first, or publish with latch=True if late subscribers need the last message."
         )
 
     def accept(self, header: Header, sender: Sender) -> Header:
-        """Take a subscriber's connection. Raises ``TransportInitError`` for another md5 sum: the type's name does not matter, as in ROS."""
+        """Take a subscriber's connection.
+
+        Raises ``TransportInitError`` for another md5 sum: the type's name does not matter, as in ROS.
+        """
         cls = self.message_class
         wanted = header.get("md5sum")
         if wanted is None:
             msg = "Missing required 'md5sum' field"
             raise TransportInitError(msg)
-        mine, theirs = cls._type, header.get("type", "*")
-        if wanted not in ("*", cls._md5sum):
-            caller = header.get("callerid", "unknown")
-            self.node.graph.report(
-                TypeMismatch(
-                    describe_mismatch(
-                        self.topic,
-                        self.node.name,
-                        cls,
-                        caller,
-                        theirs,
-                        wanted,
-                        header.get("message_definition"),
-                    )
-                ),
-                self.node,
-                raise_strict=False,
-            )
-            msg = (
-                f"Client [{caller}] wants topic [{self.topic}] to have datatype/md5sum [{theirs}/{wanted}], "
-                f"but our version has [{mine}/{cls._md5sum}] Dropping connection."
-            )
-            raise TransportInitError(msg)
-        self.add(sender)
         fields = {
             "callerid": self.node.name,
             "latching": "1" if self.latch else "0",
             "md5sum": cls._md5sum,
             "message_definition": cls._full_text,
             "topic": self.topic,
-            "type": mine,
+            "type": cls._type,
             **self.headers,
         }
-        return dict(sorted(fields.items()))
+        mine = dict(sorted(fields.items()))
+        if wanted not in ("*", cls._md5sum):
+            theirs = {
+                **header,
+                "callerid": header.get("callerid", "unknown"),
+                "type": header.get("type", "*"),
+            }
+            problem = TypeMismatch(describe_mismatch(self.topic, mine, theirs))
+            self.node.graph.report(problem, self.node, raise_strict=False)
+            msg = (
+                f"Client [{theirs['callerid']}] wants topic [{self.topic}] to have datatype/md5sum "
+                f"[{theirs['type']}/{wanted}], but our version has [{cls._type}/{cls._md5sum}] Dropping connection."
+            )
+            raise TransportInitError(msg, mine)
+        self.add(sender)
+        return mine
 
     def add(self, sender: Sender) -> None:
         """Add a connection and send it what is latched."""
@@ -178,6 +204,7 @@ class Publication:
                 latched = self._freeze(latched)
                 latched.header.seq = self._next_number()
             sender.send(self._copy(latched), None)
+        self.node.connections_changed()
         for handle in self.handles:
             handle.connected(sender.destination)
 
@@ -186,8 +213,15 @@ class Publication:
         sender = self.senders.pop(number, None)
         if sender is not None:
             self._connections_changed()
+            self.node.connections_changed()
             for handle in self.handles:
                 handle.disconnected(sender.destination)
+
+    def end(self) -> None:
+        """Close because the node shuts down: the handles publish no more."""
+        for handle in self.handles:
+            handle.detach()
+        self.close()
 
     def close(self) -> None:
         """Close all connections."""
@@ -198,7 +232,10 @@ class Publication:
 
 
 class Publisher:
-    """Publishes messages of one type on one topic. Made by :meth:`Node.publisher <rosmini.graph.node.Node.publisher>`."""
+    """Publishes messages of one type on one topic.
+
+    Made by :meth:`Node.publisher <rosmini.graph.node.Node.publisher>`.
+    """
 
     def __init__(
         self,
@@ -223,8 +260,9 @@ class Publisher:
     def publish(self, message: Any = _NOTHING, /, *args: Any, **fields: Any) -> None:
         """Publish a message, or the message made from the given field values.
 
-        Later changes to the message do not change what was sent. Raises ``ROSException`` after :meth:`unregister` or the node's
-        shutdown, ``TypeError`` for a message of another type, and ``SerializationError`` for a field of the wrong type.
+        Later changes to the message do not change what was sent. Raises ``ROSException`` after :meth:`unregister` or
+        the node's shutdown, ``TypeError`` for a message of another type, and ``SerializationError`` for a field of the
+        wrong type.
         """
         publication = self._publication
         if publication is None:
@@ -234,15 +272,31 @@ class Publisher:
         else:
             publication.send(self._build(() if message is _NOTHING else (message, *args), fields))
 
+    def publish_frozen(self, frozen: Any) -> None:
+        """Publish what a `rosmini.msgs.template` made, and nobody holds: no snapshot of it is taken.
+
+        For devices, whose hosts call them in the hub's thread. Raises ``ROSException`` as :meth:`publish`.
+        """
+        publication = self._publication
+        if publication is None:
+            raise ROSException(self._closed_message())
+        publication.send_frozen(frozen)
+
     def relay(self, message: Any) -> None:
-        """Publish a message as it is, with the number in its header: for what another node published first. Raises as :meth:`publish`."""
+        """Publish a message as it is, with the number in its header: for what another node published first.
+
+        Raises as :meth:`publish`.
+        """
         publication = self._publication
         if publication is None:
             raise ROSException(self._closed_message())
         publication.relay(message)
 
     def publish_to(self, destination: str, message: Any) -> None:
-        """Publish ``message`` to one connected node only; harmless when that has gone. Raises as :meth:`publish` does."""
+        """Publish ``message`` to one connected node only; harmless when that has gone.
+
+        Raises as :meth:`publish` does.
+        """
         publication = self._publication
         if publication is None:
             raise ROSException(self._closed_message())
@@ -267,7 +321,10 @@ class Publisher:
     def _closed_message(self) -> str:
         if self.node.is_shutdown():
             reason = self.node.shutdown_reason or "no reason given"
-            return f"publish() on {self.topic} after node {self.node.name} was shut down ({reason}). Check is_shutdown() in loops."
+            return (
+                f"publish() on {self.topic} after node {self.node.name} was shut down ({reason}). "
+                "Check is_shutdown() in loops."
+            )
         return f"publish() on {self.topic} after unregister(): make a new publisher to publish again."
 
     @property
@@ -291,7 +348,7 @@ class Publisher:
         )
 
     def unregister(self) -> None:
-        """Stop to publish. The topic is left when the node's last publisher of it has gone. Harmless when repeated."""
+        """Stop publishing. The topic is left when the node's last publisher of it has gone. Harmless when repeated."""
         self.node.scheduler.on_hub(self._unregister)
 
     def _unregister(self) -> None:
@@ -314,7 +371,6 @@ class Publisher:
         self._tell(self._on_disconnect, peer)
 
     def _tell(self, callback: Callable[[str], object] | None, peer: str) -> None:
-        self.node.connections_changed()
         if callback is not None:
             self.node.spawn(
                 f"{self.node.name} connections of {self.topic}",

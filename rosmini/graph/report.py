@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from rosmini.errors import GraphEnded
 
@@ -11,8 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 
-@dataclass(frozen=True)
-class Waiting:
+class Waiting(NamedTuple):
     """A lane that was still parked when a run ended, and what for."""
 
     lane: str
@@ -22,11 +20,11 @@ class Waiting:
         return f"{self.lane} was waiting for {self.reason}"
 
 
-@dataclass(frozen=True, repr=False)
-class RunReport:
+class RunReport(NamedTuple):
     """How a run ended: ``reason`` is "time", "condition", "drained" or "stopped"; ``now`` is the graph time in seconds.
 
-    Its text tells what was waited for only when nothing is left to happen: after a run of some seconds nodes always wait.
+    Its text tells what was waited for only when nothing is left to happen: after a run of some seconds nodes always
+    wait.
     """
 
     reason: str
@@ -45,7 +43,8 @@ class RunReport:
             lines += [f"  {waiting}" for waiting in self.waiting]
         return "\n".join(lines)
 
-    __repr__ = __str__
+    def __repr__(self) -> str:
+        return str(self)
 
     def _ipython_display_(self) -> None:
         """Say nothing at the end of a notebook cell about a run that went on for as long as it was asked to."""

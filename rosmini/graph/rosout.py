@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
+from rosmini.errors import RosminiError
+from rosmini.msgs import message_class, service_class
 from rosmini.time import Time
 
 from .clock import TopicClock
@@ -14,9 +16,10 @@ from .log_file import LogFile
 from .log_gates import LogGates
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from types import FrameType
 
-    from .node import Node
+    from .node_port import NodePort
 
 LEVELS = {"DEBUG": 1, "INFO": 2, "WARN": 4, "ERROR": 8, "FATAL": 16}
 """The levels of ``rosgraph_msgs/Log``."""
@@ -37,10 +40,31 @@ def source_of(filename: str) -> str:
     return filename
 
 
-class LoggerTree:
-    """The loggers of a node and their levels. ``rosout.camera.driver`` is below ``rosout.camera``, and that below ``rosout``.
+def logger_services(logger: Logger) -> list[tuple[str, Any, Callable[[Any], Any]]]:
+    """Return name, class and handler of every node's services ``~get_loggers`` and ``~set_logger_level``."""
+    logger_class = message_class("roscpp/Logger")
 
-    A logger without a level of its own has that of the nearest above it; above all is a root at INFO.
+    def listing(_: Any) -> Any:
+        return {"loggers": [logger_class(name=name, level=level) for name, level in logger.listing()]}
+
+    def change(request: Any) -> Any:
+        if request.level.upper() not in LEVELS:
+            msg = f"no level {request.level!r}: use one of {', '.join(LEVELS)}"
+            raise RosminiError(msg)
+        logger.set_level(request.logger, request.level)
+        return {}
+
+    return [
+        ("~get_loggers", service_class("roscpp/GetLoggers"), listing),
+        ("~set_logger_level", service_class("roscpp/SetLoggerLevel"), change),
+    ]
+
+
+class LoggerTree:
+    """The loggers of a node and their levels.
+
+    ``rosout.camera.driver`` is below ``rosout.camera``, and that below ``rosout``. A logger without a level of its own
+    has that of the nearest above it; above all is a root at INFO.
     """
 
     def __init__(self) -> None:
@@ -67,13 +91,13 @@ class LoggerTree:
 
 
 class Logger:
-    """One node's loggers. ``rosout`` and what is below it go to the console, to ``/rosout`` and to the log file, all others to the file.
+    """One node's loggers. ``rosout`` and what is below it go to the console, to ``/rosout`` and to the log file.
 
-    What is logged before the node is on a topic is kept for the console only. ``set_level`` is what the service
-    ``~set_logger_level`` calls.
+    All others go to the log file only. Before the node is on a topic its messages go to the console only. ``set_level``
+    is what the service ``~set_logger_level`` calls.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: NodePort) -> None:
         self._node = node
         self.tree = LoggerTree()
         self.gates = LogGates()
@@ -130,9 +154,10 @@ class Logger:
     # -- where messages go ---------------------------------------------------------------------------------------
 
     def console(self, level: int, line: str) -> None:
-        """Write a line: warnings and worse to standard error, as rospy does, and in a notebook all to standard output."""
+        """Write a line: from WARN on to standard error, as rospy does; in a notebook all to standard output."""
         name = "stdout" if level <= LEVELS["INFO"] or self._node.graph.notebook else "stderr"
-        # A script's real thread does not see the script's streams in `sys`, which belong to whoever the graph is running.
+        # A script's real thread does not see the script's streams in `sys`, which belong to whoever the graph is
+        # running.
         own = getattr(self._node.scheduler.current().context, "get_own", None)
         stream: TextIO = getattr(sys, name) if own is None else own(name)
         stream.write(line + "\n")
@@ -170,7 +195,7 @@ def function_of(frame: FrameType) -> str:
 
 
 def caller(depth: int) -> FrameType:
-    """Return the frame ``depth`` calls up, leaving rosmini's own files out unless there are no others, as in a node of rosmini's."""
+    """Return the frame ``depth`` calls up; frames of rosmini's own files only if there are no others."""
     nearest = frame = sys._getframe(depth)  # noqa: SLF001 - the documented way to find a caller
     while frame.f_code.co_filename.startswith(OWN):
         if frame.f_back is None:

@@ -4,14 +4,17 @@ Everything that happens in a graph is an event in one queue ordered by (time, se
 queue jumps from event to event, as fast as the machine allows and in the same order on each run; in wall time events
 wait until they are due. Code that blocks is parked (see :mod:`rosmini.graph.lanes`) and the queue goes on.
 
-The loop has no thread or greenlet of its own: whoever blocks hands it to a worker greenlet, which runs the events, calls
-the callbacks in place, and is itself left behind when one of them blocks. A callback that does not block
-therefore costs a function call, not a switch.
+The loop has no thread or greenlet of its own: whoever blocks hands it to a worker greenlet, which runs the events,
+calls the callbacks in place, and is itself left behind when one of them blocks. A callback that does not block
+therefore costs a function call, not a switch. The garbage collector does not see what the frames of a suspended
+greenlet refer to, so an idle worker's refer to nothing of the scheduler.
 """
 
 from __future__ import annotations
 
 import threading
+import weakref
+from _thread import get_ident
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -21,10 +24,11 @@ from rosmini.errors import GraphEnded, RosminiError
 
 from . import threads
 from .event_queue import ROUNDS_PER_INSTANT, TICK_QUANTUM_NS, EventQueue
-from .interrupts import InterruptGuard
+from .interrupts import MAIN_THREAD, InterruptGuard
 from .lanes import Lane, LaneContext, LaneExit, Waiter
 from .notebook import CellOutput, kernel_shell
 from .report import RunReport, Waiting, ended
+from .workers import Worker, adopt_thread, start_workers, work
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,14 +36,11 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 E = TypeVar("E", bound=BaseException)
 
+ROUNDS_PER_LOOK = 16
+"""How many rounds lanes that only wake one another may take before timers and other threads are looked after."""
+
 TICKS_PER_YIELD = 1_000
 """How many turns a polling loop makes before the others get theirs."""
-
-
-def _start_workers(worker: greenlet) -> None:
-    """Start each greenlet that is given. The body of a greenlet of its own."""
-    while True:
-        worker = worker.switch()
 
 
 class Scheduler(EventQueue):
@@ -57,6 +58,10 @@ class Scheduler(EventQueue):
         self.on_error: Callable[[Lane, BaseException], None] | None = None
         self.ask_driver: Callable[[Waiter], Callable[[], None]] = partial(threads.complaint, self)
         """Finds who drives while another thread waits; what it returns is called when that takes long."""
+        self.graph: Any = None
+        """The graph that this scheduler runs, if any."""
+        self._reference = weakref.ref(self)
+        self._home = self.thread
         self._owner_lock = threading.Lock()
         self._idle: list[greenlet] = []
         self._starter: greenlet | None = None
@@ -68,6 +73,7 @@ class Scheduler(EventQueue):
         self._context: LaneContext | None = None
         self._root_waiter: Waiter | None = None
         self._until: Callable[[], bool] | None = None
+        self._left = 0
         shell = kernel_shell()
         self._output = None if shell is None else CellOutput(shell)
         self._interrupts = InterruptGuard(lambda: self._inbox.put(None), lambda: self._current.name)
@@ -76,20 +82,20 @@ class Scheduler(EventQueue):
 
     def current(self) -> Lane:
         """Return the caller's lane: the main program's own when it is in none."""
-        ident = threading.get_ident()
-        if ident == self.thread:
-            return self._current
-        return self._thread_lanes.get(ident, self.root)
+        ident = get_ident()
+        return self._current if ident == self.thread else self._thread_lanes.get(ident, self.root)
 
     def adopt_thread(self, name: str, *, node: Any = None, context: LaneContext | None = None) -> Lane:
-        """Tell which node and script the calling real thread works for. Undo with :meth:`release_thread`."""
+        """Note which node and script the calling thread works for. Undo with :meth:`release_thread`."""
         lane = Lane(self, name, node=node, context=context)
-        self._thread_lanes[threading.get_ident()] = lane
+        self._thread_lanes[get_ident()] = lane
+        adopt_thread(self._reference)
         return lane
 
     def release_thread(self) -> None:
         """Forget what :meth:`adopt_thread` noted for the calling thread."""
-        self._thread_lanes.pop(threading.get_ident(), None)
+        self._thread_lanes.pop(get_ident(), None)
+        adopt_thread(None)
 
     def spawn(
         self,
@@ -117,9 +123,20 @@ class Scheduler(EventQueue):
         """Return a new :class:`Waiter`; ``reason`` completes "... was waiting for"."""
         return Waiter(self, reason)
 
-    def on_hub(self, function: Callable[[], T]) -> T:
-        """Return ``function()``, run in the hub's thread, in a lane with the caller's node and context."""
-        return function() if self.may_park() else threads.on_hub(self, function)
+    def on_hub(self, function: Callable[..., T], *arguments: Any) -> T:
+        """Return ``function(*arguments)``, run in the hub's thread, in a lane with the caller's node and context.
+
+        A call from another thread goes through the inbox and waits for the answer. When nobody drives, that thread says
+        after a moment what it waits for; in wall time it borrows the hub for the length of the call instead.
+        """
+        if get_ident() == self.thread:
+            return function(*arguments)
+        if not self.take_hub(to_wait=True):
+            return threads.on_hub(self, partial(function, *arguments))
+        try:
+            return function(*arguments)
+        finally:
+            self._return_hub()
 
     # -- blocking ------------------------------------------------------------------------------------------------
 
@@ -133,7 +150,7 @@ class Scheduler(EventQueue):
         self._ticks -= weight
         if self._ticks <= 0:
             self._ticks = TICKS_PER_YIELD
-            if threading.get_ident() == self.thread:
+            if get_ident() == self.thread:
                 self._yield()
 
     def _yield(self) -> None:
@@ -143,11 +160,11 @@ class Scheduler(EventQueue):
             self.give_way()
 
     def give_way(self) -> None:
-        """Let everything else that is due run before the caller goes on. A real thread needs no such thing."""
+        """Let everything else that is due run before the caller goes on. Does nothing in another thread."""
         if self.is_hub_thread():
             waiter = Waiter(self, "its turn")
-            waiter.done = waiter._queued = True  # noqa: SLF001 - one class in two files
-            self._inbox.put(lambda: self.ready.append(waiter._resume))  # noqa: SLF001
+            waiter.done = waiter.queued = True
+            self._inbox.put(partial(self.ready.append, waiter.resume))
             self.park(waiter)
             if self._current.dead:
                 raise LaneExit(f"lane {self._current.name} was asked to end")
@@ -156,37 +173,41 @@ class Scheduler(EventQueue):
         """Run a blocking call of the operating system in a helper thread while the caller is parked."""
         return threads.in_thread(self, function) if self.is_hub_thread() else function()
 
-    def may_wait(self) -> bool:
-        """Tell whether the caller may be parked for as long as it takes.
+    def take_hub(self, *, to_wait: bool = False) -> bool:
+        """Move the hub to the calling thread, which is about to drive; return False if something binds it to another.
 
-        In simulated time only the thread that made the graph lets time pass, while it lives: the sequence of events must not depend on who was faster.
+        ``to_wait``: the caller would drive only because it waits. In simulated time only the thread that made the graph
+        lets time pass so, while it lives: the order of events must not depend on who was faster. After such a drive
+        the hub goes back to that thread.
         """
-        return self.is_hub_thread() or (not (self.simulated and self._owner_lives()) and self.may_park())
-
-    def _owner_lives(self) -> bool:
-        return any(thread.ident == self.thread for thread in threading.enumerate())
-
-    def may_park(self) -> bool:
-        """Tell whether the caller may be parked: it is in the hub's thread, or the hub is free to move to its own."""
-        return self.is_hub_thread() or self._take_over(threading.get_ident())
-
-    def _take_over(self, ident: int) -> bool:
-        """Move the hub to the calling thread, if nothing of it is bound to the other one."""
         if self._output is not None and self.is_in_main_thread():
-            return False  # the kernel's main thread may be in the middle of something, and will drive when it is asked to
+            return False  # the kernel's main thread may be in the middle of something, and will drive when asked to
         with self._owner_lock:
-            if not self._owner_lives():
+            if not self._lives(self.thread):
                 self._abandon()
-            elif self._root_waiter is not None or self._parked or ident in self._thread_lanes:
+            elif (
+                self.driven
+                or self._parked
+                or get_ident() in self._thread_lanes
+                or (to_wait and self.simulated)
+            ):
                 return False
-            self._forget_workers()
-            self.thread = ident
+            self._move_hub(get_ident())
         return True
+
+    @staticmethod
+    def _lives(ident: int) -> bool:
+        return any(thread.ident == ident for thread in threading.enumerate())
+
+    def _move_hub(self, ident: int) -> None:
+        self._idle.clear()  # greenlets are bound to their thread
+        self._starter = None
+        self.thread = ident
 
     def _abandon(self) -> None:
         """Give up what was parked in a thread that has ended: nobody can go on with it."""
         for waiter, lane in self._parked.items():
-            waiter._greenlet = None  # noqa: SLF001
+            waiter.greenlet = None
             lane.dead = True
         self._parked.clear()
         self._root_waiter = None
@@ -194,55 +215,50 @@ class Scheduler(EventQueue):
     def park(self, waiter: Waiter) -> None:
         """Leave the caller parked until ``waiter`` resumes it, and run the queue meanwhile. For waiters only."""
         lane = self._current
-        is_root = lane is self.root
-        if is_root:
+        if lane is self.root:
             self._start_drive(waiter)
-        waiter._greenlet = getcurrent()  # noqa: SLF001
-        lane._waiter = waiter  # noqa: SLF001
+        waiter.greenlet = getcurrent()
+        lane.waiter = waiter
         self._parked[waiter] = lane
         try:
-            fresh = not self._idle
-            worker = greenlet(self._loop) if fresh else self._idle.pop()
+            worker = self._idle.pop() if self._idle else self._new_worker()
             if self._output is not None:
                 self._output.lend(worker)
-            if fresh:
-                self._start_worker(worker)
-            else:
-                worker.switch()
+            worker.switch(self._run_events)
         finally:
             del self._parked[waiter]
-            waiter._greenlet = None  # noqa: SLF001
-            lane._waiter = None  # noqa: SLF001
+            waiter.greenlet = lane.waiter = None
             self.enter_lane(lane)
-            if is_root:
+            if lane is self.root:
                 self._end_drive()
             elif self._output is not None:
                 self._output.arrive()
-        if is_root and self._interrupts.take():
+        if lane is self.root and self._interrupts.take():
             raise self._interruption()
 
-    def _start_worker(self, worker: greenlet) -> None:
-        """Switch to a new worker from a place that is always as deep as the first: a greenlet counts the depth of the calls from where it starts.
+    def _new_worker(self) -> greenlet:
+        """Return a worker started at the call depth of the first: a greenlet counts its depth from there.
 
         Else each of many that block would begin where the last one stopped, and reach the limit of recursion together.
         """
+        worker = Worker(work)
+        worker.scheduler = self._reference
         if self._starter is None:
-            self._starter = greenlet(_start_workers)
-        self._starter.switch(worker)
-
-    def _forget_workers(self) -> None:
-        self._idle.clear()
-        self._starter = None
+            self._starter = greenlet(start_workers)
+        self._starter.switch(worker, getcurrent())
+        return worker
 
     def _start_drive(self, waiter: Waiter) -> None:
         with self._owner_lock:
             if not self.is_hub_thread():
                 if self._root_waiter is not None or self._parked:
-                    msg = "two threads began to drive the graph at the same moment; let one of them drive, and the others call it"
+                    msg = (
+                        "two threads began to drive the graph at once; let one drive, and the others call it"
+                    )
                     raise RosminiError(msg)
-                self._forget_workers()  # the other one only looked at something
-                self.thread = threading.get_ident()
+                self._move_hub(get_ident())  # the other one only looked at something
             self._root_waiter = waiter
+        self._left = len(self.ready)
         self._interrupts.arm()
         if self._output is not None:
             self._output.begin()
@@ -250,8 +266,15 @@ class Scheduler(EventQueue):
     def _end_drive(self) -> None:
         self._root_waiter = None
         self._interrupts.disarm()
-        if not self.is_in_main_thread():
+        if self.thread != MAIN_THREAD:
             self._end_workers()  # no other thread could use them
+            self._return_hub()
+
+    def _return_hub(self) -> None:
+        """Give the hub back to the thread that made the graph, unless something is parked in this one."""
+        with self._owner_lock:
+            if self.thread != self._home and not self._parked and self._lives(self._home):
+                self._move_hub(self._home)
 
     # -- called by lanes and waiters -----------------------------------------------------------------------------
 
@@ -272,7 +295,7 @@ class Scheduler(EventQueue):
             context.enter()
 
     def lane_failed(self, lane: Lane, error: BaseException) -> None:
-        """Tell whoever should know that a task of ``lane`` raised. For lanes only."""
+        """Report that a task of ``lane`` raised. For lanes only."""
         if isinstance(error, KeyboardInterrupt) and self._interrupts.noted:
             if lane.context is not None:
                 lane.context.cut_short()
@@ -302,21 +325,23 @@ class Scheduler(EventQueue):
         return self._root_waiter is not None
 
     def run(self, until_ns: int | None = None, until: Callable[[], bool] | None = None) -> RunReport:
-        """Drive the queue until graph time ``until_ns``, until ``until()`` is true, or (in simulated time) until nothing is left.
+        """Drive the queue until graph time ``until_ns``, ``until()``, or (in simulated time) until it is empty.
 
-        Only from the main program or a notebook cell.
+        Only from the main program, a notebook cell, or a thread while nobody else drives.
         """
-        if self.current() is self.root and not self.may_park() and not self.simulated:
+        hub_is_elsewhere = not (self.is_hub_thread() or self.take_hub())
+        if hub_is_elsewhere and not self.simulated and self.current() is self.root:
             return threads.run_beside(self, until_ns, until)
-        if self._current is not self.root or not self.may_park():
+        if hub_is_elsewhere or self._current is not self.root:
             msg = (
                 "run() was called from inside the graph (a callback or a script); only the main program drives it. "
                 "In a callback, block with sleep() or wait_for_message() instead."
             )
             raise RosminiError(msg)
         if until is not None and until():
+            self._return_hub()
             return self.report("condition")
-        waiter = self.waiter("the end of the run")
+        waiter = Waiter(self, "the end of the run")
         timer = None if until_ns is None else self.call_at(until_ns, partial(waiter.wake, "time"))
         self._until = until
         try:
@@ -352,7 +377,7 @@ class Scheduler(EventQueue):
             if lane is not self.root:
                 lane.dead = True
                 waiter.fail(LaneExit("the graph was closed"))
-        if self.may_park() and self._current is self.root:
+        if self.is_hub_thread() and self._current is self.root:
             for _ in range(3):  # a lane may block again while it cleans up
                 if not any(lane is not self.root for lane in self._parked.values()):
                     break
@@ -360,6 +385,7 @@ class Scheduler(EventQueue):
             self._end_workers()
         self.ready.clear()
         self._timed.clear()
+        self._last.clear()
 
     def _end_workers(self) -> None:
         """End the idle greenlets: the garbage collector does not see what a suspended one refers to."""
@@ -381,23 +407,25 @@ class Scheduler(EventQueue):
 
     # -- the loop ------------------------------------------------------------------------------------------------
 
-    def _loop(self) -> None:
-        """Run events for ever. The body of each worker greenlet; there is one running and some idle."""
+    def _run_events(self) -> greenlet:
+        """Run events until parked code is to go on; return that."""
         ready, heap, simulated = self.ready, self._timed.heap, self.simulated
         nothing_came, interrupts = self._inbox.empty, self._interrupts
+        if not self._left and (self._rounds + 1) % ROUNDS_PER_LOOK:  # most who park only wait for what is due
+            self._rounds += 1
+            self._left = len(ready)
         while True:
             try:
                 while True:
-                    self._rounds += 1
-                    for _ in range(len(ready)):
-                        if not ready:  # another worker went on while this one was idle
-                            break
-                        parked: Any = ready.popleft()()
+                    while self._left and ready:
+                        self._left -= 1
+                        parked = ready.popleft()()
                         if parked is not None and isinstance(parked, greenlet):
                             self._idle.append(getcurrent())
-                            parked.switch()
+                            return parked
                         if self._until is not None:
                             self._check_until()
+                    self._rounds += 1
                     if self._until is not None:
                         self._check_until()
                     if interrupts.noted or not nothing_came():
@@ -408,6 +436,7 @@ class Scheduler(EventQueue):
                         self._creep()
                     if not ready:
                         self._advance()
+                    self._left = len(ready)
             except KeyboardInterrupt:
                 interrupts.noted = True
             except Exception as error:
@@ -427,6 +456,9 @@ class Scheduler(EventQueue):
 
     def _advance(self) -> None:
         """Nothing is due: go on to the next event, or wait for it, or end."""
+        if self._last:
+            self._take_last()
+            return
         due = self._timed.next_ns()
         if self.simulated and not self._holds:
             if due is not None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import (
     DeserializationError,
+    MasterUnreachable,
     ROSException,
     ROSInterruptException,
     SerializationError,
@@ -21,19 +23,26 @@ from .transport import extra_fields, set_header
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .node import Node
+    from .node_port import NodePort
     from .transport import Header, ServiceLink
 
 
 class ServiceServer:
     """Answers calls of one service. Made by :meth:`Node.service <rosmini.graph.node.Node.service>`.
 
-    The handler gets the request and returns a response, or what makes one: a tuple or list of its fields in order, a dictionary
-    of fields by name, or the value of its only field. None is refused, also for a response without fields, as in rospy. Each client connection has a lane of its own, so a handler may block.
+    The handler gets the request and returns a response, or what makes one: a tuple or list of its fields in order, a
+    dictionary of fields by name, or the value of its only field. None is refused, also for a response without fields,
+    as in rospy. Each client connection has a lane of its own, so a handler may block.
     """
 
     def __init__(
-        self, node: Node, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True
+        self,
+        node: NodePort,
+        name: str,
+        service_class: Any,
+        handler: Callable[[Any], Any],
+        *,
+        numpy: bool = True,
     ) -> None:
         self.node = node
         self.name = name
@@ -94,11 +103,11 @@ class ServiceServer:
         return ". For a response without fields return [] or the response itself, as rospy wants it"
 
     def shutdown(self, reason: str = "") -> None:
-        """Stop to answer; callers that wait get an error. Harmless when repeated."""
+        """Stop answering; callers that wait get an error. Harmless when repeated."""
         if self._open:
             self._open = False
-            self.node.drop_service(self)
             self.close_sessions(reason)
+            self.node.drop_service(self)
 
     def close_sessions(self, reason: str) -> None:
         """Refuse what is queued and fail what is being answered."""
@@ -128,11 +137,15 @@ def _response_from(answer: Any, response_class: Any) -> Any:
         return response_class(**answer)
     if isinstance(answer, (list, tuple)):
         if len(answer) != len(slots):
-            msg = f"handler returned invalid value: {response_class._type} has {len(slots)} fields ({', '.join(slots)}), not {len(answer)}"
+            msg = (
+                f"handler returned invalid value: {response_class._type} has {len(slots)} fields "
+                f"({', '.join(slots)}), not {len(answer)}"
+            )
             raise ServiceException(msg)
         return response_class(*answer)
     if len(slots) != 1:
-        msg = f"handler returned invalid value: {answer!r} is no {response_class._type} ({', '.join(slots) or 'it has no fields'})"
+        fields = ", ".join(slots) or "it has no fields"
+        msg = f"handler returned invalid value: {answer!r} is no {response_class._type} ({fields})"
         raise ServiceException(msg)
     return response_class(answer)
 
@@ -160,7 +173,7 @@ class Session:
             reply(None, self._gone)
             return
         self._pending.append(reply)
-        self._lane.submit(lambda: self._answer(request, reply))
+        self._lane.post(partial(self._answer, request, reply))
 
     def _answer(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
         try:
@@ -191,13 +204,13 @@ class Session:
 class ServiceClient:
     """Calls a service. Made by :meth:`Node.service_client <rosmini.graph.node.Node.service_client>`.
 
-    ``client(a=1, b=2)``, ``client(1, 2)`` and ``client.call(request)`` do the same. A persistent client keeps its connection: faster,
-    and deaf to a server that is replaced.
+    ``client(a=1, b=2)``, ``client(1, 2)`` and ``client.call(request)`` do the same. A persistent client keeps its
+    connection: it is faster, and does not notice when the server is replaced.
     """
 
     def __init__(
         self,
-        node: Node,
+        node: NodePort,
         name: str,
         service_class: Any,
         *,
@@ -233,24 +246,18 @@ class ServiceClient:
         else:
             request = request_class(*args, **fields)
         frozen = request_class._freeze(request)
-        return self.node.scheduler.on_hub(lambda: self._call(frozen))
+        return self.node.scheduler.on_hub(self._call, frozen)
 
     def _call(self, frozen: Any) -> Any:
         link = self._link or self._connect()
         waiter = self.node.waiter(f"the service {self.name}")
-        answer: list[Any] = [None, None]
-
-        def reply(response: Any, problem: str | None) -> None:
-            answer[:] = [response, problem]
-            waiter.wake()
-
         try:
-            link.call(frozen, reply)
+            link.call(frozen, lambda response, problem: waiter.wake((response, problem)))
             self.node.wait(waiter)
         finally:
             if not self.persistent:
                 link.close()
-        response, problem = answer
+        response, problem = waiter.value
         if problem is not None:
             if self.persistent and problem.startswith("transport error"):
                 self.close()
@@ -270,12 +277,7 @@ class ServiceClient:
         if node.is_shutdown():
             msg = f"service [{self.name}] called after node {node.name} was shut down"
             raise ServiceException(msg)
-        code, _, uri = node.graph.master.lookupService(node.name, self.name)
-        if code != 1:
-            known = [name for name, _ in node.graph.master.getSystemState(node.name)[2][2]]
-            hint = nearest(self.name, known)
-            msg = f"service [{self.name}] unavailable: no node offers it. {hint or 'Start its server, or call wait_for_service() first.'}"
-            raise ServiceException(msg)
+        uri = self._lookup()
         cls = self.service_class
         fields = {"callerid": node.name, "md5sum": cls._md5sum, "service": self.name, **self.headers}
         if self.persistent:
@@ -284,12 +286,14 @@ class ServiceClient:
         try:
             link = node.graph.transport.connect_service(node.uri, uri, header, cls)
         except TransportInitError as error:
-            server = node.graph.service_class_at(uri, self.name)
-            theirs = "another type" if server is None else server._type
+            theirs = self._type_at(uri)
             if theirs == cls._type:  # it was refused for something else, such as a header of the user's
                 msg = f"unable to connect to service [{self.name}]: {error}"
                 raise ServiceException(msg) from error
-            msg = f"service [{self.name}] is a {theirs}, and was called as a {cls._type}: {error}. Use the server's type."
+            msg = (
+                f"service [{self.name}] is a {theirs}, and was called as a {cls._type}: {error}. "
+                "Use the server's type."
+            )
             raise ServiceException(msg) from error
         except TransportException as error:
             msg = f"unable to connect to service [{self.name}]: {error}"
@@ -297,6 +301,35 @@ class ServiceClient:
         if self.persistent:
             self._link = link
         return link
+
+    def _lookup(self) -> str:
+        """Return the service's address.
+
+        Raises ``ServiceException`` if nobody offers it, or the Master does not answer.
+        """
+        master = self.node.master
+        try:
+            uri: str | None = master.find("lookupService", self.name)
+            if uri is not None:
+                return uri
+            known = [name for name, _ in master.ask("getSystemState")[2]]
+        except MasterUnreachable as error:
+            msg = f"service [{self.name}] unavailable: {error}"
+            raise ServiceException(msg) from error
+        hint = nearest(self.name, known) or "Start its server, or call wait_for_service() first."
+        msg = f"service [{self.name}] unavailable: no node offers it. {hint}"
+        raise ServiceException(msg)
+
+    def _type_at(self, uri: str) -> str:
+        """Return the service's type, which its server tells to a probe, as it tells ``rosservice type``."""
+        node = self.node
+        header = {"callerid": node.name, "md5sum": "*", "probe": "1", "service": self.name}
+        try:
+            link = node.graph.transport.connect_service(node.uri, uri, header, self.service_class)
+        except TransportException:
+            return "service of another type"
+        link.close()
+        return link.header.get("type", "service of another type")
 
     def wait_for_service(self, timeout: float | None = None) -> None:
         """Block until the service is there. Raises ``ROSException`` after ``timeout`` seconds."""

@@ -1,41 +1,101 @@
-"""The slave API: what each node answers to the Master, to other nodes and to tools (http://wiki.ros.org/ROS/Slave_API)."""
+"""The slave API: what each node answers to the Master, to other nodes and to tools (http://wiki.ros.org/ROS/Slave_API).
+
+Any thread may call it, such as one that reads a wire: it answers at once from a snapshot, which the hub's thread
+renews, and posts what is to happen. So a callback that computes for long delays no answer.
+"""
 
 # ruff: noqa: ARG002 - every call has a caller_id, whether it needs one or not
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .node import Node
-    from .transport import Triple
+    from .node_port import NodePort
+    from .publisher import Publication
+    from .subscriber import Connection, Subscription
+    from .transport import Sender, Triple
+
+METHODS = frozenset(
+    [
+        "getBusStats",
+        "getBusInfo",
+        "getMasterUri",
+        "shutdown",
+        "getPid",
+        "getSubscriptions",
+        "getPublications",
+        "paramUpdate",
+        "publisherUpdate",
+        "requestTopic",
+    ]
+)
+
+
+class _Connections(NamedTuple):
+    """The open connections of a node: (topic, number, sender) and (topic, connection)."""
+
+    out: tuple[tuple[str, int, Sender], ...] = ()
+    into: tuple[tuple[str, Connection], ...] = ()
 
 
 class SlaveApi:
     """The slave API of one node; methods, codes and texts are ROS's."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: NodePort) -> None:
         self._node = node
-        self._methods: dict[str, Callable[..., Triple]] = {
-            "getBusStats": self.getBusStats,
-            "getBusInfo": self.getBusInfo,
-            "getMasterUri": self.getMasterUri,
-            "shutdown": self.shutdown,
-            "getPid": self.getPid,
-            "getSubscriptions": self.getSubscriptions,
-            "getPublications": self.getPublications,
-            "paramUpdate": self.paramUpdate,
-            "publisherUpdate": self.publisherUpdate,
-            "requestTopic": self.requestTopic,
-        }
+        self._published: dict[str, str] = {}
+        self._subscribed: dict[str, str] = {}
+        self._connections = _Connections()
+        self._is_stale = False
+
+    # -- the snapshot, renewed in the hub's thread ---------------------------------------------------------------
+
+    def topics_changed(self) -> None:
+        """Take up which topics the node publishes and subscribes to."""
+        publications: dict[str, Publication] = self._node.publications
+        subscriptions: dict[str, Subscription] = self._node.subscriptions
+        self._published = {topic: item.message_class._type for topic, item in publications.items()}
+        self._subscribed = {topic: item.message_class._type for topic, item in subscriptions.items()}
+        self.connections_changed()
+
+    def connections_changed(self) -> None:
+        """Take up which connections there are, soon: many change at once when a graph starts."""
+        if not self._is_stale:
+            self._is_stale = True
+            self._node.scheduler.ready.append(self._renew)
+
+    def _renew(self) -> None:
+        self._is_stale = False
+        publications: dict[str, Publication] = self._node.publications
+        subscriptions: dict[str, Subscription] = self._node.subscriptions
+        self._connections = _Connections(
+            tuple((topic, *one) for topic, item in publications.items() for one in item.senders.items()),
+            tuple((topic, one) for topic, item in subscriptions.items() for one in item.connections.values()),
+        )
+
+    def _current(self) -> _Connections:
+        if self._is_stale and self._node.scheduler.is_hub_thread():
+            self._renew()
+        return self._connections
+
+    def _post(self, effect: Callable[[], None]) -> None:
+        """Have ``effect`` happen in the hub's thread: now if this is it."""
+        scheduler = self._node.scheduler
+        if scheduler.is_hub_thread():
+            effect()
+        else:
+            scheduler.call_soon_threadsafe(effect)
+
+    # -- the calls -----------------------------------------------------------------------------------------------
 
     def call(self, method: str, *arguments: Any) -> Triple:
         """Answer a call by method name; an unknown one or wrong arguments give code -1."""
-        function = self._methods.get(method)
-        if function is None:
+        if method not in METHODS:
             return [-1, f'method "{method}" is not supported', 0]
+        function: Callable[..., Triple] = getattr(self, method)
         try:
             return function(*arguments)
         except TypeError as error:
@@ -45,43 +105,30 @@ class SlaveApi:
 
     def getBusStats(self, caller_id: str) -> Triple:
         """Return counts of what went over each connection: [publish stats, subscribe stats, service stats]."""
-        publish = [
-            [
-                topic,
-                0,
-                [
-                    [number, 0, getattr(sender, "sent", 0), True]
-                    for number, sender in publication.senders.items()
-                ],
-            ]
-            for topic, publication in self._node.publications.items()
+        now = self._current()
+        publish: dict[str, list[Any]] = {topic: [] for topic in self._published}
+        for topic, number, sender in now.out:
+            publish.setdefault(topic, []).append([number, 0, getattr(sender, "sent", 0), True])
+        subscribe: dict[str, list[Any]] = {topic: [] for topic in self._subscribed}
+        for topic, link in now.into:
+            subscribe.setdefault(topic, []).append([link.id, 0, link.dropped, link.is_open])
+        stats = [
+            [[topic, 0, rows] for topic, rows in publish.items()],
+            [[topic, rows] for topic, rows in subscribe.items()],
+            [],
         ]
-        subscribe = [
-            [topic, [[link.id, 0, link.dropped, link.is_open] for link in subscription.connections.values()]]
-            for topic, subscription in self._node.subscriptions.items()
-        ]
-        return [1, "", [publish, subscribe, []]]
+        return [1, "", stats]
 
     def getBusInfo(self, caller_id: str) -> Triple:
         """Return one row per connection: [id, destination, direction, transport, topic, connected, description]."""
-        protocol = self._node.graph.transport.protocol
+        now = self._current()
         rows: list[list[Any]] = [
-            [
-                number,
-                sender.destination,
-                "o",
-                protocol,
-                topic,
-                True,
-                f"{protocol} connection to [{sender.destination}]",
-            ]
-            for topic, publication in self._node.publications.items()
-            for number, sender in publication.senders.items()
+            _row(number, sender.destination, "o", sender.protocol, topic, True, sender.destination)
+            for topic, number, sender in now.out
         ]
         rows += [
-            [link.id, link.uri, "i", protocol, topic, link.is_open, f"{protocol} connection to [{link.peer}]"]
-            for topic, subscription in self._node.subscriptions.items()
-            for link in subscription.connections.values()
+            _row(link.id, link.uri, "i", link.protocol, topic, link.is_open, link.peer)
+            for topic, link in now.into
         ]
         return [1, "bus info", rows]
 
@@ -91,8 +138,8 @@ class SlaveApi:
         return [1, uri, uri]
 
     def shutdown(self, caller_id: str, msg: str = "") -> Triple:
-        """Shut the node down: what the Master asks of the older of two nodes with one name, and ``rosnode kill`` of any."""
-        self._node.shutdown_requested(caller_id, msg)
+        """Shut the node down: the Master asks it of the older of two nodes with one name, ``rosnode kill`` of any."""
+        self._post(lambda: self._node.shutdown_requested(caller_id, str(msg)))
         return [1, "shutdown", 0]
 
     def getPid(self, caller_id: str) -> Triple:
@@ -101,32 +148,39 @@ class SlaveApi:
 
     def getSubscriptions(self, caller_id: str) -> Triple:
         """Return [topic, type] pairs."""
-        pairs = [[topic, item.message_class._type] for topic, item in self._node.subscriptions.items()]
-        return [1, "subscriptions", pairs]
+        return [1, "subscriptions", [list(pair) for pair in self._subscribed.items()]]
 
     def getPublications(self, caller_id: str) -> Triple:
         """Return [topic, type] pairs."""
-        pairs = [[topic, item.message_class._type] for topic, item in self._node.publications.items()]
-        return [1, "publications", pairs]
+        return [1, "publications", [list(pair) for pair in self._published.items()]]
 
     def paramUpdate(self, caller_id: str, parameter_key: str, parameter_value: Any) -> Triple:
         """Learn that a parameter to which the node subscribes has changed."""
-        self._node.parameter_changed(parameter_key, parameter_value)
+        if not isinstance(parameter_key, str):
+            return [-1, "ERROR: parameter [parameter_key] must be a string", 0]
+        self._post(lambda: self._node.parameter_changed(parameter_key, parameter_value))
         return [1, "", 0]
 
     def publisherUpdate(self, caller_id: str, topic: str, publishers: list[str]) -> Triple:
         """Learn who publishes a topic now."""
-        subscription = self._node.subscriptions.get(topic)
-        if subscription is not None:
-            subscription.update_publishers(publishers)
+        if not isinstance(publishers, list) or not all(isinstance(uri, str) for uri in publishers):
+            return [-1, "ERROR: parameter [publishers] must be a list of URIs", 0]
+        self._post(lambda: self._node.publishers_changed(topic, publishers))
         return [1, "", 0]
 
     def requestTopic(self, caller_id: str, topic: str, protocols: list[list[Any]]) -> Triple:
         """Tell a subscriber how to connect to a topic that this node publishes."""
         node = self._node
-        if topic not in node.publications:
+        published = topic in self._published
+        parameters = node.graph.transport.topic_parameters(node.uri, protocols) if published else None
+        if not published or (parameters is None and node.is_shutdown()):  # it may end while a thread asks
             return [-1, f"Not a publisher of [{topic}]", []]
-        transport = node.graph.transport
-        if not any(protocol and protocol[0] == transport.protocol for protocol in protocols):
+        if parameters is None:
             return [0, "no supported protocol implementations", []]
-        return [1, f"ready on {node.uri}", transport.topic_parameters(node.uri)]
+        return [1, f"ready on {node.uri}", parameters]
+
+
+def _row(
+    number: int, destination: str, direction: str, protocol: str, topic: str, is_open: bool, peer: str
+) -> list[Any]:
+    return [number, destination, direction, protocol, topic, is_open, f"{protocol} connection to [{peer}]"]

@@ -1,25 +1,39 @@
-"""Subscribing: one :class:`Subscription` per node and topic, a :class:`Connection` per publisher, a lane for each of these."""
+"""Subscribing: a :class:`Subscription` per node and topic, a :class:`Connection` with a lane per publisher."""
 
 from __future__ import annotations
 
-from collections import deque
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rosmini.errors import TransportException, TransportInitError, TypeMismatch
+from rosmini.errors import (
+    TransportException,
+    TransportInitError,
+    TypeMismatch,
+    UnknownPackage,
+    UnknownType,
+)
+from rosmini.msgs import message_class
 
 from .mismatch import describe_mismatch, recast
-from .transport import set_header
+from .transport import DirectReceiver, set_header
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from .node import Node
+    from .node_port import NodePort
     from .transport import Header
 
 
 def _assign_header(message: Any, header: Header) -> None:
     """Set it on whatever a subscriber of its own kind makes of a message."""
     message._connection_header = header
+
+
+def _class_of(header: Header, default: Any) -> Any:
+    """Return the class of what a connection carries, for subscribers of any type; else ``default``."""
+    try:
+        return message_class(header["type"]) if "type" in header else default
+    except (UnknownType, UnknownPackage):
+        return default
 
 
 class _Callback(NamedTuple):
@@ -33,31 +47,30 @@ class _Callback(NamedTuple):
 
 
 class _Way(NamedTuple):
-    """How a frozen message reaches the callbacks: what makes the message of it that they all get, what tells that where it is from, and what calls each."""
+    """How a frozen message reaches the callbacks: what thaws it, what adds the header, what calls each."""
 
     thaw: Callable[[Any], Any] | None
     label: Callable[[Any, Header], None]
     callbacks: tuple[tuple[Callable[[Any], object], _Callback], ...]
 
 
-class Connection:
+class Connection(DirectReceiver):
     """A subscription's link to one publisher: its queue and the lane in which callbacks run."""
 
     def __init__(self, subscription: Subscription, uri: str) -> None:
+        super().__init__()
         node = subscription.node
         self.subscription = subscription
         self.uri = uri
         self.id = node.next_connection_id()
         self.peer = ""
+        self.protocol = ""
         self.message_class = subscription.message_class
         self.header: Header = {}
-        self.received = 0
         self.way: _Way | None = None
-        self.dropped = 0
         self.is_open = False
         self._gone = False
-        self._incoming: deque[Any] = deque()
-        self._scheduled = False
+        self._draining = False
         self._last: Any = None
         self._keep = False
         cls = subscription.message_class
@@ -75,7 +88,7 @@ class Connection:
         transport = node.graph.transport
         try:
             code, status, parameters = transport.call(
-                self.uri, "requestTopic", node.name, subscription.topic, [[transport.protocol]]
+                self.uri, "requestTopic", node.name, subscription.topic, transport.offers(node.uri)
             )
             if code == -1:  # the publisher has left the topic meanwhile
                 subscription.forget(self)
@@ -88,9 +101,13 @@ class Connection:
         except TransportInitError as error:
             self._refused(error)
             return
-        except TransportException:
-            subscription.forget(self)  # the publisher went away meanwhile; the Master will say so
+        except TransportException as error:
+            if error.__cause__ is None:  # the publisher went away meanwhile; the Master will say so
+                subscription.forget(self)
+            else:
+                self.failed(error)
             return
+        self.protocol = parameters[0]
         if self._gone:  # left while the connection was being made
             self._close_link()
             return
@@ -98,7 +115,7 @@ class Connection:
         self._keep = self.header.get("latching") == "1"
         self.is_open = True
         if self.message_class is None or self.message_class._type == "*":
-            self.message_class = node.graph.type_of_header(self.header, self.message_class)
+            self.message_class = _class_of(self.header, self.message_class)
         for handle in subscription.handles:
             handle.connected(self.peer)
         node.connections_changed()
@@ -121,62 +138,62 @@ class Connection:
         subscription = self.subscription
         subscription.forget(self)
         node = subscription.node
-        published = node.graph.publisher_class(self.uri, subscription.topic)
-        if published is not None and published._md5sum != subscription.message_class._md5sum:
-            cls = subscription.message_class
-            problem: Exception = TypeMismatch(
-                describe_mismatch(
-                    subscription.topic,
-                    node.graph.node_name_of(self.uri),
-                    published,
-                    node.name,
-                    cls._type,
-                    cls._md5sum,
-                    cls._full_text,
-                )
-            )
+        publisher = error.header
+        if publisher.get("md5sum", subscription.message_class._md5sum) != subscription.message_class._md5sum:
+            text = describe_mismatch(subscription.topic, publisher, self._request())
+            problem: Exception = TypeMismatch(text)
         else:
-            who = node.graph.node_name_of(self.uri)
+            who = publisher.get("callerid") or node.master.publisher_at(subscription.topic, self.uri)
             problem = TransportInitError(
                 f"{who} refused the connection of {node.name} to {subscription.topic}: {error}"
             )
         problem.__cause__ = error
         node.graph.report(problem, node)
 
+    def begin(self) -> bool:
+        """Post a turn of the callbacks, unless something of this connection is under way."""
+        self.pending = not self._gone and self._lane.post_if_idle(self._drain_ref)
+        return self.pending
+
     def deliver(self, messages: Iterable[Any]) -> None:
         """Queue frozen messages for the callbacks; beyond the queue size the oldest are dropped."""
         if self._gone:
             return
-        incoming = self._incoming
-        incoming.extend(messages)
-        size = self.subscription.queue_size
-        if size:
-            while len(incoming) > size:
-                incoming.popleft()
-                self.dropped += 1
-        if not self._scheduled:
-            self._scheduled = True
+        self.incoming.extend(messages)
+        self._trim()
+        if not self.pending and not self._draining:
+            self.pending = True
             self._lane.post(self._drain_ref)
+
+    def _trim(self) -> None:
+        size = self.subscription.queue_size
+        while size and len(self.incoming) > size:
+            self.incoming.popleft()
+            self.dropped += 1
 
     @property
     def waiting(self) -> int:
         """How many messages wait for the callbacks."""
-        return len(self._incoming)
+        return len(self.incoming)
 
     def _drain(self) -> None:
         """Call the callbacks for what is queued. In the connection's lane."""
-        incoming = self._incoming
-        header, keep, own = self.header, self._keep, self._own_class
+        incoming, take, header, own = self.incoming, self.incoming.popleft, self.header, self._own_class
+        self.pending, self._draining = False, True
+        if self.subscription.queue_size:
+            self._trim()
+        way: _Way | None = None
         try:
             while incoming:
-                frozen = incoming.popleft()
                 self.received += 1
-                thaw, label, callbacks = self.way or self._find_way()
+                frozen = take()
+                if way is None or self.way is not way:
+                    thaw, label, callbacks = way = self.way or self._find_way()
                 if own is not None and frozen.__class__ is not own:
                     frozen = recast(frozen, own)
                 message = frozen if thaw is None else thaw(frozen)
                 label(message, header)
-                if keep:
+                if self._keep:
                     self._last = message
                 for call, callback in callbacks:
                     try:
@@ -184,9 +201,9 @@ class Connection:
                     except Exception as error:
                         self._failed(error, callback, message)
         finally:
-            self._scheduled = False
+            self._draining = False
             if incoming and not self._gone:
-                self._scheduled = True
+                self.pending = True
                 self._lane.post(self._drain_ref)
 
     def _find_way(self) -> _Way:
@@ -214,9 +231,19 @@ class Connection:
         self._shut()
         self.subscription.closed(self)
 
+    def failed(self, error: Exception) -> None:
+        """Learn that the transport failed and closed the connection."""
+        self._shut()
+        subscription = self.subscription
+        subscription.forget(self)
+        subscription.node.logwarn(
+            f"the connection of {subscription.node.name} to {self.peer or self.uri} on {subscription.topic} failed "
+            f"and was closed: {type(error).__name__}: {error}. It is made again when a publisher registers."
+        )
+
     def close(self) -> None:
         """Close the connection: callbacks that have not started do not come."""
-        self._incoming.clear()
+        self.incoming.clear()
         if self._close_link is not None:
             self._close_link()
         self._shut()
@@ -234,13 +261,15 @@ class Connection:
 class Subscription:
     """A node's side of a topic that it subscribes to."""
 
-    def __init__(self, node: Node, topic: str, message_class: Any) -> None:
+    def __init__(self, node: NodePort, topic: str, message_class: Any) -> None:
         self.node = node
         self.topic = topic
         self.message_class = message_class
         self.handles: list[Subscriber] = []
         self.connections: dict[str, Connection] = {}
         self.queue_size: int | None = None
+        self.updates = 0
+        """How many times the Master has told who publishes the topic."""
         self._first: Subscriber | None = None
         self._wanted: dict[str, None] = {}
 
@@ -255,6 +284,7 @@ class Subscription:
         As in rospy an open connection outlives its registration: the publisher closes it after its last message,
         which may still be on its way.
         """
+        self.updates += 1
         self._wanted = wanted = dict.fromkeys(uris)
         for uri in [uri for uri, link in self.connections.items() if uri not in wanted and not link.is_open]:
             self.connections.pop(uri).close()
@@ -277,15 +307,16 @@ class Subscription:
     def add(self, handle: Subscriber) -> None:
         """Add a subscriber of this node; it gets what connected publishers latched.
 
-        All subscribers of a node get the same object, of the kind that the first asked for: one connection, one message, as in rospy.
+        All subscribers of a node get the same object, of the kind that the first asked for, as in rospy.
         """
         first = self._first = self._first or handle
         self.handles.append(handle)
         self._changed()
         if handle.wants_other_than(first):
             self.node.logwarn(
-                f"{self.node.name} subscribes to {self.topic} already, as {first.wish}: this subscriber of {handle.wish} gets the same "
-                "messages, as in rospy. Subscribe in another node, or give both the same type."
+                f"{self.node.name} subscribes to {self.topic} already, as {first.wish}: "
+                f"this subscriber of {handle.wish} gets the same messages, as in rospy. "
+                "Subscribe in another node, or give both the same type."
             )
         if handle.callback is not None:
             for connection in self.connections.values():
@@ -314,6 +345,12 @@ class Subscription:
             tuple((callback.caller(), callback) for callback in callbacks),
         )
 
+    def end(self) -> None:
+        """Close because the node shuts down: the handles receive no more."""
+        for handle in self.handles:
+            handle.detach()
+        self.close()
+
     def close(self) -> None:
         """Close all connections."""
         for connection in list(self.connections.values()):
@@ -324,8 +361,8 @@ class Subscription:
 class Subscriber:
     """Receives messages of one type on one topic. Made by :meth:`Node.subscriber <rosmini.graph.node.Node.subscriber>`.
 
-    ``numpy`` chooses how numeric arrays arrive: as read-only numpy arrays, or as rospy's tuples and bytes. What the first
-    subscriber of a node to a topic chose holds for all of that node's.
+    ``numpy`` chooses how numeric arrays arrive: as read-only numpy arrays, or as rospy's tuples and bytes. What the
+    first subscriber of a node to a topic chose holds for all of that node's.
     """
 
     def __init__(
@@ -384,7 +421,7 @@ class Subscriber:
         return sum(connection.is_open for connection in subscription.connections.values())
 
     def unregister(self) -> None:
-        """Stop to receive. The topic is left when the node's last subscriber of it has gone. Harmless when repeated."""
+        """Stop receiving. The topic is left when the node's last subscriber of it has gone. Harmless when repeated."""
         self.node.scheduler.on_hub(self._unregister)
 
     def _unregister(self) -> None:

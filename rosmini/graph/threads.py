@@ -4,30 +4,45 @@ from __future__ import annotations
 
 import sys
 import threading
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
 from greenlet import GreenletExit
 
 from rosmini.errors import ROSInterruptException
 
-from .lanes import Lane, LaneExit
+from .lanes import Hub, Lane, LaneExit, Waiter
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .lanes import Waiter
     from .report import RunReport
-    from .scheduler import Scheduler
 
 T = TypeVar("T")
 
 LOOK_S = 0.005
-"""How often a run beside another thread's looks whether it is over."""
+"""How often a run beside another thread's checks whether it is over."""
 
 
-def on_hub(scheduler: Scheduler, function: Callable[[], T]) -> T:
-    """Return ``function()``, run in the hub's thread, in a lane with the caller's node and context; blocks."""
-    waiter = scheduler.waiter("the thread that runs the graph")
+class Driven(Hub, Protocol):
+    """What is needed of a scheduler that another thread drives."""
+
+    @property
+    def driven(self) -> bool:
+        """True while somebody drives the queue."""
+
+    def report(self, reason: str) -> RunReport:
+        """Return how things stand at the end of a run."""
+
+    def hold(self) -> None:
+        """Let simulated time stand still until :meth:`release`."""
+
+    def release(self) -> None:
+        """Undo one :meth:`hold`."""
+
+
+def on_hub(scheduler: Hub, function: Callable[[], T]) -> T:
+    """Return ``function()``, called through the inbox in a lane with the caller's node and context; blocks."""
+    waiter = Waiter(scheduler, "the thread that runs the graph")
     caller = scheduler.current()
 
     def work() -> None:
@@ -45,23 +60,23 @@ def on_hub(scheduler: Scheduler, function: Callable[[], T]) -> T:
     return cast("T", waiter.value)
 
 
-def complaint(scheduler: Scheduler, waiter: Waiter) -> Callable[[], None]:
-    """Return what says on standard error that the calling thread waits for somebody to drive the graph, if nobody does."""
+def complaint(scheduler: Driven, waiter: Waiter) -> Callable[[], None]:
+    """Return a function that warns on standard error if nobody drives the graph that the calling thread waits for."""
     name = threading.current_thread().name
 
     def complain() -> None:
         if not scheduler.driven:
             sys.stderr.write(
-                f"{name} waits for {waiter.reason}, and the graph stands still: nobody drives it. "
+                f"{name} waits for {waiter.reason}, but nobody drives the graph. "
                 "Call graph.run(), or anything that blocks, in the thread that made the graph.\n"
             )
 
     return complain
 
 
-def run_beside(scheduler: Scheduler, until_ns: int | None, until: Callable[[], bool] | None) -> RunReport:
-    """Do what ``run`` does in wall time while another thread drives: wait for the time or the condition."""
-    waiter = scheduler.waiter("the end of the run")
+def run_beside(scheduler: Driven, until_ns: int | None, until: Callable[[], bool] | None) -> RunReport:
+    """Wait for the time or the condition while another thread drives, as ``run`` does in wall time."""
+    waiter = Waiter(scheduler, "the end of the run")
 
     def look() -> None:
         if until is not None and until():
@@ -80,9 +95,9 @@ def run_beside(scheduler: Scheduler, until_ns: int | None, until: Callable[[], b
     return scheduler.report(waiter.value)
 
 
-def in_thread(scheduler: Scheduler, function: Callable[[], T]) -> T:
-    """Return ``function()``, run in a helper thread while the calling lane is parked and simulated time stands still."""
-    waiter = scheduler.waiter("the operating system")
+def in_thread(scheduler: Driven, function: Callable[[], T]) -> T:
+    """Return ``function()``, run in a helper thread; the calling lane is parked and simulated time stands still."""
+    waiter = Waiter(scheduler, "the operating system")
     scheduler.hold()
 
     def work() -> None:

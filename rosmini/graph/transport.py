@@ -1,17 +1,21 @@
 """The seam between nodes and the way in which bytes or objects travel between them.
 
-A node knows only what is written here. Three things cross the seam: calls of another node's slave API, topic connections
-(from a publisher's :class:`Sender` to a subscriber's :class:`Receiver`), and service connections. What travels is
-always a *frozen* message: a private copy, checked and rounded as the wire would round it.
+A node knows only what is written here. Three things cross the seam: calls of another node's slave API, topic
+connections (from a publisher's :class:`Sender` to a subscriber's :class:`Receiver`), and service connections. What
+travels is always a *frozen* message: a private copy, checked and rounded as the wire would round it.
 
-:class:`LocalTransport` hands frozen messages over inside one process. :mod:`rosmini.graph.byte_transport` serialises them and carries
-the bytes on real threads. Header fields are those of TCPROS (http://wiki.ros.org/ROS/TCPROS), so that a TCPROS transport has nothing to add.
+:class:`LocalTransport` hands frozen messages over inside one process. :mod:`rosmini.graph.byte_transport` serialises
+them and carries the bytes on real threads. Header fields are those of TCPROS (http://wiki.ros.org/ROS/TCPROS), so that
+a TCPROS transport has nothing to add.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Callable, Mapping
+from os import getpid
+from socket import gethostname
 from typing import TYPE_CHECKING, Any, Protocol
 
 from rosmini.errors import TransportException, nearest
@@ -34,13 +38,17 @@ set_header: Callable[[Any, Header], None] = Message.__dict__["_connection_header
 
 
 def extra_fields(headers: Mapping[str, str] | None) -> Header:
-    """Return a user's own fields of a connection header. Raises ``ValueError`` for what the header's text cannot hold."""
+    """Return a user's own fields of a connection header.
+
+    Raises ``ValueError`` for what the header's text cannot hold.
+    """
     if headers is not None and not isinstance(headers, Mapping):
         raise ValueError(f"headers are a dictionary of texts, such as {{'cookie': 'abc'}}, not {headers!r}")
     for key, value in (headers or {}).items():
         if not isinstance(key, str) or not isinstance(value, str) or not key or "=" in key:
             raise ValueError(
-                f"the header {key!r}: {value!r} does not fit into a connection header: both are texts, and the name has no '='"
+                f"the header {key!r}: {value!r} does not fit into a connection header: both are texts, and the name "
+                "has no '='"
             )
     return dict(headers or {})
 
@@ -48,9 +56,16 @@ def extra_fields(headers: Mapping[str, str] | None) -> Header:
 class Sender(Protocol):
     """The publisher's end of a topic connection."""
 
+    protocol: str
     destination: str
     on_closed: Callable[[], None]
     """Set by the publisher; called in the hub's thread when the subscriber has closed the connection."""
+    receiver: DirectReceiver | None
+    """The other end, if its queue may be appended to while it is pending."""
+
+    @property
+    def sent(self) -> int:
+        """How many messages were sent."""
 
     def send(self, frozen: Any, size: int | None) -> None:
         """Send a frozen message that now belongs to the connection; ``size`` bounds the queue (None: no bound)."""
@@ -65,10 +80,45 @@ class Receiver(Protocol):
     message_class: Any
 
     def deliver(self, messages: Iterable[Any]) -> None:
-        """Take frozen messages, oldest first; they belong to the receiver, what holds them does not. It calls no user's code."""
+        """Take frozen messages, oldest first; they now belong to the receiver. It runs no user code."""
 
     def closed(self) -> None:
         """Learn that the publisher closed the connection."""
+
+    def failed(self, error: Exception) -> None:
+        """Learn that the transport failed and closed the connection."""
+
+
+class DirectReceiver(ABC):
+    """A receiver whose queue a sender in the same process fills itself, while its callbacks are not busy."""
+
+    message_class: Any
+
+    def __init__(self) -> None:
+        self.incoming: deque[Any] = deque()
+        """The frozen messages that wait for the callbacks, oldest first."""
+        self.pending = False
+        """True while the callbacks' turn is due and has not begun: what is appended to ``incoming`` joins it."""
+        self.received = 0
+        """How many messages the callbacks got."""
+        self.dropped = 0
+        """How many messages were dropped because too many waited."""
+
+    @abstractmethod
+    def begin(self) -> bool:
+        """Ask for a turn of the callbacks; False when one is under way, and messages have to be delivered later."""
+
+    @abstractmethod
+    def deliver(self, messages: Iterable[Any]) -> None:
+        """See :class:`Receiver`."""
+
+    @abstractmethod
+    def closed(self) -> None:
+        """See :class:`Receiver`."""
+
+    @abstractmethod
+    def failed(self, error: Exception) -> None:
+        """See :class:`Receiver`."""
 
 
 class ServiceSession(Protocol):
@@ -101,7 +151,7 @@ class Endpoint(Protocol):
     name: str
 
     def slave_call(self, method: str, *arguments: Any) -> Triple:
-        """Answer a call of the slave API. In the hub's thread."""
+        """Answer a call of the slave API. In any thread, and at once."""
 
     def accept_subscriber(self, header: Header, sender: Sender) -> Header:
         """Take a subscriber's connection and return the answering header, or raise ``TransportInitError``."""
@@ -115,8 +165,11 @@ class Transport(Protocol):
 
     protocol: str
 
-    def attach(self, endpoint: Endpoint) -> str:
-        """Make a node reachable; return the URI of its slave API (its ``caller_api``)."""
+    def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
+        """Make a node reachable.
+
+        Return the URI of its slave API (its ``caller_api``): ``uri`` if it has one already.
+        """
 
     def detach(self, uri: str) -> None:
         """Make a node unreachable; open connections are the node's to close."""
@@ -124,8 +177,20 @@ class Transport(Protocol):
     def service_uri(self, uri: str) -> str:
         """Return the URI under which the node with slave API ``uri`` serves its services."""
 
-    def topic_parameters(self, uri: str) -> list[Any]:
-        """Return what ``requestTopic`` of the node with slave API ``uri`` answers: [protocol, ...]."""
+    def reaches(self, uri: str) -> bool:
+        """Return whether the node with this slave API, or these services, may be reached in this way."""
+
+    def offer(self, caller: str) -> list[Any] | None:
+        """Return what the node at ``caller`` offers in ``requestTopic``, [protocol, ...].
+
+        None if it has no part here.
+        """
+
+    def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
+        """Return what ``requestTopic`` of the node at ``uri`` answers to an offer, [protocol, ...].
+
+        None: not in this way.
+        """
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
         """Call a method of a node's slave API; may block. Raises ``TransportException`` when nobody answers."""
@@ -135,55 +200,70 @@ class Transport(Protocol):
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection of the node at ``caller``; may block.
 
-        Return the publisher's header and a function that closes the connection. Raises ``TransportInitError`` when it is refused.
+        Return the publisher's header and a function that closes the connection. Raises ``TransportInitError`` when it
+        is refused.
         """
 
     def connect_service(
         self, caller: str, service_uri: str, header: Header, service_class: Any
     ) -> ServiceLink:
-        """Open a service connection of the node at ``caller``; may block. Raises ``TransportInitError`` when it is refused."""
+        """Open a service connection of the node at ``caller``; may block.
+
+        Raises ``TransportInitError`` when it is refused.
+        """
+
+
+def slave_uri(uri: str) -> str:
+    """Return the address of a node's slave API, given that or the one of its services."""
+    return uri if uri.startswith("http://") else uri.replace("rosrpc://", "http://") + "/"
 
 
 def _nothing() -> None:
     """Do nothing: what is called when nobody has asked to be."""
 
 
-class LocalSender:
-    """Hands messages to a receiver in the same process at the next event of the queue."""
+class QueuedSender:
+    """Collects messages until the next event of the queue, and then flushes them."""
 
+    protocol = "INPROC"
     __slots__ = (
         "_closed",
-        "_flush_ref",
         "_queue",
+        "_queued",
         "_ready",
         "_receiver",
         "destination",
         "dropped",
         "on_closed",
-        "sent",
+        "receiver",
     )
 
     def __init__(self, scheduler: Scheduler, receiver: Receiver, destination: str) -> None:
         self._ready = scheduler.ready
         self._receiver = receiver
-        self._flush_ref = self._flush
         self._queue: deque[Any] = deque()
         self._closed = False
         self.destination = destination
         self.on_closed: Callable[[], None] = _nothing
-        self.sent = 0
+        self.receiver: DirectReceiver | None = None
+        self._queued = 0
         self.dropped = 0
+
+    @property
+    def sent(self) -> int:
+        """How many messages were sent, dropped ones included."""
+        return self._queued
 
     def send(self, frozen: Any, size: int | None) -> None:
         """Queue a message; the oldest makes room when ``size`` are waiting."""
         waiting = self._queue
+        self._queued += 1
         if not waiting:
-            self._ready.append(self._flush_ref)
+            self._ready.append(self._flush)
         elif size is not None and len(waiting) >= size:
             waiting.popleft()
             self.dropped += 1
         waiting.append(frozen)
-        self.sent += 1
 
     def _flush(self) -> None:
         queue = self._queue
@@ -206,6 +286,37 @@ class LocalSender:
         if not self._closed:
             self._closed = True
             self.on_closed()
+
+
+class LocalSender(QueuedSender):
+    """Hands messages to a receiver in the same process: straight into its queue, unless its callbacks are busy."""
+
+    __slots__ = ("_direct", "_incoming")
+
+    def __init__(self, scheduler: Scheduler, receiver: DirectReceiver, destination: str) -> None:
+        super().__init__(scheduler, receiver, destination)
+        self.receiver = self._direct = receiver
+        self._incoming = receiver.incoming
+
+    @property
+    def sent(self) -> int:
+        """How many messages were sent, dropped ones included."""
+        to = self._direct
+        return self.dropped + len(self._queue) + len(self._incoming) + to.dropped + to.received
+
+    def send(self, frozen: Any, size: int | None) -> None:
+        """Hand a message over; the oldest makes room when ``size`` are waiting."""
+        receiver = self._direct
+        if receiver.pending:
+            incoming = self._incoming
+            if size is not None and len(incoming) >= size:
+                incoming.popleft()
+                self.dropped += 1
+            incoming.append(frozen)
+        elif not self._queue and receiver.begin():
+            self._incoming.append(frozen)
+        else:
+            super().send(frozen, size)
 
 
 class LocalServiceLink:
@@ -233,13 +344,14 @@ class LocalTransport:
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
+        self._place = f"{gethostname()}/{getpid()}/{id(self)}"
         self._endpoints: dict[str, Endpoint] = {}
         self._numbers = 0
 
-    def attach(self, endpoint: Endpoint) -> str:
+    def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
         """Make a node reachable."""
         self._numbers += 1
-        uri = f"http://rosmini:{self._numbers}/"
+        uri = uri or f"http://rosmini:{self._numbers}/"
         self._endpoints[uri] = endpoint
         return uri
 
@@ -251,14 +363,22 @@ class LocalTransport:
         """Return the address of the node's services."""
         return uri.replace("http://", "rosrpc://").rstrip("/")
 
-    def topic_parameters(self, uri: str) -> list[Any]:
+    def reaches(self, uri: str) -> bool:
+        """Return whether the node, or the one with these services, is in this process."""
+        return slave_uri(uri) in self._endpoints
+
+    def offer(self, caller: str) -> list[Any] | None:
+        """Return what a subscriber offers in ``requestTopic``: in which process, and in which graph there, it is."""
+        return [self.protocol, self._place] if caller in self._endpoints else None
+
+    def topic_parameters(self, uri: str, offer: list[Any]) -> list[Any] | None:
         """Return the connection parameters of a topic."""
-        return [self.protocol, uri]
+        is_here = offer in ([self.protocol], [self.protocol, self._place]) and uri in self._endpoints
+        return [self.protocol, uri] if is_here else None
 
     def endpoint(self, uri: str) -> Endpoint:
         """Return the node at ``uri``, of its slave API or its services."""
-        key = uri.replace("rosrpc://", "http://")
-        found = self._endpoints.get(key) or self._endpoints.get(key + "/")
+        found = self._endpoints.get(slave_uri(uri))
         if found is None:
             hint = nearest(uri, self._endpoints)
             msg = f"no node answers at {uri}: it has been shut down. {hint}".rstrip()
@@ -277,7 +397,11 @@ class LocalTransport:
         receiver: Receiver,
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection."""
-        sender = LocalSender(self._scheduler, receiver, header["callerid"])
+        sender = (
+            LocalSender(self._scheduler, receiver, header["callerid"])
+            if isinstance(receiver, DirectReceiver)
+            else QueuedSender(self._scheduler, receiver, header["callerid"])
+        )
         reply = self.endpoint(parameters[1]).accept_subscriber(header, sender)
         return reply, sender.drop
 

@@ -1,4 +1,4 @@
-"""`joint_state_publisher`: positions of joints for a robot that has none to tell (http://wiki.ros.org/joint_state_publisher)."""
+"""`joint_state_publisher`: joint positions for a robot without motors (http://wiki.ros.org/joint_state_publisher)."""
 
 from __future__ import annotations
 

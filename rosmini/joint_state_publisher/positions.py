@@ -9,7 +9,6 @@ from typing import Any
 
 from rosmini.errors import ParameterError, nearest
 from rosmini.urdf import Joint, Robot
-from rosmini.urdf.kinematics import rest
 
 
 @dataclass
@@ -88,7 +87,8 @@ class Positions:
         if found.parent not in self.free:
             hint = nearest(found.parent, self.free)
             raise ParameterError(
-                f"the joint {name!r} depends on {found.parent!r}, which is no joint that moves{f'; {hint}' if hint else ''}"
+                f"the joint {name!r} depends on {found.parent!r}, which is no joint that "
+                f"moves{f'; {hint}' if hint else ''}"
             )
         return found
 
@@ -131,4 +131,4 @@ def _free(joint: Joint, zero: float | None) -> Free:
     limit = joint.limit
     bounded = joint.type != "continuous" and limit is not None
     lower, upper = (limit.lower, limit.upper) if bounded and limit is not None else (-math.pi, math.pi)
-    return Free(lower, upper, not bounded, rest(joint) if zero is None else float(zero))
+    return Free(lower, upper, not bounded, joint.rest if zero is None else float(zero))

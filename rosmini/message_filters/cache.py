@@ -18,8 +18,8 @@ __all__ = ["Cache"]
 class Cache(StampingFilter):
     """Keeps the last ``cache_size`` messages of the filter ``f``, in the order of their arrival, and passes each on.
 
-    With ``allow_headerless`` messages without a header count as stamped at their arrival, else they are dropped with a warning.
-    Raises ``MessageFilterError`` for a cache size below 1.
+    With ``allow_headerless`` messages without a header count as stamped at their arrival, else they are dropped with
+    a warning. Raises ``MessageFilterError`` for a cache size below 1.
     """
 
     def __init__(
@@ -56,10 +56,10 @@ class Cache(StampingFilter):
         return list(zip(self.cache_times, self.cache_msgs, strict=True))
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:
-        """Return the messages between two times, and at them. Raises ``MessageFilterError`` if the first is the later one."""
+        """Return the messages from one time to another, inclusive. Raises ``MessageFilterError`` if reversed."""
         if from_stamp > to_stamp:
             raise MessageFilterError(
-                f"the interval begins at {from_stamp.to_sec()} s and ends before that, at {to_stamp.to_sec()} s: give the earlier time first"
+                f"the interval is from {from_stamp.to_sec()} s to {to_stamp.to_sec()} s: give the earlier time first"
             )
         return [message for stamp, message in self._pairs() if from_stamp <= stamp <= to_stamp]
 

@@ -17,6 +17,6 @@ def check_size(name: str, size: Any) -> int:
     """Return ``size``, which has to be a whole number of messages and at least 1. Raises ``MessageFilterError``."""
     if isinstance(size, bool) or not isinstance(size, int) or size < 1:
         raise MessageFilterError(
-            f"{name} is {size!r}; it has to be a whole number of messages, at least 1: a filter that keeps none never has output"
+            f"{name} is {size!r}; give a whole number of messages, at least 1: a filter that keeps none has no output"
         )
     return size

@@ -16,7 +16,7 @@ __all__ = ["SimpleFilter", "StampingFilter", "Subscriber"]
 
 
 class SimpleFilter:
-    """Something that has output: whoever wants it registers a callback. Derive filters of your own from it, and call ``signalMessage``."""
+    """Something with output, for which callbacks are registered. Derived ones call ``signalMessage``."""
 
     node: Node | None = None
     """Whose clock and log the filters further on use, unless they are given one."""
@@ -37,7 +37,7 @@ class SimpleFilter:
 
 
 class Subscriber(SimpleFilter):
-    """The messages of a topic as they come; ``options`` are those of :meth:`Node.subscriber <rosmini.graph.Node.subscriber>`."""
+    """The messages of a topic; ``options`` are those of :meth:`Node.subscriber <rosmini.graph.Node.subscriber>`."""
 
     def __init__(self, node: Node, topic: str, message_class: Any, **options: Any) -> None:
         super().__init__()
@@ -66,7 +66,7 @@ class StampingFilter(SimpleFilter):
         self._complained: set[type] = set()
 
     def _stamp(self, message: Any) -> Time | None:
-        """Return the stamp of a message's header, or, if that is allowed, the time for one that has no header; else warn and return None."""
+        """Return the stamp of a message's header; without one, the time if allowed, else warn and return None."""
         stamp: Time | None = getattr(getattr(message, "header", None), "stamp", None)
         if stamp is not None:
             return stamp
@@ -75,8 +75,8 @@ class StampingFilter(SimpleFilter):
         if type(message) not in self._complained:
             self._complained.add(type(message))
             self._warn(
-                f"messages of the type {getattr(message, '_type', type(message).__name__)} have no header with a stamp, and "
-                f"{type(self).__name__} drops them. ApproximateTimeSynchronizer and Cache take the time of their arrival "
+                f"messages of type {getattr(message, '_type', type(message).__name__)} have no header, and "
+                f"{type(self).__name__} drops them. ApproximateTimeSynchronizer and Cache take the time of arrival "
                 "if they are made with allow_headerless=True."
             )
         return None

@@ -1,8 +1,9 @@
 """Which messages of several inputs belong together, by their time stamps; apart from nodes and clocks.
 
-A policy takes one message after another, ``add(index, stamp, message, now)``, and returns the sets that are complete with it: tuples
-with one message of each input, in the order of the inputs. Times are whole nanoseconds. No message is given out twice.
-The rules are those of the Python client, http://wiki.ros.org/message_filters; the C++ client's approximate policy is another one.
+A policy takes one message after another, ``add(index, stamp, message, now)``, and returns the sets that are complete
+with it: tuples with one message of each input, in the order of the inputs. Times are whole nanoseconds. No message is
+given out twice. The rules are those of the Python client, http://wiki.ros.org/message_filters; the C++ client's
+approximate policy is another one.
 """
 
 from __future__ import annotations
@@ -24,13 +25,13 @@ Queue = dict[int, Any]
 class Policy(ABC):
     """Keeps up to ``queue_size`` messages of each of ``count`` inputs, and drops those with the oldest stamps.
 
-    A message replaces one of the same input and stamp. With ``reset`` a clock that goes back empties the queues: that of each input when
-    its next message comes, and until all inputs whose messages were later have had one there is no output.
-    Raises ``MessageFilterError`` for no inputs and for a ``queue_size`` below 1.
+    A message replaces one of the same input and stamp. With ``reset`` a clock that goes back empties the queues: that
+    of each input when its next message comes, and until all inputs whose messages were later have had one there is no
+    output. Raises ``MessageFilterError`` for no inputs and for a ``queue_size`` below 1.
     """
 
     _forgets_all: ClassVar = False
-    """Whether a clock that goes back empties all queues at once, also without ``reset``; with it, not even the message that just came is kept."""
+    """Whether a clock that goes back empties all queues without ``reset`` too; with it, of the last message too."""
 
     def __init__(self, count: int, queue_size: int, *, reset: bool = False) -> None:
         if count < 1:
@@ -44,7 +45,7 @@ class Policy(ABC):
         self._last = 0
 
     def add(self, index: int, stamp: int, message: Any, now: int = 0) -> list[tuple[Any, ...]]:
-        """Take a message of input ``index`` that came at the time ``now``; return the sets that it completes, the oldest first."""
+        """Take a message of input ``index`` that came at ``now``; return the sets that it completes, oldest first."""
         queue = self.queues[index]
         if self.reset and now < self._heard[index]:
             queue.clear()
@@ -74,7 +75,7 @@ class ExactTime(Policy):
     Where the stamps of each input increase, those of the sets do, too.
     """
 
-    def _matches(self, index: int, stamp: int) -> list[Sequence[int]]:  # noqa: ARG002 - a reset may have put off sets of other stamps
+    def _matches(self, index: int, stamp: int) -> list[Sequence[int]]:  # noqa: ARG002 - a reset may have delayed others
         common = set.intersection(*(set(queue) for queue in self.queues))
         return [(when,) * len(self.queues) for when in sorted(common)]
 
@@ -82,13 +83,13 @@ class ExactTime(Policy):
 class ApproximateTime(Policy):
     """Messages whose stamps are all less than ``slop`` nanoseconds apart belong together.
 
-    Each message that comes looks for partners among those that wait, the nearest to its own stamp first, and takes the first set that is
-    close enough: so a message is not kept for a better partner that may come later. A clock that goes back empties all queues;
-    the message that tells of it is lost with them.
+    Each message that comes looks for partners among those that wait, the nearest to its own stamp first, and takes
+    the first set that is close enough: so a message is not kept for a better partner that may come later. A clock
+    that goes back empties all queues; the message that tells of it is lost with them.
 
-    Where the stamps of each input increase by more than ``slop`` from message to message, those of the sets increase in each input; with a
-    larger slop a late message may be paired with an old one that was passed over.
-    Raises ``MessageFilterError`` for a slop that is not positive, with which there would never be output.
+    Where the stamps of each input increase by more than ``slop`` from message to message, those of the sets increase
+    in each input; with a larger slop a late message may be paired with an old one that was passed over. Raises
+    ``MessageFilterError`` for a slop that is not positive, with which there would never be output.
     """
 
     _forgets_all = True
@@ -120,7 +121,7 @@ class ApproximateTime(Policy):
     def _first_close_set(
         self, choices: list[list[int]], chosen: tuple[int, ...], low: int, high: int
     ) -> tuple[int, ...] | None:
-        """Return the first of all combinations, in the order of `itertools.product`, that is within the slop; without trying the hopeless."""
+        """Return the first combination, in the order of `itertools.product`, within the slop; skips hopeless ones."""
         if high - low >= self.slop:
             return None
         if len(chosen) == len(choices):

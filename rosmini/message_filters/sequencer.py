@@ -17,11 +17,12 @@ __all__ = ["TimeSequencer"]
 
 
 class TimeSequencer(StampingFilter):
-    """Gives out the messages of ``f`` by the order of their stamps, each ``delay`` seconds after its stamp or somewhat later.
+    """Passes on the messages of ``f`` in the order of their stamps, each at least ``delay`` seconds after its stamp.
 
-    It looks every ``update_rate`` seconds, as the C++ client's does (http://wiki.ros.org/message_filters#Time_Sequencer; there is none in
-    rospy). A message that is older than one which was given out already is dropped; so is the oldest of more than ``queue_size`` that wait.
-    Raises ``MessageFilterError`` for a queue size below 1 and for a delay or a rate that is not positive.
+    It looks every ``update_rate`` seconds, as the C++ client's does
+    (http://wiki.ros.org/message_filters#Time_Sequencer; there is none in rospy). A message that is older than one
+    which was given out already is dropped; so is the oldest of more than ``queue_size`` that wait. Raises
+    ``MessageFilterError`` for a queue size below 1 and for a delay or a rate that is not positive.
     """
 
     def __init__(

@@ -21,7 +21,7 @@ __all__ = ["ApproximateTimeSynchronizer", "TimeSynchronizer"]
 
 
 class StampedQueue(MutableMapping[Time, Any]):
-    """The messages of one input that wait for their partners, by stamp: the policy's own queue, under the keys of ROS's client."""
+    """The messages of one input that wait for partners, by stamp: the policy's queue under the keys of ROS's client."""
 
     def __init__(self, kept: Queue) -> None:
         self.kept = kept
@@ -48,10 +48,10 @@ class StampedQueue(MutableMapping[Time, Any]):
 class TimeSynchronizer(StampingFilter):
     """Calls its callbacks with one message of each of the filters ``fs`` that all have the same stamp.
 
-    ``queue_size`` messages of each filter wait for their partners. ``reset`` empties the queues when the clock goes back. The node, whose
-    clock that is, is that of the first input that has one, unless ``node`` is given.
-    Callbacks are called one after another, also when one of them blocks and messages go on to come.
-    Messages without a header are dropped with a warning. Raises ``MessageFilterError`` for no filters and for a queue size below 1.
+    ``queue_size`` messages of each filter wait for their partners. ``reset`` empties the queues when the clock goes
+    back. The node, whose clock that is, is that of the first input that has one, unless ``node`` is given. Callbacks
+    are called one after another, also when one of them blocks and messages go on to come. Messages without a header
+    are dropped with a warning. Raises ``MessageFilterError`` for no filters and for a queue size below 1.
     """
 
     def __init__(
@@ -78,11 +78,11 @@ class TimeSynchronizer(StampingFilter):
         self.connectInput(filters)
 
     def connectInput(self, fs: Iterable[SimpleFilter]) -> None:
-        """Take messages from these filters, as many as before. Raises ``MessageFilterError`` for another number of them."""
+        """Connect to these filters, as many as before. Raises ``MessageFilterError`` for another number."""
         filters = list(fs)
         if len(filters) != len(self.policy.queues):
             raise MessageFilterError(
-                f"{type(self).__name__} was made for {len(self.policy.queues)} filters and cannot be connected to {len(filters)}"
+                f"{type(self).__name__} was made for {len(self.policy.queues)} filters; these are {len(filters)}"
             )
         self.input_connections = [
             one.registerCallback(self.add, queue, index)
@@ -125,9 +125,9 @@ class TimeSynchronizer(StampingFilter):
 class ApproximateTimeSynchronizer(TimeSynchronizer):
     """Calls its callbacks with one message of each of the filters ``fs``, all less than ``slop`` seconds apart.
 
-    As `TimeSynchronizer`; which messages are chosen is said at `ApproximateTime`. With ``allow_headerless`` messages without a header are
-    taken as stamped at their arrival, else they are dropped with a warning.
-    Raises ``MessageFilterError`` also for a slop that is not positive.
+    As `TimeSynchronizer`; which messages are chosen is said at `ApproximateTime`. With ``allow_headerless`` messages
+    without a header are taken as stamped at their arrival, else they are dropped with a warning. Raises
+    ``MessageFilterError`` also for a slop that is not positive.
     """
 
     def __init__(

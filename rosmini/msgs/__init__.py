@@ -5,7 +5,8 @@
     String = rosmini.msgs.message_class("std_msgs/String")
 
 All three give the same class. Classes exist for every package that can be found (those that come with rosmini and
-those on ROS_PACKAGE_PATH) and are made when they are first asked for. ``define_message`` makes a class from a text that is in no file.
+those on ROS_PACKAGE_PATH) and are made when they are first asked for. ``define_message`` makes a class from a text that
+is in no file.
 """
 
 from __future__ import annotations

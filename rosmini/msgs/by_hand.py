@@ -1,7 +1,7 @@
-"""Message classes that somebody has written, with ``__slots__``, ``_slot_types`` and functions of their own that write and read them.
+"""Hand-written message classes, with ``__slots__``, ``_slot_types`` and their own functions to write and read.
 
-Scripts derive them from ``genpy.Message``. They get what the library asks of all message classes; their bytes are what their own
-``serialize`` writes.
+Scripts derive them from ``genpy.Message``. They get what the library asks of all message classes; their bytes are what
+their own ``serialize`` writes.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .definition import Field, MessageSpec
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .message import Message
+    from .contract import MessageContract
 
 __all__ = ["complete", "set_slots"]
 
@@ -39,7 +39,7 @@ def set_slots(message: Any, args: tuple[Any, ...], kwds: dict[str, Any]) -> None
         setattr(message, name, given.get(name))
 
 
-def complete(cls: Any, base: type[Message]) -> None:
+def complete(cls: Any, base: type[MessageContract]) -> None:
     """Give a class that somebody has written, on top of ``base``, what the library asks of message classes."""
     for function in ("serialize", "deserialize"):
         if getattr(cls, function) is getattr(base, function):
@@ -68,7 +68,7 @@ def _field(kind: str, name: str) -> Field:
     return Field(kind, base, (int(count) if count.isdigit() else -1) if bracket else None, name, 0)
 
 
-def _written(cls: type[Message], message: Any) -> bytes:
+def _written(cls: type[MessageContract], message: Any) -> bytes:
     from .fields import ERRORS, explain
 
     buffer = BytesIO()

@@ -1,8 +1,9 @@
 """Python source for the fast paths of one message class: making, freezing, thawing, writing and reading it.
 
 Nested messages are flattened, so that neighbouring numbers cross :mod:`struct` in one call (the three integers of a
-``Header``, the seven floats of a ``Pose``). ``print(source(cls, "freeze"))`` shows what is run, with ``f0``, ``f1`` ... for
-the names of fields: no name from outside is in the source that is compiled. They are put into the finished code, where names are data.
+``Header``, the seven floats of a ``Pose``). ``print(source(cls, "freeze"))`` shows what is run, with ``f0``, ``f1`` ...
+for the names of fields: no name from outside is in the source that is compiled. They are put into the finished code,
+where names are data.
 
 Why this is not rosbags' ROS 1 serde, which the tests compare it with: rospy replaces text that is not UTF-8 where
 rosbags raises, an array of empty messages lets rosbags loop for as long as a hostile length says, byte arrays have to
@@ -29,8 +30,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from types import FunctionType
 
+    from .contract import MessageContract
     from .definition import Field
-    from .message import Message
 
 __all__ = ["compile_function", "source"]
 
@@ -38,11 +39,15 @@ _LENGTH, _READ_LENGTH = struct.Struct("<I").pack, struct.Struct("<I").unpack_fro
 _TIME, _DURATION = struct.Struct("<II"), struct.Struct("<ii")
 
 
-def compile_function(cls: type[Message], purpose: str) -> Callable[..., Any]:
+def compile_function(cls: type[MessageContract], purpose: str) -> Callable[..., Any]:
     """Compile one function of ``cls``: init, freeze, thaw, thaw_numpy, thaw_genpy_numpy, encode or read."""
-    generator = _Generator(cls, purpose)
-    code = generator.source()
-    exec(compile(code, f"<{purpose} of a message>", "exec"), generator.globals)  # noqa: S102
+    return compiled(Generator(cls, purpose))
+
+
+def compiled(generator: Generator) -> Callable[..., Any]:
+    """Compile the function of a generator."""
+    purpose = generator.purpose
+    exec(compile(generator.source(), f"<{purpose} of a message>", "exec"), generator.globals)  # noqa: S102
     function: FunctionType = generator.globals[purpose]
     names = {slot: name for name, slot in generator.slots.items()}
     function.__code__ = _named(function.__code__, names)
@@ -51,9 +56,9 @@ def compile_function(cls: type[Message], purpose: str) -> Callable[..., Any]:
     return function
 
 
-def source(cls: type[Message], purpose: str) -> str:
+def source(cls: type[MessageContract], purpose: str) -> str:
     """The source that :func:`compile_function` compiles."""
-    return _Generator(cls, purpose).source()
+    return Generator(cls, purpose).source()
 
 
 def _named(code: CodeType, names: dict[str, str]) -> CodeType:
@@ -83,8 +88,14 @@ class _Node:
         return f"{self.path}.{name}" if self.path else name
 
 
-class _Generator:
-    def __init__(self, cls: type[Message], purpose: str) -> None:
+Leaf = tuple[_Node, str, "Field | None", str]
+"""A field that is no message: its node, its name there, its definition (None in a time), and its kind."""
+
+
+class Generator:
+    """Writes the source of one function of a message class."""
+
+    def __init__(self, cls: type[MessageContract], purpose: str) -> None:
         self.cls, self.purpose = cls, purpose
         self.lines: list[str] = []
         self.globals: dict[str, Any] = {"__builtins__": __builtins__}
@@ -92,10 +103,8 @@ class _Generator:
         self.slots: dict[str, str] = {}
         """What stands for the name of a field in the source."""
         self.nodes: list[_Node] = []
-        self.nested: dict[str, type[Message]] = {}
-        self.leaves: list[
-            tuple[_Node, str, Field | None, str]
-        ] = []  # node, attribute, field (None in a time), kind
+        self.nested: dict[str, type[MessageContract]] = {}
+        self.leaves: list[Leaf] = []
         self._walk(_Node("", cls, None, "", 0))
 
     def _walk(self, node: _Node) -> None:
@@ -141,9 +150,9 @@ class _Generator:
         getattr(self, f"_{self.purpose}")()
         return "\n".join(self.lines) + "\n"
 
-    def runs(self) -> Iterator[list[tuple[_Node, str, Field | None, str]]]:
+    def runs(self) -> Iterator[list[Leaf]]:
         """The leaves in wire order, neighbouring numbers together."""
-        run: list[tuple[_Node, str, Field | None, str]] = []
+        run: list[Leaf] = []
         for leaf in self.leaves:
             if leaf[3] != "string" and (leaf[2] is None or leaf[2].size is None):
                 run.append(leaf)
@@ -156,10 +165,10 @@ class _Generator:
             yield run
 
     @staticmethod
-    def is_number(leaf: tuple[_Node, str, Field | None, str]) -> bool:
+    def is_number(leaf: Leaf) -> bool:
         return leaf[3] != "string" and (leaf[2] is None or leaf[2].size is None)
 
-    def struct_for(self, run: list[tuple[_Node, str, Field | None, str]]) -> tuple[str, struct.Struct]:
+    def struct_for(self, run: list[Leaf]) -> tuple[str, struct.Struct]:
         code = "".join(FORMATS[kind] for *_, kind in run)
         packer = struct.Struct("<" + code)
         return self.use("numbers", packer), packer
@@ -191,7 +200,7 @@ class _Generator:
                 self.emit(f"if {wrong}:", depth)
                 self.emit(f"{node.target}.canon()", depth + 1)
 
-    def emit_unpacked(self, run: list[tuple[_Node, str, Field | None, str]], values: str, depth: int) -> None:
+    def emit_unpacked(self, run: list[Leaf], values: str, depth: int) -> None:
         targets = [f"{node.target}.{self.slot(name)}" for node, name, _, _ in run]
         self.emit(
             f"{', '.join(targets)}, = {values}" if len(targets) == 1 else f"{', '.join(targets)} = {values}",
@@ -201,7 +210,7 @@ class _Generator:
             if kind == "bool":
                 self.emit(f"{target} = {target} != 0", depth)
 
-    def packed(self, run: list[tuple[_Node, str, Field | None, str]], name: str) -> str:
+    def packed(self, run: list[Leaf], name: str) -> str:
         arguments = []
         for node, attribute, _, kind in run:
             value = f"{node.source}.{self.slot(attribute)}"
@@ -224,16 +233,16 @@ class _Generator:
             element = getattr(self.nested[field.base], f"_{verb}")
         return self.use("array", _list_freezer(element, size))
 
-    def not_frozen(self, field: Field) -> str:
-        """The condition under which the array `v` is not yet one over bytes, which nobody can write to, as it is to be."""
+    def not_frozen(self, field: Field, v: str) -> str:
+        """The condition that the array `v` is not yet a read-only one over bytes."""
         wrong = [
-            f"v.__class__ is not {self.use('ndarray', np.ndarray)}",
-            f"v.base.__class__ is not {self.use('_bytes', bytes)}",
-            f"v.dtype is not {self.use(f'dtype_{field.base}', DTYPES[field.base])}",
-            "v.ndim != 1",
-            "not v.flags.c_contiguous",
+            f"{v}.__class__ is not {self.use('ndarray', np.ndarray)}",
+            f"{v}.base.__class__ is not {self.use('_bytes', bytes)}",
+            f"{v}.dtype is not {self.use(f'dtype_{field.base}', DTYPES[field.base])}",
+            f"{v}.ndim != 1",
+            f"not {v}.flags.c_contiguous",
         ]
-        wrong += [f"len(v) != {field.size}"] if field.size != -1 else []
+        wrong += [f"len({v}) != {field.size}"] if field.size != -1 else []
         return " or ".join(wrong)
 
     # ---- functions ----
@@ -276,25 +285,28 @@ class _Generator:
             packer, _struct = self.struct_for(numbers)
             self.emit_unpacked(numbers, f"{packer}.unpack({self.packed(numbers, packer)})", 2)
         for leaf in self.leaves:
-            node, name, field, kind = leaf
             if self.is_number(leaf):
                 continue
-            target = f"{node.target}.{self.slot(name)}"
+            node, name, _, _ = leaf
             self.emit(f"v = {node.source}.{self.slot(name)}", 2)
-            if field is not None and field.size is not None:
-                freeze, depth = self.array_function(field, verb="freeze"), 2
-                if kind in FORMATS and kind not in BYTES and kind != "bool":
-                    self.emit(f"if {self.not_frozen(field)}:", 2)
-                    depth = 3
-                self.emit(f"v = {freeze}(v)", depth)
-                self.emit(f"{target} = v", 2)
-            else:
-                self.emit("if v.__class__ is not str or not v.isascii():", 2)
-                self.emit(f"v = {self.use('checked_text', fields.checked_text)}(v)", 3)
-                self.emit(f"{target} = v", 2)
+            self.emit_checked(leaf, "v", 2)
+            self.emit(f"{node.target}.{self.slot(name)} = v", 2)
         self.emit_explained()
         self.emit_finish(1)
         self.emit("return o")
+
+    def emit_checked(self, leaf: Leaf, value: str, depth: int) -> None:
+        """Freeze what a variable holds: a text or an array."""
+        _, _, field, kind = leaf
+        if field is None or field.size is None:
+            self.emit(f"if {value}.__class__ is not str or not {value}.isascii():", depth)
+            self.emit(f"{value} = {self.use('checked_text', fields.checked_text)}({value})", depth + 1)
+            return
+        freeze = self.array_function(field, verb="freeze")
+        if kind in FORMATS and kind not in BYTES and kind != "bool":
+            self.emit(f"if {self.not_frozen(field, value)}:", depth)
+            depth += 1
+        self.emit(f"{value} = {freeze}({value})", depth)
 
     def emit_explained(self) -> None:
         self.emit(f"except {self.use('ERRORS', fields.ERRORS)} as error:")
@@ -471,7 +483,7 @@ def _freeze_duration(value: Any) -> Duration:
 
 
 def _arguments(
-    message: Message,
+    message: Any,
     args: tuple[Any, ...],
     names: tuple[str, ...],
     values: tuple[Any, ...],

@@ -1,4 +1,4 @@
-"""Message, service and action classes from a text at hand, for types that have no file: in notebooks, and to compare two versions of one type."""
+"""Message, service and action classes from a text, for types without a file, and to compare versions of one."""
 
 from __future__ import annotations
 
@@ -22,18 +22,20 @@ __all__ = ["define_action", "define_message", "define_service"]
 
 
 def define_message(name: str, text: str) -> type[Any]:
-    """The class of a message type "package/Type" that ``text`` defines, in the language of ``.msg`` files (http://wiki.ros.org/msg).
+    """The class of the message type "package/Type" with the ``.msg`` text ``text`` (http://wiki.ros.org/msg).
 
-    Each call makes a class of its own, also for a name that was given before or that has a file: so two versions of a type can stand
-    side by side. Only types that have files can be nested. Raises :class:`~rosmini.errors.DefinitionError` with the line that is wrong.
+    Each call makes a class of its own, also for a name that was given before or that has a file: so two versions of a
+    type can stand side by side. Only types that have files can be nested. Raises
+    :class:`~rosmini.errors.DefinitionError` with the line that is wrong.
     """
     return _class_of(parse_message(text, name), "msg")
 
 
 def define_service(name: str, text: str) -> type[Any]:
-    """The class of a service type "package/Type" that ``text`` defines, in the language of ``.srv`` files (http://wiki.ros.org/srv).
+    """The class of the service type "package/Type" with the ``.srv`` text ``text`` (http://wiki.ros.org/srv).
 
-    Its attributes ``_request_class`` and ``_response_class`` are the classes of the two messages. Raises as :func:`define_message` does.
+    Its attributes ``_request_class`` and ``_response_class`` are the classes of the two messages. Raises as
+    :func:`define_message` does.
     """
     spec = parse_service(text, name)
     request, response = _class_of(spec.request, "srv"), _class_of(spec.response, "srv")
@@ -41,7 +43,7 @@ def define_service(name: str, text: str) -> type[Any]:
 
 
 def define_action(name: str, text: str) -> tuple[type[Any], type[Any], type[Any], type[Any]]:
-    """The classes of an action "package/Type" that ``text`` defines, in the language of ``.action`` files (http://wiki.ros.org/actionlib).
+    """The classes of the action "package/Type" that ``text``, as in an ``.action`` file, defines.
 
     Four of the seven: the action itself, as clients and servers take it, and its goal, result and feedback. Raises as
     :func:`define_message` does.

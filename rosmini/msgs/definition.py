@@ -228,7 +228,7 @@ def split_action(text: str, name: str, file: str | None = None) -> dict[str, Mes
 
 
 def _check(text: str, name: str, file: str | None) -> None:
-    """Raise :class:`DefinitionError` for what is no name of a type, and for a text that is no definition whatever is in it."""
+    """Raise :class:`DefinitionError` for an invalid type name, and for a text that cannot be a definition."""
     if not is_type_name(name):
         problem = f"{shown(name)} is no name of a type: it is written package/Type, of letters, digits and underscores"
         raise DefinitionError(problem, file)

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from .contract import MessageContract
     from .definition import Field
-    from .message import Message
 
 __all__ = [
     "DTYPES",
@@ -155,7 +155,7 @@ def _array_bytes(values: NDArray[Any], dtype: np.dtype[Any]) -> bytes:
 # ---- diagnosis ----
 
 
-def explain(cls: type[Message], message: Any, cause: Exception) -> SerializationError:
+def explain(cls: type[MessageContract], message: Any, cause: Exception) -> SerializationError:
     """The error for a message that could not be converted: which field, what it holds, what its ROS type is."""
     try:
         check(cls, message)
@@ -164,15 +164,15 @@ def explain(cls: type[Message], message: Any, cause: Exception) -> Serialization
     return SerializationError(f"{cls._type}: {cause}")
 
 
-def check(cls: type[Message], message: Any) -> None:
-    """Raise ``SerializationError`` for the first field that holds what its type cannot: also for what the wire would take (2 in a bool)."""
+def check(cls: type[MessageContract], message: Any) -> None:
+    """Raise ``SerializationError`` for the first field with a value that its type cannot hold, such as 2 in a bool."""
     try:
         _check(cls, message, "")
     except SerializationError as error:
         raise SerializationError(f"{cls._type}: {error}") from None
 
 
-def _check(cls: type[Message], message: Any, prefix: str) -> None:
+def _check(cls: type[MessageContract], message: Any, prefix: str) -> None:
     for field in cls._spec.fields:
         path = prefix + field.name
         try:
@@ -185,8 +185,11 @@ def _check(cls: type[Message], message: Any, prefix: str) -> None:
         check_field(field, path, value, cls._nested.get(field.base))
 
 
-def check_field(field: Field, path: str, value: Any, nested: type[Message] | None) -> None:
-    """Raise ``SerializationError`` unless ``value`` can stand in a field, which errors call ``path``; ``nested`` is the class of a field of messages."""
+def check_field(field: Field, path: str, value: Any, nested: type[MessageContract] | None) -> None:
+    """Raise ``SerializationError`` unless ``value`` can stand in a field, which errors call ``path``.
+
+    ``nested`` is the class of a field of messages.
+    """
     if field.size is None:
         _check_value(nested, field, path, value)
         return
@@ -209,7 +212,7 @@ def check_field(field: Field, path: str, value: Any, nested: type[Message] | Non
         _check_value(nested, field, f"{path}[{index}]", element)
 
 
-def _check_value(nested: type[Message] | None, field: Field, path: str, value: Any) -> None:
+def _check_value(nested: type[MessageContract] | None, field: Field, path: str, value: Any) -> None:
     kind = field.base
     if kind == "string":
         _check_text(path, value)

@@ -41,7 +41,10 @@ class UnknownPackageImport(UnknownPackage, ModuleNotFoundError):
 
 
 def how_to_import(text: object) -> str:
-    """Say how a script gets the class of the type that ``text`` names ("std_msgs/String", "std_msgs.String"); empty where it names none."""
+    """Say how a script gets the class of the type that ``text`` names ("std_msgs/String", "std_msgs.String").
+
+    Empty where it names none.
+    """
     parts = [part for part in re.split(r"[/.]", text) if part not in _KINDS] if isinstance(text, str) else []
     if len(parts) != 2:
         return ""

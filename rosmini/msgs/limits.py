@@ -1,7 +1,7 @@
-"""How large a message type may be: a definition comes from outside, and a line such as ``float64[99999999999] x`` costs nothing to write.
+"""How large a message type may be: a definition from outside may say ``float64[99999999999] x``.
 
-No type of ROS comes near these limits. They are looked at before anything is made of a definition, so that neither md5 sums nor classes nor
-default values can take longer, or more memory, than they allow.
+No type of ROS comes near these limits. They are looked at before anything is made of a definition, so that neither md5
+sums nor classes nor default values can take longer, or more memory, than they allow.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ MAX_FIELDS = 4096
 MAX_MEMORY = 64 * 1024 * 1024
 """So much can a message with default values need [bytes]."""
 MAX_EMPTY = 16
-"""So many values that take no bytes (empty messages) can be in a message, or in an array on the wire: no data bounds their number."""
+"""How many values without bytes (empty messages) a message or array may have: no data bounds their number."""
 
 _OBJECT = 64  # what an object takes in memory, roughly
 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """How large a message is: levels, fields (arrays count as one), fewest bytes on the wire, bytes in memory by default, empty messages in it."""
+    """How large a message is: levels, fields (arrays count as one), fewest bytes, default memory, empty messages."""
 
     depth: int = 0
     fields: int = 0

@@ -8,12 +8,13 @@ them at full speed, and then turns them into the upper, public one (``message.__
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from rosmini.errors import DeserializationError, SerializationError, nearest
 
+from .contract import MessageContract
 from .definition import BYTES, NUMBERS
-from .limits import Measure, measure
+from .limits import measure
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from types import ModuleType
 
     from .definition import MessageSpec
-    from .registry import Registry
 
 __all__ = ["Message", "make_message_class"]
 
@@ -45,7 +45,7 @@ class _Compiled:
         return function
 
 
-class Message:
+class Message(MessageContract):
     """A ROS message; ``isinstance(x, Message)`` is true for messages of every type.
 
     Made by :func:`rosmini.msgs.message_class`, with the conventions of genpy
@@ -56,27 +56,12 @@ class Message:
 
     _connection_header: dict[str, Any] | None
 
-    _type: ClassVar[str]
-    _md5sum: ClassVar[str]
-    _full_text: ClassVar[str]
-    _has_header: ClassVar[bool]
-    _slot_types: ClassVar[list[str]]
-    _spec: ClassVar[MessageSpec]
-    _nested: ClassVar[dict[str, type[Message]]]
-    _registry: ClassVar[Registry]
-    _fields_class: ClassVar[type[Message]]
-    _measure: ClassVar[Measure]
-    _plain: ClassVar[bool]
-    """A frozen message is what a receiver gets: there are no arrays of numbers in it, which rospy gives as tuples and bytes."""
-    _plain_numpy: ClassVar[bool]
-    """A frozen message is what a receiver gets who wants numpy arrays: there are no bytes in it."""
-
-    _freeze: ClassVar[Callable[[Any], Any]] = _Compiled()  # type: ignore[assignment]
-    _thaw: ClassVar[Callable[[Any], Any]] = _Compiled()  # type: ignore[assignment]
-    _thaw_numpy: ClassVar[Callable[[Any], Any]] = _Compiled()  # type: ignore[assignment]
-    _thaw_genpy_numpy: ClassVar[Callable[[Any], Any]] = _Compiled()  # type: ignore[assignment]
-    _encode: ClassVar[Callable[[Any], bytes]] = _Compiled()  # type: ignore[assignment]
-    _read: ClassVar[Callable[[bytes, int, int], tuple[Any, int]]] = _Compiled()  # type: ignore[assignment]
+    _freeze = _Compiled()
+    _thaw = _Compiled()
+    _thaw_numpy = _Compiled()
+    _thaw_genpy_numpy = _Compiled()
+    _encode = _Compiled()
+    _read = _Compiled()
 
     @classmethod
     def _decode(cls, data: bytes | bytearray | memoryview) -> Self:
@@ -102,10 +87,14 @@ class Message:
 
     @classmethod
     def _thawer(cls, *, numpy: bool) -> Callable[[Any], Any] | None:
-        """What makes a frozen message its receiver's own, with numpy arrays or with rospy's tuples and bytes; None: it is already."""
+        """What makes a frozen message its receiver's own, with numpy arrays or with rospy's tuples and bytes.
+
+        None: it is already.
+        """
         if cls._plain_numpy if numpy else cls._plain:
             return None
-        return cls._thaw_numpy if numpy else cls._thaw
+        thaw: Callable[[Any], Any] = cls._thaw_numpy if numpy else cls._thaw
+        return thaw
 
     # ---- classes written by hand ----
 
@@ -258,7 +247,7 @@ def _first_init(self: Message, /, *args: Any, **kwds: Any) -> None:
 def make_message_class(
     spec: MessageSpec,
     nested: dict[str, type[Message]],
-    registry: Registry,
+    registry: object,
     md5sum: str,
     text: str,
     module: str,

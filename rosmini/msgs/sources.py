@@ -65,7 +65,10 @@ class PackageSource:
         return sorted(self._files(package, kind))
 
     def read(self, package: str, kind: str, name: str) -> tuple[str, str] | None:
-        """As :meth:`Source.read`. Raises :class:`DefinitionError` if the file cannot be read, is too large or is not UTF-8 text."""
+        """As :meth:`Source.read`.
+
+        Raises :class:`DefinitionError` if the file cannot be read, is too large or is not UTF-8 text.
+        """
         path = self._files(package, kind).get(name)
         if path is None:
             return None

@@ -9,7 +9,7 @@ from rosmini.time import Time, TVal
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from .message import Message
+    from .contract import MessageContract
 
 __all__ = ["strify_message"]
 
@@ -21,7 +21,7 @@ def strify_message(
     indent: str = "",
     time_offset: Time | None = None,
     current_time: Time | None = None,  # noqa: ARG001 (genpy's signature)
-    field_filter: Callable[[Message], Iterable[str]] | None = None,
+    field_filter: Callable[[MessageContract], Iterable[str]] | None = None,
     fixed_numeric_width: int | None = None,
 ) -> str:
     """A message or a field value as YAML text, equal to what genpy's function of this name gives.
@@ -37,7 +37,7 @@ class _Writer:
     def __init__(
         self,
         time_offset: Time | None,
-        field_filter: Callable[[Message], Iterable[str]] | None,
+        field_filter: Callable[[MessageContract], Iterable[str]] | None,
         width: int | None,
     ) -> None:
         self.time_offset, self.field_filter, self.width = time_offset, field_filter, width
@@ -86,7 +86,7 @@ class _Writer:
             return str(list(val))
         return "\n" + "\n".join(f"{indent}- {self.text(element, indent + '  ')}" for element in val)
 
-    def message(self, val: Message, indent: str) -> str:
+    def message(self, val: MessageContract, indent: str) -> str:
         names = [field.name for field in val._spec.fields]
         chosen = names if self.field_filter is None else list(self.field_filter(val))
         lines = []

@@ -28,8 +28,8 @@ def joint_transform(joint: Joint, position: float = 0.0) -> Rigid:
 class Chain:
     """The moving and the fixed joints of a robot.
 
-    As in KDL, with which the real node computes, a planar joint is taken as fixed, and nobody but the program that knows
-    where it is can tell of a floating one.
+    As in KDL, with which the real node computes, a planar joint is taken as fixed, and nobody but the program that
+    knows where it is can tell of a floating one.
     """
 
     def __init__(self, robot: Robot) -> None:
@@ -45,7 +45,8 @@ class Chain:
     def transforms(self, positions: Mapping[str, float]) -> list[Sent]:
         """The transforms of the joints whose positions are known, and of those that mimic one of them.
 
-        A mimic whose own position is given stands there, as in the real node. Names that are no moving joint are passed over.
+        A mimic whose own position is given stands there, as in the real node. Names that are no moving joint are passed
+        over.
         """
         known = dict(positions)
         for joint in self._mimics_in_order():

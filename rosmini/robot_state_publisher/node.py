@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.errors import nearest
 from rosmini.msgs import message_class
-from rosmini.sim.parameters import Parameters, parameter
+from rosmini.parameters import Parameters, parameter
 from rosmini.tf.broadcaster import StaticTransformBroadcaster, TransformBroadcaster, tf_prefix
 from rosmini.tf.messages import to_stamped
 

@@ -1,4 +1,4 @@
-"""Angles in parameter files: ``deg(90)``, ``rad(2*pi)``, ``!degrees 90`` and ``!radians pi/2`` (http://wiki.ros.org/rosparam).
+"""Angles in parameter files: ``deg(90)``, ``rad(2*pi)``, ``!degrees 90``, ``!radians pi/2`` (wiki.ros.org/rosparam).
 
 The real rosparam hands the expression to Python's ``eval``. Here it is confined, see `rosmini.expressions`.
 """
@@ -33,8 +33,8 @@ def degrees(text: str) -> float:
 def radians(text: str) -> float:
     """Return ``rad(<expression>)``, or the expression alone, in radians.
 
-    An expression has numbers, ``pi``, ``+ - * / // % **``, brackets, and functions of ``math``, such as ``math.sqrt(2)``.
-    Raises ``RosParamException``.
+    An expression has numbers, ``pi``, ``+ - * / // % **``, brackets, and functions of ``math``, such as
+    ``math.sqrt(2)``. Raises ``RosParamException``.
     """
     inner = text.strip()
     if inner.startswith("rad(") and inner.endswith(")"):
@@ -46,5 +46,5 @@ def radians(text: str) -> float:
         return float(value)
     except (ExpressionError, OverflowError) as error:
         raise RosParamException(
-            f"{shown(text)} is no angle in radians ({error}): write a number or an expression, such as rad(2*pi) or !radians pi/2"
+            f"{shown(text)} is no angle in radians ({error}): write a number or an expression, such as rad(2*pi)"
         ) from error

@@ -6,14 +6,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ParameterNotSet, nearest
-from rosmini.graph import Graph
 from rosmini.names import canonicalize, join, resolve
 
 from .documents import Document, assignments, dumps, load_file, load_str, parse
 from .errors import RosParamException
 
 if TYPE_CHECKING:
-    from rosmini.graph.master import Master
+    from rosmini.graph import Graph
 
 __all__ = ["ParamClient"]
 
@@ -22,20 +21,20 @@ class ParamClient:
     """Reads and writes the parameters of a graph, as YAML and as values.
 
     Args:
-        server: a graph, or its Master.
+        graph: the graph whose Parameter Server it is.
         namespace: where relative names start, as ``ROS_NAMESPACE`` says on a command line.
 
     """
 
-    def __init__(self, server: Graph | Master, *, namespace: str = "/") -> None:
-        self._master: Master = server.master if isinstance(server, Graph) else server
+    def __init__(self, graph: Graph, *, namespace: str = "/") -> None:
         self._namespace = canonicalize("/" + namespace)
         self._caller = join(self._namespace, "rosparam")
+        self._master = graph.ask_as(self._caller)
 
     def get(self, name: str) -> Any:
         """Return a parameter's value, or a namespace as a dictionary. Raises ``ParameterNotSet``."""
         resolved = self._resolve(name)
-        code, status, value = self._master.getParam(self._caller, resolved)
+        code, status, value = self._master.call("getParam", resolved)
         if code != 1:
             raise ParameterNotSet(self._missing(status, resolved))
         return value
@@ -55,9 +54,9 @@ class ParamClient:
         """Delete a parameter or a namespace; of the root ``/``, everything in it. Raises ``ParameterNotSet``."""
         resolved = self._resolve(name)
         if resolved == "/":
-            self._master.setParam(self._caller, "/", {})
+            self._master.ask("setParam", "/", {})
             return
-        code, status, _ = self._master.deleteParam(self._caller, resolved)
+        code, status, _ = self._master.call("deleteParam", resolved)
         if code != 1:
             raise ParameterNotSet(self._missing(status, resolved))
 
@@ -82,7 +81,7 @@ class ParamClient:
         return dumps(self.get(namespace))
 
     def dump(self, path: str | Path, namespace: str = "/") -> Path:
-        """Write a namespace to a YAML file, and return its path. Raises ``ParameterNotSet`` and ``RosParamException``."""
+        """Write a namespace to a YAML file; return its path. Raises ``ParameterNotSet`` and ``RosParamException``."""
         path, text = Path(path), self.dumps(namespace)
         try:
             path.write_text(text, encoding="utf-8")
@@ -97,7 +96,7 @@ class ParamClient:
 
     def _send(self, settings: list[tuple[str, Any]]) -> None:
         for name, value in settings:
-            code, status, _ = self._master.setParam(self._caller, name, value)
+            code, status, _ = self._master.call("setParam", name, value)
             if code != 1:
                 raise RosParamException(f"the Parameter Server refused {name}: {status}")
 
@@ -105,7 +104,7 @@ class ParamClient:
         return resolve(name, self._namespace, self._caller, what="parameter name", check=False)
 
     def _names(self) -> list[str]:
-        return list(self._master.getParamNames(self._caller)[2])
+        return list(self._master.ask("getParamNames"))
 
     def _missing(self, status: str, resolved: str) -> str:
         hint = nearest(resolved, self._names())

@@ -66,8 +66,9 @@ class _Refused(RosParamException):
 def assignments(name: str, value: Any) -> Iterator[tuple[str, Any]]:
     """Yield the settings that rosparam makes of a value for the parameter ``name``.
 
-    A dictionary is merged into what is there: one setting for each of its values. Anything else, a list too, replaces what was there. An empty
-    dictionary sets nothing. Raises ``RosParamException`` for what the Parameter Server cannot hold.
+    A dictionary is merged into what is there: one setting for each of its values. Anything else, a list too, replaces
+    what was there. An empty dictionary sets nothing. Raises ``RosParamException`` for what the Parameter Server
+    cannot hold.
     """
     if name == "/" and not isinstance(value, dict):
         raise _Refused(
@@ -85,7 +86,7 @@ def _assignments(name: str, value: Any, place: str) -> Iterator[tuple[str, Any]]
     for key, item in value.items():
         if not isinstance(key, str):
             raise _Refused(
-                f"parameter {name}: the key {key!r} is a {type(key).__name__}, and keys are strings: put it into quotes",
+                f"parameter {name}: the key {key!r} is a {type(key).__name__}, and keys are strings: quote it",
                 f"{place}/{key}",
             )
         yield from _assignments(join(name, key), item, f"{place}/{key}")
@@ -103,7 +104,8 @@ def _checked(name: str, value: Any, place: str) -> Any:
         return {key: _checked(f"{name}/{key}", item, f"{place}/{key}") for key, item in value.items()}
     if value is None:
         raise _Refused(
-            f"parameter {name} has no value (YAML's null), which a parameter cannot be: write '' for an empty text, {{}} for an empty namespace",
+            f"parameter {name} has no value (YAML's null), which a parameter cannot be: "
+            "write '' for an empty text, {} for an empty namespace",
             place,
         )
     try:
@@ -164,7 +166,7 @@ def load_str(text: str, source: str = "", namespace: str = "/") -> list[Document
 
 
 def parse(text: str) -> Any:
-    """Return the value of a YAML text with one document, as in ``rosparam set /gains '[1, 2.5]'``. Raises ``RosParamException``."""
+    """Return the value of a YAML text, as in ``rosparam set /gains '[1, 2.5]'``. Raises ``RosParamException``."""
     documents = load_str(text)
     if len(documents) > 1:
         raise RosParamException(f"{text!r} is {len(documents)} YAML documents, and one value is needed")

@@ -13,7 +13,7 @@ __all__ = ["RosParamException", "RosParamIOException"]
 
 
 class RosParamException(ParameterError):
-    """A parameter file, or a value in it, is wrong; ``file`` and ``line`` (counted from 1) say where, if that is known."""
+    """A parameter file, or a value in it, is wrong; ``file`` and ``line`` (from 1) say where, if known."""
 
     def __init__(self, message: str, file: str | Path | None = None, line: int | None = None) -> None:
         self.message = message

@@ -1,8 +1,8 @@
 """The module that scripts import as ``rospy``: http://wiki.ros.org/rospy.
 
-Names, signatures and behaviour are those of rospy 1.15 (Noetic). Which node a call means follows from the lane that makes it, see
-:mod:`rosmini.rospy.session`; so several scripts, each with its node, run in one process. After :func:`rosmini.install` a plain program
-or a notebook can ``import rospy``; scripts run by rosmini can always.
+Names, signatures and behaviour are those of rospy 1.15 (Noetic). Which node a call means follows from the lane that
+makes it, see :mod:`rosmini.rospy.session`; so several scripts, each with its node, run in one process. After
+:func:`rosmini.install` a plain program or a notebook can ``import rospy``; scripts run by rosmini can always.
 """
 
 from __future__ import annotations

@@ -29,8 +29,8 @@ _ABSENT = {
     "cv_bridge": (
         "turns images of ROS into arrays of OpenCV and back",
         (
-            "write image = numpy.frombuffer(msg.data, numpy.uint8).reshape(msg.height, msg.width, -1), and for the way back "
-            "sensor_msgs.msg.Image(height=h, width=w, encoding='bgr8', step=3 * w, data=image.tobytes())"
+            "write image = numpy.frombuffer(msg.data, numpy.uint8).reshape(msg.height, msg.width, -1), and for the "
+            "way back sensor_msgs.msg.Image(height=h, width=w, encoding='bgr8', step=3 * w, data=image.tobytes())"
         ),
     ),
     "diagnostic_updater": (
@@ -66,8 +66,9 @@ _ABSENT = {
     "laser_geometry": (
         "makes point clouds of laser scans",
         (
-            "write angles = scan.angle_min + scan.angle_increment * numpy.arange(len(scan.ranges)), x = ranges * cos(angles), "
-            "y = ranges * sin(angles), and sensor_msgs.point_cloud2.create_cloud_xyz32(scan.header, points)"
+            "write angles = scan.angle_min + scan.angle_increment * numpy.arange(len(scan.ranges)), x = ranges * "
+            "cos(angles), y = ranges * sin(angles), and sensor_msgs.point_cloud2.create_cloud_xyz32(scan.header, "
+            "points)"
         ),
     ),
     "mavros": ("talks to flight controllers", _ALONE),
@@ -108,7 +109,10 @@ _ABSENT = {
     "rosgraph.xmlrpc": ("serves and calls XML-RPC", "ask rosgraph.Master, which is in the same process here"),
     "roslaunch": (
         "starts nodes from Python",
-        "start them with rosmini.rosrun('package', 'executable') in Python, or all at once with `rosmini run` in a terminal",
+        (
+            "start them with rosmini.rosrun('package', 'executable') in Python, or all at once with `rosmini run` in a "
+            "terminal"
+        ),
     ),
     "roslib.gentools": ("computes md5 sums of definitions", "take message._md5sum and message._full_text"),
     "roslib.launcher": ("changes Python's path by manifests", "call roslib.load_manifest, or nothing at all"),
@@ -140,7 +144,10 @@ _ABSENT = {
     "roswtf": ("looks for what is wrong", _MASTER),
     "smach": (
         "builds state machines",
-        "write a dictionary of functions, each of which returns the name of the next state: while state: state = states[state]()",
+        (
+            "write a dictionary of functions, each of which returns the name of the next state: while state: state = "
+            "states[state]()"
+        ),
     ),
     "smach_ros": (
         "builds state machines with actions and services",
@@ -165,7 +172,10 @@ class AbsentModule(RosminiError, ModuleNotFoundError):
 
 
 def absent_module(name: str) -> AbsentModule | None:
-    """Return the error for an import of ``name``, a module or one within it; None for what is no module of ROS that is known to be absent."""
+    """Return the error for an import of ``name``, a module or one within it.
+
+    None for what is no module of ROS that is known to be absent.
+    """
     parts = name.split(".")
     known = next(
         (".".join(parts[:end]) for end in range(1, len(parts) + 1) if ".".join(parts[:end]) in _ABSENT), None

@@ -1,4 +1,4 @@
-"""``rospy.init_node`` and the functions around a node: http://wiki.ros.org/rospy/Overview/Initialization%20and%20Shutdown."""
+"""``rospy.init_node`` and what is around a node: http://wiki.ros.org/rospy/Overview/Initialization%20and%20Shutdown."""
 
 from __future__ import annotations
 
@@ -94,8 +94,8 @@ def init_node(
         xmlrpc_port: without effect.
         tcpros_port: without effect.
 
-    A second call with the same arguments does nothing. Raises ``ValueError`` for an illegal name and ``ROSException`` for a second
-    call with other arguments: one script is one node.
+    A second call with the same arguments does nothing. Raises ``ValueError`` for an illegal name and ``ROSException``
+    for a second call with other arguments: one script is one node.
 
     """
     session = current_session()
@@ -167,7 +167,8 @@ def _check_name(name: Any) -> None:
 def _second_call(session: Session, arguments: _Arguments) -> str:
     before = session.arguments
     how = (
-        "For more nodes in one program use the object API, rosmini.Node('name'), or end this one with rospy.signal_shutdown('')."
+        "For more nodes in one program use the object API, rosmini.Node('name'), or end this one with "
+        "rospy.signal_shutdown('')."
         if session.is_main
         else "One script is one node: run a second script for a second node."
     )
@@ -175,7 +176,10 @@ def _second_call(session: Session, arguments: _Arguments) -> str:
 
 
 def spin() -> None:
-    """Block until the node is shut down; callbacks go on meanwhile. Raises ``ROSInitException`` before ``init_node``."""
+    """Block until the node is shut down; callbacks go on meanwhile.
+
+    Raises ``ROSInitException`` before ``init_node``.
+    """
     node = current_node()
     if node is None:
         if current_session().is_shutdown():
@@ -192,7 +196,10 @@ def spin() -> None:
 
 
 def on_shutdown(h: Callable[[], object]) -> None:
-    """Call ``h()`` when the node shuts down, while it can still publish; at once if it is down already. Raises ``TypeError``."""
+    """Call ``h()`` when the node shuts down, while it can still publish; at once if it is down already.
+
+    Raises ``TypeError``.
+    """
     add_client_shutdown_hook(h)
 
 
@@ -214,8 +221,8 @@ def seconds(timeout: float | base.Duration | None) -> float | None:
 def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration | None = None) -> Any:
     """Block until one message arrives on ``topic`` and return it.
 
-    Raises ``ROSException`` after ``timeout`` seconds, ``ROSInterruptException`` at shutdown, ``ROSInitException`` before ``init_node`` and
-    ``ValueError`` for what is no name or no message class.
+    Raises ``ROSException`` after ``timeout`` seconds, ``ROSInterruptException`` at shutdown, ``ROSInitException``
+    before ``init_node`` and ``ValueError`` for what is no name or no message class.
     """
     node = require_node(f"waiting for a message on {topic}")
     check_message_class(topic_type)
@@ -230,7 +237,8 @@ def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration
     try:
         if not node.wait(waiter, limit):
             raise ROSException(
-                f"timeout exceeded while waiting for message on topic {name}: nothing came in {limit:g} s; {node.graph.who_publishes(name)}"
+                f"timeout exceeded while waiting for message on topic {name}: nothing came in {limit:g} s; "
+                f"{node.master.who_publishes(name)}"
             )
     except KeyboardInterrupt as error:
         raise answer_interrupt(node, error) from None
@@ -243,13 +251,19 @@ def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration
 
 
 def get_param(param_name: str, default: Any = _unspecified) -> Any:
-    """Return a parameter's value, or ``default`` if it is not set; a tree of them as a dictionary. Raises ``KeyError``."""
+    """Return a parameter's value, or ``default`` if it is not set; a tree of them as a dictionary.
+
+    Raises ``KeyError``.
+    """
     node = any_node()
     return node.get_param(param_name) if default is _unspecified else node.get_param(param_name, default)
 
 
 def get_param_cached(param_name: str, default: Any = _unspecified) -> Any:
-    """Do what ``get_param`` does: the Parameter Server is so near that nothing needs to be kept. Raises ``KeyError``."""
+    """Do what ``get_param`` does: the Parameter Server is so near that nothing needs to be kept.
+
+    Raises ``KeyError``.
+    """
     return get_param(param_name, default)
 
 

@@ -1,6 +1,7 @@
 """``import rospy``: our modules under the names that scripts use.
 
-Scripts run by rosmini are given :func:`modules`, and ``sys.modules`` is left alone. :func:`install` is for everything else.
+Scripts run by rosmini are given :func:`modules`, and ``sys.modules`` is left alone. :func:`install` is for everything
+else.
 """
 
 from __future__ import annotations
@@ -21,77 +22,54 @@ if TYPE_CHECKING:
 
 __all__ = ["install", "installed", "modules", "uninstall"]
 
-_ROSPY = (
-    "client",
-    "core",
-    "exceptions",
-    "msg",
-    "msproxy",
-    "names",
-    "numpy_msg",
-    "rostime",
-    "service",
-    "timer",
-    "topics",
-)
 _HERE = __package__ or "rosmini.rospy"
+_ROSPY = "client core exceptions msg msproxy names numpy_msg rostime service timer topics"
+_ALIASES = {
+    "actionlib": "",
+    "dynamic_reconfigure": "",
+    "genpy": "dynamic message",
+    "message_filters": "",
+    "rosbag": "",
+    "rosgraph": "masterapi names rosenv roslogging",
+    "roslib": "names packages",
+    "rosparam": "",
+    "tf": "",
+    "tf2_geometry_msgs": "",
+    "tf2_py": "",
+    "tf2_ros": "buffer_client buffer_interface buffer_server",
+    "tf2_sensor_msgs": "",
+}
+"""The packages of `rosmini.rospy.aliases`, and the modules in them that are files of their own."""
+_THE_SAME = {
+    "actionlib": "action_client action_server exceptions goal_id_generator server_goal_handle simple_action_client "
+    "simple_action_server status_tracker",
+    "dynamic_reconfigure": "client encoding server",
+    "rosbag": "bag",
+    "tf": "broadcaster listener",
+    "tf2_geometry_msgs": "tf2_geometry_msgs",
+    "tf2_ros": "buffer static_transform_broadcaster transform_broadcaster transform_listener",
+    "tf2_sensor_msgs": "tf2_sensor_msgs",
+}
+"""Modules of ROS's packages that are the package itself here."""
 _HOMES = {
     "rospy": _HERE,
-    **{f"rospy.{name}": f"{_HERE}.{name}" for name in _ROSPY},
+    **{f"rospy.{name}": f"{_HERE}.{name}" for name in _ROSPY.split()},
+    **{package: f"{_HERE}.aliases.{package}" for package in _ALIASES},
     **{
-        name: f"{_HERE}.aliases.{name}"
-        for name in (
-            "actionlib",
-            "actionlib.action_client",
-            "actionlib.action_server",
-            "actionlib.exceptions",
-            "actionlib.goal_id_generator",
-            "actionlib.server_goal_handle",
-            "actionlib.simple_action_client",
-            "actionlib.simple_action_server",
-            "actionlib.status_tracker",
-            "dynamic_reconfigure",
-            "dynamic_reconfigure.client",
-            "dynamic_reconfigure.encoding",
-            "dynamic_reconfigure.server",
-            "genpy",
-            "genpy.dynamic",
-            "genpy.message",
-            "genpy.rostime",
-            "message_filters",
-            "rosbag",
-            "rosbag.bag",
-            "rosgraph",
-            "rosgraph.masterapi",
-            "rosgraph.names",
-            "rosgraph.rosenv",
-            "rosgraph.roslogging",
-            "roslib",
-            "roslib.message",
-            "roslib.names",
-            "roslib.packages",
-            "rosparam",
-            "tf",
-            "tf.broadcaster",
-            "tf.listener",
-            "tf2_geometry_msgs",
-            "tf2_geometry_msgs.tf2_geometry_msgs",
-            "tf2_py",
-            "tf2_ros",
-            "tf2_ros.buffer",
-            "tf2_ros.buffer_client",
-            "tf2_ros.buffer_interface",
-            "tf2_ros.buffer_server",
-            "tf2_ros.static_transform_broadcaster",
-            "tf2_ros.transform_broadcaster",
-            "tf2_ros.transform_listener",
-            "tf2_sensor_msgs",
-            "tf2_sensor_msgs.tf2_sensor_msgs",
-        )
+        f"{package}.{name}": f"{_HERE}.aliases.{package}.{name}"
+        for package, names in _ALIASES.items()
+        for name in names.split()
+    },
+    **{
+        f"{package}.{name}": f"{_HERE}.aliases.{package}"
+        for package, names in _THE_SAME.items()
+        for name in names.split()
     },
     "actionlib.msg": "rosmini.msgs.actionlib.msg",
     "dynamic_reconfigure.msg": "rosmini.msgs.dynamic_reconfigure.msg",
     "dynamic_reconfigure.srv": "rosmini.msgs.dynamic_reconfigure.srv",
+    "genpy.rostime": "rosmini.time",
+    "roslib.message": f"{_HERE}.aliases.genpy.message",
     "sensor_msgs.point_cloud2": f"{_HERE}.aliases.point_cloud2",
     "tf.msg": "rosmini.msgs.tf.msg",
     "tf.srv": "rosmini.msgs.tf.srv",
@@ -101,12 +79,12 @@ _HOMES = {
 
 
 def modules() -> dict[str, ModuleType]:
-    """Return the modules ``rospy``, ``actionlib``, ``genpy``, ``roslib``, ``rosgraph``, ``rosparam`` and those in them, by the names that scripts import."""
+    """Return ``rospy``, ``actionlib``, ``genpy`` ... and their submodules, by the names that scripts import."""
     return {name: import_module(home) for name, home in _HOMES.items()}
 
 
 class _AliasLoader(Loader):
-    """Gives the one module that is there already, so that ``rospy.msg`` and ``rosmini.rospy.msg`` are the same object."""
+    """Gives the module that exists already, so that ``rospy.msg`` and ``rosmini.rospy.msg`` are one object."""
 
     def __init__(self, home: str) -> None:
         self._home = home
@@ -166,8 +144,8 @@ def ros_is_installed() -> bool:
 def install(*, shadow: bool = False) -> None:
     """Let ``import rospy`` and ``from std_msgs.msg import String`` find what is in rosmini.
 
-    ``rospy``, ``genpy``, ``roslib``, ``rosgraph``, ``rosparam`` and the messages of every ROS package that can be found. Where a real ROS is
-    installed it wins, unless ``shadow`` is true. A second call changes ``shadow``.
+    ``rospy``, ``genpy``, ``roslib``, ``rosgraph``, ``rosparam`` and the messages of every ROS package that can be
+    found. Where a real ROS is installed it wins, unless ``shadow`` is true. A second call changes ``shadow``.
     """
     uninstall()
     msgs.install(shadow=shadow)

@@ -181,7 +181,7 @@ def throttled_identical(level: int) -> ThrottledLogFunction:
     """Make ``rospy.loginfo_throttle_identical`` for ``level``."""
 
     def log_throttle_identical(period: float, msg: Any, *args: Any, **kwargs: Any) -> None:
-        """Log ``msg % args`` when ``msg`` has changed, and else once in ``period`` seconds from one place of the program."""
+        """Log ``msg % args`` when ``msg`` has changed, else once in ``period`` seconds from one place."""
         where = place()
         due = is_due(where, period)
         if is_new(where, msg) or due:

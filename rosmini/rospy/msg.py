@@ -16,7 +16,8 @@ __all__ = ["AnyMsg", "args_kwds_to_message"]
 class AnyMsg(Message):
     """A message of any type, as the bytes that came over the wire, in ``_buff``.
 
-    A subscriber with this type takes every topic; ``_connection_header['type']`` of what it receives says which type it is.
+    A subscriber with this type takes every topic; ``_connection_header['type']`` of what it receives says which type it
+    is.
     """
 
     __slots__ = ("_buff",)
@@ -72,8 +73,9 @@ def _restore_any(data: bytes | None) -> AnyMsg:
 def args_kwds_to_message(data_class: Any, args: tuple[Any, ...], kwds: dict[str, Any]) -> Any:
     """Return the message that ``publish(*args, **kwds)`` means.
 
-    A message of ``data_class``, or of another type with its md5 sum, is taken as it is; else the arguments are all of its fields in order, or some by name. Raises
-    ``TypeError`` for another message, or for both kinds of arguments at once.
+    A message of ``data_class``, or of another type with its md5 sum, is taken as it is; else the arguments are all of
+    its fields in order, or some by name. Raises ``TypeError`` for another message, or for both kinds of arguments at
+    once.
     """
     if args and kwds:
         raise TypeError("publish() can be called with arguments or keywords, but not both.")

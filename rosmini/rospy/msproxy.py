@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 from rosmini.errors import ROSException
+from rosmini.graph.master_port import METHODS
 
 from .names import resolve_name
 from .session import any_node
@@ -16,21 +18,17 @@ __all__ = ["MasterProxy"]
 class MasterProxy:
     """The Master's API, with the caller's name filled in; answers are (code, status, value).
 
-    ``proxy["/rate"]``, ``proxy["/rate"] = 10``, ``"/rate" in proxy``, ``del proxy["/rate"]`` and iteration are about parameters.
+    ``proxy["/rate"]``, ``proxy["/rate"] = 10``, ``"/rate" in proxy``, ``del proxy["/rate"]`` and iteration are about
+    parameters.
     """
 
     def __init__(self, uri: str) -> None:
         self.target = uri
 
     def __getattr__(self, key: str) -> Callable[..., Any]:
-        node = any_node()
-        method: Callable[..., Any] | None = (
-            None if key.startswith("_") else getattr(node.graph.master, key, None)
-        )
-        if method is None:
+        if key not in METHODS:
             raise AttributeError(f"the Master has no method {key}", name=key, obj=self)
-        found = method
-        return lambda *args: found(node.name, *args)
+        return partial(any_node().master.call, key)
 
     def __getitem__(self, key: str) -> Any:
         return any_node().get_param(key)
@@ -60,8 +58,7 @@ class MasterProxy:
 
 def published_topics(namespace: str) -> list[list[str]]:
     """Return the ``[topic, type]`` pairs of what is published under ``namespace``. Raises ``ROSException``."""
-    node = any_node()
-    code, status, value = node.graph.master.getPublishedTopics(node.name, namespace)
+    code, status, value = any_node().master.call("getPublishedTopics", namespace)
     if code != 1:
         raise ROSException(f"unable to get published topics: {status}")
     return [list(pair) for pair in value]

@@ -69,7 +69,10 @@ def resolve_name(name: str, caller_id: str | None = None) -> str:
 
 
 def remap_name(name: str, caller_id: str | None = None, resolved: bool = True) -> str:
-    """Return what ``name`` is remapped to, resolved unless ``resolved`` is false; ``name`` itself if nothing remaps it."""
+    """Return what ``name`` is remapped to, resolved unless ``resolved`` is false.
+
+    ``name`` itself if nothing remaps it.
+    """
     caller_id = caller_id or get_name()
     mappings = get_mappings()
     if name not in mappings:
@@ -79,7 +82,10 @@ def remap_name(name: str, caller_id: str | None = None, resolved: bool = True) -
 
 
 def scoped_name(caller_id: str, name: str) -> str:
-    """Return the global ``name`` as it is called within the namespace of ``caller_id``. Raises ``ROSException`` if that is not global."""
+    """Return the global ``name`` as it is called within the namespace of ``caller_id``.
+
+    Raises ``ROSException`` if that is not global.
+    """
     if not is_global(caller_id):
         raise ROSException(f"caller_id must be global: {caller_id} is not")
     return canonicalize(name)[len(namespace(caller_id)) :]

@@ -1,4 +1,4 @@
-"""``numpy_msg(Type)``: messages whose numeric arrays are numpy arrays (http://wiki.ros.org/rospy_tutorials/Tutorials/numpy)."""
+"""``numpy_msg(Type)``: messages with numpy arrays (http://wiki.ros.org/rospy_tutorials/Tutorials/numpy)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["numpy_msg"]
 
 @cache
 def numpy_msg(msg_type: Any) -> Any:
-    """Return a class of ``msg_type`` that has numpy arrays (read-only ones) where there are numbers when it was received or deserialized."""
+    """Return a class of ``msg_type`` with read-only numpy arrays of numbers when it was received or deserialized."""
     thaw = msg_type._thaw_genpy_numpy  # noqa: SLF001 - the contract of message classes
 
     def receive(frozen: Any) -> Any:

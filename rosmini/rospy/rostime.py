@@ -70,7 +70,8 @@ def _now_ns() -> int:
     node = current_node()
     if node is None:
         raise ROSInitException(
-            "time is not initialized: a node's clock starts with the node. Call rospy.init_node('name') before asking for the time."
+            "time is not initialized: a node's clock starts with the node. Call rospy.init_node('name') before asking "
+            "for the time."
         )
     node.scheduler.tick(TICKS_PER_LOOK)
     return node.clock.now_ns()
@@ -87,7 +88,7 @@ def is_wallclock() -> bool:
 
 
 def switch_to_wallclock() -> None:
-    """Do nothing: a node's clock is chosen by ``/use_sim_time`` when it starts, and before that there is the wall clock only."""
+    """Do nothing: ``/use_sim_time`` chooses a node's clock when it starts; before, there is the wall clock only."""
 
 
 def wallsleep(duration: float | base.Duration) -> None:

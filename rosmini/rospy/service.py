@@ -29,7 +29,8 @@ __all__ = ["Service", "ServiceException", "ServiceProxy", "wait_for_service"]
 def wait_for_service(service: str, timeout: float | base.Duration | None = None) -> None:
     """Block until somebody offers ``service``; works before ``init_node``, too.
 
-    Raises ``ROSException`` after ``timeout`` seconds, ``ROSInterruptException`` at shutdown, ``ValueError`` for a time-out of zero.
+    Raises ``ROSException`` after ``timeout`` seconds, ``ROSInterruptException`` at shutdown, ``ValueError`` for a
+    time-out of zero.
     """
     limit = timeout.to_sec() if isinstance(timeout, base.Duration) else timeout
     if limit == 0:
@@ -72,7 +73,8 @@ class Service(_Service):
         buff_size: accepted, as scripts give it; without effect in one process.
         error_handler: called with (error, its class, it again, traceback) instead of the log when the handler raises.
 
-    Raises ``ValueError`` for an illegal name or for what is no service class, ``ServiceException`` if the node offers the service already.
+    Raises ``ValueError`` for an illegal name or for what is no service class, ``ServiceException`` if the node offers
+    the service already.
 
     """
 
@@ -139,11 +141,12 @@ class Service(_Service):
 
 
 class ServiceProxy(_Service):
-    """Calls a service like a function: ``proxy(request)``, ``proxy(1, 2)`` or ``proxy(a=1, b=2)``; works before ``init_node``, too.
+    """Calls a service like a function: ``proxy(request)``, ``proxy(1, 2)`` or ``proxy(a=1, b=2)``.
 
-    A ``persistent`` proxy keeps its connection: faster, and deaf to a server that is replaced. ``headers`` are further fields of the
-    connection header, which the handler finds in ``request._connection_header``. Raises ``ValueError`` for an illegal name, for what is no
-    service class and for headers that are no texts.
+    Works before ``init_node``, too. A ``persistent`` proxy keeps its connection: faster, and deaf to a server that is
+    replaced. ``headers`` are further fields of the connection header, which the handler finds in
+    ``request._connection_header``. Raises ``ValueError`` for an illegal name, for what is no service class and for
+    headers that are no texts.
     """
 
     def __init__(
@@ -165,8 +168,9 @@ class ServiceProxy(_Service):
     def call(self, *args: Any, **kwds: Any) -> Any:
         """Send a request and block until the response is there.
 
-        Raises ``ServiceException`` when there is no server, its handler fails, or it goes away meanwhile; ``TypeError`` for a request of
-        another service; ``genpy.SerializationError`` for a field of the wrong type (rospy turns it into its own for topics only).
+        Raises ``ServiceException`` when there is no server, its handler fails, or it goes away meanwhile; ``TypeError``
+        for a request of another service; ``genpy.SerializationError`` for a field of the wrong type (rospy turns it
+        into its own for topics only).
         """
         client = self._client
         if client is None or client.node is not any_node():

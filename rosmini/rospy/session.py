@@ -1,9 +1,9 @@
 """Whose rospy call it is: the node, the script and the graph behind a plain function like ``rospy.loginfo``.
 
 rospy keeps one node in the globals of a process. Here many scripts share a process, so what rospy would keep there is
-a :class:`Session`, an attribute of the script's context (or of the graph, for the main program and notebook cells); this
-package has no state of its own. The caller's lane says which script, and the process's default graph which graph
-(whoever runs scripts makes theirs the default one).
+a :class:`Session`, an attribute of the script's context (or of the graph, for the main program and notebook cells);
+this package has no state of its own. What runs the caller says which graph and which script; the main program's graph
+is the default one.
 """
 
 from __future__ import annotations
@@ -15,13 +15,15 @@ import weakref
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ROSInitException, ROSInterruptException
-from rosmini.graph import Graph, Node, default_graph
+from rosmini.graph import Graph, Node, running_graph
 from rosmini.graph.lanes import LaneContext
 from rosmini.graph.log_gates import LogGates
 from rosmini.names import Remappings, canonicalize
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from rosmini.graph.node_port import NodePort
 
 _ATTRIBUTE = "_rospy_session"
 
@@ -32,7 +34,7 @@ class UnnamedNode(Node):
     def _start(self) -> None:
         """Register nothing: only ``init_node`` does."""
 
-    def shutdown(self, reason: str = "") -> None:
+    def shutdown(self, reason: str = "", *, hooks: bool = True) -> None:
         """Do nothing: there is nothing to shut down."""
 
 
@@ -115,7 +117,10 @@ class Session:
             self.stopped = True
 
     def run_hooks(self) -> None:
-        """Call the shutdown hooks, in the order in which they came; one that fails does not keep the others from running."""
+        """Call the shutdown hooks, in the order in which they came.
+
+        One that fails does not keep the others from running.
+        """
         node = self.node or self.unnamed()
         reason = node.shutdown_reason or self.shutdown_reason or ""
         hooks, self.hooks = self.hooks, []
@@ -140,7 +145,7 @@ class Session:
 
 def current_session() -> Session:
     """Return the session of the caller's script or program."""
-    graph = default_graph()
+    graph = running_graph()
     context = graph.scheduler.current().context
     owner: Any = graph if context is None else context
     found: Session | None = vars(owner).get(_ATTRIBUTE)
@@ -151,8 +156,11 @@ def current_session() -> Session:
 
 
 def current_node() -> Node | None:
-    """Return the caller's node: that of its lane (a callback's is the subscriber's), else that of its script; None before ``init_node``."""
-    node: Node | None = default_graph().scheduler.current().node
+    """Return the caller's node: that of its lane (a callback's is the subscriber's), else that of its script.
+
+    None before ``init_node``.
+    """
+    node: Node | None = running_graph().scheduler.current().node
     return current_session().node if node is None else node
 
 
@@ -161,11 +169,11 @@ def any_node() -> Node:
     return current_node() or current_session().unnamed()
 
 
-def answer_interrupt(node: Node, error: KeyboardInterrupt) -> BaseException:
+def answer_interrupt(node: NodePort, error: KeyboardInterrupt) -> BaseException:
     """Return what a blocking call raises at Ctrl-C.
 
-    In a program of its own rospy answers it by shutting the node down, unless ``init_node`` was told to leave signals alone;
-    in a notebook it ends the cell and nothing else, and scripts run by rosmini get it from their runner.
+    In a program of its own rospy answers it by shutting the node down, unless ``init_node`` was told to leave signals
+    alone; in a notebook it ends the cell and nothing else, and scripts run by rosmini get it from their runner.
     """
     session = current_session()
     signals = session.arguments is not None and not session.arguments[-1]

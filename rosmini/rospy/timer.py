@@ -19,8 +19,8 @@ __all__ = ["Rate", "Timer", "TimerEvent", "sleep"]
 def sleep(duration: float | base.Duration) -> None:
     """Sleep for seconds of the node's time; not at all for zero or less.
 
-    Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when ``/clock``
-    jumps back.
+    Raises ``ROSInterruptException`` when the node shuts down meanwhile, ``ROSTimeMovedBackwardsException`` when
+    ``/clock`` jumps back.
     """
     node = any_node()
     try:
@@ -54,7 +54,8 @@ class Rate(clock.Rate):
     def sleep(self) -> None:
         """Sleep to the end of this turn; after a turn that took too long, start afresh.
 
-        Raises ``ROSInterruptException`` when the node shuts down, ``ROSTimeMovedBackwardsException`` when ``/clock`` jumps back.
+        Raises ``ROSInterruptException`` when the node shuts down, ``ROSTimeMovedBackwardsException`` when ``/clock``
+        jumps back.
         """
         try:
             super().sleep()
@@ -70,7 +71,8 @@ class Rate(clock.Rate):
 class TimerEvent:
     """What a timer's callback is given: when it was due and when it ran, for this call and for the one before.
 
-    Times are ``rospy.Time`` (None before the second call), ``last_duration`` is how many seconds the last callback took.
+    Times are ``rospy.Time`` (None before the second call), ``last_duration`` is how many seconds the last callback
+    took.
     """
 
     def __init__(

@@ -84,7 +84,8 @@ class Topic(ABC):
         self.resolved_name = self.name = resolve_early(name, "topic")
         if not is_legal_name(name):
             warnings.warn(
-                f"'{name}' is not a legal ROS graph resource name. This may cause problems with other ROS tools: write {self.resolved_name}",
+                f"'{name}' is not a legal ROS graph resource name. This may cause problems with other ROS tools: "
+                f"write {self.resolved_name}",
                 stacklevel=3,
             )
         self.data_class = data_class
@@ -166,8 +167,9 @@ class Publisher(Topic):
         super().__init__(name, data_class)
         if queue_size is None:
             warnings.warn(
-                f"give the publisher of {self.resolved_name} a queue_size, such as queue_size=10: without one rospy publishes "
-                "synchronously, so a slow subscriber holds it up (http://wiki.ros.org/rospy/Overview/Publishers%20and%20Subscribers)",
+                f"give the publisher of {self.resolved_name} a queue_size, such as queue_size=10: without one rospy "
+                "publishes synchronously, so a slow subscriber holds it up "
+                "(http://wiki.ros.org/rospy/Overview/Publishers%20and%20Subscribers)",
                 SyntaxWarning,
                 stacklevel=2,
             )
@@ -197,8 +199,9 @@ class Publisher(Topic):
     def publish(self, *args: Any, **kwds: Any) -> None:
         """Publish a message, or one made from its fields: all in order, or some by name.
 
-        Raises ``ROSException`` before ``init_node`` and after :meth:`unregister`, ``ROSSerializationException`` for a field of the wrong
-        type and ``TypeError`` for a message of another type. After the shutdown the message is lost, as in rospy.
+        Raises ``ROSException`` before ``init_node`` and after :meth:`unregister`, ``ROSSerializationException`` for a
+        field of the wrong type and ``TypeError`` for a message of another type. After the shutdown the message is lost,
+        as in rospy.
         """
         handle = self._handle
         if handle is None:
@@ -217,7 +220,10 @@ class Publisher(Topic):
     def _why_not(self) -> str:
         if self._unregistered:
             return f"publish() to an unregistered() handle: {self.resolved_name} was given up; make a new Publisher"
-        return f"publish() on {self.resolved_name}: ROS node has not been initialized yet. Please call rospy.init_node('name') first"
+        return (
+            f"publish() on {self.resolved_name}: ROS node has not been initialized yet. "
+            "Please call rospy.init_node('name') first"
+        )
 
     def _refused(self, error: ROSException) -> None:
         """Say once that a message after the shutdown is lost; rospy says nothing, and does not raise either."""
@@ -254,7 +260,8 @@ class Subscriber(Topic):
         queue_size: how many messages wait while a callback is busy before the oldest is dropped; None: no bound.
         buff_size, tcp_nodelay: accepted, as scripts give them; without effect in one process.
 
-    Raises ``ValueError`` for an illegal name or for what is no message class, ``ROSException`` for a queue size that is none.
+    Raises ``ValueError`` for an illegal name or for what is no message class, ``ROSException`` for a queue size that is
+    none.
 
     """
 

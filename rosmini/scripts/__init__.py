@@ -1,21 +1,31 @@
 """Scripts written for rospy, unmodified and several at once, inside one process.
 
-:func:`run_scripts` is `rosmini run`; :func:`run_source` runs a text, for tests and notebooks; :func:`rosrun` starts what a
-package has.
+:func:`run_scripts` is `rosmini run`; :func:`run_source` runs a text; :func:`rosrun` starts what
+package has and returns its handle.
 """
 
 from __future__ import annotations
 
-from .by_name import rosrun
+from .by_name import find, rosrun
+from .console import Console
 from .context import ScriptContext, current_script
-from .runner import NodeSpec, RunResult, ScriptSpec, run_scripts, run_source
+from .handle import Handle, StillRunning
+from .node_handle import NodeHandle, NodeSpec
+from .runner import RunResult, run_scripts, run_source
+from .script_handle import ScriptHandle, ScriptSpec
 
 __all__ = [
+    "Console",
+    "Handle",
+    "NodeHandle",
     "NodeSpec",
     "RunResult",
     "ScriptContext",
+    "ScriptHandle",
     "ScriptSpec",
+    "StillRunning",
     "current_script",
+    "find",
     "rosrun",
     "run_scripts",
     "run_source",

@@ -1,22 +1,24 @@
 """One script inside the process: everything that it believes to be its own.
 
-The scheduler calls :meth:`ScriptContext.enter` and :meth:`ScriptContext.leave` whenever the running lane belongs to another script. They
-swap what the standard library and other packages look up in the process: ``sys.argv`` and the standard streams, ``__main__`` and the
-modules beside the script, ``os.environ``, the warning filters, numpy's legacy random generator. What blocks or keeps state in a
-module of its own (``time``, ``threading``, ``logging``, ...) is replaced by the script's importer instead.
+The scheduler calls :meth:`ScriptContext.enter` and :meth:`ScriptContext.leave` whenever the running lane belongs to
+another script. They swap what the standard library and other packages look up in the process: ``sys.argv`` and the
+standard streams, ``__main__`` and the modules beside the script, ``os.environ``, the warning filters, numpy's legacy
+random generator. What blocks or keeps state in a module of its own (``time``, ``threading``, ``logging``, ...) is
+replaced by the script's importer instead.
 
-Shared by all scripts, as threads of one process share it: the current folder (``os.chdir``), ``os._exit``, open files,
-``sys.setrecursionlimit``, the locale. A blocking call that is not named in :mod:`rosmini.scripts.shims` (``subprocess.run``,
-sockets, ``asyncio.run``) holds up the other scripts while it lasts.
+Shared by all scripts, as threads of one process share it: the current folder (``os.chdir``), ``os._exit``, open
+files, ``sys.setrecursionlimit``, the locale. A blocking call that is not named in :mod:`rosmini.scripts.shims`
+(``subprocess.run``, sockets, ``asyncio.run``) holds up the other scripts while it lasts.
 
-For the client library (rospy), which finds the script of its caller with :func:`current_script` or as ``scheduler.current().context``:
+For the client library (rospy), which finds its caller's script as ``scheduler.current().context``:
 
-- ``argv``: the arguments with the script's name first, as ``sys.argv`` was at the start, remappings included; ``remaining_argv()`` is
-  the present ``sys.argv``.
+- ``argv``: the arguments with the script's name first, as ``sys.argv`` was at the start, remappings included;
+  ``remaining_argv()`` is the present ``sys.argv``.
 - ``name``: the prefix of the output: the stem of the file, until :meth:`set_node_name`.
 - ``node``: the node that the script initialised, set by the client library; threads of the script inherit it.
-- ``at_shutdown``: a list of functions ``f(reason)``, called once, last in first out: after the script's ``atexit`` functions when it ends, or when it
-  is asked to end (Ctrl-C, the end of the duration). A client library puts "shut my node down" there.
+- ``at_shutdown``: a list of functions ``f(reason)``, called once, last in first out: after the script's ``atexit``
+  functions when it ends, or when it is asked to end (Ctrl-C, the end of the duration). A client library puts "shut my
+  node down" there.
 - ``threads``: how many still run does not matter to it; the runner ends them.
 """
 
@@ -49,6 +51,7 @@ from .ticks import TICK
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
+    from rosmini.graph import Graph
     from rosmini.graph.lanes import Lane, Waiter
     from rosmini.graph.scheduler import Scheduler
 
@@ -57,7 +60,7 @@ class ScriptContext:
     """The state of one script; see the module's text.
 
     Args:
-        scheduler: runs its lanes.
+        graph: runs its lanes.
         filename: where the script stands, or a name like ``<talker>`` for a text.
         argv: ``sys.argv``, the script's name first.
         sink: takes its output.
@@ -70,7 +73,7 @@ class ScriptContext:
 
     def __init__(
         self,
-        scheduler: Scheduler,
+        graph: Graph,
         filename: str,
         argv: Sequence[str],
         *,
@@ -81,7 +84,8 @@ class ScriptContext:
         modules: Mapping[str, ModuleType] | None = None,
         name: str | None = None,
     ) -> None:
-        self.scheduler = scheduler
+        self.graph = graph
+        self.scheduler = graph.scheduler
         self.filename = filename
         self.argv = tuple(argv)
         self.name = name or Path(filename.strip("<>")).stem
@@ -91,6 +95,8 @@ class ScriptContext:
         self.exit_calls: list[tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]] = []
         self.handlers: dict[int, Any] = {}
         self.ended = False
+        self.on_threads_ended: Callable[[], object] = lambda: None
+        """Called when the last of its threads has ended after the script."""
         self.was_cut_short = False
         """A second Ctrl-C ended it, or what it was running."""
         self._sink = sink
@@ -192,7 +198,7 @@ class ScriptContext:
 
     @contextmanager
     def put_aside(self) -> Iterator[None]:
-        """Give the process back to the host for a while, if this script has it and the caller is in the graph's thread."""
+        """Give the process back to the host for a while, if this script has it and the hub's thread calls."""
         if not self._entered or not self.scheduler.is_hub_thread():
             yield
             return
@@ -249,7 +255,8 @@ class ScriptContext:
         path = self._own["path"]
         if path != self._folders_for:
             self._folders_for = list(path)
-            strings = [os.path.abspath(item) if item else str(Path.cwd()) for item in map(os.fspath, path)]  # noqa: PTH100
+            paths = [os.fspath(item) for item in path]
+            strings = [os.path.abspath(item) if item else str(Path.cwd()) for item in paths]  # noqa: PTH100
             folders = [item for item in strings if item in self._own_folders or item not in self._host_path]
             self._folders = tuple(dict.fromkeys(folders))
         return self._folders
@@ -309,9 +316,10 @@ class ScriptContext:
     def deliver(self, signum: int, *, in_place: bool = False) -> bool:
         """Give the script a signal; return whether it does something about it.
 
-        A handler runs in a lane of the script, or at once with ``in_place``; what it raises, and the ``KeyboardInterrupt`` of a SIGINT without a
-        handler, is raised in the main thread, which need not be at a blocking call. A SIGINT of a script with a node and no handler
-        is rospy's to answer, by shutting the node down.
+        A handler runs in a lane of the script, or at once with ``in_place``; what it raises, and the
+        ``KeyboardInterrupt`` of a SIGINT without a handler, is raised in the main thread, which need not be at a
+        blocking call. A SIGINT of a script with a node and no handler is rospy's to answer, by shutting the node
+        down.
         """
         number = signal.Signals(signum)
         handler = self.handlers.get(number, signal.SIG_DFL)
@@ -401,6 +409,15 @@ class ScriptContext:
             thread.end()
         for waiter in list(self._foreign):
             waiter.fail(LaneExit(f"{self.name} has ended"))
+
+    def other_threads(self) -> bool:
+        """Tell whether a thread beside the main one may still run."""
+        return any(thread.busy for thread in self.threads.alive() if thread is not self.threads.main)
+
+    def thread_ended(self) -> None:
+        """Learn that one of its threads has ended."""
+        if self.ended and not self.other_threads():
+            self.on_threads_ended()
 
     def close(self) -> None:
         """Forget the script's modules and give the environment back."""

@@ -2,9 +2,9 @@
 
 Each script has its own ``__import__`` in its builtins. Modules beside the script (or in a folder that it added to
 ``sys.path``) are loaded for this script alone, with ticks in their loops; a few modules of the standard library that
-keep state for the whole process or block (``threading``, ``time``, ``random``, ``logging``, ...) are replaced by shims or
-by private copies; ``rospy`` (given by whoever runs the script) and the messages are rosmini's; everything else is the host's, imported while the script's context is put aside, so
-that nothing of the script sticks to it.
+keep state for the whole process or block (``threading``, ``time``, ``random``, ``logging``, ...) are replaced by
+shims or by private copies; ``rospy`` (given by whoever runs the script) and the messages are rosmini's; everything
+else is the host's, imported while the script's context is put aside, so that nothing of the script sticks to it.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from importlib.machinery import ModuleSpec
 
-    from .context import ScriptContext
+    from .script import Script
 
 _NEVER_LOCAL = frozenset(sys.builtin_module_names) | {"rosmini", "builtins", "os", "io", "abc", "codecs"}
 """Names that are loaded before any script, so that a file beside it cannot hide them."""
@@ -47,7 +47,7 @@ _LIKE_MESSAGES = ("_msgs", "_msg", "_srvs", "_srv", "_interfaces")
 class Importer:
     """The modules of one script, and its ``__import__``."""
 
-    def __init__(self, context: ScriptContext, given: Mapping[str, ModuleType]) -> None:
+    def __init__(self, context: Script, given: Mapping[str, ModuleType]) -> None:
         self._context = context
         self._given = given
         self.local: dict[str, ModuleType] = {}

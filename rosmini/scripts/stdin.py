@@ -55,8 +55,8 @@ class Feed:
     def ready(self, who: Blocker, timeout_ns: int | None) -> bool:
         """Wait until something can be read (the end counts), for at most ``timeout_ns``; tell whether it can.
 
-        Once the end was read, asking again takes the whole time-out, which a person would have taken: a loop that waits for keys
-        would else turn for ever at one instant of simulated time.
+        Once the end was read, asking again takes the whole time-out, which a person would have taken: a loop that
+        waits for keys would else turn for ever at one instant of simulated time.
         """
         if self._text:
             return True

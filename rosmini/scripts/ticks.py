@@ -1,9 +1,10 @@
 """Loops that poll: a tick at the top of each turn, so that other nodes run and time goes on.
 
-Public scripts wait in loops that never block (``while not got: pass``, ``while distance < goal: pub.publish(v)``).
-On a real robot other threads run meanwhile; here everything shares one thread, so the loader inserts a call of
+Public scripts wait in loops that never block (``while not got: pass``, ``while distance < goal: pub.publish(v)``). On
+a real robot other threads run meanwhile; here everything shares one thread, so the loader inserts a call of
 ``__tick__()`` as the first statement of each ``while`` and ``for`` body. Line numbers, tracebacks, docstrings and
-``from __future__`` imports stay as they were, and ``async`` functions are left alone: their loops give way by ``await``.
+``from __future__`` imports stay as they were, and ``async`` functions are left alone: their loops give way by
+``await``.
 """
 
 from __future__ import annotations

@@ -16,8 +16,8 @@ from .world import Obstacle, WorldError
 def drag(engine: Engine, name: str, pose: Pose) -> None:
     """Lift a robot, or a thing that can be pushed, and put it down elsewhere, at rest.
 
-    Raises `WorldError` if something stands there, walls among it, or for what moves by itself, and `RobotGone` if there is nothing of this name
-    that could be taken. All is as it was then.
+    Raises `WorldError` if something, such as a wall, is in the way, or for what moves by itself, and `RobotGone` for an
+    unknown name; nothing has changed then.
     """
     if name in engine.robots:
         engine.place(name, pose)
@@ -31,12 +31,12 @@ def drag(engine: Engine, name: str, pose: Pose) -> None:
         msg = f"{what} in the world {engine.world.name!r}; robots and what can be pushed can be taken by hand. {hint}"
         raise RobotGone(msg)
     if found[name].movable and all(math.isfinite(part) for part in pose):
-        _check_walls(engine, found[name], pose)
+        check_room(engine, found[name], pose)
     engine.put(name, pose)
 
 
-def _check_walls(engine: Engine, thing: Obstacle, pose: Pose) -> None:
-    """Raise `WorldError` if a wall, or something else that is fixed, is where the thing is to be."""
+def check_room(engine: Engine, thing: Obstacle, pose: Pose) -> None:
+    """Raise `WorldError` if a wall, or something else that is fixed, is where a thing is to be."""
     for shape, place in simple_parts(thing.shape, pose):
         if isinstance(shape, ROUND):
             hindrance = engine.world.blocked(place, shape.radius, thing.height)
@@ -45,5 +45,5 @@ def _check_walls(engine: Engine, thing: Obstacle, pose: Pose) -> None:
             hindrance = engine.world.blocked((0.0, 0.0, 0.0), corners, thing.height)
         if hindrance is not None:
             x, y, theta = pose
-            msg = f"{thing.name!r} cannot be put to ({x:.2f}, {y:.2f}) with heading {theta:.2f}: {hindrance} is in its way"
-            raise WorldError(msg)
+            where = f"({x:.2f}, {y:.2f}) with heading {theta:.2f}"
+            raise WorldError(f"{thing.name!r} cannot be put to {where}: {hindrance} is in its way")

@@ -1,20 +1,23 @@
-"""Time in a graph for one engine, and for the devices that live on it: drives, sensors, whatever happens so many times a second.
+"""The time of one engine in a graph, and the devices on it: drives, sensors, anything that happens at a rate.
 
-`rosmini_sim/simulator`, `stage_ros/stageros` and `gazebo_ros/gzserver` are each a `Host` with an `Engine` and devices. Devices of the same rate are
-due at the same instants, counted from the host's time zero, whenever they were added: so one event of the graph's queue serves a hundred robots. The
-engine only goes on from one such instant to the next, and where a command comes in.
+`rosmini_sim/simulator`, `stage_ros/stageros` and `gazebo_ros/gzserver` are each a `Host` with an `Engine` and
+devices. Devices of the same rate are due at the same instants, counted from the host's time zero, whenever they were
+added: so one event of the graph's queue serves a hundred robots. The engine advances from one such instant to the
+next, and to commands.
 """
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from rosmini.errors import RosminiError, nearest
 from rosmini.graph.clock import GraphClock
 from rosmini.time import Time
 
+from .device_group import DeviceGroup, Stamp
 from .engine.engine import Engine
 
 if TYPE_CHECKING:
@@ -25,26 +28,27 @@ if TYPE_CHECKING:
 SECOND = 1_000_000_000
 
 LAG_S = 0.25
-"""A host that is farther behind the clock on the wall lets the time go instead of running after it."""
+"""A host that lags farther behind the wall clock skips the time instead of catching up [s]."""
 
 IDLE_S = 0.1
-"""So often a host looks about in which nothing is due, because nobody listens [s]."""
-
-Stamp = tuple[int, int]
-"""When something was so, as a message's header has it: seconds and nanoseconds."""
+"""How often a host checks again while nobody listens [s]."""
 
 D = TypeVar("D", bound="Device")
 
+__all__ = ["IDLE_S", "LAG_S", "SECOND", "Device", "Host", "HostState", "Stamp"]
+
 
 class Device:
-    """Something of a host that happens `rate` times a second of simulated time. Derive from it, and call `host.add` with it.
+    """Something that happens `rate` times a second of simulated time. Derive from it, and call `host.add` with it.
 
-    Those that are due at the same instant are served in the sequence of `order`, and of those with the same one in that of their adding.
+    Devices due at the same instant are served by `order`, and in insertion order if that is equal.
     """
 
     always = True
-    """False for what may be left out while nobody is there who wants it: then `wanted` is asked first."""
-    order = 100
+    """False for what may be skipped while nobody wants it: then `wanted` is asked first."""
+    order: ClassVar[float] = 100.0
+    """TurtleBot3's: time 0, drive 10, transforms 20, joints 30, truth 40, laser 50, IMU 60, battery 70, bumper 75,
+    board 80, cameras 90."""
 
     def __init__(self, host: Host, name: str, rate: float) -> None:
         if not 0 < rate < float("inf"):
@@ -52,25 +56,30 @@ class Device:
             raise RosminiError(msg)
         self.host = host
         self.name = name
-        """Under which it is saved, and draws its noise: as a rule robot/what, `burger/imu`."""
+        """Under which it is saved and draws its noise: usually robot/what, `burger/imu`."""
         self.rate = float(rate)
 
     def wanted(self) -> bool:
-        """Tell whether anybody wants to know; only asked of what is not `always`."""
+        """Return whether anybody wants it; only asked if not `always`."""
         return True
 
     def due(self, stamp: Stamp, number: int, /) -> None:
-        """Do what is to be done at this instant, the `number`th of this device from 1 on. What was not wanted is counted too."""
+        """Do what is due, for the `number`th time from 1 on; what was not wanted is counted too."""
 
     def reset(self) -> None:
-        """Go back to how it was in the beginning, because the world does; a sensor need not do anything."""
+        """Return to the initial state, because the world does; a sensor need not do anything."""
+
+    kept: ClassVar[tuple[str, ...]] = ()
+    """The attributes that change while it works: what is saved."""
 
     def state(self) -> Any:
-        """Everything that changes while it works, as a copy that can be pickled; None: nothing does."""
-        return None
+        """Return everything that changes while it works, as a copy that can be pickled."""
+        return copy.deepcopy({name: getattr(self, name) for name in self.kept})
 
     def restore(self, state: Any) -> None:
         """Become as it was when `state` was taken."""
+        for name, value in copy.deepcopy(state).items():
+            setattr(self, name, value)
 
     def close(self) -> None:
         """Leave the graph: end topics and services. Called by `Host.remove`, once."""
@@ -78,70 +87,16 @@ class Device:
 
 @dataclass(frozen=True)
 class HostState:
-    """All that a host, its engine and its devices will go on from. It can be pickled."""
+    """Everything a host, its engine and its devices go on from. It can be pickled."""
 
     time_ns: int
     zero_ns: int
     next_ns: int | None
     engine: Any
     beats: dict[float, tuple[int, int]]
-    """Rate: since when, and the number of the next."""
+    """Rate: the start, and the number of the next instant."""
     devices: dict[str, tuple[int, Any]]
-    """Name: how many beats there were before its first, and what it told of itself."""
-
-
-class _Group:
-    """Devices of the same rate, and when they are due next [ns since the engine began]."""
-
-    def __init__(self, rate: float, start_ns: int, now_ns: int) -> None:
-        self.rate = rate
-        self.period = 1e9 / rate
-        self.devices: list[Device] = []
-        self.before: dict[str, int] = {}
-        self.begin(start_ns, now_ns)
-
-    def begin(self, start_ns: int, now_ns: int) -> None:
-        """Count from `start_ns`; the next is the first after `now_ns`."""
-        self.start_ns = start_ns
-        self.to(1)
-        self.skip(now_ns)
-
-    def to(self, number: int) -> None:
-        """Let this be the next one."""
-        self.number = number
-        self.due_ns = self.start_ns + round(number * self.period)
-
-    def after(self, now_ns: int) -> int:
-        """The number of the first that is after this time, or of the next one, if that is later."""
-        if self.due_ns > now_ns:
-            return self.number
-        number = int((now_ns - self.start_ns) / self.period) + 1
-        return number + (self.start_ns + round(number * self.period) <= now_ns)
-
-    def skip(self, now_ns: int) -> None:
-        """Go on to the first that is after this time."""
-        if self.due_ns <= now_ns:
-            self.to(self.after(now_ns))
-
-    def sort(self) -> None:
-        """Put the devices into their sequence."""
-        self.devices.sort(key=lambda device: device.order)  # a stable sort
-        self.always = any(device.always for device in self.devices)
-        self._calls = tuple(
-            (None if device.always else device.wanted, device.due, self.before[device.name])
-            for device in self.devices
-        )
-
-    def wanted(self) -> bool:
-        """Tell whether any device has something to do."""
-        return self.always or any(device.wanted() for device in self.devices)
-
-    def serve(self, stamp: Stamp) -> None:
-        """Let the devices do what they have to do now."""
-        number = self.number
-        for wanted, due, before in self._calls:
-            if wanted is None or wanted():
-                due(stamp, number - before)
+    """Name: how many beats came before its first, and its own state."""
 
 
 class Host:
@@ -150,10 +105,10 @@ class Host:
     Args:
         node: the started node that publishes; its clock is the one by which the world's time goes on.
         engine: the world.
-        from_zero: stamps begin at 0 as the simulated time does, as in Gazebo and Stage, which publish them on `/clock`; the host then lives on the
+        from_zero: stamps start at 0, as in Gazebo and Stage, which publish them on `/clock`; the host then follows the
             graph's own time, even with /use_sim_time. Otherwise stamps are the times of the node's clock.
-        speed: so many seconds of the world pass in one of the clock.
-        paused: whether time stands at first.
+        speed: how many seconds of the world pass in one second of the clock.
+        paused: whether time stands still initially.
 
     """
 
@@ -168,40 +123,43 @@ class Host:
         self._paused = paused
         self._time_ns = self._zero_ns = round(engine.now * SECOND)  # since the engine began
         self._clock_ns = self.clock.now_ns()  # what the clock showed at _time_ns
-        self._groups: dict[float, _Group] = {}
-        self._order: tuple[_Group, ...] = ()
+        self._groups: dict[float, DeviceGroup] = {}
+        self._order: tuple[DeviceGroup, ...] = ()
         self._devices: dict[str, Device] = {}
         self._lag_ns = int(LAG_S * SECOND * max(1.0, node.scheduler.rate))
         self._due_ns = 0
         self._cancel: Callable[[], None] | None = None
         self._ended = False
         self._serving = False
+        self.on_time: list[Callable[[], object]] = []
+        """Called when time was paused, resumed, stepped or set."""
         node.on_shutdown(self.end)
 
     def __repr__(self) -> str:
         count = len(self._devices)
-        return f"<Host {self.node.name}: {self.now:.3f} s, {count} device{'s' * (count != 1)}{', paused' * self._paused}>"
+        devices = f"{count} device{'s' * (count != 1)}{', paused' * self._paused}"
+        return f"<Host {self.node.name}: {self.now:.3f} s, {devices}>"
 
     # -- time ----------------------------------------------------------------------------------------------------
 
     @property
     def now(self) -> float:
-        """The world's time [s]: 0 when the host was made or `reset_time` was called; it stands while the host is paused."""
+        """The world's time [s] since the host was made or `reset_time` was called; it stands still while paused."""
         return (self._at() - self._zero_ns) * 1e-9
 
     @property
     def stamp(self) -> Time:
-        """The time that a message of now would bear."""
+        """The stamp of a message of now."""
         return Time(*self._stamp(self._at()))
 
     @property
     def paused(self) -> bool:
-        """Whether time stands."""
+        """Whether time stands still."""
         return self._paused
 
     @property
     def speed(self) -> float:
-        """So many seconds of the world pass in one of the clock."""
+        """How many seconds of the world pass in one second of the clock."""
         return self._speed
 
     @speed.setter
@@ -213,15 +171,15 @@ class Host:
 
     @property
     def engine_now(self) -> float:
-        """The engine's time that it is now [s]; the engine itself may be a little behind: see `catch_up`."""
+        """The engine's time now [s]; the engine itself may be a little behind: see `catch_up`."""
         return self._at() * 1e-9
 
     def catch_up(self) -> None:
-        """Let the engine go on to now. To be called before something is changed in it."""
+        """Advance the engine to now. Call it before changing something in the engine."""
         self.engine.advance(self._at() * 1e-9)
 
     def pause(self) -> None:
-        """Let time stand. Harmless when repeated."""
+        """Stop time. Harmless when repeated."""
         if not self._paused:
             if self._cancel is not None and self._due_ns <= self._at():  # its event has not been reached yet
                 self._forget()
@@ -229,6 +187,7 @@ class Host:
             self._hold()
             self._paused = True
             self._forget()
+            self.tell_time()
 
     def unpause(self) -> None:
         """Let time go on. Harmless when repeated."""
@@ -236,9 +195,10 @@ class Host:
             self._paused = False
             self._clock_ns = self.clock.now_ns()
             self._plan()
+            self.tell_time()
 
     def step(self, seconds: float) -> None:
-        """Let so much of the world's time pass at once, while it stands otherwise. Raises `RosminiError` if it does not stand."""
+        """Let so much of the world's time pass at once. Raises `RosminiError` unless it is paused."""
         if not self._paused:
             msg = f"the world {self.engine.world.name!r} can only be stepped while its time stands: pause it first"
             raise RosminiError(msg)
@@ -256,9 +216,15 @@ class Host:
                 group.skip(due)
         self._time_ns = end
         self.catch_up()
+        self.tell_time()
+
+    def tell_time(self) -> None:
+        """Call all of `on_time`."""
+        for callback in self.on_time:
+            callback()
 
     def reset_time(self) -> None:
-        """Let the world's time begin at 0 again; with `from_zero` stamps do too. The devices' own counting goes on."""
+        """Start the world's time at 0 again; with `from_zero` stamps too. The devices go on counting."""
         self._hold()
         now = self._zero_ns = self._time_ns
         for group in self._order:
@@ -269,9 +235,10 @@ class Host:
             group.begin(now, now)
             group.sort()
         self._plan()
+        self.tell_time()
 
     def end(self) -> None:
-        """Stop for ever: nothing is due any more. The devices stay open. Harmless when repeated."""
+        """Stop for good: nothing is due any more. The devices stay open. Harmless when repeated."""
         self._ended = True
         self._forget()
 
@@ -283,7 +250,7 @@ class Host:
         return self._time_ns + (passed if self._speed == 1 else round(passed * self._speed))
 
     def _hold(self) -> None:
-        """Take the time that it is as the one to count from."""
+        """Count from now on."""
         self._time_ns = self._at()
         self._clock_ns = self.clock.now_ns()
         self.catch_up()
@@ -303,14 +270,18 @@ class Host:
     # -- what happens --------------------------------------------------------------------------------------------
 
     def add(self, device: D) -> D:
-        """Take a device in; it is due for the first time at the next instant of its rate. Raises `RosminiError` for a name that is used."""
+        """Add a device; it is first due at the next instant of its rate.
+
+        Raises `RosminiError` if there is a device of its name, and closes the new one.
+        """
         if device.name in self._devices:
+            device.close()
             msg = f"the host {self.node.name} has a device {device.name!r} already"
             raise RosminiError(msg)
         now = self._at()
         group = self._groups.get(device.rate)
         if group is None:
-            group = self._groups[device.rate] = _Group(device.rate, self._zero_ns, now)
+            group = self._groups[device.rate] = DeviceGroup(device.rate, self._zero_ns, now)
         self._devices[device.name] = device
         group.devices.append(device)
         group.before[device.name] = group.after(now) - 1
@@ -319,7 +290,7 @@ class Host:
         return device
 
     def remove(self, device: Device) -> None:
-        """Close a device, which is not due any more. Harmless when repeated."""
+        """Close and remove a device. Harmless when repeated."""
         if self._devices.get(device.name) is not device:
             return
         del self._devices[device.name]
@@ -335,36 +306,37 @@ class Host:
 
     @property
     def devices(self) -> tuple[Device, ...]:
-        """What is in it, in the sequence of adding."""
+        """All devices, in insertion order."""
         return tuple(self._devices.values())
 
     def device(self, name: str) -> Device:
         """Return the device of this name. Raises `RosminiError`."""
         if name not in self._devices:
             hint = nearest(name, self._devices)
-            msg = f"the host {self.node.name} has no device {name!r} (devices: {', '.join(self._devices) or 'none'}). {hint}"
+            there = ", ".join(self._devices) or "none"
+            msg = f"the host {self.node.name} has no device {name!r} (devices: {there}). {hint}"
             raise RosminiError(msg.rstrip())
         return self._devices[name]
 
     def count(self, device: Device) -> int:
-        """How many instants of a device there have been until the engine's now, this one too: the number that the last one's `due` got."""
+        """The number of a device's instants up to the engine's now: what the last `due` got."""
         group = self._groups[device.rate]
         # the engine may be a nanosecond short of an instant, whose number is a fraction of one
         return group.after(round(self.engine.now * SECOND) + 1) - 1 - group.before[device.name]
 
     def rng(self, name: str) -> np.random.Generator:
-        """Return the random generator for what is called `name`: the same on each run, and whoever else draws from another."""
+        """Return the random generator of a name: the same on each run, and independent of all others."""
         return self.node.graph.rng(f"{self.node.name}/{name}")
 
     def reset(self) -> None:
-        """Put all robots and movable obstacles back to where they began, and the devices with them."""
+        """Put all robots and movable obstacles back to where they started, and reset the devices."""
         self.catch_up()
         self.engine.reset()
         for device in self.devices:
             device.reset()
 
     def _arrange(self) -> None:
-        """Learn that devices have come or gone."""
+        """Sort the groups: devices have come or gone."""
         groups = sorted(self._groups.values(), key=lambda group: group.devices[0].order)
         self._order = tuple(groups)
         self._plan()
@@ -375,7 +347,7 @@ class Host:
             self._cancel = None
 
     def _plan(self, since_ns: int | None = None) -> None:
-        """Ask to be called when the first device is due after now, or after `since_ns`, wanted or not."""
+        """Schedule the first device due after now, or after `since_ns`, wanted or not."""
         if self._serving:  # `_tick` does it when all have been served
             return
         self._forget()
@@ -390,7 +362,7 @@ class Host:
         self._cancel = self.clock.call_at(self._on_clock(due_ns), self._wake)
 
     def _wake(self) -> None:
-        """Go on. An event of the queue without a lane, for nothing in it can block."""
+        """Go on. An event without a lane: nothing in it blocks."""
         due = self._due_ns
         self._cancel = None
         try:
@@ -412,7 +384,7 @@ class Host:
             self._call(following)
 
     def _serve(self, due: int) -> int:
-        """Let all happen that is due now; return when the next thing is."""
+        """Serve everything due now; return when the next thing is due."""
         self.engine.advance(due * 1e-9)
         stamp = self._stamp(due)
         following = due + int(IDLE_S * SECOND)
@@ -433,7 +405,7 @@ class Host:
     # -- saving --------------------------------------------------------------------------------------------------
 
     def save(self) -> HostState:
-        """Everything of now: the engine, the devices, and when they are due. Nothing changes by it."""
+        """Return the state of the engine and the devices, and when they are due. Nothing changes by it."""
         return HostState(
             time_ns=self._at(),
             zero_ns=self._zero_ns,
@@ -447,15 +419,17 @@ class Host:
         )
 
     def restore(self, state: HostState) -> None:
-        """Go on from there as it went on then. Raises `RosminiError` for no state, and if there are other devices now than there were."""
+        """Go on from a saved state. Raises `RosminiError` for what is none, or is of other devices."""
         if not isinstance(state, HostState):
-            msg = f"the host {self.node.name} can only be restored from what its save() returned, not from a {type(state).__name__}"
-            raise RosminiError(msg)
+            what = type(state).__name__
+            raise RosminiError(
+                f"the host {self.node.name} can only be restored from what its save() returned, not from a {what}"
+            )
         if set(state.devices) != set(self._devices):
             gone = sorted(set(state.devices) - set(self._devices))
             new = sorted(set(self._devices) - set(state.devices))
             msg = (
-                f"the host {self.node.name} has other devices than the state that is to be restored "
+                f"the host {self.node.name} has other devices than the state to restore "
                 f"(missing: {', '.join(gone) or 'none'}; additional: {', '.join(new) or 'none'})"
             )
             raise RosminiError(msg)
@@ -463,7 +437,7 @@ class Host:
             then, now = (
                 ", ".join(f"{rate:g}" for rate in sorted(each)) for each in (state.beats, self._groups)
             )
-            msg = f"the devices of the host {self.node.name} have other rates ({now} Hz) than in the state that is to be restored ({then} Hz)"
+            msg = f"the devices of the host {self.node.name} have other rates ({now} Hz) than in the state ({then} Hz)"
             raise RosminiError(msg)
         self.engine.restore(state.engine)
         self._time_ns, self._zero_ns = state.time_ns, state.zero_ns
@@ -472,7 +446,7 @@ class Host:
             device = self._devices[name]
             self._groups[device.rate].before[name] = before
             device.restore(own)
-        self._devices = {name: self._devices[name] for name in state.devices}  # in the sequence of then
+        self._devices = {name: self._devices[name] for name in state.devices}  # in the order of then
         self._groups = {rate: self._groups[rate] for rate in state.beats}
         for rate, group in self._groups.items():
             group.start_ns, number = state.beats[rate]
@@ -485,6 +459,7 @@ class Host:
         else:
             self._forget()
             self._call(state.next_ns)
+        self.tell_time()
 
 
 def _speed(speed: float) -> float:

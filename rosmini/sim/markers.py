@@ -1,7 +1,7 @@
 """Things of a world as `visualization_msgs/Marker`s, and back: what RViz can draw of them, a recorder can read.
 
-Each simple part is a marker: a cube, a cylinder, a sphere, or, for a polygon, the closed line around its top, in its own frame. The namespace is the thing's
-name, the ids count its parts.
+Each simple part is a marker: a cube, a cylinder, a sphere, or, for a polygon, the closed line around its top, in its
+own frame. The namespace is the thing's name, the ids count its parts.
 """
 
 from __future__ import annotations
@@ -91,7 +91,9 @@ class Markers:
 
 
 def obstacles_of(message: Any) -> dict[str, Obstacle]:
-    """The things that a `visualization_msgs/MarkerArray` tells of, by name. One of several parts stands at the pose of its first.
+    """The things that a `visualization_msgs/MarkerArray` tells of, by name.
+
+    One of several parts stands at the pose of its first.
 
     Raises:
         MarkersError: a marker is none of the kinds above, or has an impossible size.
@@ -138,8 +140,8 @@ def _read(marker: Any) -> tuple[Simple, Pose, float, float, str]:
         low, high = 0.0, z
     else:
         raise MarkersError(
-            f"the marker {marker.ns!r} {marker.id} has the type {marker.type}, which no thing of a world has; cubes (1), spheres (2), "
-            "cylinders (3) and closed line strips (4) are understood"
+            f"the marker {marker.ns!r} {marker.id} has the type {marker.type}, which no thing of a world has; cubes "
+            "(1), spheres (2), cylinders (3) and closed line strips (4) are understood"
         )
     colour = "#" + "".join(
         f"{round(255 * min(max(c, 0.0), 1.0)):02x}" for c in (marker.color.r, marker.color.g, marker.color.b)

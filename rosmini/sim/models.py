@@ -6,7 +6,8 @@ The numbers of a robot are the published ones, and each says where it was publis
 - *description*: the package `turtlebot3_description` of https://github.com/ROBOTIS-GIT/turtlebot3, its URDF;
 - *gazebo*: the same package's files `turtlebot3_*.gazebo.xacro`, which is what Gazebo simulates;
 - *firmware*: `turtlebot3_core` of https://github.com/ROBOTIS-GIT/OpenCR, what the robot's own controller runs;
-- *MPU-9250*: the gyroscope on its board, by the maker's product specification (PS-MPU-9250A-01, table 1); later boards have an ICM-20648;
+- *MPU-9250*: the gyroscope on its board, by the maker's product specification (PS-MPU-9250A-01, table 1); later boards
+  have an ICM-20648;
 - *navigation*: the package `turtlebot3_navigation`, the costmaps' parameters;
 - *LDS-01*: https://emanual.robotis.com/docs/en/platform/turtlebot3/appendix_lds_01/.
 """
@@ -96,8 +97,9 @@ class LidarModel:
         within = 1 <= self.beams <= MOST_BEAMS and 0 <= self.range_min <= self.range_max
         if not within or not all(map(is_finite, numbers)):
             msg = (
-                f"the laser {self.name!r} is not possible: it needs 1 to {MOST_BEAMS} beams, finite angles and a mount, and range_min and range_max "
-                f"with 0 <= range_min <= range_max, not beams={self.beams}, mount={self.mount}, angle_min={self.angle_min}, "
+                f"the laser {self.name!r} is not possible: it needs 1 to {MOST_BEAMS} beams, finite angles, a mount, "
+                "and range_min and range_max with 0 <= range_min <= range_max, "
+                f"not beams={self.beams}, mount={self.mount}, angle_min={self.angle_min}, "
                 f"angle_max={self.angle_max}, yaw={self.yaw}, range_min={self.range_min}, range_max={self.range_max}"
             )
             raise ModelError(msg)
@@ -159,8 +161,9 @@ class CameraModel:
             or not 0 < self.near < self.far
         ):
             msg = (
-                f"the camera {self.name!r} is not possible: it needs pixels, {MOST_PIXELS} at the most, 0 < near < far and an angle between 0 and pi, not {self.width} x "
-                f"{self.height} pixels, near={self.near}, far={self.far}, horizontal_fov={self.horizontal_fov}"
+                f"the camera {self.name!r} is not possible: it needs pixels, {MOST_PIXELS} at the most, 0 < near < far "
+                f"and an angle between 0 and pi, not {self.width} x {self.height} pixels, near={self.near}, "
+                f"far={self.far}, horizontal_fov={self.horizontal_fov}"
             )
             raise ModelError(msg)
 
@@ -184,9 +187,9 @@ class ImuModel:
     gyro_bias: float = 0.0
     """Standard deviation, from one unit to another, of the angular velocity it shows at rest [rad/s]."""
     gyro_step: float = 0.0
-    """What one step of its converter is worth [rad/s]: a gyroscope whose zero is known in whole steps only shows up to one of them at rest."""
+    """The resolution of its converter [rad/s]: a gyroscope whose zero is a whole step is off by up to one at rest."""
     gyro_scale: float = 0.0
-    """Standard deviation, from one unit to another, of the part by which it shows too much, or too little, of a turn."""
+    """Standard deviation of the scale error among units."""
     accel_bias: float = 0.0
     """The same of a linear acceleration [m/s2]."""
     gravity: float = GRAVITY
@@ -257,7 +260,8 @@ class RobotModel:
     def _problem(self) -> str:
         if self.drive is not None and self.drive not in get_args(Drive):
             hint = nearest(str(self.drive), get_args(Drive))
-            return f"drive is {self.drive!r}; it has to be 'differential', 'holonomic' or None{'; ' + hint if hint else ''}"
+            more = f"; {hint}" if hint else ""
+            return f"drive is {self.drive!r}; it has to be 'differential', 'holonomic' or None{more}"
         for field in ("mass", "inertia", "height", "wheel_radius", "wheel_separation", "body_radius", "rate"):
             value = getattr(self, field)
             if not value > 0 or (math.isinf(value) and (self.drive or field not in ("mass", "inertia"))):
@@ -363,7 +367,7 @@ BURGER = RobotModel(
     name="burger",
     title="TurtleBot3 Burger",
     mass=1.0,  # e-manual, with battery, computer and laser
-    # description: the base (0.00201), two wheels of 28.5 g 8 cm aside (0.00019 each), the laser of 114 g 3.2 cm behind (0.00012)
+    # description: base (0.00201), wheels of 28.5 g 8 cm aside (0.00019 each), laser of 114 g 3.2 cm behind (0.00012)
     inertia=0.0025,
     wheel_radius=0.033,  # description, firmware
     wheel_separation=0.160,  # description, firmware
@@ -414,7 +418,7 @@ WAFFLE = RobotModel(
     name="waffle",
     title="TurtleBot3 Waffle",
     mass=1.8,  # e-manual
-    # description: the base (0.0146), two wheels of 28.5 g 14.4 cm aside (0.0006 each), the laser of 114 g 6.4 cm behind (0.0005)
+    # description: base (0.0146), wheels of 28.5 g 14.4 cm aside (0.0006 each), laser of 114 g 6.4 cm behind (0.0005)
     inertia=0.0163,
     wheel_radius=0.033,  # description, firmware
     wheel_separation=0.287,  # firmware, gazebo; the description's wheels are 0.288 apart
@@ -467,7 +471,9 @@ MODELS = {each.name: each for each in (BURGER, WAFFLE, WAFFLE_PI)}
 
 
 def model(name: str | None = None) -> RobotModel:
-    """The robot model called `name`; if there is no name, the one that the environment variable TURTLEBOT3_MODEL names, else the Burger.
+    """The robot model called `name`.
+
+    If there is no name, the one that the environment variable TURTLEBOT3_MODEL names, else the Burger.
 
     Raises `UnknownModel`.
     """

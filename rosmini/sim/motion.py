@@ -1,7 +1,9 @@
-"""How things of a world move by themselves: walkers on a path, and doors. Pure: where it would be at a time, as a function of that time.
+"""How things of a world move by themselves: walkers on a path, and doors.
 
-The engine lets such a thing go its way by a clock of its own. Whatever stands in its way (a robot, something that was pushed there) stops that
-clock: the thing waits and never pushes through, and afterwards goes on where it was. So two that stand in each other's way wait for good.
+Pure: where it would be at a time, as a function of that time. The engine lets such a thing go its way by a clock of its
+own. Whatever stands in its way (a robot, something that was pushed there) stops that
+clock: the thing waits and never pushes through, and afterwards goes on where it was. So two that stand in each other's
+way wait for good.
 """
 
 from __future__ import annotations
@@ -23,9 +25,10 @@ Leg = tuple[float, Pose, Pose]
 
 @dataclass(frozen=True)
 class Walk:
-    """Along straight lines from one waypoint to the next, at an even speed; at each waypoint it waits, turns, and goes on.
+    """Along straight lines from one waypoint to the next, at an even speed.
 
-    The waypoints are places (x, y) [m] in the frame map; the pose of the thing says nothing. It looks to where it goes.
+    At each waypoint it waits, turns, and goes on. The waypoints are places (x, y) [m] in the frame map; the pose of the
+    thing says nothing. It looks to where it goes.
     """
 
     waypoints: tuple[tuple[float, float], ...]

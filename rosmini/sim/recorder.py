@@ -1,4 +1,4 @@
-"""A node that writes down a run: it subscribes to what robots say of themselves, and gathers arrays from the messages."""
+"""A node that records a run: it subscribes to the robots' topics and collects arrays from the messages."""
 
 from __future__ import annotations
 
@@ -40,18 +40,21 @@ class Simulated(Protocol):
 class Recorder:
     """Gathers `scan`, `odom`, `base_pose_ground_truth` and `cmd_vel` of a robot, or of several.
 
-    It is an ordinary node and knows only what the messages say. Times are those of their headers; a `geometry_msgs/Twist` has none, so
-    a command counts from when it arrives. If the clock goes back (a simulation that was reset, a bag in a loop), a new run begins.
+    It is an ordinary node and knows only what the messages say. Times are those of their headers; a
+    `geometry_msgs/Twist` has none, so a command counts from when it arrives. If the clock goes back (a simulation that
+    was reset, a bag in a loop), a new run begins.
 
     Args:
         graph: where the robot is.
-        simulator: what has `world` and `model`; or give these two. If it has several robots, all that are there now are recorded.
+        simulator: what has `world` and `model`; or give these two. If it has several robots, all that are there now are
+            recorded.
         world: what the robot drives in.
         model: which robot it is.
         namespace: that of the robot's topics, and of this node.
         name: of this node.
-        things: on which topic it is told where things are that move: `visualization_msgs/MarkerArray`s, as the simulator's `obstacles`, or
-            `gazebo_msgs/ModelStates`, as `/gazebo/model_states`. Without it they are taken to stay where they are.
+        things: on which topic it is told where things are that move: `visualization_msgs/MarkerArray`s, as the
+            simulator's `obstacles`, or `gazebo_msgs/ModelStates`, as `/gazebo/model_states`. Without it they are taken
+            to stay where they are.
         scan: what the robots call the topic of their laser: `scan`, or, in Stage, `base_scan`.
 
     Raises:
@@ -81,7 +84,8 @@ class Recorder:
                 things = simulator.node.resolve("obstacles")  # type: ignore[attr-defined]
         if world is None or model is None:
             raise RecordingError(
-                "a recorder has to know the world and the robot: Recorder(graph, simulator), or Recorder(graph, world=..., model=...)"
+                "a recorder has to know the world and the robot: Recorder(graph, simulator), or Recorder(graph, "
+                "world=..., model=...)"
             )
         self.world = world
         self.model = model
@@ -98,7 +102,9 @@ class Recorder:
             self.add(other, robot.model, _resolved(simulator, robot.namespace or "/"))
 
     def add(self, name: str, model: RobotModel, namespace: str | None = None) -> None:
-        """Record another robot too, from now on; its topics are in the namespace, which is its name if nothing else is said.
+        """Record another robot too, from now on.
+
+        Its topics are in the namespace, which is its name if nothing else is said.
 
         Raises:
             RecordingError: one of this name is recorded already.
@@ -133,8 +139,9 @@ class Recorder:
     def recording(self) -> Recording:
         """The run so far. It begins with the first pose of which both the truth and odometry are known.
 
-        Odometry is interpolated at the times of the truth; a simulator gives both at the same times. A command that came earlier and
-        is still in force counts from the begin. Of other robots there is what they did from then on; one of which nothing is known is left out.
+        Odometry is interpolated at the times of the truth; a simulator gives both at the same times. A command that
+        came earlier and is still in force counts from the begin. Of other robots there is what they did from then on;
+        one of which nothing is known is left out.
 
         Raises:
             RecordingError: nothing was recorded yet, or the scans are not those of the robot's laser.
@@ -160,12 +167,12 @@ class Recorder:
         if not silent:
             return f"the messages on {TRUTH} and {ODOM} have no time in common: do both come from the same clock?"
         names = [self.node.resolve(self._first.topic(topic)) for topic in silent]
-        said = "; ".join(f"no message on {name}, {self.node.graph.who_publishes(name)}" for name in names)
+        said = "; ".join(f"no message on {name}, {self.node.master.who_publishes(name)}" for name in names)
         if self.node.shutdown_reason is not None:
             return f"nothing was recorded before the recorder was stopped: {said}."
         return (
-            f"nothing is recorded yet: {said}. Let time pass while the simulator runs, for instance graph.run(5.0); if the robot's "
-            f"topics have a namespace, give it: Recorder(..., namespace='/robot1')."
+            f"nothing is recorded yet: {said}. Let time pass while the simulator runs, for instance graph.run(5.0); "
+            f"if the robot's topics have a namespace, give it: Recorder(..., namespace='/robot1')."
         )
 
     def went_back(self, topic: str, by: float) -> None:
@@ -332,7 +339,7 @@ class _Things:
 
 
 def turning_points(poses: Floats) -> NDArray[np.intp]:
-    """Which rows of poses (n, 3) say something: the first and the last, and those that differ from the one before or the one after."""
+    """Return which rows of poses (n, 3) matter: the first, the last, and those that differ from a neighbour."""
     if len(poses) == 1:
         return np.array([0])
     differs = (np.abs(np.diff(poses, axis=0)) > 1e-9).any(axis=1)
@@ -381,10 +388,13 @@ def seconds(stamps: list[int] | NDArray[np.int64], begin: int) -> Floats:
 
 
 def aligned(scan: Any, lidar: LidarModel) -> Floats:
-    """The ranges (beams,) of a `sensor_msgs/LaserScan` so that beam i is the laser's: of one that looks all around, at 2 pi i / beams from ahead.
+    """Return the ranges (beams,) of a `sensor_msgs/LaserScan` in the order of the laser's beams.
 
-    Where nothing was hit there is inf, and where it was too near to be measured -inf (REP 117). What lies outside of the scan's range_min and
-    range_max is no hit, as its message definition says; so are nan, and the 0 that an LDS-01 gives for a beam that did not come back.
+    Beam i of a laser that looks all around is at 2 pi i / beams from ahead.
+
+    Where nothing was hit there is inf, and where it was too near to be measured -inf (REP 117). What lies outside of
+    the scan's range_min and range_max is no hit, as its message definition says; so are nan, and the 0 that an LDS-01
+    gives for a beam that did not come back.
 
     Raises:
         RecordingError: it has another number of beams than the laser, or they look elsewhere.
@@ -405,8 +415,8 @@ def aligned(scan: Any, lidar: LidarModel) -> Floats:
         abs(scan.angle_increment - step) > 1.5 * step / lidar.beams or abs(first - round(first)) > 0.01
     ):
         raise RecordingError(
-            f"a scan begins at {scan.angle_min:.4f} rad and goes on by {scan.angle_increment:.6f} rad; a recording holds scans of a "
-            f"whole turn, here by {step:.6f} rad, in which one beam looks straight ahead"
+            f"a scan begins at {scan.angle_min:.4f} rad and goes on by {scan.angle_increment:.6f} rad; a recording "
+            f"holds scans of a whole turn, here by {step:.6f} rad, in which one beam looks straight ahead"
         )
     hit = (ranges >= scan.range_min) & (ranges <= scan.range_max)
     near = (ranges == -np.inf) | (ranges > 0) & (ranges < scan.range_min)
@@ -414,11 +424,14 @@ def aligned(scan: Any, lidar: LidarModel) -> Floats:
 
 
 def _check_fan(scan: Any, lidar: LidarModel) -> None:
-    """Raise `RecordingError` if the beams of a scan are not those of a laser that does not look all around, by a hundredth of a beam's share."""
+    """Raise `RecordingError` if the beams of a scan are off those of a laser with a limited field of view.
+
+    A hundredth of the angle between two beams is tolerated.
+    """
     step = lidar.increment
     off = abs(scan.angle_min - lidar.angle_min), (lidar.beams - 1) * abs(scan.angle_increment - step)
     if max(off) > max(0.01 * abs(step), 1e-5):
         raise RecordingError(
-            f"a scan begins at {scan.angle_min:.4f} rad and goes on by {scan.angle_increment:.6f} rad, but the {lidar.name} begins at "
-            f"{lidar.angle_min:.4f} rad and goes on by {step:.6f} rad"
+            f"a scan begins at {scan.angle_min:.4f} rad and goes on by {scan.angle_increment:.6f} rad, but the "
+            f"{lidar.name} begins at {lidar.angle_min:.4f} rad and goes on by {step:.6f} rad"
         )

@@ -83,9 +83,10 @@ class Moved:
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """A run of one robot, and, if there were any, of others beside it. All times are seconds since the begin of the run, all poses x [m], y [m], heading [rad].
+    """A run of one robot, and, if there were any, of others beside it.
 
-    `truth` and `odom` are sampled at `times`; each of them is in its own frame (`map` and `odom`), as the messages were.
+    All times are seconds since the begin of the run, all poses x [m], y [m], heading [rad]. `truth` and `odom` are
+    sampled at `times`; each of them is in its own frame (`map` and `odom`), as the messages were.
 
     Raises:
         RecordingError: an array has another shape, holds something infinite or no number, or times do not increase.
@@ -105,9 +106,12 @@ class Recording:
     scan_times: Floats
     """(k,)"""
     scans: Floats
-    """(k, beams): ranges [m], inf where nothing was hit, -inf where it was too near; beam i looks at angle_min + i increment of the laser's model, counter-clockwise: 2 pi i / beams, if all around."""
+    """(k, beams): ranges [m], inf where nothing was hit, -inf where it was too near.
+
+    Beam i looks at angle_min + i increment of the laser's model, counter-clockwise: 2 pi i / beams, if all around.
+    """
     time_increment: float = 0.0
-    """From one beam of a scan to the next [s], as the messages said: negative where the last beam in a scan was measured first."""
+    """The time between two beams of a scan [s], as in the messages: negative where the last beam was measured first."""
     name: str = ""
     """The robot's, where there are several."""
     others: tuple[Recording, ...] = ()
@@ -183,14 +187,15 @@ class Recording:
         return compose(compose(_pose(self.truth[0]), inverse(_pose(self.odom[0]))), self.odom)
 
     def drift(self) -> Drift:
-        """The error of odometry relative to the start: how far it is from where the robot was, and how far it is turned."""
+        """The error of odometry since the start: its distance from the true position, and its difference in heading."""
         off = self.odom_in_map() - self.truth
         return Drift(np.hypot(off[:, 0], off[:, 1]), normalize_angle(off[:, 2]))
 
     def velocities(self) -> Floats:
         """How the robot really drove, (n, 2): linear [m/s] and angular [rad/s] velocity at `times`.
 
-        Between two samples it is taken to drive an arc; at a sample, the velocity is the mean of those before and after it.
+        Between two samples it is taken to drive an arc; at a sample, the velocity is the mean of those before and after
+        it.
         """
         if len(self.times) < 2:
             return np.zeros((1, 2))
@@ -276,7 +281,7 @@ class Recording:
         Options, with what they are unless given:
             focus='robot': the camera follows the robot; 'world': it stands still
             distance=None: of the camera from what it looks at [m]; None: what shows it well
-            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
+            azimuth=None: where the camera is [deg]: 0 towards x, 90 towards y; None: what shows it well
             elevation=None: how high from [deg]; None: what shows it well
             scans=True: show what the laser saw
             title=None: a caption under the picture, and the first words of its text form
@@ -286,7 +291,7 @@ class Recording:
 
 
 def since(commands: Floats, begin: float) -> Floats:
-    """The commands (m, 3) from `begin` on, and before them the one that is in force then, as if it were given at `begin`."""
+    """The commands (m, 3) from `begin` on, and first the one in force then, as if it were given at `begin`."""
     before = commands[commands[:, 0] < begin][-1:].copy()
     after = commands[commands[:, 0] >= begin]
     if len(after) and after[0, 0] == begin:

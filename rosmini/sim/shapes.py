@@ -1,4 +1,7 @@
-"""Shapes of things, seen from above: boxes, cylinders, spheres, polygons, and compounds of them. Lengths in metres, angles in radians."""
+"""Shapes of things, seen from above: boxes, cylinders, spheres, polygons, and compounds of them.
+
+Lengths in metres, angles in radians.
+"""
 
 from __future__ import annotations
 
@@ -48,7 +51,7 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class Sphere:
-    """A ball that rests on the `bottom` of what has this shape, and is twice its radius [m] high: a laser sees the circle at its own height."""
+    """A ball on the `bottom`, twice its radius [m] high: a laser sees its circle at the laser's height."""
 
     radius: float
 
@@ -115,7 +118,8 @@ class Part:
     def __post_init__(self) -> None:
         problem = shape_problem(self.shape) or pose_problem("pose", self.pose) or colour_problem(self.colour)
         if not problem and not self.bottom < self.top:
-            problem = f"its bottom is at {self.bottom!r} and its top at {self.top!r}; the top has to be above the bottom"
+            place = f"its bottom is at {self.bottom!r} and its top at {self.top!r}"
+            problem = f"{place}; the top has to be above the bottom"
         if problem:
             raise WorldError(f"a part of {self.name or 'a model'} is not possible: {problem}")
 
@@ -130,7 +134,7 @@ ROUND = (Cylinder, Sphere)
 
 
 def simple_parts(shape: Shape, pose: Pose = (0.0, 0.0, 0.0)) -> Iterator[tuple[Simple, Pose]]:
-    """What a shape at `pose` is made of: shapes without parts, each with its pose in the frame that `pose` is given in."""
+    """The simple shapes of a shape at `pose`, each with its pose in the frame that `pose` is given in."""
     if isinstance(shape, Compound):
         for part, place in shape.parts:
             yield from simple_parts(part, compose(pose, place))

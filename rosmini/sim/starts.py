@@ -29,7 +29,7 @@ MOST_ROBOTS = 1000
 """How many robots may begin."""
 
 GAP, RINGS = 0.05, 60
-"""A robot without a place looks for one on squares around the first start, so far from one another [m] and so many to each side."""
+"""A robot without a pose looks for one on squares around the first start, so far apart [m] and so many to a side."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,9 @@ def read_starts(
 ) -> list[Start]:
     """The robots that `~robots` asks for, or the one of the other parameters.
 
-    `~robots` is a number n, for robots tb3_0 ... tb3_(n-1); or a list, of names or of mappings with the keys `KEYS`. Each has its topics in a namespace,
-    and its frames with a prefix, both of which are its name if nothing else is said. Raises `ParameterError`.
+    `~robots` is a number n, for robots tb3_0 ... tb3_(n-1); or a list, of names or of mappings with the keys `KEYS`.
+    Each has its topics in a namespace, and its frames with a prefix, both of which are its name if nothing else is
+    said. Raises `ParameterError`.
     """
     given = node.get_param("~robots", None)
     if given is None:
@@ -60,8 +61,8 @@ def read_starts(
         given = [f"tb3_{i}" for i in range(given)]
     if not isinstance(given, list) or not 0 < len(given) <= MOST_ROBOTS:
         msg = (
-            f"parameter {where} is {shown(given)}; it has to be a number of robots, up to {MOST_ROBOTS}, or a list of their names or of "
-            "what is to be known of each"
+            f"parameter {where} is {shown(given)}; it has to be a number of robots, up to {MOST_ROBOTS}, or a list of "
+            "their names or of what is to be known of each"
         )
         raise ParameterError(msg)
     starts = [_read(f"{where}[{i}]", entry, model, world) for i, entry in enumerate(given)]
@@ -78,7 +79,10 @@ def _read(where: str, entry: Any, model: RobotModel, world: World) -> Start:
     if isinstance(entry, str):
         entry = {"name": entry}
     if not isinstance(entry, dict) or not isinstance(entry.get("name"), str) or not entry["name"]:
-        msg = f"parameter {where} is {shown(entry)}; it has to be the name of a robot, or a mapping with a 'name' and any of {', '.join(KEYS[1:])}"
+        msg = (
+            f"parameter {where} is {shown(entry)}; it has to be the name of a robot, or a mapping "
+            f"with a 'name' and any of {', '.join(KEYS[1:])}"
+        )
         raise ParameterError(msg)
     for key, value in entry.items():
         if key not in KEYS:
@@ -111,15 +115,21 @@ def start_pose(world: World, x: float | None, y: float | None, yaw: float | None
 
 
 def add(engine: Engine, start: Start) -> Robot:
-    """Put a robot into the engine. One without a pose comes to a free start of the world, or else to a free place near the first one.
+    """Put a robot into the engine.
 
-    Raises `WorldError`, with the nearest free place, `RosminiError` for a name that is used, and `IllegalName` for a namespace that is none.
+    One without a pose comes to a free start of the world, or else to a free place near the first one.
+
+    Raises `WorldError`, with the nearest free place, `RosminiError` for a name that is used, and `IllegalName` for a
+    namespace that is none.
     """
     _check(start.name)
     check_name(start.namespace, f"namespace of the robot {start.name!r}")
     model = start.model
     if model.drive is None:
-        msg = f"{model.name!r} cannot be a robot of the simulator: its model has no drive. Let the engine have it, as a thing"
+        msg = (
+            f"{model.name!r} cannot be a robot of the simulator: its model has no drive. "
+            "Add it to the engine, as a thing"
+        )
         raise RosminiError(msg)
     if start.pose is None and start.name not in engine.robots:
         for pose in chain(engine.world.starts, _around(engine.world, 2 * model.reach + GAP)):
@@ -138,7 +148,7 @@ def _check(name: str) -> None:
 
 
 def _around(world: World, spacing: float) -> Iterator[Pose]:
-    """Places around the first start, `spacing` [m] apart, nearer ones first, that are within the bounds of the world."""
+    """Return places around the first start, `spacing` [m] apart, within the world's bounds, the nearest first."""
     x, y, theta = world.starts[0]
     x0, y0, x1, y1 = world.bounds
     cells = [(i, j) for i in range(-RINGS, RINGS + 1) for j in range(-RINGS, RINGS + 1)]

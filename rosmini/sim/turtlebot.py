@@ -1,9 +1,9 @@
-"""One TurtleBot3 of a simulator, or whatever other robot with a drive: which devices it has, on which topics and in which frames."""
+"""One TurtleBot3, or another robot with a drive, in a simulator: its devices, their topics and frames."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from rosmini.geometry.poses import Pose
 
@@ -16,6 +16,7 @@ from .devices import (
     JointStates,
     Laser,
     PlanarMove,
+    Sensor,
     SensorStateDevice,
     Switches,
     prefixed,
@@ -30,13 +31,14 @@ if TYPE_CHECKING:
     from .engine.robot import Robot
 
 D = TypeVar("D", bound=Device)
+S = TypeVar("S", bound=Sensor)
 
 COMMAND_TIMEOUT = 0.5
 """How long a command holds [s]: CONTROL_MOTOR_TIMEOUT of TurtleBot3's firmware."""
 
 
 ODOMETRY = ("imu", "wheels")
-"""What says how far a robot has turned, for its odometry: its IMU, as in TurtleBot3's firmware, or its wheels, as in Gazebo."""
+"""What a robot's odometry takes its heading from: the IMU, as in TurtleBot3's firmware, or the wheels, as in Gazebo."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +91,7 @@ class TurtleBot:
                     frame=self.frame(self.model.lidar.frame),
                     noise=options.noise,
                     rep_117=options.use_rep_117,
-                    always=True,
+                    measures=True,
                     sweep=options.sweep,
                 )
             )
@@ -173,6 +175,15 @@ class TurtleBot:
     def _add(self, device: D) -> D:
         self.devices.append(self.host.add(device))
         return device
+
+    def add(self, kind: type[S], *, topic: str | None = None, frame: str | None = None, **options: Any) -> S:
+        """Give it another sensor, whose topic is in its namespace, and whose frame gets its prefix.
+
+        `options` are the sensor's own. Raises `RosminiError` if it has a device of this name already.
+        """
+        topic = self.topic(kind.default_topic if topic is None else topic)
+        frame = self.frame(kind.default_frame if frame is None else frame)
+        return self._add(kind(self.host, self.name, topic=topic, frame=frame, **options))
 
     def topic(self, name: str) -> str:
         """The name of one of its topics."""

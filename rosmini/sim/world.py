@@ -1,7 +1,8 @@
 """What a robot drives in: walls, obstacles and places to start from, seen from above.
 
-A world is plain data in metres and radians, in the frame `map`: x to the right, y up, angles counter-clockwise (REP 103).
-Whatever it was made from (Python, a ROS map, later a Gazebo or a Stage file), the engine, the lidar and the pictures read this one structure.
+A world is plain data in metres and radians, in the frame `map`: x to the right, y up, angles counter-clockwise (REP
+103). Whatever it was made from (Python, a ROS map, later a Gazebo or a Stage file), the engine, the lidar and the
+pictures read this one structure.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any
 
@@ -72,17 +73,21 @@ FAR = 10_000.0
 
 @dataclass(frozen=True)
 class Obstacle:
-    """A thing in a world: it stands where it is, or a robot can push it if it has a mass, or it moves by itself if it has a motion.
+    """A thing in a world: fixed, or movable by robots if it has a mass, or moving by itself if it has a motion.
 
-    Raises `WorldError`, which names the obstacle and the field, for a number that is not finite, a size or a mass that is not positive, a colour
-    that is none, a top that is not above the bottom, and a polygon that crosses itself or whose corners go clockwise.
+    Raises `WorldError`, which names the obstacle and the field, for a number that is not finite, a size or a mass that
+    is not positive, a colour that is none, a top that is not above the bottom, and a polygon that crosses itself or
+    whose corners go clockwise.
     """
 
     name: str
     shape: Shape
     pose: Pose = (0.0, 0.0, 0.0)
     height: float = 0.5
-    """How high above the ground its top is [m]; a laser above it does not see it. That of a sphere is where its radius takes it."""
+    """How high above the ground its top is [m]; a laser above it does not see it.
+
+    That of a sphere is where its radius takes it.
+    """
     colour: Colour = "grey"
     mass: float | None = None
     """[kg]; None: nobody can push it."""
@@ -93,7 +98,10 @@ class Obstacle:
     drag: float | None = None
     """Of what can be pushed: its friction on the ground; None: that of the engine, 0.5."""
     restitution: float = 0.0
-    """Of what can be pushed: how much of its speed it has after a blow, from 0 to 1; of two such things the product counts."""
+    """Of what can be pushed: how much of its speed it has after a blow, from 0 to 1.
+
+    Of two such things the product counts.
+    """
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not self.name.strip():
@@ -113,7 +121,8 @@ class Obstacle:
             problem
             or positive_problem("height", self.height)
             or (
-                f"its bottom is at {self.bottom!r} and its height is {self.height!r}; the top has to be above the bottom"
+                f"its bottom is at {self.bottom!r} and its height is {self.height!r}; the top has to be above the "
+                "bottom"
                 if self.height <= self.bottom
                 else ""
             )
@@ -282,7 +291,7 @@ class World:
 
     @cached_property
     def closed(self) -> bool:
-        """Whether there is an outside: the world is traced from a plan, or what is fixed stands around its first start on all sides."""
+        """Whether the world has an outside: it is traced from a plan, or fixed things surround its first start."""
         if len(self.walls):
             return True
         x, y, _ = self.starts[0]
@@ -290,7 +299,9 @@ class World:
         return bool(np.isfinite(seen).all())
 
     def outside(self, pose: Pose) -> str | None:
-        """Why a place is not in the world, in words that fit into a sentence; None if it is. An open world ends `FAR` from all that stands in it.
+        """Why a place is not in the world, in words that fit into a sentence; None if it is.
+
+        An open world ends `FAR` from all that stands in it.
 
         Raises `WorldError` for a pose that is not finite.
         """
@@ -301,20 +312,28 @@ class World:
         more = 0.0 if self.closed else FAR
         if x0 - more <= pose[0] <= x1 + more and y0 - more <= pose[1] <= y1 + more:
             return None
-        return f"({pose[0]:.6g}, {pose[1]:.6g}) is outside of the world {self.name!r}, which goes from ({x0:.2f}, {y0:.2f}) to ({x1:.2f}, {y1:.2f})"
+        extent = f"from ({x0:.2f}, {y0:.2f}) to ({x1:.2f}, {y1:.2f})"
+        return f"({pose[0]:.6g}, {pose[1]:.6g}) is outside of the world {self.name!r}, which goes {extent}"
 
-    def blocked(self, pose: Pose, footprint: Footprint, height: float = 0.0) -> str | None:
-        """What of the fixed things a footprint at `pose` overlaps with, in words that fit into a sentence; None if it is free.
+    def blocked(
+        self,
+        pose: Pose,
+        footprint: Footprint,
+        height: float = 0.0,
+        among: Iterable[Obstacle] | None = None,
+    ) -> str | None:
+        """What of the fixed things a footprint at `pose` overlaps with, in words that fit into a sentence.
 
-        The footprint is corners (n, 2), counter-clockwise, seen from the pose, or the radius of a disc around it [m]; `height` is how high it reaches
-        [m], which matters for what it may pass under. What only touches is free, and so is what is movable or moves. Raises `WorldError` for a
-        pose that is not finite.
+        None if it is free. The footprint is corners (n, 2), counter-clockwise, seen from the pose, or the radius of a
+        disc around it [m]; `height` is how high it reaches [m], which matters for what it may pass under. What only
+        touches is free, and so is what is movable or moves. With `among` only these obstacles are looked at, and the
+        walls. Raises `WorldError` for a pose that is not finite.
         """
         problem = pose_problem("pose", pose)
         if problem:
             raise WorldError(f"nothing can be placed there: {problem}")
         place = _Place(pose, footprint)
-        for obstacle in self.obstacles:
+        for obstacle in self.obstacles if among is None else among:
             if obstacle.fixed and obstacle.bottom <= height and place.overlaps(obstacle):
                 return f"the obstacle {obstacle.name!r}"
         return place.wall(self.walls, solid=self.solid)
@@ -326,10 +345,11 @@ class World:
         height: float = 0.0,
         taken: Callable[[Pose], object] = lambda _: None,
     ) -> Pose | None:
-        """The nearest place to `pose` that is free for a footprint, with the same heading; None if there seems to be none.
+        """The nearest place to `pose` that is free for a footprint, with the same heading.
 
-        It is looked for within a metre, in steps of 5 cm, inside the bounds of the world; after that among the world's starts. `taken(pose)` is
-        true, or words, where something stands that is no part of the world: a robot. Raises `WorldError` for a pose that is not finite.
+        None if there seems to be none. It is looked for within a metre, in steps of 5 cm, inside the bounds of the
+        world; after that among the world's starts. `taken(pose)` is true, or words, where something stands that is no
+        part of the world: a robot. Raises `WorldError` for a pose that is not finite.
         """
 
         def free(place: Pose) -> bool:
@@ -352,14 +372,21 @@ class World:
         """The same world with more obstacles in it."""
         return replace(self, obstacles=(*self.obstacles, *obstacles))
 
+    def with_just(self, obstacles: Iterable[Obstacle]) -> World:
+        """The same world with these obstacles in it, whose names have to differ, and no others."""
+        new = object.__new__(World)
+        own = {each.name: vars(self)[each.name] for each in fields(self)}
+        vars(new).update(own, obstacles=tuple(obstacles))  # without a check of what has been checked
+        return new
+
     def show(self, **options: Any) -> Any:
         """A picture of the world from above, in metres.
 
         Options, with what they are unless given:
             robot=None: where the robot is: x [m], y [m], heading [rad], in the world's frame; None: there is none
             model=None: which robot; None: a TurtleBot3 Burger
-            scan=None: what its laser sees: a `sensor_msgs/LaserScan`, or ranges [m] of which beam i looks at 2 pi i / beams
-            scan_from=None: where the robot was when it saw that, or where it was at each beam (beams, 3); None: where it is
+            scan=None: what its laser sees: a `sensor_msgs/LaserScan`, or ranges [m], beam i at 2 pi i / beams
+            scan_from=None: where the robot was then, or at each beam (beams, 3); None: where it is
             trail=None: where the robot was, (n, 2) or (n, 3): a solid line
             odom=None: where its odometry believes that it was, likewise: a dashed line
             others=(): more robots, each an `Other`: they are drawn in other colours, with their names
@@ -374,7 +401,7 @@ class World:
 
         Options, with what they are unless given:
             distance=None: of the camera from what it looks at [m]; None: what shows it well
-            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
+            azimuth=None: from where it looks [deg], 0: from the side of x, 90: of y; None: what shows it well
             elevation=None: how high from [deg]; None: what shows it well
             title=None: a caption under the picture, and the first words of its text form
             height=420: of the viewer [CSS px]
@@ -443,4 +470,5 @@ def _count(number: int, what: str) -> str:
 def _range_problem(field_name: str, value: object, most: float) -> str:
     if is_finite(value) and 0 <= float(value) <= most:  # type: ignore[arg-type]
         return ""
-    return f"{field_name} is {value!r}; it has to be a finite number from 0 {'on' if math.isinf(most) else f'to {most:g}'}"
+    bound = "on" if math.isinf(most) else f"to {most:g}"
+    return f"{field_name} is {value!r}; it has to be a finite number from 0 {bound}"

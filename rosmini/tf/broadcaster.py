@@ -1,4 +1,4 @@
-"""Telling others where frames are: on `/tf` as they move, and once, latched, on `/tf_static` (http://wiki.ros.org/tf2_ros)."""
+"""Broadcasts transforms: on `/tf` as frames move, and latched on `/tf_static` (http://wiki.ros.org/tf2_ros)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 
 def resolve(prefix: str, frame: str) -> str:
-    """A frame's name under a `tf_prefix`: `robot1/base_link`; a name that begins with `/` is not under it (http://wiki.ros.org/geometry/CoordinateFrameConventions).
+    """A frame's name under a `tf_prefix`: `robot1/base_link`.
+
+    A name that begins with `/` is not under it (http://wiki.ros.org/geometry/CoordinateFrameConventions).
 
     >>> resolve("robot1", "base_link"), resolve("robot1", "/map"), resolve("", "odom")
     ('robot1/base_link', 'map', 'odom')
@@ -29,12 +31,15 @@ def resolve(prefix: str, frame: str) -> str:
 
 def tf_prefix(node: Node) -> str:
     """The parameter `tf_prefix` that is nearest upwards from a node; empty if there is none."""
-    code, _, name = node.graph.master.searchParam(node.name, "tf_prefix")
-    return str(node.get_param(name)).strip("/") if code == 1 else ""
+    name = node.search_param("tf_prefix")
+    return "" if name is None else str(node.get_param(name)).strip("/")
 
 
 class TransformBroadcaster:
-    """Sends transforms that change, on `/tf`. With a `prefix` names that do not begin with `/` get it, see `resolve`."""
+    """Sends transforms that change, on `/tf`.
+
+    With a `prefix` names that do not begin with `/` get it, see `resolve`.
+    """
 
     TOPIC = "/tf"
     LATCH = False
@@ -53,7 +58,10 @@ class TransformBroadcaster:
         rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0),
         stamp: Time | None = None,
     ) -> None:
-        """Say where `child` is in `parent`: translation [m], quaternion (x, y, z, w), and when (now). Raises `InvalidArgumentException`."""
+        """Say where `child` is in `parent`: translation [m], quaternion (x, y, z, w), and when (now).
+
+        Raises `InvalidArgumentException`.
+        """
         self.send_rigid(parent, child, rigid(translation, rotation), stamp)
 
     def send_rigid(self, parent: str, child: str, transform: Rigid, stamp: Time | None = None) -> None:

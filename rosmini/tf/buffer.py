@@ -1,4 +1,4 @@
-"""A buffer of transforms in ROS's messages, under the names of tf2 (http://wiki.ros.org/tf2): what a listener fills and a node asks."""
+"""A buffer of transforms in ROS's messages, under tf2's names (http://wiki.ros.org/tf2)."""
 
 from __future__ import annotations
 
@@ -43,7 +43,10 @@ class BufferCore:
     # -- what comes in -------------------------------------------------------------------------------------------
 
     def set_transform(self, transform: Any, authority: str = "default_authority") -> bool:
-        """Take a `geometry_msgs/TransformStamped`; whether it was taken. A leading `/` of a name is dropped, as tf2 does."""
+        """Take a `geometry_msgs/TransformStamped`; whether it was taken.
+
+        A leading `/` of a name is dropped, as tf2 does.
+        """
         return self._set(transform, authority, static=False)
 
     def set_transform_static(self, transform: Any, authority: str = "default_authority") -> bool:
@@ -67,14 +70,17 @@ class BufferCore:
     # -- what is asked -------------------------------------------------------------------------------------------
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> Any:
-        """Where `source_frame` is in `target_frame`, as a `geometry_msgs/TransformStamped`; raises as `FrameTree.lookup` does."""
+        """Where `source_frame` is in `target_frame`, as a `geometry_msgs/TransformStamped`.
+
+        Raises as `FrameTree.lookup` does.
+        """
         found = self.tree.lookup(target_frame, source_frame, time.to_nsec())
         return to_stamped(target_frame, source_frame, *found)
 
     def lookup_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Any:
-        """The advanced form: the source at one time, the target at another, and `fixed_frame` does not move in between."""
+        """The advanced form: source at one time, target at another; `fixed_frame` does not move in between."""
         found = self.tree.lookup_full(
             target_frame, target_time.to_nsec(), source_frame, source_time.to_nsec(), fixed_frame
         )
@@ -95,7 +101,10 @@ class BufferCore:
         )
 
     def get_latest_common_time(self, source_frame: str, dest_frame: str) -> Time:
-        """The oldest of the newest stamps on the way between two frames; 0 if nothing on it moves. Raises as `FrameTree.lookup` does."""
+        """The oldest of the newest stamps on the way between two frames; 0 if nothing on it moves.
+
+        Raises as `FrameTree.lookup` does.
+        """
         return Time.from_nsec(self.tree.latest_common_time(source_frame, dest_frame))
 
     # -- what is there -------------------------------------------------------------------------------------------
@@ -112,8 +121,8 @@ class BufferCore:
         return (
             "".join(
                 f"{frame}: \n  parent: '{edge.newest.parent}'\n  broadcaster: '{edge.newest.authority}'\n"
-                f"  rate: {edge.rate:.3f}\n  most_recent_transform: {edge.stamps[-1] / 1e9:.3f}\n"
-                f"  oldest_transform: {edge.stamps[0] / 1e9:.3f}\n  buffer_length: {edge.span_ns / 1e9:.3f}\n"
+                f"  rate: {edge.rate:.3f}\n  most_recent_transform: {edge.newest_ns / 1e9:.3f}\n"
+                f"  oldest_transform: {edge.oldest_ns / 1e9:.3f}\n  buffer_length: {edge.span_ns / 1e9:.3f}\n"
                 for frame, edge in self.tree.edges.items()
             )
             or "[]"
@@ -122,8 +131,9 @@ class BufferCore:
     def all_frames_as_dot(self) -> str:
         """The tree for graphviz, as `view_frames` writes it."""
         edges = "".join(
-            f'"{edge.newest.parent}" -> "{frame}"[label="Broadcaster: {edge.newest.authority}\\nAverage rate: {edge.rate:.3f} Hz\\n'
-            f'Most recent transform: {edge.stamps[-1] / 1e9:.3f} \\nBuffer length: {edge.span_ns / 1e9:.3f} sec\\n"];\n'
+            f'"{edge.newest.parent}" -> "{frame}"[label="Broadcaster: {edge.newest.authority}\\nAverage rate: '
+            f"{edge.rate:.3f} Hz\\nMost recent transform: {edge.newest_ns / 1e9:.3f} \\nBuffer length: "
+            f'{edge.span_ns / 1e9:.3f} sec\\n"];\n'
             for frame, edge in self.tree.edges.items()
         )
         return f"digraph G {{\n{edges}}}\n"
@@ -231,7 +241,7 @@ class Buffer(BufferCore):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time = LATEST, timeout: float | Duration = 0.0
     ) -> Any:
-        """Where `source_frame` is in `target_frame`, as a `geometry_msgs/TransformStamped`, if need be after waiting for `timeout` [s].
+        """The pose of `source_frame` in `target_frame`, a `TransformStamped`, after waiting for `timeout` [s] at most.
 
         Raises as `FrameTree.lookup` does, and `ROSInterruptException` when the node shuts down meanwhile.
         """

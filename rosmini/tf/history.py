@@ -1,120 +1,262 @@
-"""Where one frame stood in its parent over time: the newest `cache_ns` of samples, and what lies between two of them."""
+"""The samples of all frames of a tree in flat arrays, which `kernel.walk` reads, and one frame's history."""
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from typing import Literal, NamedTuple
+import struct
+from typing import Any, Literal, NamedTuple
 
-from .rigid import Rigid, interpolate
+import numpy as np
+
+from .kernel import PARENT_SHIFT, Rigid, find
 
 Outcome = Literal["kept", "repeated", "old"]
 
+_PACK = struct.Struct("=7d")
+_NEVER = -(1 << 63)
+_ROOM = 8
+"""How many samples a frame that moves has room for initially; it is doubled when it is full."""
+
 
 class Sample(NamedTuple):
-    """Where a frame stood in its parent at one moment, and who said so."""
+    """Who said where a frame stands."""
 
     parent: str
-    transform: Rigid
     authority: str
 
 
-class OutOfRange(LookupError):
-    """The samples say nothing about the moment that was asked for."""
+class Samples:
+    """The samples of the frames of one tree, those of one frame side by side.
+
+    Attributes:
+        stamps: when each sample holds [ns].
+        origins: who said so, under which parent: numbers that `said` translates.
+        values: the transforms, seven numbers each.
+        spans: of each frame where its samples begin, where they end, and 1 if it is static.
+        columns: these four as `walk` takes them: memoryviews, or arrays for machine code.
+
+    """
+
+    def __init__(self) -> None:
+        self.compiled = False
+        self._origins: dict[tuple[str, str], int] = {}
+        self._said: list[Sample] = []
+        self._parents: dict[str, int] = {}
+        self._free: dict[int, list[int]] = {}
+        self._free_frames: list[int] = []
+        self._frames = self._used = 0
+        self._arrays: list[Any] = [np.zeros(0, dtype=kind) for kind in ("i8", "i8", "f8", "i8")]
+        self._share()
+
+    def _share(self) -> None:
+        # Python reads and writes an element of a memoryview faster than one of an array.
+        self.stamps, self.origins, self.values, self.spans = views = [array.data for array in self._arrays]
+        self.columns = self._arrays if self.compiled else views
+
+    def use_arrays(self) -> None:
+        """Make `columns` arrays from now on."""
+        self.compiled = True
+        self._share()
+
+    def _grow(self, number: int, size: int) -> None:
+        """Make an array at least `size` long."""
+        old = self._arrays[number]
+        if len(old) < size:
+            self._arrays[number] = np.zeros(max(size, 2 * len(old)), dtype=old.dtype)
+            self._arrays[number][: len(old)] = old
+
+    def add_frame(self, *, static: bool, room: int) -> tuple[int, int]:
+        """Make room for a further frame; returns its number and where its room begins."""
+        if self._free_frames:
+            frame = self._free_frames.pop()
+        else:
+            frame, self._frames = self._frames, self._frames + 1
+            self._grow(3, 3 * self._frames)
+        begin = self.allocate(room)
+        self.spans[3 * frame + 2] = static
+        self.set_span(frame, begin, begin)
+        return frame, begin
+
+    def set_span(self, frame: int, begin: int, end: int) -> None:
+        """Say where the samples of a frame are."""
+        self.spans[3 * frame], self.spans[3 * frame + 1] = begin, end
+
+    def remove_frame(self, frame: int) -> None:
+        """Let another frame have this number."""
+        self._free_frames.append(frame)
+
+    def allocate(self, room: int) -> int:
+        """A free place for so many samples side by side."""
+        free = self._free.get(room)
+        begin = free.pop() if free else self._used
+        if begin == self._used:
+            self._used += room
+            for number, width in enumerate((1, 1, 7)):
+                self._grow(number, width * self._used)
+        self._share()
+        return begin
+
+    def release(self, begin: int, room: int) -> None:
+        """Let others have a place."""
+        self._free.setdefault(room, []).append(begin)
+
+    def move(self, begin: int, end: int, to: int) -> None:
+        """Move samples; the two places may overlap."""
+        for array, width in zip(self._arrays, (1, 1, 7), strict=False):
+            array[width * to : width * (to + end - begin)] = array[width * begin : width * end]
+
+    def origin(self, parent: str, authority: str) -> int:
+        """The number of a parent and an authority."""
+        found = self._origins.get((parent, authority))
+        if found is None:
+            number = self._parents.setdefault(parent, len(self._parents))
+            found = self._origins[parent, authority] = number << PARENT_SHIFT | len(self._said)
+            self._said.append(Sample(parent, authority))
+        return found
+
+    def said(self, origin: int) -> Sample:
+        """What a number of `origin` stands for."""
+        return self._said[origin & ((1 << PARENT_SHIFT) - 1)]
 
 
 class History:
-    """The samples of one frame, oldest first. A static frame has one, for all times.
+    """The samples of one frame over the newest `cache_ns`, oldest first. A static frame has one, for all times.
 
     Attributes:
-        stamps: when [ns]; `samples` are what was there then.
+        newest: who said where it stands last, and under which parent.
+        newest_ns: when that was [ns].
+        number: its place in `Samples.spans`.
         static: it does not change with time.
         steady: every sample has the same parent.
 
     """
 
-    __slots__ = ("_cache_ns", "frame", "samples", "stamps", "static", "steady")
+    __slots__ = (
+        "_begin",
+        "_cache_ns",
+        "_end",
+        "_limit",
+        "_origin",
+        "_room",
+        "_samples",
+        "frame",
+        "newest",
+        "newest_ns",
+        "number",
+        "static",
+        "steady",
+    )
 
-    def __init__(self, frame: str, cache_ns: int, *, static: bool) -> None:
+    def __init__(
+        self, frame: str, samples: Samples, cache_ns: int, parent: str, authority: str, *, static: bool
+    ) -> None:
         self.frame = frame
         self.static = static
         self.steady = True
-        self.stamps: list[int] = []
-        self.samples: list[Sample] = []
+        self.newest = Sample(parent, authority)
+        self.newest_ns = _NEVER
+        self._samples = samples
         self._cache_ns = cache_ns
+        self._room = 1 if static else _ROOM
+        self.number, self._begin = samples.add_frame(static=static, room=self._room)
+        self._end, self._limit = self._begin, self._begin + self._room
+        self._origin = samples.origin(parent, authority)
+
+    def __len__(self) -> int:
+        return self._end - self._begin
 
     @property
-    def newest(self) -> Sample:
-        """The last sample."""
-        return self.samples[-1]
+    def oldest_ns(self) -> int:
+        """When the oldest sample holds [ns]."""
+        oldest: int = self._samples.stamps[self._begin]
+        return oldest
 
     @property
     def span_ns(self) -> int:
         """From the oldest sample to the newest [ns]."""
-        return self.stamps[-1] - self.stamps[0]
+        return self.newest_ns - self.oldest_ns
 
     @property
     def rate(self) -> float:
         """Samples a second, as tf counts them: over the time that is buffered, but at least 0.1 ms."""
-        return len(self.stamps) / max(self.span_ns / 1e9, 1e-4)
+        return len(self) / max(self.span_ns / 1e9, 1e-4)
 
-    def add(self, stamp_ns: int, sample: Sample) -> Outcome:
-        """Take a sample, in any order; one that is older than all that is kept, or of a moment that is there already, is refused."""
-        stamps, samples = self.stamps, self.samples
-        if self.static:
-            self.stamps, self.samples = [stamp_ns], [sample]
-            return "kept"
-        same = not samples or sample.parent == samples[-1].parent
-        if not stamps or stamp_ns > stamps[-1]:
-            stamps.append(stamp_ns)
-            samples.append(sample)
+    def add(self, parent: str, transform: Rigid, stamp_ns: int, authority: str) -> Outcome:
+        """Take a sample, in any order; one that is older than all that is kept, or repeats a moment, is refused."""
+        samples = self._samples
+        before, origin = self.newest, self._origin
+        known = parent == before.parent and authority == before.authority
+        if not known:
+            origin = samples.origin(parent, authority)
+        place = self._end
+        if stamp_ns > self.newest_ns or self.static:
+            if self.static:
+                place = self._begin
+            elif place == self._limit:
+                self._make_room()
+                place = self._end
+            self.newest_ns = stamp_ns
+            if not known:
+                self.newest, self._origin = samples.said(origin), origin
         else:
-            if stamp_ns < stamps[-1] - self._cache_ns:
+            if stamp_ns < self.newest_ns - self._cache_ns:
                 return "old"
-            place = bisect_left(stamps, stamp_ns)
-            if stamps[place] == stamp_ns:
+            place = find(samples.stamps, self._begin, place, stamp_ns)
+            if samples.stamps[place] == stamp_ns:
                 return "repeated"
-            stamps.insert(place, stamp_ns)
-            samples.insert(place, sample)
-        first = stamps[-1] - self._cache_ns
-        if stamps[0] < first:
-            gone = bisect_left(stamps, first)
-            del stamps[:gone], samples[:gone]
-        if not (self.steady and same):
-            self.steady = all(other.parent == sample.parent for other in samples)
+            if self._end == self._limit:
+                after = place - self._begin
+                self._make_room()
+                place = self._begin + after
+            samples.move(place, self._end, place + 1)
+        stamps = samples.stamps
+        stamps[place] = stamp_ns
+        samples.origins[place] = origin
+        _PACK.pack_into(samples.values, 56 * place, *transform)
+        if not self.static or self._end == self._begin:
+            self._end += 1
+            samples.spans[3 * self.number + 1] = self._end
+        oldest = self.newest_ns - self._cache_ns
+        if stamps[self._begin] < oldest and not self.static:
+            self._begin = find(stamps, self._begin, self._end, oldest)
+            samples.spans[3 * self.number] = self._begin
+        if not (self.steady and parent == before.parent):
+            kept = samples.origins[self._begin : self._end]
+            self.steady = all(one >> PARENT_SHIFT == origin >> PARENT_SHIFT for one in kept)
         return "kept"
 
+    def _make_room(self) -> None:
+        """Move to the start of the room, or to one of twice the size if this one is more than half full."""
+        samples, room = self._samples, self._room
+        count, first = self._end - self._begin, self._limit - room
+        if 2 * count > room:
+            samples.release(first, room)
+            self._room *= 2
+            first = samples.allocate(self._room)
+        samples.move(self._begin, self._end, first)
+        self._begin, self._end, self._limit = first, first + count, first + self._room
+        samples.set_span(self.number, self._begin, self._end)
+
+    def forget(self) -> None:
+        """Give the room back; nothing can be asked of this history any more."""
+        self._samples.release(self._limit - self._room, self._room)
+        self._samples.remove_frame(self.number)
+
     def sample_at(self, stamp_ns: int) -> Sample:
-        """The sample of this moment [ns]. Raises `LookupError` if there is none."""
-        place = bisect_left(self.stamps, stamp_ns)
-        if self.static or place == len(self.stamps) or self.stamps[place] != stamp_ns:
+        """Who spoke of this moment [ns]. Raises `LookupError` if nobody did."""
+        place = find(self._samples.stamps, self._begin, self._end, stamp_ns)
+        if self.static or place == self._end or self._samples.stamps[place] != stamp_ns:
             raise LookupError(stamp_ns)
-        return self.samples[place]
+        return self._samples.said(self._samples.origins[place])
 
     def parent_at(self, stamp_ns: int) -> str:
-        """Under whom it was [ns]: where the parent changes between two samples, under the earlier one; the nearest at either end."""
-        if self.steady:
-            return self.samples[-1].parent
-        place = bisect_left(self.stamps, stamp_ns)
-        if place < len(self.stamps) and self.stamps[place] == stamp_ns:
-            return self.samples[place].parent
-        return self.samples[max(0, place - 1)].parent
+        """The parent at a time [ns]: where it changes between two samples, that of the earlier one.
 
-    def at(self, stamp_ns: int) -> Rigid:
-        """Where it stood [ns], between two samples. Raises `OutOfRange` before the oldest and after the newest."""
-        stamps = self.stamps
-        if self.static:
-            return self.samples[0].transform
-        place = bisect_left(stamps, stamp_ns)
-        if place == len(stamps):
-            raise OutOfRange
-        after = self.samples[place]
-        later = stamps[place]
-        if later == stamp_ns:
-            return after.transform
-        if place == 0:
-            raise OutOfRange
-        before = self.samples[place - 1]
-        if before.parent != after.parent:
-            return before.transform
-        earlier = stamps[place - 1]
-        return interpolate(before.transform, after.transform, (stamp_ns - earlier) / (later - earlier))
+        The nearest at either end.
+        """
+        if self.steady:
+            return self.newest.parent
+        samples = self._samples
+        place = find(samples.stamps, self._begin, self._end, stamp_ns)
+        if place == self._end or samples.stamps[place] != stamp_ns:
+            place = max(self._begin, place - 1)
+        return samples.said(samples.origins[place]).parent

@@ -1,4 +1,4 @@
-"""Transforms and what they move as ROS messages: stamped points, vectors, poses, quaternions, laser scans, point clouds."""
+"""Transforms, and what they move, as ROS messages: points, vectors, poses, quaternions, scans, point clouds."""
 
 from __future__ import annotations
 
@@ -44,7 +44,10 @@ def to_stamped(parent: str, child: str, transform: Rigid, stamp_ns: int) -> Any:
 
 
 def transform_of(stamped: Any) -> Rigid:
-    """The transform of a `geometry_msgs/TransformStamped`. Raises `InvalidArgumentException` if its quaternion has no length."""
+    """The transform of a `geometry_msgs/TransformStamped`.
+
+    Raises `InvalidArgumentException` if its quaternion has no length.
+    """
     found = from_transform(stamped.transform)
     return rigid(found[:3], found[3:])
 
@@ -164,7 +167,10 @@ def moved(message: Any, stamped: Any) -> Any:
 
 
 def scan_points(scan: Any) -> Floats:
-    """Where the beams of a `sensor_msgs/LaserScan` ended (n, 3) [m], in the laser's frame; beams that met nothing are left out."""
+    """Where the beams of a `sensor_msgs/LaserScan` ended (n, 3) [m], in the laser's frame.
+
+    Beams that met nothing are left out.
+    """
     ranges = np.asarray(scan.ranges, dtype=np.float64)
     angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
     with np.errstate(invalid="ignore"):

@@ -1,6 +1,7 @@
-"""Rigid transforms: seven floats, x, y, z [m] and the rotation's quaternion x, y, z, w, in the order of `geometry_msgs/Transform`.
+"""Rigid transforms: seven floats, x, y, z [m] and the quaternion x, y, z, w, ordered as in `geometry_msgs/Transform`.
 
-The transform of frame `b` in frame `a` is where `b` stands in `a`: it takes the coordinates of a point in `b` to those in `a`. Tuples, not
+The transform of frame `b` in frame `a` is where `b` stands in `a`: it takes the coordinates of a point in `b` to those
+in `a`. Tuples, not
 arrays: for one transform Python's floats are an order of magnitude faster than numpy. Points come as arrays (..., 3).
 """
 
@@ -13,11 +14,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import InvalidArgumentException
+from .kernel import IDENTITY, Rigid, compose, interpolate, inverse
+
+__all__ = [
+    "IDENTITY",
+    "Floats",
+    "Rigid",
+    "compose",
+    "from_rpy",
+    "from_yaw",
+    "interpolate",
+    "inverse",
+    "matrix",
+    "rigid",
+    "rotate",
+    "rpy",
+    "transform_points",
+]
 
 Floats = NDArray[np.float64]
-Rigid = tuple[float, float, float, float, float, float, float]
-
-IDENTITY: Rigid = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def rigid(
@@ -61,7 +76,10 @@ def from_rpy(translation: Sequence[float], roll: float, pitch: float, yaw: float
 
 
 def rpy(transform: Rigid) -> tuple[float, float, float]:
-    """Roll, pitch and yaw [rad] about the fixed axes x, y, z (REP 103); where pitch is 90 degrees up or down, yaw is 0."""
+    """Roll, pitch and yaw [rad] about the fixed axes x, y, z (REP 103).
+
+    Where pitch is 90 degrees up or down, yaw is 0.
+    """
     _, _, _, x, y, z, w = transform
     sine = 2 * (w * y - z * x)
     if abs(sine) > 1 - 1e-12:
@@ -69,70 +87,6 @@ def rpy(transform: Rigid) -> tuple[float, float, float]:
     roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
     yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
     return (roll, math.asin(sine), yaw)
-
-
-def compose(a: Rigid, b: Rigid) -> Rigid:
-    """`b` after `a`: where c stands in a's frame, if `a` says where b stands there, and `b` where c stands in b."""
-    ax, ay, az, ai, aj, ak, aw = a
-    bx, by, bz, bi, bj, bk, bw = b
-    # v + 2 w (q x v) + 2 q x (q x v)
-    tx = 2 * (aj * bz - ak * by)
-    ty = 2 * (ak * bx - ai * bz)
-    tz = 2 * (ai * by - aj * bx)
-    return (
-        ax + bx + aw * tx + aj * tz - ak * ty,
-        ay + by + aw * ty + ak * tx - ai * tz,
-        az + bz + aw * tz + ai * ty - aj * tx,
-        aw * bi + ai * bw + aj * bk - ak * bj,
-        aw * bj - ai * bk + aj * bw + ak * bi,
-        aw * bk + ai * bj - aj * bi + ak * bw,
-        aw * bw - ai * bi - aj * bj - ak * bk,
-    )
-
-
-def inverse(a: Rigid) -> Rigid:
-    """The way back: composed with `a`, on either side, it is the identity."""
-    x, y, z, i, j, k, w = a
-    tx = 2 * (k * y - j * z)
-    ty = 2 * (i * z - k * x)
-    tz = 2 * (j * x - i * y)
-    # The rotation by (-i, -j, -k, w) of (x, y, z), negated.
-    return (
-        -(x + w * tx - j * tz + k * ty),
-        -(y + w * ty - k * tx + i * tz),
-        -(z + w * tz - i * ty + j * tx),
-        -i,
-        -j,
-        -k,
-        w,
-    )
-
-
-def interpolate(a: Rigid, b: Rigid, fraction: float) -> Rigid:
-    """Between `a` (0) and `b` (1): the position on the straight line, the rotation on the shortest arc (slerp: Shoemake, 1985)."""
-    ax, ay, az, ai, aj, ak, aw = a
-    bx, by, bz, bi, bj, bk, bw = b
-    rest = 1.0 - fraction
-    cosine = ai * bi + aj * bj + ak * bk + aw * bw
-    if cosine < 0:
-        bi, bj, bk, bw, cosine = -bi, -bj, -bk, -bw, -cosine
-    if cosine > 0.9999:  # so near that the arc is a line; the length is put right below
-        p, q = rest, fraction
-    else:
-        angle = math.acos(cosine)
-        sine = math.sin(angle)
-        p, q = math.sin(rest * angle) / sine, math.sin(fraction * angle) / sine
-    i, j, k, w = p * ai + q * bi, p * aj + q * bj, p * ak + q * bk, p * aw + q * bw
-    scale = 1 / math.sqrt(i * i + j * j + k * k + w * w)
-    return (
-        rest * ax + fraction * bx,
-        rest * ay + fraction * by,
-        rest * az + fraction * bz,
-        i * scale,
-        j * scale,
-        k * scale,
-        w * scale,
-    )
 
 
 def matrix(transform: Rigid) -> Floats:

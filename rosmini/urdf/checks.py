@@ -90,7 +90,8 @@ def _check_mimic(joint: Joint, joints: Mapping[str, Joint], here: Element) -> No
 def inertia_notes(inertial: Inertial) -> Iterator[str]:
     """Why no body has this inertia: principal moments are not negative, and none is larger than the sum of the others.
 
-    (Each is an integral of two squared distances over the mass; see Featherstone, Rigid Body Dynamics Algorithms, 2008, 2.)
+    (Each is an integral of two squared distances over the mass; see Featherstone, Rigid Body Dynamics Algorithms,
+    2008.)
     """
     moments = np.linalg.eigvalsh(inertial.matrix)
     text = ", ".join(f"{moment:.4g}" for moment in moments)

@@ -1,7 +1,7 @@
-"""What a xacro file may do: compute (see `rosmini.expressions`), read files of packages, and expand to no more than a robot needs.
+"""What a xacro file may do: compute (see `rosmini.expressions`), read files of packages, and expand within bounds.
 
-xacro hands ``${...}`` and ``$(eval ...)`` to Python's ``eval``, out of which a description can break. Here are the functions that xacro is lent in place
-of its own, by the names under which its modules look them up.
+xacro hands ``${...}`` and ``$(eval ...)`` to Python's ``eval``, out of which a description can break. These functions
+replace xacro's own, under the names by which its modules look them up.
 """
 
 from __future__ import annotations
@@ -64,9 +64,16 @@ GLOBALS = (
 MACRO_ARGUMENT = re.compile(
     r"""^\s*([^\s:=]+?)\s*:?=\s*(\^\|?)?(\$\{.*?\}|\$\(.*?\)|(?:'[^']*'|"[^"]*"|[^\s'"])+|)(?:\s+|$)(.*)"""
 )
-"""A parameter of a macro with its default, as xacro has it, but for quotes that backtracking would try in every combination."""
+"""A macro parameter with its default, as in xacro, without the quotes that make backtracking try every combination."""
 
-UNITS: dict[str, float] = {"!radians": 1.0, "!degrees": MATH["pi"] / 180, "!meters": 1.0, "!millimeters": 0.001, "!foot": 0.3048, "!inches": 0.0254}  # fmt: skip
+UNITS: dict[str, float] = {
+    "!radians": 1.0,
+    "!degrees": MATH["pi"] / 180,
+    "!meters": 1.0,
+    "!millimeters": 0.001,
+    "!foot": 0.3048,
+    "!inches": 0.0254,
+}
 """What tags of YAML files mean (https://github.com/ros/xacro/wiki)."""
 
 
@@ -97,7 +104,7 @@ class Confined:
         return {"_eval": self._evaluate_substitution}
 
     def opened(self, filename: str) -> None:
-        """Count a file that is included. Raises `NotAllowed` if there are too many, or if they include one another without end."""
+        """Count an included file. Raises `NotAllowed` for too many, or for files that include one another endlessly."""
         self._budget.spend(OF_A_FILE)
         above = [Path(name).name for name in self._xacro.filestack]
         if len(above) > DEEPEST:

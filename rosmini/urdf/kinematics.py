@@ -1,16 +1,12 @@
-"""Forward kinematics: where frames are by what joints say. Plain numbers and arrays in, arrays out."""
+"""The transforms that joints make. Plain numbers and arrays in, arrays out."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-
-if TYPE_CHECKING:
-    from .model import Joint
 
 Floats = NDArray[np.float64]
 
@@ -51,29 +47,3 @@ def motion(axis: Sequence[float], position: float, *, slides: bool) -> Floats:
     else:
         result[:3, :3] = turn(axis, position)
     return result
-
-
-def positions(joints: Mapping[str, Joint], given: Mapping[str, float]) -> dict[str, float]:
-    """Where every joint that moves is; one that mimics another follows it, whatever is given for itself.
-
-    A chain of mimics is followed to its end; that it has one was made sure when the robot was read.
-    """
-    found: dict[str, float] = {}
-
-    def position(joint: Joint) -> float:
-        if joint.name not in found:
-            if joint.mimic is not None:
-                followed = position(joints[joint.mimic.joint])
-                found[joint.name] = joint.mimic.multiplier * followed + joint.mimic.offset
-            else:
-                found[joint.name] = float(given.get(joint.name, rest(joint)))
-        return found[joint.name]
-
-    return {joint.name: position(joint) for joint in joints.values() if joint.moves}
-
-
-def rest(joint: Joint) -> float:
-    """Where a joint is that nobody speaks of: 0, or the middle of its limits if 0 is beyond them (as joint_state_publisher has it)."""
-    if joint.type == "continuous" or joint.limit is None or joint.limit.lower <= 0 <= joint.limit.upper:
-        return 0.0
-    return (joint.limit.lower + joint.limit.upper) / 2

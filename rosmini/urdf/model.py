@@ -1,7 +1,7 @@
 """A robot by its description: links, and the joints between them (http://wiki.ros.org/urdf/XML).
 
-Units and axes are REP 103's: metres, radians, kilograms, seconds; fixed-axis roll, pitch, yaw. `rosmini.urdf.load` makes a
-`Robot` of a file; nothing here reads or writes.
+Units and axes are REP 103's: metres, radians, kilograms, seconds; fixed-axis roll, pitch, yaw. `rosmini.urdf.load`
+makes a `Robot` of a file; nothing here reads or writes.
 """
 
 from __future__ import annotations
@@ -190,8 +190,15 @@ class Joint:
         """True if one number says where it is: revolute, continuous and prismatic joints."""
         return self.type in {"revolute", "continuous", "prismatic"}
 
+    @property
+    def rest(self) -> float:
+        """Its default position: 0, or the middle of its limits if 0 is outside (as joint_state_publisher has it)."""
+        if self.type == "continuous" or self.limit is None or self.limit.lower <= 0 <= self.limit.upper:
+            return 0.0
+        return (self.limit.lower + self.limit.upper) / 2
+
     def transform(self, position: float = 0.0) -> Floats:
-        """The child's frame in the parent's (4, 4) with the joint at `position` [rad or m]; floating and planar ones stay at 0."""
+        """The child's frame in the parent's (4, 4) at `position` [rad or m]; floating and planar joints stay at 0."""
         if not self.moves:
             return self.origin.matrix
         return self.origin.matrix @ kinematics.motion(self.axis, position, slides=self.type == "prismatic")
@@ -199,7 +206,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class Extension:
-    """A ``<gazebo>`` element, raw: about the link or joint `reference`, or about the whole robot where that is empty."""
+    """A ``<gazebo>`` element, raw, about the link or joint `reference`; about the whole robot where that is empty."""
 
     reference: str
     element: Element
@@ -268,9 +275,9 @@ class Robot:
         return sum(link.inertial.mass for link in self.links.values() if link.inertial)
 
     def positions(self, joints: Mapping[str, float] | None = None) -> dict[str, float]:
-        """Where every joint that moves is [rad or m]: as given, as the joint that it mimics says, else 0 or, if 0 is out of its limits, in their middle.
+        """The positions of all joints that move [rad or m]: as given, or at rest; one that mimics another follows it.
 
-        Raises `UnknownJoint` for a joint that the robot has not, and for one that does not move.
+        Raises `UnknownJoint` for a joint that the robot does not have, and for one that does not move.
         """
         given = dict(joints or {})
         for name in given:
@@ -278,7 +285,18 @@ class Robot:
                 raise UnknownJoint(
                     f"the joint {name!r} of {self.name!r} is {self.joints[name].type}: no number moves it"
                 )
-        return kinematics.positions(self.joints, given)
+        found: dict[str, float] = {}
+
+        def position(joint: Joint) -> float:  # chains of mimics end: the reader made sure of it
+            if joint.name not in found:
+                if joint.mimic is not None:
+                    followed = position(self.joints[joint.mimic.joint])
+                    found[joint.name] = joint.mimic.multiplier * followed + joint.mimic.offset
+                else:
+                    found[joint.name] = float(given.get(joint.name, joint.rest))
+            return found[joint.name]
+
+        return {joint.name: position(joint) for joint in self.joints.values() if joint.moves}
 
     def transforms(self, joints: Mapping[str, float] | None = None) -> dict[str, Floats]:
         """Where every link's frame is in the root's (4, 4), by the positions of joints [rad or m]; see `positions`.
@@ -300,13 +318,13 @@ class Robot:
         return show("robot", self, **options)
 
     def show3d(self, joints: Mapping[str, float] | None = None, **options: Any) -> Any:
-        """The robot in three dimensions with its joints at these positions [rad or m], the others as `positions` has them.
+        """The robot in three dimensions, its joints at these positions [rad or m] or at rest.
 
         Options, with what they are unless given:
             collisions=False: show the shapes that touch others in place of those that one sees
             distance=None: of the camera from what it looks at [m]; None: what shows it well
-            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
-            elevation=None: how high from [deg]; None: what shows it well
+            azimuth=None: where the camera is [deg]: 0 towards x, 90 towards y; None: what shows it well
+            elevation=None: how high above the horizon it is [deg]; None: what shows it well
             title=None: a caption under the picture, and the first words of its text form
             height=420: of the viewer [CSS px]
         """

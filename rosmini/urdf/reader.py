@@ -1,4 +1,4 @@
-"""Read URDF (http://wiki.ros.org/urdf/XML): from text or a file to a `Robot`, with errors that name file, line and element."""
+"""Reads URDF (http://wiki.ros.org/urdf/XML), from text or a file, with errors that name file, line and element."""
 
 from __future__ import annotations
 
@@ -63,10 +63,11 @@ def load(
         mappings: arguments for a ``.xacro`` file.
         meshes: whether the files of meshes are looked for. Without, `Mesh.path` is None.
         path: what errors about a text call its file.
-        confined: False lets the expressions of a ``.xacro`` file do whatever Python can (see `rosmini.urdf.xacro.expand`).
+        confined: False lets expressions of a ``.xacro`` file do whatever Python can (see `rosmini.urdf.xacro.expand`).
 
     Raises:
-        UrdfError: the file cannot be read, is not XML, is no tree of links, names what is not there or has numbers that are none.
+        UrdfError: the file cannot be read, is not XML, is not a tree of links, names what does not exist, or has
+            invalid numbers.
 
     """
     index = packages if packages is not None else PackageIndex()

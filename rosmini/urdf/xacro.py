@@ -1,7 +1,7 @@
 """xacro: macros of robot descriptions (http://wiki.ros.org/xacro), by ROS's own program of that name from PyPI.
 
 That package finds packages as ROS 2 does; here ``$(find ...)`` asks our `PackageIndex`. Each file is first read by
-`rosmini.markup`, so that what is not XML is told with its line and what is hostile is refused. Expressions are confined (see
+`rosmini.markup`, which reports bad XML with its line and refuses hostile XML. Expressions are confined (see
 `rosmini.urdf.confined`) unless the caller says otherwise.
 """
 
@@ -29,8 +29,8 @@ from .errors import UrdfError
 USAGE = "usage: xacro [-o FILE] [--unconfined] INPUT [name:=value ...]"
 
 UNCONFINED = (
-    "in xacro's expressions rosmini allows what computes, and no more of it than a robot needs; if you trust this file with all that "
-    "Python can do on this computer, add --unconfined to the command, or confined=False to the call"
+    "in xacro's expressions rosmini allows what computes, and no more of it than a robot needs; if you trust this file "
+    "with all that Python can do on this computer, add --unconfined to the command, or confined=False to the call"
 )
 
 MOST_MACROS = 5
@@ -53,10 +53,11 @@ def expand(
         path: the file; also ``package://...``.
         mappings: arguments by name, as ``name:=value`` on the command line.
         packages: where packages of ``$(find ...)`` are; by default `PackageIndex()`.
-        confined: False hands expressions to Python's ``eval``, as ROS does: they can do whatever you can do on this computer.
+        confined: False hands expressions to Python's ``eval``, as ROS does: they can do whatever you can do here.
 
     Raises:
-        UrdfError: a file cannot be read or is not XML, a macro, property, argument or package is unknown, an expression fails or is not allowed.
+        UrdfError: a file cannot be read or is not XML; a macro, property, argument or package is unknown; an expression
+            fails or is not allowed.
 
     """
     index = packages if packages is not None else PackageIndex()
@@ -112,9 +113,9 @@ def _process(
 def _lent(
     xacro: Any, substitution: Any, confined: Path | None, index: PackageIndex, known: list[str]
 ) -> Iterator[None]:
-    """While it lasts, xacro finds packages by our index, reads files as we do, and is confined; what it keeps in its modules is put back.
+    """Inside, xacro finds packages by our index, reads files as we do, and is confined; its globals are restored after.
 
-    `confined` is the file that is expanded, or None if it may do what it likes.
+    `confined` is the expanded file, or None if it may do whatever it likes.
     """
 
     def find(name: str) -> str:
@@ -137,7 +138,8 @@ def _lent(
         parse_file(filename, UrdfError)
         return xml.dom.minidom.parse(filename)  # noqa: S318 (found harmless in the line above)
 
-    arguments, symbols = xacro.substitution_args_context, substitution._eval_dict  # noqa: SLF001 (there is no other way in)
+    arguments = xacro.substitution_args_context
+    symbols = substitution._eval_dict  # noqa: SLF001 (there is no other way in)
     kept = dict(arguments), symbols["find"]
     for_xacro = {} if limits is None else limits.for_xacro()
     for_substitution = {} if limits is None else limits.for_substitution()
@@ -268,9 +270,9 @@ def _element(files: Sequence[str], tag: str, wanted: Callable[[Element], bool]) 
 
 
 def main(arguments: Sequence[str]) -> int:
-    """`rosrun xacro xacro FILE name:=value ...`: print the URDF, or write it to the file after `-o`; return the exit status.
+    """`rosrun xacro xacro FILE name:=value ...`: print the URDF or write it to the file after `-o`; the exit status.
 
-    Options of old that mean nothing any more (`--inorder`, `-i`) are let pass, as there.
+    Obsolete options (`--inorder`, `-i`) are ignored, as there.
     """
     mappings: dict[str, str] = {}
     files: list[str] = []

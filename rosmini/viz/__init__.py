@@ -12,17 +12,17 @@ from rosmini.viz.rqt import GraphState, rqt_console, rqt_graph
 from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 
 if TYPE_CHECKING:
-    from rosmini.viz.images import image_picture
-    from rosmini.viz.parameters import parameter_tree
+    from rosmini.viz.image_pictures import image_picture
+    from rosmini.viz.parameter_trees import parameter_tree
     from rosmini.viz.plots import plot
-    from rosmini.viz.recording import recording_picture, recording_plots
+    from rosmini.viz.recording_pictures import recording_picture, recording_plots
     from rosmini.viz.rqt.bag import rqt_bag
-    from rosmini.viz.scan import scan_picture
-    from rosmini.viz.simulation import simulation_picture
-    from rosmini.viz.states import action_states
-    from rosmini.viz.track import track_picture
-    from rosmini.viz.urdf_tree import urdf_tree
-    from rosmini.viz.world import world_picture
+    from rosmini.viz.scan_pictures import scan_picture
+    from rosmini.viz.simulation_pictures import simulation_picture
+    from rosmini.viz.state_machine import action_states
+    from rosmini.viz.track_pictures import track_picture
+    from rosmini.viz.urdf_trees import urdf_tree
+    from rosmini.viz.world_pictures import world_picture
 
 __all__ = [
     "GraphState",
@@ -47,18 +47,18 @@ __all__ = [
 ]
 
 _LATER = {
-    "action_states": "rosmini.viz.states",
-    "image_picture": "rosmini.viz.images",
-    "parameter_tree": "rosmini.viz.parameters",
+    "action_states": "rosmini.viz.state_machine",
+    "image_picture": "rosmini.viz.image_pictures",
+    "parameter_tree": "rosmini.viz.parameter_trees",
     "plot": "rosmini.viz.plots",
-    "recording_picture": "rosmini.viz.recording",
-    "recording_plots": "rosmini.viz.recording",
+    "recording_picture": "rosmini.viz.recording_pictures",
+    "recording_plots": "rosmini.viz.recording_pictures",
     "rqt_bag": "rosmini.viz.rqt.bag",
-    "scan_picture": "rosmini.viz.scan",
-    "simulation_picture": "rosmini.viz.simulation",
-    "track_picture": "rosmini.viz.track",
-    "urdf_tree": "rosmini.viz.urdf_tree",
-    "world_picture": "rosmini.viz.world",
+    "scan_picture": "rosmini.viz.scan_pictures",
+    "simulation_picture": "rosmini.viz.simulation_pictures",
+    "track_picture": "rosmini.viz.track_pictures",
+    "urdf_tree": "rosmini.viz.urdf_trees",
+    "world_picture": "rosmini.viz.world_pictures",
 }
 
 

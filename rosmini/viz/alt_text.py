@@ -1,7 +1,7 @@
 """For the built book: images in notebook outputs get the alt text and the caption that their metadata carries.
 
 myst-nb writes an `image/png` output as an image without alt text. It loads this class through the entry point group
-`myst_nb.mime_renderers`; a view's own image brings `{"alt": ..., "caption": ...}` in the metadata of its output (see `view.py`).
+`myst_nb.mime_renderers`; a view's image brings `{"alt": ..., "caption": ...}` in the metadata of its output.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ class AltText:
 
     @staticmethod
     def handle_mime(renderer: Any, data: Any, inline: bool) -> list[nodes.Element] | None:
-        """Render an image that has alt text in its output's metadata, as a figure if it has a caption; None for anything else."""
+        """Render an image with alt text in its metadata, as a figure if it has a caption; None for anything else."""
         if data.mime_type not in {"image/png", "image/svg+xml"}:
             return None
         own = data.output_metadata.get(data.mime_type, {})

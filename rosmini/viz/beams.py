@@ -15,7 +15,10 @@ from rosmini.viz.view import ViewError
 
 Floats = NDArray[np.float64]
 
-SECTORS = ("ahead", "ahead on the left", "on the left", "behind on the left", "behind", "behind on the right", "on the right", "ahead on the right")  # fmt: skip
+SECTORS = (
+    "ahead", "ahead on the left", "on the left", "behind on the left",
+    "behind", "behind on the right", "on the right", "ahead on the right",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +33,7 @@ class Beams:
     """[m]"""
     frame: str = ""
     starts: Floats | None = None
-    """(n, 3): where the laser was at each beam, x [m], y [m] and heading [rad], seen from where it was at the first; None: there, all the time."""
+    """(n, 3): the laser's pose at each beam, x [m], y [m], heading [rad], seen from its first; None: it stood still."""
 
     @property
     def hits(self) -> NDArray[np.bool_]:
@@ -38,7 +41,7 @@ class Beams:
         return np.isfinite(self.ranges)
 
     def points(self) -> Floats:
-        """The ends (n, 2) of the beams, seen from the laser; where nothing was hit, at `range_max`, where it was too near, at the laser."""
+        """The ends (n, 2) of the beams, seen from the laser: at `range_max` without a hit, at the laser if too near."""
         reach = np.where(self.hits, self.ranges, np.where(self.ranges < 0, 0.0, self.range_max))
         if self.starts is None:
             return np.column_stack([reach * np.cos(self.angles), reach * np.sin(self.angles)])
@@ -97,13 +100,13 @@ def direction(angle: float) -> str:
 
 
 def beams_of(scan: Any, lidar: LidarModel | None = None) -> Beams:
-    """The beams of a `sensor_msgs/LaserScan`, or of an array of ranges of a laser, of which beam i looks at 2 pi i / beams, if its model says nothing else.
+    """The beams of a `sensor_msgs/LaserScan`, or of an array of ranges: beam i at 2 pi i / beams, or as `lidar` says.
 
-    What is outside of range_min and range_max is no hit, nor is nan (sensor_msgs/LaserScan, REP 117).
+    A range outside of range_min and range_max is not a hit, nor is nan (sensor_msgs/LaserScan, REP 117).
 
     Raises:
-        ViewError: the scan has no ranges, another number of them than its angles say or than the laser has beams, or its
-            angles are no numbers.
+        ViewError: the scan has no ranges, or not as many as its angles say or the laser has beams, or its angles are
+            not numbers.
 
     """
     if not hasattr(scan, "ranges"):
@@ -125,8 +128,8 @@ def beams_of(scan: Any, lidar: LidarModel | None = None) -> Beams:
     # some drivers give the end of the last beam's share as angle_max, some the last beam itself
     if not len(ranges) or abs(expected - len(ranges)) > 1:
         raise ViewError(
-            f"a scan has {len(ranges)} ranges, but its angles from {first:.4f} to {last:.4f} rad by {step:.6f} rad are those "
-            f"of {expected} beams"
+            f"a scan has {len(ranges)} ranges, but its angles from {first:.4f} to {last:.4f} rad by {step:.6f} rad are "
+            f"those of {expected} beams"
         )
     if lidar is not None and lidar.beams != len(ranges):
         raise ViewError(f"a scan has {len(ranges)} ranges, but the {lidar.name} has {lidar.beams} beams")

@@ -5,10 +5,11 @@ The script is a file of `rosmini/viz/static/` that defines a function `mount(hos
 - `host` is an empty element of the page, as wide as the text and at least `height` pixels high;
 - `data` is the JSON that Python gave (bytes are base64 in it);
 - `options` has `title`, `alt`, `height`, `book` (whether the page is one of the book), `asset(name)`, a promise of the
-  address of another file, `still`, the element with the still picture, and `show(moving)`, which shows `host` or `still`.
+  address of another file, `still`, the still picture's element, and `show(moving)`, which shows `host` or `still`.
 
 What it returns is awaited. If it fails or returns `false`, the still picture comes back. Without scripts (GitHub, a
-notebook that is not trusted, a page without its `_static` folder) the still picture is what one sees, and it is printed.
+notebook that is not trusted, a page without its `_static` folder) the still picture is what one sees, and it is
+printed.
 
 In the book form the scripts are files of the book, loaded once for each page, from file:// too. In the live form
 they are in the HTML, large ones compressed. The data never are: another zlib gives other bytes, and nbval compares
@@ -29,7 +30,7 @@ from pathlib import Path
 from typing import Any
 
 from rosmini.errors import nearest
-from rosmini.viz.form import book_form
+from rosmini.viz.book_form import book_form
 from rosmini.viz.svg import element, escape
 from rosmini.viz.view import ViewError
 

@@ -1,8 +1,8 @@
-"""Figures in the house style: a size in CSS pixels, no frame, a faint grid, and nothing that a user's matplotlibrc changes.
+"""Figures in the house style: sized in CSS pixels, no frame, a faint grid, independent of a user's matplotlibrc.
 
-Pictures of worlds and runs are SVG. They stay sharp, they follow the page's theme, a screen reader reads their text, and a few
-dozen kB are enough. nbval compares them to the byte, which they bear: what is drawn is rounded first (`rosmini.viz.rounding`), and
-what matplotlib writes is rounded again (`rosmini.viz.themed`). A PNG would have to look well on light and on dark pages at once.
+Pictures of worlds and runs are SVG: sharp, in the page's theme, legible to screen readers, and a few dozen kB small.
+nbval compares them to the byte, so what is drawn is rounded first (`rosmini.viz.rounding`), and what matplotlib writes
+is rounded again (`rosmini.viz.themed`). A PNG would have to look good on light and on dark pages at once.
 """
 
 from __future__ import annotations

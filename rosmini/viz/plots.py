@@ -46,7 +46,7 @@ def plot(
         width: of the picture [CSS px].
 
     Raises:
-        ViewError: there is nothing to plot, there are too many series, or one has lists of different lengths or no numbers.
+        ViewError: there are no series or too many, or one has lists of different lengths or no numbers.
 
     """
     points = {name: _points(name, values) for name, values in series.items()}
@@ -106,4 +106,5 @@ def _frame(axes: Axes, points: Floats, x: str, y: str) -> None:
 
 def _line(name: str, points: Floats) -> str:
     low, high = points[:, 1].min(), points[:, 1].max()
-    return f"{name}: {plural(len(points), 'point')}, from {fixed(low, 2)} to {fixed(high, 2)}, last {fixed(points[-1, 1], 2)}"
+    low, high, last = (fixed(value, 2) for value in (low, high, points[-1, 1]))
+    return f"{name}: {plural(len(points), 'point')}, from {low} to {high}, last {last}"

@@ -1,8 +1,8 @@
 """Numbers that are the same on every machine, for texts and for pictures that a notebook's test compares to the byte.
 
-Sines, exponentials and sums may differ in their last bit between machines. A plain `round` makes a visible difference of that
-wherever a value lies on a boundary, and values that people choose do lie there: 0.125 m is 0.12 or 0.13. The functions
-here have their boundaries elsewhere, where only a chance value falls.
+Sines, exponentials and sums may differ in their last bit between machines. A plain `round` makes that visible wherever
+a value lies on a boundary, and values that people choose do lie there: 0.125 m is 0.12 or 0.13. The functions here have
+their boundaries elsewhere, where only a chance value falls.
 """
 
 from __future__ import annotations

@@ -88,7 +88,7 @@ def declarations(palette: Mapping[str, str], names: list[str] | None = None) -> 
 
 
 def dark_of(colour: str) -> str:
-    """A colour `#rrggbb` that is not in the palette, as it is on a dark page: the same hue, and bright enough to be seen there."""
+    """A colour `#rrggbb` outside the palette as it is on a dark page: the same hue, bright enough to be seen there."""
     red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
     hue, lightness, saturation = rgb_to_hls(red, green, blue)
     lighter = hls_to_rgb(hue, max(lightness, 0.40 + 0.45 * lightness), saturation)
@@ -161,7 +161,8 @@ FIGURE_CSS = """\
 }
 
 /* In dark mode the theme puts HTML outputs on a light ground: our pictures are dark themselves. */
-html[data-theme="dark"] .bd-content div.cell_output .output.text_html:not(:has(table.dataframe)):has(> .rosmini-figure) {
+html[data-theme="dark"] .bd-content div.cell_output .output.text_html:not(:has(table.dataframe))\
+:has(> .rosmini-figure) {
   background-color: transparent;
   color: inherit;
   padding: 0;

@@ -68,9 +68,9 @@ def document(
 ) -> str:
     """A whole picture: usable as a file, and inline in a page of any theme.
 
-    `alt` is what a screen reader says; `css` may use the custom properties named in `colours`; `kind` is the class of the
-    picture, to which its rules keep; `others` are colours beside the palette that `css` uses. Where a page is too narrow, the picture shrinks with it, but not below 60 per cent:
-    its text stays legible and the figure scrolls.
+    `alt` is what a screen reader says; `css` may use the custom properties named in `colours`; `kind` is the class that
+    the picture's rules apply to; `others` are colours outside the palette that `css` uses. On a narrow page the picture
+    shrinks to 60 per cent at most, so that its text stays legible; then the figure scrolls.
     """
     style = f".{kind} text{{font-family:{FONT}}}{css}{themed(f'.{kind}', colours, others)}"
     least = number(min(width, max(0.6 * width, 320.0)))

@@ -1,12 +1,12 @@
 """From matplotlib's SVG to ours: it follows the theme of its page, it is small, and it is the same on every machine.
 
-- Colours of the light palette become custom properties, so the picture turns dark with its page; black is ink and white is
-  the page. Other colours may become custom properties of their own, lighter on dark pages. Each stays as an attribute too,
-  for programs that know no custom properties.
+- Colours of the light palette become custom properties, so the picture turns dark with its page; black is ink and white
+  is the page. Other colours may become custom properties of their own, lighter on dark pages. Each stays as an
+  attribute too, for programs that know no custom properties.
 - Numbers keep a hundredth of a pixel. Matplotlib writes six decimals, of which the last may depend on the machine; they
   are rounded as decimal text, so what it wrote alike stays alike.
-- Ids that nothing refers to go. The others (of clip paths and markers) are made from what they name, so two pictures on a
-  page share an id only if they mean the same by it.
+- Unused ids go. The others (of clip paths and markers) are made from what they name, so two pictures on a page share an
+  id only if it means the same in both.
 - Text stays text, in the faces of the house; the style sheet of matplotlib, which would hold for the whole page, goes.
 """
 

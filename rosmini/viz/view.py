@@ -4,12 +4,12 @@
 |---|---|---|
 | text | what the picture means, in a few lines | a terminal (`print(view)`), and nbval, which compares it |
 | image | SVG or PNG | files, GitHub, LaTeX, Jupyter's image viewers |
-| HTML | a `<figure>` with the picture and its alt text, offline, with no script from elsewhere | Jupyter and the built book |
+| HTML | a `<figure>` with the picture and its alt text, offline, without foreign scripts | Jupyter and the built book |
 
 Jupyter and myst-nb both take `text/html` before an image. Only so does the alt text reach the page: an
 `image/svg+xml` output becomes an `<img>` without one. An inline SVG also follows the light or dark theme of its page.
-A PNG has no HTML form here, because nbval compares `text/html` to the byte and PNG bytes differ between machines; its alt
-text travels in the output's metadata, and `rosmini.viz.alt_text` puts it on the page when the book is built.
+A PNG has no HTML form here, because nbval compares `text/html` to the byte and PNG bytes differ between machines; its
+alt text travels in the output's metadata, and `rosmini.viz.alt_text` puts it on the page when the book is built.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class View(ABC):
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> MimeBundle:
-        """All forms for Jupyter, with the alt text in the metadata of images, and the caption of one that has no HTML form for it."""
+        """All forms for Jupyter; the metadata have the alt text, and the caption of an image without an HTML form."""
         data: dict[str, str] = {"text/plain": self.text}
         metadata: dict[str, dict[str, Any]] = {}
         for mime, content in self._images().items():
@@ -164,7 +164,7 @@ class Picture(View):
         return {PNG_MIME: self._image}
 
     def _about_image(self) -> dict[str, str]:
-        # an SVG's caption stands in its HTML form; a PNG has none, because its bytes are not the same everywhere, and HTML is compared
+        # an SVG's caption is in its HTML form, which a PNG does not have: its bytes differ between machines
         own = {"caption": self.caption} if self.caption and self.svg is None else {}
         return {"alt": self.alt, **own}
 
@@ -192,8 +192,9 @@ def matplotlib_picture(
     """A picture of a matplotlib figure, with no date and no random ids in it.
 
     As SVG it follows the theme of its page where it uses the colours of `rosmini.viz.style.LIGHT`, black or white
-    (see `rosmini.viz.themed`), and if `adapt` where it uses any others; text is laid out for DejaVu Sans. As PNG it has `dpi` dots an inch.
-    The figure is not shown by Jupyter's inline backend as well if it was made with `matplotlib.figure.Figure`.
+    (see `rosmini.viz.themed`), and with `adapt` also where it uses others; text is laid out for DejaVu Sans. As PNG it
+    has `dpi` dots an inch. The figure is not shown by Jupyter's inline backend as well if it was made with
+    `matplotlib.figure.Figure`.
 
     Raises:
         ViewError: the alt text or the text form is empty.

@@ -30,7 +30,7 @@ Floats = NDArray[np.float64]
 TINT = 0.32
 """How strong the fill of an obstacle is."""
 DARKEST, LIGHTEST = 0.2, 0.7
-"""A colour whose luma (ITU-R BT.601, from 0 to 1) is beyond these is hard to see on a page of a dark or of a light theme."""
+"""A colour whose luma (ITU-R BT.601, 0 to 1) is beyond these is hard to see on a dark or on a light page."""
 SEEN, ONE_BEAM = 0.11, 0.5
 """How strong the fill of what a laser sees is."""
 TRAIL_WIDTH = 2.0
@@ -93,7 +93,7 @@ def _paint(colour: str) -> str:
 
 
 def _edge(colour: str) -> str:
-    """What a thing of this colour is outlined with: the colour itself, if it shows on a light page and on a dark one, else a neutral one."""
+    """The colour of a thing's outline: its own, if that shows on light and on dark pages, else a neutral one."""
     from matplotlib.colors import to_rgb
 
     if colour in LIGHT:
@@ -103,7 +103,7 @@ def _edge(colour: str) -> str:
 
 
 def draw_scan(axes: Axes, beams: Beams, laser: Pose, scale: float) -> None:
-    """What a laser at the pose `laser` sees: the area that its beams pass, or the way of its only beam, and a point for each hit."""
+    """Draw what a laser at the pose `laser` sees: the area its beams pass, or its only beam, and a dot for each hit."""
     ends = snap(transform_points(laser, beams.points()))
     if len(ends) == 1:
         axes.plot(
@@ -166,7 +166,7 @@ def draw_way(axes: Axes, points: Floats, colour: str, scale: float) -> None:
 def name_box(
     model: RobotModel, pose: Pose, name: str, scale: float, *, above: bool
 ) -> tuple[float, float, float, float]:
-    """Where a robot's name is written, from left to right and from bottom to top [px], seen from the origin of the world."""
+    """The box of a robot's name, x0, y0, x1, y1 [px], seen from the origin of the world."""
     x, y = scale * pose[0], scale * pose[1]
     half, height = text_width(name, LABEL_SIZE) / 2, 1.2 * LABEL_SIZE
     bottom = y + _aside(model, scale) if above else y - _aside(model, scale) - height

@@ -10,17 +10,16 @@ from .teleop import Limits, Teleop, TeleopError
 
 if TYPE_CHECKING:
     from rosmini.graph import Graph
-
-    from .watch import Running
+    from rosmini.sim.simulation import Simulation
 
 __all__ = ["Limits", "SimulationView", "Teleop", "TeleopError", "TeleopPad", "simulation_view", "teleop_pad"]
 
 
-def teleop_pad(driven: Running | Graph, **options: Any) -> TeleopPad:
-    """The renderer "teleop_pad": a pad for a robot of a simulation, or for whatever listens on a graph; see `TeleopPad`."""
+def teleop_pad(driven: Simulation | Graph, **options: Any) -> TeleopPad:
+    """The renderer "teleop_pad": a pad for a robot of a simulation, or for what listens on a graph; see `TeleopPad`."""
     return TeleopPad(driven, **options)
 
 
-def simulation_view(simulation: Running, **options: Any) -> SimulationView:
+def simulation_view(simulation: Simulation, **options: Any) -> SimulationView:
     """The renderer "simulation_view": a running world in which robots and boxes are dragged; see `SimulationView`."""
     return SimulationView(simulation, **options)

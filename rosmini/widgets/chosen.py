@@ -1,4 +1,4 @@
-"""One robot of a running simulation, with all that a pad has to know of it: so a pad drives any robot of a simulator, of stageros or of gzserver."""
+"""One robot of a running simulation, as a pad needs it: of a simulator, of stageros or of gzserver."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from rosmini.sim.devices import DifferentialDrive
 from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.engine.robot import Robot
 from rosmini.sim.models import RobotModel
+from rosmini.sim.simulation import Simulation
 from rosmini.sim.world import World
 
 from .teleop import Limits, TeleopError
-from .watch import Running
 
 Floats = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ class Chosen:
     Raises `TeleopError` if there is no such robot, with the names of those that there are.
     """
 
-    def __init__(self, simulation: Running, name: str = "") -> None:
+    def __init__(self, simulation: Simulation, name: str = "") -> None:
         drives = {
             device.robot.name: device
             for device in simulation.host.devices
@@ -40,7 +40,7 @@ class Chosen:
         if name not in drives and (name or not drives):
             hint = nearest(name, drives) or f"robots that can: {', '.join(drives) or 'none'}"
             raise TeleopError(
-                f"there is no robot {name!r} in the world {simulation.engine.world.name!r} that listens to velocities; {hint}"
+                f"no robot {name!r} in the world {simulation.engine.world.name!r} listens to velocities; {hint}"
             )
         self.simulation = simulation
         self.node = simulation.node

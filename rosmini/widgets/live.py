@@ -1,10 +1,12 @@
 """A pad in a live notebook: what goes between the node in the kernel and the page that shows it.
 
-What a page sends arrives in the kernel's main thread or, if that is busy, on a thread of JupyterLab's (a subshell): it goes through the
-scheduler's inbox, and everything else happens in the graph. The page is sent a frame at 30 Hz of the graph's time while somebody looks.
+What a page sends arrives in the kernel's main thread or, if that is busy, on a thread of JupyterLab's (a subshell):
+it goes through the scheduler's inbox, and everything else happens in the graph. The page is sent a frame at 30 Hz of
+the graph's time while somebody looks.
 
-A page that shows a robot in motion has to say that it is still there. This is about the reader at the browser, so it is wall time that counts,
-in a graph in simulated time too; what a script presses needs no page, and goes on without one.
+A page that shows a robot in motion has to say that it is still there. This is about the reader at the browser, so it
+is wall time that counts, in a graph in simulated time too; what a script presses needs no page, and goes on without
+one.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ import numpy as np
 from rosmini.errors import RosminiError
 from rosmini.msgs import message_class
 
-from .page import module, pad_data
+from .page import Pad, module, pad_data
 from .teleop import TeleopError
 
 try:
@@ -37,8 +39,6 @@ if TYPE_CHECKING:
 
     from rosmini.graph.clock import Timer
     from rosmini.graph.subscriber import Subscriber
-
-    from .pad import TeleopPad
 
 FRAME_HZ = 30.0
 DEAD_MAN_S = 1.0
@@ -60,7 +60,7 @@ class PadWidget(anywidget.AnyWidget):
 class Link:
     """Takes what the page of a pad sends, and sends it what it shows. `clock` is the wall's, in seconds."""
 
-    def __init__(self, pad: TeleopPad, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, pad: Pad, clock: Callable[[], float] = time.monotonic) -> None:
         self.pad = pad
         self._clock = clock
         self._heard = clock()
@@ -70,7 +70,7 @@ class Link:
         self._last: tuple[Any, ...] = ()
         self._last_sent = 0.0
         self._scan: NDArray[np.float32] | None = None
-        """A scan that the page has not got: ranges, and where the robot was at its stamp; that of a laser that sweeps is bent there while the robot turns."""
+        """A scan that the page has not got: ranges, and the robot's pose at its stamp (a sweeping laser's is bent)."""
         self._scans: Subscriber | None = None
         data = pad_data(pad)
         if pad.sight is not None and pad.gone is None:
@@ -86,7 +86,7 @@ class Link:
     def receive(self, _widget: object, content: dict[str, Any], _buffers: object) -> None:
         """Take a message of the page: see `rosmini-pad-kernel.js`."""
         self._heard = self._clock()
-        graph, kind = self.pad.graph, content.get("type")
+        graph, kind = self.pad.node.graph, content.get("type")
         try:
             if kind in ("key", "start", "reset") and not graph.is_live:
                 graph.live()
@@ -209,8 +209,8 @@ class Link:
 def answer_in_subshells(comm: Any) -> None:
     """Let the page choose the thread that hears it.
 
-    ipykernel 7.4 has a page's messages handled where the kernel last sent it one. That is the main thread, which is busy
-    while a cell runs: the stop key would wait for the cell's end.
+    ipykernel 7.4 has a page's messages handled where the kernel last sent it one. That is the main thread, which is
+    busy while a cell runs: the stop key would wait for the cell's end.
     """
     if hasattr(comm, "_reply_subshell_for"):
         vars(comm)["_reply_subshell_for"] = lambda _data, asked: asked

@@ -24,10 +24,11 @@ from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.errors import ROSException, ROSInterruptException, RosminiError
 from rosmini.graph import Graph, Node
+from rosmini.graph.graph_core import GraphCore
 from rosmini.graph.notebook import kernel_shell
 from rosmini.msgs import message_class
 from rosmini.names import resolve
-from rosmini.viz.form import book_form
+from rosmini.viz.book_form import book_form
 from rosmini.viz.view import MimeBundle, View
 
 from .sight import Sight
@@ -37,10 +38,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
     from rosmini.graph.clock import Timer
+    from rosmini.sim.simulation import Simulation
     from rosmini.sim.simulator import Simulator
 
     from .chosen import Chosen
-    from .watch import Running
 
 CONNECT_S = 1.0
 """So long a new pad waits for those who listen already, so that its first message is not lost."""
@@ -51,15 +52,17 @@ class PadNode(Node):
 
 
 class TeleopPad(View):
-    """An ordinary node that publishes velocities as `turtlebot3_teleop_key` does; shown in a notebook, it is a pad with keys.
+    """An ordinary node that publishes velocities as `turtlebot3_teleop_key` does; in a notebook it is a pad with keys.
 
-    A key publishes at once, and then every 0.1 s what has come nearer to the target. When nothing is wanted and nothing is sent any more, the
-    pad is silent (the original goes on with zeros, in the way of any other node that drives), until the next key.
+    A key publishes at once, and then every 0.1 s what has come nearer to the target. When nothing is wanted and
+    nothing is sent any more, the pad is silent (the original goes on with zeros, in the way of any other node that
+    drives), until the next key.
 
     `press` and `stop` are what the keys, buttons and touches of a browser call too.
 
     Args:
-        driven: a simulator, stageros or gzserver, whose robot is driven and shown; or a graph, and then only the messages are shown.
+        driven: a simulator, stageros or gzserver, whose robot is driven and shown; or a graph, and then only the
+            messages are shown.
         robot: which robot; without it the first. One without a laser is driven, but not shown: `view()` shows all.
         topic: where to publish, as the simulator's node calls it: in its namespace, remapped as it is there.
         name: the name of the node.
@@ -73,7 +76,7 @@ class TeleopPad(View):
 
     def __init__(
         self,
-        driven: Running | Graph,
+        driven: Simulation | Graph,
         *,
         robot: str = "",
         topic: str = "cmd_vel",
@@ -84,7 +87,7 @@ class TeleopPad(View):
         self.sight: Sight | None = None
         namespace = "/"
         if isinstance(driven, Graph):
-            self.graph = driven
+            self.graph: GraphCore = driven
         elif isinstance(getattr(driven, "node", None), Node):
             self.graph = driven.node.graph
             chosen = _chosen(driven, robot)
@@ -99,7 +102,7 @@ class TeleopPad(View):
         else:
             raise TeleopError(
                 f"a pad drives the robot of a simulator, or what listens on a graph, not a {type(driven).__name__}. "
-                "Give it what rosrun('rosmini_sim', 'simulator'), 'stageros' or 'gzserver' returned, or a Graph."
+                "Give it rosrun('rosmini_sim', 'simulator').instance(), that of stageros or gzserver, or a Graph."
             )
         self.title = title
         self.teleop = Teleop(limits)
@@ -118,7 +121,7 @@ class TeleopPad(View):
         self._meet_listeners()
 
     def _meet_listeners(self) -> None:
-        if self.topic in dict(self.graph.master.getSystemState(self.node.name)[2][1]):
+        if self.topic in dict(self.node.master.ask("getSystemState")[1]):
             try:
                 self._publisher.wait_for_subscribers(timeout=CONNECT_S)
             except ROSInterruptException:
@@ -141,9 +144,10 @@ class TeleopPad(View):
         return self._twist
 
     def press(self, key: str, times: int = 1) -> None:
-        """Take a key (`w`, `x`, `a`, `d`, `s`, `space`, or an arrow: `up`, `down`, `left`, `right`), as often as told, at this moment.
+        """Take a key (`w`, `x`, `a`, `d`, `s`, `space`, or an arrow: `up`, `down`, `left`, `right`) so many times, now.
 
-        Raises `TeleopError` for another key and when the robot has been removed, `ROSException` when the node was shut down.
+        Raises `TeleopError` for another key and when the robot has been removed, `ROSException` when the node was
+        shut down.
         """
         named = key_named(key)
         if times < 1:
@@ -157,7 +161,7 @@ class TeleopPad(View):
         self.press("s")
 
     def reset(self) -> None:
-        """Stop, and put the simulator's robot back to where it began. Raises `TeleopError` without a simulator, and as `press` does."""
+        """Stop, and reset the simulator's robot. Raises `TeleopError` without a simulator, and as `press` does."""
         if self.sight is None:
             raise TeleopError(
                 "this pad has no simulator, so it cannot put a robot back; give it one: TeleopPad(simulator)"
@@ -193,7 +197,7 @@ class TeleopPad(View):
 
     @property
     def gone(self) -> str | None:
-        """Why there is nothing to drive any more: the robot was removed, or the node was shut down. None while there is."""
+        """Why there is nothing to drive any more (the robot was removed, or the node shut down), or None."""
         if self.node.is_shutdown():
             return f"the node {self.node.name} was shut down."
         if self.sight is not None:
@@ -265,8 +269,8 @@ class TeleopPad(View):
         return self._link
 
 
-def _chosen(driven: Running, robot: str) -> Chosen | None:
-    """One robot of several, or of another simulation than `rosmini_sim/simulator`; None for that one's first, which has its node's names."""
+def _chosen(driven: Simulation, robot: str) -> Chosen | None:
+    """One robot of several, or of another simulation; None for the first of `rosmini_sim/simulator`."""
     from rosmini.sim.simulator import Simulator
 
     if isinstance(driven, Simulator) and robot in ("", driven.name):

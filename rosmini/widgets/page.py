@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from rosmini.viz.embed import asset_path, embed
 from rosmini.viz.svg import element, escape
@@ -11,7 +11,12 @@ from rosmini.viz.svg import element, escape
 from .teleop import table
 
 if TYPE_CHECKING:
-    from .pad import TeleopPad
+    from collections.abc import Callable
+
+    from rosmini.graph import Node
+
+    from .sight import Sight
+    from .teleop import Teleop
 
 STEP = 0.005
 """How long one step of the robot in a page is [s]: that of the engine's physics."""
@@ -20,8 +25,48 @@ SCRIPTS = ("rosmini-canvas.js", "rosmini-teleop.js", "rosmini-pad-style.js", "ro
 HEIGHT = 420
 
 
-def pad_data(pad: TeleopPad) -> dict[str, Any]:
-    """All that a page has to know of a pad, as JSON. Lengths are metres to the millimetre, angles radians to the ten-thousandth."""
+class Pad(Protocol):
+    """A teleoperation pad, as its pages see it: :class:`~rosmini.widgets.pad.TeleopPad`."""
+
+    sight: Sight | None
+    teleop: Teleop
+    sent: int
+
+    @property
+    def node(self) -> Node:
+        """What publishes."""
+
+    @property
+    def topic(self) -> str:
+        """Where it publishes."""
+
+    @property
+    def gone(self) -> str | None:
+        """Why there is nothing to drive any more."""
+
+    @property
+    def text(self) -> str:
+        """What is wanted, what was sent, and how the robot is."""
+
+    @property
+    def alt(self) -> str:
+        """The pad in a sentence or two."""
+
+    def press(self, key: str) -> None:
+        """Take a key."""
+
+    def stop(self) -> None:
+        """Stop at once."""
+
+    def reset(self) -> None:
+        """Put the robot back."""
+
+    def on_publish(self, callback: Callable[[Any], object]) -> None:
+        """Call `callback(twist)` for each message."""
+
+
+def pad_data(pad: Pad) -> dict[str, Any]:
+    """All that a page needs of a pad, as JSON. Lengths are rounded to millimetres, angles to 0.0001 rad."""
     data: dict[str, Any] = {
         "title": title(pad),
         "topic": pad.topic,
@@ -38,7 +83,7 @@ def pad_data(pad: TeleopPad) -> dict[str, Any]:
     return data
 
 
-def title(pad: TeleopPad) -> str:
+def title(pad: Pad) -> str:
     """What the pad drives, in a few words."""
     if pad.sight is None:
         return f"Drive on {pad.topic}"
@@ -46,10 +91,11 @@ def title(pad: TeleopPad) -> str:
     return f"Drive the {simulator.model.title or simulator.model.name} in the world {simulator.world.name}"
 
 
-def static_html(pad: TeleopPad, *, caption: str | None = None) -> str:
-    """The HTML of a pad that drives a robot of its own, from where the pad's robot stands now; the same bytes for the same state.
+def static_html(pad: Pad, *, caption: str | None = None) -> str:
+    """The HTML of a pad that drives a robot of its own, from where the pad's robot is; equal bytes for an equal state.
 
-    What is not driven by two wheels (a car, or what goes sideways) would move otherwise there: of that it is a picture of how things stand.
+    What is not driven by two wheels (a car, or what goes sideways) would move otherwise there: of that it is a
+    picture of how things stand.
     """
     if pad.sight is not None and not pad.sight.stands_alone:
         return _still(pad)
@@ -72,7 +118,7 @@ def module() -> str:
     return "\n".join([*texts, "export default { render: globalThis.rosminiPadKernel.render };\n"])
 
 
-def _still(pad: TeleopPad) -> str:
+def _still(pad: Pad) -> str:
     """What is there without scripts and in print: the world, if there is one, and how things stand."""
     words = element("p", escape(pad.text).replace("\n", "<br>"))
     if pad.sight is None or pad.gone is not None:

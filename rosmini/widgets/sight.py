@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from rosmini.sim.shapes import Polygon
 from rosmini.sim.world import Obstacle, Pose
-from rosmini.viz.replay.scene import scene_data, shapes_of
-from rosmini.viz.world import colour_of
+from rosmini.viz.replay.canvas_data import scene_data, shapes_of
+from rosmini.viz.world_pictures import colour_of
 
 if TYPE_CHECKING:
     from rosmini.sim.simulator import Simulator
@@ -63,7 +63,7 @@ class Sight:
         return [*engine.obstacles(), *others]
 
     def scene(self) -> dict[str, Any]:
-        """The world as it is now, with the robot, for the scripts in a page: what can be pushed comes last among the shapes."""
+        """The world as it is now, with the robot, for the scripts of a page; what can be pushed comes last."""
         simulator = self.simulator
         world, height = simulator.world, simulator.model.laser.mount[2]
         fixed = [obstacle for obstacle in world.obstacles if obstacle.fixed]
@@ -77,7 +77,7 @@ class Sight:
         return scene
 
     def _flagged(self, obstacle: Obstacle, shape: dict[str, Any]) -> dict[str, Any]:
-        """A shape, and what the robot has to do with it: `low` if its laser looks over it or under it, `over` if it drives under it."""
+        """A shape for the robot: `low` if its laser looks over or under it, `over` if the robot drives under it."""
         model = self.simulator.model
         if not obstacle.bottom <= model.laser.mount[2] <= obstacle.height:
             shape["low"] = True

@@ -1,4 +1,4 @@
-"""The view of a running simulation: robots and boxes are dragged with a mouse, a finger or keys, as in the windows of Stage and Gazebo.
+"""The view of a running simulation: robots and boxes are dragged with a mouse, a finger or keys, as in Gazebo's window.
 
 >>> from rosmini import Graph
 >>> from rosmini.sim.simulator import Simulator
@@ -19,14 +19,14 @@ from typing import TYPE_CHECKING, TypeVar
 
 from rosmini.errors import RosminiError
 from rosmini.geometry.poses import Pose
-from rosmini.graph import Node
 from rosmini.graph.notebook import kernel_shell
-from rosmini.viz.form import book_form
+from rosmini.sim.simulation import Simulation
+from rosmini.viz.book_form import book_form
 from rosmini.viz.rounding import fixed
 from rosmini.viz.view import SVG_MIME, MimeBundle, Picture, View, ViewError
-from rosmini.viz.world import pose_text
+from rosmini.viz.world_pictures import pose_text
 
-from .watch import STEP_S, Running, Watch
+from .watch import STEP_S, Watch
 
 if TYPE_CHECKING:
     from .view_link import ViewLink
@@ -35,9 +35,10 @@ T = TypeVar("T")
 
 
 class SimulationView(View):
-    """A running world from above, in a notebook; `drag` and `turn` are what a pointer and the keys of a browser call too.
+    """A running world from above, in a notebook; `drag` and `turn` are what a browser's pointer and keys call too.
 
-    In a live notebook it follows the simulation, whoever drives the graph. In the book, and where no kernel runs, it is a picture of how things stand.
+    In a live notebook it follows the simulation, whoever drives the graph. In the book, and where no kernel runs, it
+    is a picture of how things stand.
 
     Args:
         simulation: a simulator, stageros or gzserver.
@@ -48,13 +49,12 @@ class SimulationView(View):
 
     """
 
-    def __init__(self, simulation: Running, *, title: str | None = None) -> None:
-        for needed, kind in (("node", Node), ("engine", object), ("host", object), ("drag", object)):
-            if not isinstance(getattr(simulation, needed, None), kind) or not hasattr(simulation, needed):
-                raise ViewError(
-                    f"a running simulation is viewed, not a {type(simulation).__name__}. Give the view what "
-                    "rosrun('rosmini_sim', 'simulator'), rosrun('stage_ros', 'stageros') or rosrun('gazebo_ros', 'gzserver') returned."
-                )
+    def __init__(self, simulation: Simulation, *, title: str | None = None) -> None:
+        if not isinstance(simulation, Simulation):
+            raise ViewError(
+                f"a running simulation is viewed, not a {type(simulation).__name__}. Give the view "
+                "rosrun('rosmini_sim', 'simulator').instance(), or that of stageros or gzserver."
+            )
         self.watch = Watch(simulation)
         self.title = title
         self.message = ""
@@ -73,10 +73,10 @@ class SimulationView(View):
         return self._on_hub(lambda: self.watch.pose(self.watch.body(name)))
 
     def drag(self, name: str, to: Sequence[float]) -> None:
-        """Take a robot or a box, and put it down at x, y [m], with the heading that it has, or with a third number [rad].
+        """Take a robot or a box and put it down at x, y [m], with its present heading or with a third number [rad].
 
-        It is at rest then. If something stands there it stays where it was, and `WorldError` says what. Raises `ViewError` for another name and for
-        what is no place, and when the simulation has ended.
+        It is at rest then. If something stands there it stays where it was, and `WorldError` says what. Raises
+        `ViewError` for another name and for what is no place, and when the simulation has ended.
         """
         if len(to) not in (2, 3) or not all(math.isfinite(part) for part in to):
             raise ViewError(f"{name!r} cannot be dragged to {tuple(to)!r}: give x and y [m], both finite")
@@ -93,7 +93,7 @@ class SimulationView(View):
         self._on_hub(put)
 
     def turn(self, name: str, heading: float) -> None:
-        """Take a robot or a box, and let it look there [rad, counter-clockwise from the x axis]. Raises as `drag` does."""
+        """Take a robot or a box and turn it to a heading [rad, counter-clockwise from x]. Raises as `drag` does."""
         if not math.isfinite(heading):
             raise ViewError(f"{name!r} cannot be turned to {heading!r}: give a finite heading [rad]")
         x, y, _ = self.pose(name)
@@ -101,17 +101,15 @@ class SimulationView(View):
 
     def pause(self) -> None:
         """Let the world's time stand. Harmless when repeated."""
-        self._do(self.watch.pause, "time stands")
+        self._do(self.watch.simulation.pause, "time stands")
 
     def unpause(self) -> None:
         """Let the world's time go on. Harmless when repeated."""
-        self._do(self.watch.unpause, "time goes on")
+        self._do(self.watch.simulation.unpause, "time goes on")
 
     def step(self, seconds: float = STEP_S) -> None:
-        """Let so much of the world's time pass, and stand then. Raises `RosminiError` for what is no positive number."""
-        if not self.paused:
-            self.pause()
-        self._do(lambda: self.watch.step(seconds), f"{seconds:g} s have passed")
+        """Let so much of the world's time pass, then pause. Raises `RosminiError` unless it is a positive number."""
+        self._do(lambda: self.watch.simulation.step(seconds), f"{seconds:g} s have passed")
 
     def reset(self) -> None:
         """Put everything back to where it began, as the simulation's own `reset` does."""

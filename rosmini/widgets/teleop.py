@@ -1,11 +1,12 @@
 """From keys to velocities, as TurtleBot3's own `turtlebot3_teleop_key` does it. No node and no clock is in here.
 
-A key moves a *target*; what is sent approaches the target, by half a step in each cycle of 0.1 s. The space bar and `s` set both to zero
-at once. Each key begins a cycle of its own, as the read of the keyboard there ends with a key or after 0.1 s.
+A key moves a *target*; what is sent approaches the target, by half a step in each cycle of 0.1 s. The space bar and
+`s` set both to zero at once. Each key begins a cycle of its own, as the read of the keyboard there ends with a key or
+after 0.1 s.
 
 The facts (keys, steps, slopes, cycle, limits) are those of `turtlebot3_teleop/nodes/turtlebot3_teleop_key` in
-https://github.com/ROBOTIS-GIT/turtlebot3, branch noetic. The arrow keys are ours, and so is the rounding to a millionth, without which
-six steps of 0.01 would give 0.060000000000000005.
+https://github.com/ROBOTIS-GIT/turtlebot3, branch noetic. The arrow keys are ours, and so is the rounding to a
+millionth, without which six steps of 0.01 would give 0.060000000000000005.
 """
 
 from __future__ import annotations
@@ -72,12 +73,12 @@ class Limits:
         for name, value in (("linear", self.linear), ("angular", self.angular)):
             if not (math.isfinite(value) and value > 0):
                 raise TeleopError(
-                    f"the {name} limit of a pad must be a positive number, not {value!r}; a Burger's is 0.22 m/s and 2.84 rad/s"
+                    f"the {name} limit of a pad must be a positive number, not {value!r}; Burger: 0.22 m/s, 2.84 rad/s"
                 )
 
 
 def key_named(name: str) -> str:
-    """The key that `name` means: as browsers name it, in small or capital letters, or "space", "up", "down", "left", "right".
+    """The key that `name` means: as browsers name it, in any case, or "space", "up", "down", "left", "right".
 
     Raises `TeleopError` with the nearest name, or with all of them.
     """

@@ -1,14 +1,15 @@
 """A view of a simulation in a live notebook: what goes between the kernel and the page that shows it.
 
-As with the pad (`rosmini.widgets.live`), what a page sends goes through the scheduler's inbox, from whatever thread it comes, and everything else
-happens in the graph. Frames are sent at up to 30 Hz while somebody looks. They never keep a graph going that would have nothing else to do.
+As with the pad (`rosmini.widgets.live`), what a page sends goes through the scheduler's inbox, from whatever thread
+it comes, and everything else happens in the graph. Frames are sent at up to 30 Hz while somebody looks. They never
+keep a graph going that would have nothing else to do.
 """
 
 from __future__ import annotations
 
 import time
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,12 +31,11 @@ from .live import FRAME_HZ, LEFT_S, QUIET_S, SHORTEST_S, answer_in_subshells
 from .watch import STEP_S
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from rosmini.geometry.poses import Pose
 
-    from .simulation_view import SimulationView
-    from .watch import Body
+    from .watch import Body, Watch
 
 SCRIPTS = (
     "rosmini-canvas.js",
@@ -46,6 +46,32 @@ SCRIPTS = (
 LASER_S = 0.1
 """No two looks of the lasers follow one another faster [s]."""
 ACTIONS = ("drag", "pause", "unpause", "step", "reset", "start")
+
+
+class LinkedView(Protocol):
+    """A view, as its page sees it: :class:`~rosmini.widgets.simulation_view.SimulationView`."""
+
+    watch: Watch
+    message: str
+
+    @property
+    def heading(self) -> str:
+        """What is viewed, in a few words."""
+
+    def drag(self, name: str, to: Sequence[float]) -> None:
+        """Take a robot or a box, and put it down."""
+
+    def pause(self) -> None:
+        """Stop the world's time."""
+
+    def unpause(self) -> None:
+        """Let the world's time go on."""
+
+    def step(self, seconds: float) -> None:
+        """Let so much of the world's time pass."""
+
+    def reset(self) -> None:
+        """Put everything back."""
 
 
 class ViewWidget(anywidget.AnyWidget):
@@ -76,7 +102,7 @@ class _Same:
 class ViewLink:
     """Takes what the page of a view sends, and sends it what it shows. `clock` is the wall's, in seconds."""
 
-    def __init__(self, view: SimulationView, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, view: LinkedView, clock: Callable[[], float] = time.monotonic) -> None:
         self.view = view
         self.watch = view.watch
         self._clock = clock

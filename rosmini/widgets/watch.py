@@ -1,28 +1,25 @@
-"""What a view shows of a running simulation: whose world it is, what is in it, and where that is now.
-
-It knows simulators by what they have in common: a node, an engine, a host, and `drag`. So it works with `rosmini_sim/simulator`, `stageros` and `gzserver`.
-"""
+"""What a view shows of a running simulation: whose world it is, what is in it, and where that is now."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.graph import Node
 from rosmini.sim.devices import Laser
 from rosmini.sim.engine import Engine
 from rosmini.sim.host import Host
 from rosmini.sim.models import LidarModel, RobotModel
+from rosmini.sim.simulation import Simulation
 from rosmini.sim.world import Obstacle, World
-from rosmini.viz.replay.scene import robot_data, scene_data, shapes_of
+from rosmini.viz.replay.canvas_data import robot_data, scene_data, shapes_of
 from rosmini.viz.view import Picture, ViewError
-from rosmini.viz.world import Other, colour_of, world_picture
+from rosmini.viz.world_pictures import Other, colour_of, world_picture
 
 Floats = NDArray[np.float64]
 
@@ -31,26 +28,6 @@ STEP_S = 0.1
 """How much time the button Step lets pass [s]."""
 LASERS = 12
 """So many lasers are drawn; of more one would see nothing."""
-
-
-class Running(Protocol):
-    """A running simulation: a simulator, stageros or gzserver."""
-
-    node: Node
-
-    @property
-    def engine(self) -> Engine:
-        """Its engine."""
-
-    @property
-    def host(self) -> Host:
-        """Its time."""
-
-    def drag(self, name: str, pose: Pose) -> None:
-        """Put a robot or a thing elsewhere."""
-
-    def reset(self) -> None:
-        """Put all back to where it began."""
 
 
 @dataclass(frozen=True)
@@ -111,7 +88,7 @@ class Body:
 class Watch:
     """Looks at a running simulation, and changes nothing in it but what it is told to drag."""
 
-    def __init__(self, simulation: Running) -> None:
+    def __init__(self, simulation: Simulation) -> None:
         self.simulation = simulation
         self.node = simulation.node
         self._lasers: dict[str, LidarModel] = {}
@@ -133,18 +110,6 @@ class Watch:
         if self.node.is_shutdown():
             return f"the simulation has ended: the node {self.node.name} was shut down"
         return None
-
-    def pause(self) -> None:
-        """Let time stand, as the simulation itself does it if it has more to do than its host."""
-        getattr(self.simulation, "pause", self.host.pause)()
-
-    def unpause(self) -> None:
-        """Let time go on."""
-        getattr(self.simulation, "unpause", self.host.unpause)()
-
-    def step(self, seconds: float) -> None:
-        """Let so much time pass while it stands."""
-        getattr(self.simulation, "step", self.host.step)(seconds)
 
     def bodies(self) -> list[Body]:
         """All that is in the world and need not stay where it is: robots first, in the sequence of their coming."""

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 KINDS = {
-    "simulated": {"transport": LocalTransport},
-    "wall": {"transport": LocalTransport, "simulated": False, "rate": 50.0},
-    "bytes": {"transport": ByteTransport},
+    "simulated": {"transports": [LocalTransport]},
+    "wall": {"transports": [LocalTransport], "simulated": False, "rate": 50.0},
+    "bytes": {"transports": [ByteTransport]},
 }
 
 

@@ -1,4 +1,4 @@
-"""The messages made from the .action files of actionlib_tutorials, actionlib and turtle_actionlib, with the md5 sums of real ROS."""
+"""The messages of actionlib_tutorials, actionlib and turtle_actionlib, with the md5 sums of real ROS."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
 """Every state of both machines with everything that can happen in it, legal or not.
 
-The expected values are written out from the two diagrams of http://wiki.ros.org/actionlib/DetailedDescription, apart from the library's tables.
+The expected values are written out from the two diagrams of http://wiki.ros.org/actionlib/DetailedDescription, apart
+from the library's tables.
 """
 
 from __future__ import annotations

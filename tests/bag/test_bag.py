@@ -63,6 +63,47 @@ def path(tmp_path: Path) -> Path:
     return tmp_path / "test.bag"
 
 
+@pytest.mark.parametrize("compression", ["none", "lz4"])
+def test_large_messages(tmp_path: Path, compression: str) -> None:
+    """They are neither copied into a chunk nor out of one.
+
+    Several in a chunk, between small ones, and in turn with others.
+    """
+    path = tmp_path / "large.bag"
+    image = message_class("sensor_msgs/Image")
+    written = []
+    with Bag(path, "w", compression=compression, chunk_threshold=700_000) as bag:
+        for number in range(20):
+            topic = f"/camera{number % 3}"
+            bag.write("/chatter", String(f"{number}"), Time(number, 0))
+            bag.write(topic, image(data=bytes([number]) * (number % 4 * 100_000)), Time(number, 5))
+            written += [("/chatter", b"%d" % number), (topic, bytes([number]) * (number % 4 * 100_000))]
+    read: list[tuple[str, bytes]] = []
+    with Bag(path, numpy=False) as bag:
+        for topic, message, _ in bag:
+            read.append((topic, message.data.encode() if topic == "/chatter" else message.data))
+    assert read == written
+    script = (
+        "import sys, rosbags.rosbag1 as r\n"
+        "print(sum(len(m[2]) for m in r.Reader(sys.argv[1]).__enter__().messages()))"
+    )
+    done = run([sys.executable, "-c", script, str(path)])
+    with Bag(path) as bag:
+        assert int(done.stdout) == sum(len(raw.data) for raw in bag.read_raw())
+
+
+def test_damage_within_a_chunk_of_large_messages(tmp_path: Path) -> None:
+    path = tmp_path / "large.bag"
+    with Bag(path, "w") as bag:
+        for number in range(2):
+            bag.write("/camera", message_class("sensor_msgs/Image")(data=b"x" * 300_000), Time(number, 5))
+    content = path.read_bytes()
+    second = content.index(b"op=\x02", content.index(b"op=\x02") + 1)
+    path.write_bytes(content.replace(content[second : second + 4], b"op=\x07"))
+    with Bag(path) as bag, pytest.raises(ROSBagException, match=r"large\.bag.*damaged"):
+        list(bag)
+
+
 def texts(bag: Bag) -> list[str]:
     return [message.data for _, message, _ in bag.read_messages("/chatter")]
 
@@ -229,6 +270,36 @@ def test_a_truncated_bag_gives_all_that_is_whole(path, compression):
     assert len(found) == 110
 
 
+@pytest.mark.parametrize("compression", ["none", "bz2", "lz4"])
+@pytest.mark.parametrize("where", ["chunk", "index data"])
+def test_what_follows_damage_is_saved(path, compression, where):
+    """Bytes in the middle are gone, as on a bad disk: what stands behind them is found again."""
+    with Bag(path, "w", compression, 600) as bag:
+        fill(bag)
+    whole, chunks = path.read_bytes(), Bag(path).index.chunks
+    order = [(m.connection.topic, m.time, m.data) for m in Bag(path).read_raw()]
+    assert len(chunks) > 8
+    for number in (2, 5):
+        chunk = chunks[number]
+        at = chunk.position if where == "chunk" else chunk.data_position + chunk.compressed
+        index_position = whole.index(b"index_pos=") + 10
+        path.write_bytes(
+            whole[:index_position]
+            + bytes(8)
+            + whole[index_position + 8 : at]
+            + b"\xff" * 12
+            + whole[at + 12 :]
+        )
+        result = reindex(path)
+        found = [(m.connection.topic, m.time, m.data) for m in Bag(path).read_raw()]
+        before = sum(each.messages for each in chunks[:number])
+        lost = chunk.messages if where == "chunk" else 0
+        assert found == order[:before] + order[before + lost :]
+        assert result.messages == len(found)
+        with Bag(path) as bag:
+            assert bag.get_message_count() == len(found)
+
+
 def test_a_recording_that_was_killed_is_saved(path):
     """What real ROS leaves: a chunk whose lengths were never filled in, without an index."""
     with Bag(path, "w") as bag:
@@ -314,7 +385,8 @@ except BagFull as error:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of file sizes are POSIX's")
-@pytest.mark.parametrize(("limit", "compression", "threshold"), [(60_000, "none", 8000), (60_000, "none", 10**6), (40_000, "lz4", 8000)])  # fmt: skip
+@pytest.mark.parametrize(("limit", "compression", "threshold"),
+    [(60_000, "none", 8000), (60_000, "none", 10**6), (40_000, "lz4", 8000)])  # fmt: skip
 def test_a_full_disk_keeps_what_fits_with_an_index(path, limit, compression, threshold):
     script = path.with_suffix(".py")
     script.write_text(textwrap.dedent(FULL), encoding="utf-8")
@@ -328,7 +400,8 @@ def test_a_full_disk_keeps_what_fits_with_an_index(path, limit, compression, thr
     assert os.path.getsize(path) <= limit
 
 
-# -- types that are not known here, or changed ---------------------------------------------------------------------------
+# -- types that are not known here, or changed
+# ---------------------------------------------------------------------------
 
 
 def test_unknown_and_changed_types_are_read_with_the_bags_definition(path):
@@ -355,7 +428,8 @@ def test_unknown_and_changed_types_are_read_with_the_bags_definition(path):
             require_same_types(bag)
 
 
-# -- tools ------------------------------------------------------------------------------------------------------------------
+# -- tools
+# ------------------------------------------------------------------------------------------------------------------
 
 
 def test_filter(path, tmp_path):
@@ -385,8 +459,10 @@ def test_filter(path, tmp_path):
 @pytest.mark.parametrize(
     "expression",
     [
-        "__import__('os').system('true')", "m.__class__", "(lambda: 1)()", "open('/etc/passwd')", "[x for x in ().__class__]",
-        "topic.format(m)", "f'{m}'", "(topic := 1)", "2 ** 10 ** 10", "1 << 10 ** 9", "m.serialize(1)", "exec('1')", "topics == 1",
+        "__import__('os').system('true')", "m.__class__", "(lambda: 1)()", "open('/etc/passwd')",
+        "[x for x in ().__class__]",
+        "topic.format(m)", "f'{m}'", "(topic := 1)", "2 ** 10 ** 10", "1 << 10 ** 9", "m.serialize(1)", "exec('1')",
+        "topics == 1",
         "len(*m)(1)", "", "topic ==",
     ],
 )  # fmt: skip
@@ -424,7 +500,8 @@ def test_table(path):
         assert {len(column) for column in bag.table("/scan").values()} == {2}
 
 
-# -- what `rosbag info` prints: as in shared/ros_transcripts, with our own bag ------------------------------------------------
+# -- what `rosbag info` prints: as in shared/ros_transcripts, with our own bag
+# ------------------------------------------------
 
 INFO = """\
 path:         my.bag

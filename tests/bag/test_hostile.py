@@ -1,4 +1,4 @@
-"""Bags that are damaged or made to harm: nothing of them is run, nothing takes memory that the file cannot fill, and the error says where."""
+"""Damaged and hostile bags: nothing in them is run, memory stays bounded by the file, and errors say where."""
 
 from __future__ import annotations
 
@@ -351,7 +351,8 @@ def test_a_message_that_is_none_says_where_it_is(path: Path) -> None:
         Bag(path) as bag,
         pytest.raises(
             DeserializationError,
-            match=r"test\.bag: the message on /topic at byte \d+ of the chunk at byte 4117 cannot be read: std_msgs/String",
+            match=r"test\.bag: the message on /topic at byte \d+ of the chunk at byte 4117 cannot be read: "
+            r"std_msgs/String",
         ),
     ):
         list(bag)

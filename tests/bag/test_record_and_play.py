@@ -135,7 +135,8 @@ def test_limit_size_and_duration(graph, tmp_path):
 def test_splitting_loses_nothing_and_keeps_what_is_latched(graph, tmp_path, fields):
     graph.node("server").publisher("map", String, latch=True).publish("world")
     recorder = record(
-        graph, tmp_path / "x", "/chatter", "/map", split=True, repeat_latched=True, chunksize=1000, compression="lz4", **fields
+        graph, tmp_path / "x", "/chatter", "/map", split=True, repeat_latched=True, chunksize=1000, compression="lz4",
+        **fields
     )  # fmt: skip
     lane = talker(graph, 500, 100)
     graph.run(until=lambda: lane.idle)
@@ -567,7 +568,7 @@ def test_a_subscriber_of_a_type_that_has_changed_is_told(graph, changed):
 
 
 def test_over_a_transport_of_bytes_and_threads(tmp_path):
-    with Graph(transport=ByteTransport, simulated=False) as graph:
+    with Graph(transports=[ByteTransport], simulated=False) as graph:
         recorder = record(graph, tmp_path / "x", "/chatter", "/map")
         graph.node("server").publisher("map", String, latch=True).publish("world")
         publisher = graph.node("talker").publisher("chatter", String, queue_size=None)

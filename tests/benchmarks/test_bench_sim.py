@@ -1,4 +1,7 @@
-"""The measurements of the simulator run, and give no figure for a robot that is not right; how fast it is is not judged."""
+"""The measurements of the simulator run, and give no figure for a robot that is not right.
+
+How fast it is is not judged.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pictures in three dimensions in a real browser: in the book's form below a nested folder, and alone; from file://, with no network."""
+"""3D pictures in a real browser: in the book's form below a nested folder, and alone; from file://, offline."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def two_in_gazebo():
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    """A piece of a book: a nested page with three pictures, two of them the same, and its scripts; beside it, live forms."""
+    """A nested page of a book with three pictures, two of them the same, and its scripts; beside it, live forms."""
     folder = tmp_path_factory.mktemp("site")
     shutil.copytree(STATIC, folder / "_static")
     shutil.copyfile(asset_path(MESHCAT), folder / "_static" / MESHCAT)
@@ -63,7 +63,8 @@ def site(tmp_path_factory):
     head = '<head><meta charset="utf-8"><title>t</title><link rel="stylesheet" href="{}_static/rosmini.css"></head>'
     for name, chosen in {**{n: [n] for n in views}, "three": ["robot", "replay", "robot"]}.items():
         figures = "<p style='height:1200px'>far</p>".join(views[n]._html(book=True) for n in chosen)
-        text = f'<!DOCTYPE html><html lang="en" data-content_root="../../">{head.format("../../")}<body>{figures}</body></html>'
+        document = '<!DOCTYPE html><html lang="en" data-content_root="../../">'
+        text = f"{document}{head.format('../../')}<body>{figures}</body></html>"
         (folder / "deep" / "er" / f"{name}.html").write_text(text, encoding="utf-8")
         alone = f'<!DOCTYPE html><html lang="en">{head.format("missing/")}<body>{views[chosen[0]].page}</body></html>'
         (folder / f"alone_{name}.html").write_text(
@@ -255,7 +256,8 @@ def test_the_wheel_is_the_pages_until_the_picture_is_clicked(open_page):
     page.mouse.click(400, 200)
     page.mouse.wheel(0, 120)
     page.wait_for_function(
-        f"document.querySelector('iframe').contentWindow.viewer.camera.position.length() > {np.linalg.norm(begin) * 1.01}"
+        "document.querySelector('iframe').contentWindow.viewer.camera.position.length() > "
+        f"{np.linalg.norm(begin) * 1.01}"
     )
     assert page.evaluate("scrollY") == 0
 

@@ -1,4 +1,4 @@
-"""The pad in a page without a kernel: real keys, buttons and touches drive a robot of its own, as the engine in Python would."""
+"""The pad in a page without a kernel: real keys, buttons and touches drive its robot as the engine would."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ def bare(chromium, site):
     page.close()
 
 
-# -- the same as in Python -----------------------------------------------------------------------------------------------
+# -- the same as in Python --
 
 
 def test_the_same_keys_give_the_same_messages_as_in_python(bare):
@@ -223,7 +223,8 @@ def test_motion_and_laser_are_the_engines(bare, name):
 
     measured = simulator.engine.scan(simulator.name, None)
     cast = bare.evaluate(
-        "([scene, pose]) => [...rosminiTeleop.laser(scene, pose)].map((r) => Number.isFinite(r) ? r : r > 0 ? 1e9 : -1e9)",
+        "([scene, pose]) => "
+        "[...rosminiTeleop.laser(scene, pose)].map((r) => Number.isFinite(r) ? r : r > 0 ? 1e9 : -1e9)",
         [data["scene"], list(robot.pose)],
     )
     cast = np.where(np.abs(cast) == 1e9, np.copysign(np.inf, cast), cast)
@@ -246,7 +247,9 @@ def test_the_laser_looks_over_walls_that_are_low(bare):
 
 def test_a_laser_that_does_not_look_all_around_is_the_engines(bare):
     with Graph() as graph:
-        stage = rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph)
+        stage = rosrun(
+            "stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph
+        ).instance()
         measured = stage.engine.scan("robot_0", None)
         data = pad_data(stage.pad())
     cast = bare.evaluate(
@@ -302,7 +305,7 @@ def test_discs_and_corners_stop_a_robot(bare):
         assert -1.5 < y < 1.5
 
 
-# -- in the page ---------------------------------------------------------------------------------------------------------
+# -- in the page --
 
 
 @pytest.mark.parametrize("name", ["light", "alone"])
@@ -521,7 +524,10 @@ def test_the_pad_has_the_theme_of_its_page(show, name, shared_tmp):
     def colours(selector: str) -> tuple[float, float]:
         text, ground = pad.page.evaluate(
             """(selector) => {
-              const paint = (element) => { const c = getComputedStyle(element).backgroundColor; return c.includes(", 0)") && element.parentElement ? paint(element.parentElement) : c; };
+              const paint = (element) => {
+                const c = getComputedStyle(element).backgroundColor;
+                return c.includes(", 0)") && element.parentElement ? paint(element.parentElement) : c;
+              };
               const found = document.querySelector(selector);
               return [getComputedStyle(found).color, paint(found)];
             }""",

@@ -14,7 +14,7 @@ import time
 from rosmini import Graph, rosrun
 from rosmini.msgs.geometry_msgs.msg import Twist
 graph = Graph()
-sim = rosrun("rosmini_sim", "simulator", "_noise:=0.0", graph=graph)
+sim = rosrun("rosmini_sim", "simulator", "_noise:=0.0", graph=graph).instance()
 heard = []
 _ = graph.node("listener").subscriber("cmd_vel", Twist, lambda t: heard.append((t.linear.x, t.angular.z)))
 pad = sim.pad()

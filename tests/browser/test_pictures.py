@@ -32,7 +32,8 @@ def show(chromium, watch):
     def show(theme: str, *views):
         figures = "".join(view.html for view in views)
         page.set_content(
-            f'<!DOCTYPE html><html data-theme="{theme}"><head><style>{book_css()}</style></head><body>{figures}</body></html>'
+            f'<!DOCTYPE html><html data-theme="{theme}"><head><style>{book_css()}</style></head>'
+            f"<body>{figures}</body></html>"
         )
         return page
 

@@ -29,7 +29,9 @@ PICTURE = "document.querySelector('.rosmini-replay canvas').toDataURL()"
 PAGE = """<!DOCTYPE html>
 <html lang="en" data-theme="{theme}" data-content_root="../../"><head><meta charset="utf-8"><title>t</title>
 <meta name="viewport" content="width=device-width, initial-scale=1">{head}
-<style>body {{ margin: 12px auto; max-width: 760px; padding: 0 12px; box-sizing: border-box; background: {background} }}</style></head>
+<style>
+  body {{ margin: 12px auto; max-width: 760px; padding: 0 12px; box-sizing: border-box; background: {background} }}
+</style></head>
 <body>{body}</body></html>"""
 # How many pixels of the canvas are near a colour.
 COUNT = """([canvas, colour]) => {

@@ -1,4 +1,4 @@
-"""The view of a simulation in a page: real pointer and key events in Chromium, and the kernel's side of it in this process, on a clock that the test sets."""
+"""The view of a simulation in a page: real pointer and key events, with the kernel's side in this process."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ from rosmini.widgets.view_link import SCRIPTS, ViewLink
 pytestmark = pytest.mark.browser
 
 BRIDGE = """(data) => {
-  const bytes = (text) => { const all = Uint8Array.from(atob(text), (c) => c.charCodeAt(0)); return new DataView(all.buffer); };
+  const bytes = (text) => {
+    const all = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    return new DataView(all.buffer);
+  };
   globalThis.outbox = [];
   const model = {
     get: () => ({...data, scans: bytes(data.scans)}),
@@ -26,7 +29,9 @@ BRIDGE = """(data) => {
     off: () => {},
     send: (content) => outbox.push(content),
   };
-  globalThis.deliver = (messages) => { for (const [content, buffers] of messages) model.hear(content, buffers.map(bytes)); };
+  globalThis.deliver = (messages) => {
+    for (const [content, buffers] of messages) model.hear(content, buffers.map(bytes));
+  };
   globalThis.leave = rosminiViewKernel.render({ model, el: document.getElementById("view") });
 }"""
 
@@ -110,7 +115,8 @@ def show(chromium, watch, tmp_path):
         page_file = Path(tmp_path, f"{len(opened)}.html")
         page_file.write_text(
             f'<!DOCTYPE html><html lang="en" data-theme="{theme}"><meta charset="utf-8"><title>view</title>'
-            f'<link rel="icon" href="data:,"><body style="margin:16px"><a href="#a" id="before">before</a><div id="view"></div>{scripts}',
+            f'<link rel="icon" href="data:,"><body style="margin:16px"><a href="#a" id="before">before</a>'
+            f'<div id="view"></div>{scripts}',
             encoding="utf-8",
         )
         context = chromium.new_context(**({"viewport": {"width": 900, "height": 1000}} | options))
@@ -128,7 +134,7 @@ def show(chromium, watch, tmp_path):
 @pytest.fixture
 def stage():
     with Graph() as graph:
-        yield rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph)
+        yield rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph).instance()
 
 
 @pytest.fixture

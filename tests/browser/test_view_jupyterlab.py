@@ -1,4 +1,4 @@
-"""The view of a simulation in a real JupyterLab: a real mouse in Chromium drags robots on a live graph in a real kernel."""
+"""The view of a simulation in a real JupyterLab: a mouse in Chromium drags robots on a live graph in a kernel."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ CELLS = [
     """
 from rosmini import Graph, rosrun
 graph = Graph()
-stage = rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph)
+stage = rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph).instance()
 view = stage.view()
 view
 """,

@@ -79,7 +79,7 @@ def test_reindex(bag, capsys):
 def test_what_it_does_not_have(bag, capsys):
     assert run(capsys)[0] == 0
     assert "Unknown command: 'frob'" in run(capsys, "frob")[2]
-    assert "real ROS has it" in run(capsys, "encrypt", "t.bag")[2]
+    assert "a command of the original tool" in run(capsys, "encrypt", "t.bag")[2]
     assert run(capsys, "play")[0] == 2
     assert "--repeat-latched" in run(capsys, "record", "-h")[1]
     assert run(capsys, "record", "-O", "x")[2].endswith(
@@ -123,7 +123,53 @@ def test_playing_to_a_script_and_recording_it(bag):
         "+",
         "listener.py",
     ]
-    done = run_process([sys.executable, "-m", "rosmini", "rosbag", *words], env={**os.environ, "PYTHONWARNINGS": "error"})  # fmt: skip
+    done = run_process([sys.executable, "-m", "rosmini", "rosbag", *words],
+        env={**os.environ, "PYTHONWARNINGS": "error"})  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.splitlines() == ["[listener] heard 20 20", "[listener] ROSBagFormatException"]
     assert [m.data for _, m, _ in Bag("again.bag")] == [f"hello {i}" for i in range(20)]
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (("info",), 2, "You must specify at least 1 bag file."),
+        (("info", "-k", "duration", "t.bag"), 2, "only specify key when printing in YAML"),
+        (("check",), 2, "You must specify a bag file to check."),
+        (("check", "none.bag"), 1, "ERROR reading none.bag: "),
+        (("filter", "t.bag", "f.bag"), 2, "You must specify an expression."),
+        (("filter", "t.bag", "f.bag", "True", "False"), 2, "Too many arguments."),
+        (("filter", "-p", "m.", "t.bag", "f.bag", "True"), 1, "ERROR: "),
+        (("filter", "listener.py", "f.bag", "True"), 1, "ERROR reading listener.py: "),
+        (("compress",), 2, "You must specify at least one bag file."),
+        (("merge", "m.bag"), 2, "You must specify an out bag and at least one in bag."),
+        (("merge", "m.bag", "none.bag"), 1, "ERROR: "),
+    ],
+)
+def test_what_goes_wrong_is_said_and_leaves_nothing(bag, capsys, words, status, said):
+    Path("listener.py").write_text(SCRIPT, encoding="utf-8")
+    before = sorted(path.name for path in bag.iterdir())
+    found, out, err = run(capsys, *words)
+    assert (found, out) == (status, "")
+    assert said in err
+    assert sorted(path.name for path in bag.iterdir()) == before
+
+
+def test_check_lists_types_that_differ(bag, capsys):
+    data = Path("t.bag").read_bytes()
+    Path("t.bag").write_bytes(data.replace(String._md5sum.encode(), b"0" * 32))
+    status, out, _ = run(capsys, "check", "t.bag")
+    first, *changes = out.splitlines()
+    assert (status, first) == (0, "The following migrations need to occur:")
+    assert [change.split("]")[0] for change in changes] == [f" * std_msgs/String [{'0' * 32}"]
+
+
+def test_bags_are_written_to_another_folder(bag, capsys):
+    (bag / "out").mkdir()
+    assert run(capsys, "compress", "-q", "--output-dir", "out", "t.bag", "none.bag") == (
+        1,
+        "",
+        "ERROR reading none.bag: [Errno 2] No such file or directory: 'none.bag'\n",
+    )
+    assert Bag("out/t.bag").get_compression_info().compression == "bz2"
+    assert [path.name for path in bag.glob("*.bag")] == ["t.bag"]

@@ -46,7 +46,8 @@ def test_options_at_the_end(words, left, ours):
 @pytest.fixture
 def scripts(tmp_path):
     (tmp_path / "clock.py").write_text(
-        "import sys, time\nt = time.time()\nfor _ in range(3):\n    time.sleep(100)\nprint(time.time() - t, sys.argv[1:])\n",
+        "import sys, time\nt = time.time()\nfor _ in range(3):\n    time.sleep(100)\nprint(time.time() - t, "
+        "sys.argv[1:])\n",
         encoding="utf-8",
     )
     (tmp_path / "bad.py").write_text(

@@ -8,7 +8,10 @@ import rosmini.cli.main as cli
 from rosmini.packages import assets_dir
 from rosmini.sim.worlds import names
 
-BAD = "<sdf version='1.7'>\n<world name='w'>\n<model name='m'>\n<link name='l'><collision name='c'><geometry><boxx/></geometry></collision></link></model></world></sdf>"
+BAD = (
+    "<sdf version='1.7'>\n<world name='w'>\n<model name='m'>\n<link name='l'>"
+    "<collision name='c'><geometry><boxx/></geometry></collision></link></model></world></sdf>"
+)
 
 
 def run(capsys, *arguments):
@@ -94,8 +97,8 @@ def test_check_names_file_and_line_of_what_is_wrong(capsys, tmp_path):
 
 def test_check_warns_of_a_start_that_is_not_free(capsys, tmp_path):
     (tmp_path / "w.world").write_text(
-        "<sdf version='1.7'><world name='w'><model name='rock'><static>1</static><link name='l'><collision name='c'><geometry>"
-        "<sphere><radius>1</radius></sphere></geometry></collision></link></model></world></sdf>",
+        "<sdf version='1.7'><world name='w'><model name='rock'><static>1</static><link name='l'><collision "
+        "name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision></link></model></world></sdf>",
         encoding="utf-8",
     )
     status, out, _ = run(capsys, "check", tmp_path / "w.world")
@@ -103,12 +106,19 @@ def test_check_warns_of_a_start_that_is_not_free(capsys, tmp_path):
     assert "w.world:1: start 1 at (0.00, 0.00) is not free: the obstacle 'rock' is there" in out
 
 
-@pytest.mark.parametrize("arguments", [(), ("check",), ("nonsense",)])
-def test_without_a_verb_or_a_file_it_says_how_it_is_used(arguments, capsys):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["world", *arguments])
-    assert end.value.code == 2
-    assert "usage: rosmini world" in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ("arguments", "status", "said"),
+    [
+        ((), 0, "usage: rosmini world"),
+        (("check",), 2, "usage: rosmini world check"),
+        (("chekc",), 2, "did you mean check?"),
+        (("list", "x"), 2, "unrecognized arguments: x"),
+    ],
+)
+def test_without_a_verb_or_a_file_it_says_how_it_is_used(arguments, status, said, capsys):
+    assert cli.main(["world", *arguments]) == status
+    done = capsys.readouterr()
+    assert said in (done.err if status else done.out)
 
 
 def test_what_gazebo_leaves_out_is_a_warning(tmp_path, capsys):
@@ -125,7 +135,8 @@ def test_what_gazebo_leaves_out_is_a_warning(tmp_path, capsys):
 def test_an_unconfined_xacro_needs_the_users_word(tmp_path, capsys):
     path = tmp_path / "r.xacro"
     path.write_text(
-        "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>\n<link name='${[i for i in [1]][0]}${python.type(1)}'/></robot>",
+        "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>\n<link name='${[i for i in "
+        "[1]][0]}${python.type(1)}'/></robot>",
         encoding="utf-8",
     )
     assert cli.main(["world", "check", str(path)]) == 1

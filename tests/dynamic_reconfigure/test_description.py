@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import copy
 import math
 from dataclasses import dataclass
@@ -19,9 +20,14 @@ from rosmini.dynamic_reconfigure.encoding import (
     encode_description,
     encode_values,
 )
-from rosmini.sim.parameters import Parameters, parameter
+from rosmini.parameters import Parameters, parameter
 
 from .conftest import TREE, number
+
+
+@dataclass(frozen=True)
+class Inner(Parameters):
+    depth: int = parameter(1, "how deep")
 
 
 @dataclass(frozen=True)
@@ -29,6 +35,9 @@ class Settings(Parameters):
     rate: float = parameter(10.0, "how often to look", unit="Hz", minimum=0, level=1)
     name: str = parameter("laser", "whose it is")
     window: int = parameter(5, "how many", minimum=1, maximum=9, level=2, group="Filter")
+    mode: str = parameter("slow", "how to look", choices=("slow", "fast"))
+    inner: Inner = parameter(Inner(), "read when the node starts")
+    frames: tuple[str, ...] = parameter((), "read when the node starts")
 
 
 def test_the_dictionary_of_a_cfg_module():
@@ -56,8 +65,11 @@ def test_typed_parameters():
     assert [(one.name, one.type, one.level, one.default) for one in made.parameters] == [
         ("rate", "double", 1, 10.0),
         ("name", "str", 0, "laser"),
+        ("mode", "str", 0, "slow"),
         ("window", "int", 2, 5),
     ]
+    assert [one["name"] for one in ast.literal_eval(made["mode"].edit_method)["enum"]] == ["slow", "fast"]
+    assert made["rate"].edit_method == ""
     assert made["rate"].description == "how often to look [Hz]"
     assert (made["rate"].min, made["rate"].max) == (0.0, math.inf)
     assert [one.name for one in made.group("Filter").parameters] == ["window"]

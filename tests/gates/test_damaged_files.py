@@ -1,7 +1,7 @@
-"""Whatever is wrong with a file that describes a robot or a world: its reader raises one of our errors, soon, and needs little memory.
+"""Whatever is wrong with a file of a robot or a world: its reader soon raises one of our errors, in little memory.
 
-Each reader is given a fixed number of damaged files, made from sound ones by a seeded mutator that knows what such files are made of: numbers, names,
-tags and bytes.
+Each reader is given a fixed number of damaged files, made from sound ones by a seeded mutator that knows what such
+files are made of: numbers, names, tags and bytes.
 """
 
 from __future__ import annotations
@@ -33,10 +33,14 @@ LARGEST = 300_000_000
 """Bytes that a reader may take for one of these files."""
 
 NUMBERS = (
-    "0", "-1", "1", "0.0", "1e308", "-1e308", "1e-320", "nan", "inf", "-inf", "1e400", "99999999999999999999999999", "2001-01-01", "true", "", "0x10",
+    "0", "-1", "1", "0.0", "1e308", "-1e308", "1e-320", "nan", "inf", "-inf", "1e400",
+    "99999999999999999999999999", "2001-01-01", "true", "", "0x10",
     "1_000", "½", "1,5", "...", "1e9", "65536", "4294967295", "-0.0", "[]", "{}", "~", "*a", "\0",
 )  # fmt: skip
-WORDS = ("name", "", "..", "/", "\0", "x" * 3000, "é", "model://a", "file:///C:/a", "package://a", "$(find a)", "${a}", "~x", "%s", "world", "[", "(", "}", "<", "&a;", "'", '"')  # fmt: skip
+WORDS = (
+    "name", "", "..", "/", "\0", "x" * 3000, "é", "model://a", "file:///C:/a", "package://a", "$(find a)",
+    "${a}", "~x", "%s", "world", "[", "(", "}", "<", "&a;", "'", '"',
+)  # fmt: skip
 NUMBER = re.compile(rb"-?\d+\.?\d*(?:e-?\d+)?")
 WORD = re.compile(rb"[A-Za-z_][\w.:/]*")
 
@@ -126,46 +130,79 @@ STL = (
 )
 OBJ = b"o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\ng b\nf -1 -2 -3\n"
 DAE = b"""<COLLADA><asset><unit meter="0.01"/></asset><library_geometries><geometry id="g"><mesh>
-<source id="p"><float_array count="12">0 0 0 100 0 0 100 100 0 0 100 0</float_array><technique_common><accessor stride="3"/></technique_common></source>
-<source id="n"><float_array>0 0 1</float_array></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<polylist material="s"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="NORMAL" source="#n" offset="1"/><vcount>4</vcount><p>0 0 1 0 2 0 3 0</p></polylist>
-<triangles><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="vs"><node id="n1"><translate>0 0 5</translate><rotate>0 0 1 90</rotate><scale>1 1 2</scale><instance_geometry url="#g"/></node>
-<node><matrix>2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1</matrix><instance_node url="#n1"/></node></visual_scene></library_visual_scenes>
+<source id="p"><float_array count="12">0 0 0 100 0 0 100 100 0 0 100 0</float_array><technique_common>
+<accessor stride="3"/></technique_common></source>
+<source id="n"><float_array>0 0 1</float_array></source><vertices id="v"><input semantic="POSITION" source="#p"/>
+</vertices>
+<polylist material="s"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="NORMAL" source="#n" offset="1"/><vcount>4</vcount><p>0 0 1 0 2 0 3 0</p></polylist>
+<triangles><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry>
+</library_geometries>
+<library_visual_scenes><visual_scene id="vs"><node id="n1"><translate>0 0 5</translate><rotate>0 0 1 90</rotate>
+<scale>1 1 2</scale><instance_geometry url="#g"/></node>
+<node><matrix>2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1</matrix><instance_node url="#n1"/></node></visual_scene>
+</library_visual_scenes>
 <scene><instance_visual_scene url="#vs"/></scene></COLLADA>"""
-SDF = b"""<sdf version='1.7'><world name='w'><include><uri>model://ground_plane</uri><pose>0 0 0 0 0 0</pose></include><gravity>0 0 -9.8</gravity>
-<physics type='ode'><max_step_size>0.001</max_step_size><real_time_update_rate>1000</real_time_update_rate></physics><frame name='start'><pose>1 1 0 0 0 0</pose></frame>
-<model name='m'><pose relative_to='start'>1 0 0.5 0 0 1</pose><link name='l'><inertial><mass>2</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>
-<collision name='a'><geometry><box><size>1 1 1</size></box></geometry><surface><bounce><restitution_coefficient>0.5</restitution_coefficient></bounce><friction><ode><mu>0.8</mu></ode></friction></surface></collision>
-<visual name='v'><geometry><cylinder><radius>0.2</radius><length>1</length></cylinder></geometry><material><diffuse>1 0 0 1</diffuse></material></visual>
-<sensor name='s' type='ray'><update_rate>5</update_rate></sensor></link><link name='k'><pose>0 0 1 0.3 0 0</pose><collision name='b'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link>
+SDF = b"""<sdf version='1.7'><world name='w'><include><uri>model://ground_plane</uri><pose>0 0 0 0 0 0</pose>
+</include><gravity>0 0 -9.8</gravity>
+<physics type='ode'><max_step_size>0.001</max_step_size><real_time_update_rate>1000</real_time_update_rate></physics>
+<frame name='start'><pose>1 1 0 0 0 0</pose></frame>
+<model name='m'><pose relative_to='start'>1 0 0.5 0 0 1</pose><link name='l'><inertial><mass>2</mass><inertia>
+<ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>
+<collision name='a'><geometry><box><size>1 1 1</size></box></geometry><surface><bounce>
+<restitution_coefficient>0.5</restitution_coefficient></bounce><friction><ode><mu>0.8</mu></ode></friction></surface>
+</collision>
+<visual name='v'><geometry><cylinder><radius>0.2</radius><length>1</length></cylinder></geometry><material>
+<diffuse>1 0 0 1</diffuse></material></visual>
+<sensor name='s' type='ray'><update_rate>5</update_rate></sensor></link><link name='k'><pose>0 0 1 0.3 0 0</pose>
+<collision name='b'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link>
 <joint name='j' type='revolute'><parent>l</parent><child>k</child><axis><xyz>0 0 1</xyz></axis></joint></model>
-<model name='t'><static>1</static><link name='l'><collision name='p'><geometry><polyline><point>0 0</point><point>2 0</point><point>2 2</point><point>0 2</point><height>1</height></polyline></geometry></collision>
-<collision name='c'><pose>3 0 1 0.5 0.5 0</pose><geometry><cylinder><radius>0.3</radius><length>2</length></cylinder></geometry></collision></link></model>
-<actor name='a'><script><loop>true</loop><delay_start>1</delay_start><trajectory id='0' type='walk'><waypoint><time>0</time><pose>0 5 0 0 0 0</pose></waypoint><waypoint><time>5</time><pose>3 5 0 0 0 0</pose></waypoint></trajectory></script></actor>
+<model name='t'><static>1</static><link name='l'><collision name='p'><geometry><polyline><point>0 0</point>
+<point>2 0</point><point>2 2</point><point>0 2</point><height>1</height></polyline></geometry></collision>
+<collision name='c'><pose>3 0 1 0.5 0.5 0</pose><geometry><cylinder><radius>0.3</radius><length>2</length></cylinder>
+</geometry></collision></link></model>
+<actor name='a'><script><loop>true</loop><delay_start>1</delay_start><trajectory id='0' type='walk'><waypoint>
+<time>0</time><pose>0 5 0 0 0 0</pose></waypoint><waypoint><time>5</time><pose>3 5 0 0 0 0</pose></waypoint>
+</trajectory></script></actor>
 <state world_name='w'><model name='m'><pose>2 2 0.5 0 0 0</pose></model></state></world></sdf>"""
 STAGE = b"""name "w"
 resolution 0.02
 interval_sim 100
 define laser ranger ( sensor( range [0.1 8] fov 270 samples 181 ) size [0.1 0.1 0.1] )
-define robot position ( size [0.4 0.3 0.2] origin [0 0 0 0] laser( pose [0.1 0 0 0] ) odom_error [0.01 0.01 0.01 0.1] drive "diff"
+define robot position ( size [0.4 0.3 0.2] origin [0 0 0 0] laser( pose [0.1 0 0 0] )
+  odom_error [0.01 0.01 0.01 0.1] drive "diff"
   block( points 4 point[0] [0 0] point[1] [1 0] point[2] [1 1] point[3] [0 1] z [0 1] ) )
 window ( size [ 400 300 ] center [0 0] scale 20 )
 model ( name "wall" size [4 0.1 1] pose [0 3 0 0] color "gray30" boundary 1 )
 model ( gripper_return 1 mass 2 size [0.3 0.3 0.3] pose [2 1 0 45] color "#ff0000" )
-robot ( pose [0 0 0 90] name "r" localization "odom" camera( resolution [ 32 32 ] range [ 0.2 8 ] fov [ 70 40 ] pantilt [ 0 0 ] ) )
+robot ( pose [0 0 0 90] name "r" localization "odom"
+  camera( resolution [ 32 32 ] range [ 0.2 8 ] fov [ 70 40 ] pantilt [ 0 0 ] ) )
 """
-URDF = b"""<robot name="r"><material name="blue"><color rgba="0 0 1 1"/></material><link name="base"><visual><origin xyz="0 0 1" rpy="0 0 0"/><geometry><box size="1 1 1"/></geometry>
-<material name="blue"/></visual><collision><geometry><cylinder radius="1" length="2"/></geometry></collision><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
-<link name="arm"><visual><geometry><sphere radius="0.1"/></geometry></visual></link><joint name="j" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>
-<mimic joint="j2"/><dynamics damping="0.1"/></joint><link name="c"/><joint name="j2" type="continuous"><parent link="base"/><child link="c"/></joint><gazebo reference="arm"><mu1>0.2</mu1></gazebo></robot>"""
-XACRO = b"""<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arg name="n" default="3"/><xacro:property name="p" value="${2 * pi}"/>
-<xacro:macro name="wheel" params="name radius:=0.1 *origin"><link name="${name}_link"><visual><xacro:insert_block name="origin"/><geometry><sphere radius="${radius * 2}"/></geometry></visual></link></xacro:macro>
-<xacro:wheel name="left" radius="${max(1, 2) / len([1, 2])}"><origin xyz="0 0 ${sin(p)}"/></xacro:wheel><xacro:if value="${'a' in 'abc' and $(arg n) == 3}"><joint name="x$(eval n + 1)" type="fixed"><parent link="left_link"/><child link="b"/></joint><link name="b"/></xacro:if>
-<xacro:property name="d" value="${dict(a=1, b=[i for i in range(3)])}"/><xacro:include filename="$(find turtlebot3_description)/urdf/common_properties.xacro"/></robot>"""
-YAML = b"a: &a {b: [1, 2.5, deg(90), rad(pi/2)], c: yes, d: 0o10, e: 2001-01-01}\nf: {<<: *a, g: !degrees 3}\n---\n_ns: /x\nh: |\n  text\ni: 1:30\nj: !!binary aGk=\n"
-PACKAGE = b"""<?xml version="1.0"?><package format="3"><name>a</name><version>1.0.0</version><description>A <b>b</b></description><maintainer email="a@b.org">A</maintainer>
-<license>BSD</license><url type="website">http://a</url><buildtool_depend>catkin</buildtool_depend><depend version_gte="1.0" condition="$ROS_VERSION == 1">b</depend><export><metapackage/></export></package>"""
+URDF = b"""<robot name="r"><material name="blue"><color rgba="0 0 1 1"/></material><link name="base"><visual>
+<origin xyz="0 0 1" rpy="0 0 0"/><geometry><box size="1 1 1"/></geometry>
+<material name="blue"/></visual><collision><geometry><cylinder radius="1" length="2"/></geometry></collision>
+<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+<link name="arm"><visual><geometry><sphere radius="0.1"/></geometry></visual></link><joint name="j" type="revolute">
+<parent link="base"/><child link="arm"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>
+<mimic joint="j2"/><dynamics damping="0.1"/></joint><link name="c"/><joint name="j2" type="continuous">
+<parent link="base"/><child link="c"/></joint><gazebo reference="arm"><mu1>0.2</mu1></gazebo></robot>"""
+XACRO = b"""<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arg name="n" default="3"/>
+<xacro:property name="p" value="${2 * pi}"/>
+<xacro:macro name="wheel" params="name radius:=0.1 *origin"><link name="${name}_link"><visual>
+<xacro:insert_block name="origin"/><geometry><sphere radius="${radius * 2}"/></geometry></visual></link></xacro:macro>
+<xacro:wheel name="left" radius="${max(1, 2) / len([1, 2])}"><origin xyz="0 0 ${sin(p)}"/></xacro:wheel>
+<xacro:if value="${'a' in 'abc' and $(arg n) == 3}"><joint name="x$(eval n + 1)" type="fixed">
+<parent link="left_link"/><child link="b"/></joint><link name="b"/></xacro:if>
+<xacro:property name="d" value="${dict(a=1, b=[i for i in range(3)])}"/>
+<xacro:include filename="$(find turtlebot3_description)/urdf/common_properties.xacro"/></robot>"""
+YAML = (
+    b"a: &a {b: [1, 2.5, deg(90), rad(pi/2)], c: yes, d: 0o10, e: 2001-01-01}\n"
+    b"f: {<<: *a, g: !degrees 3}\n---\n_ns: /x\nh: |\n  text\ni: 1:30\nj: !!binary aGk=\n"
+)
+PACKAGE = b"""<?xml version="1.0"?><package format="3"><name>a</name><version>1.0.0</version><description>A <b>b</b>
+</description><maintainer email="a@b.org">A</maintainer>
+<license>BSD</license><url type="website">http://a</url><buildtool_depend>catkin</buildtool_depend>
+<depend version_gte="1.0" condition="$ROS_VERSION == 1">b</depend><export><metapackage/></export></package>"""
 
 READERS: dict[str, tuple[str, Callable[[Path], object], list[bytes]]] = {
     "SDF": ("a.world", _read_sdf, [SDF, *_assets("turtlebot3_gazebo/worlds/turtlebot3_world.world")]),

@@ -1,4 +1,4 @@
-"""Text files and the text of child processes are UTF-8 by name: without it they are what a machine's locale says, cp1252 on Windows."""
+"""Text is read and written as UTF-8 by name, not in the encoding of a machine's locale (cp1252 on Windows)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def sources() -> list[Path]:
 
 
 def is_text(call: ast.Call, place: int) -> bool:
-    """Whether a call of `open`, with its mode at this place, opens text. What is no mode is another library's `open`."""
+    """Whether a call of `open`, with its mode at this place, opens text. An odd mode means another `open`."""
     given = {keyword.arg: keyword.value for keyword in call.keywords}
     mode = given.get("mode", call.args[place] if len(call.args) > place else ast.Constant("r"))
     return isinstance(mode, ast.Constant) and isinstance(mode.value, str) and set("rwxat+") >= set(mode.value)

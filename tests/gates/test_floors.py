@@ -1,4 +1,4 @@
-"""The floors of the library: the contract holds, and refuses an import from above, a circle and a module without a floor."""
+"""The floors of the library hold; an import from above, a circle and a module without a floor are refused."""
 
 from __future__ import annotations
 

@@ -94,7 +94,10 @@ def test_no_page_has_the_scripts_that_jupyter_book_loads_from_the_network(book_h
         ("<svg class='graph'><path d='M0 0'/></svg>", "a drawing without a text: svg graph"),
         ('<iframe src="a.html"></iframe>', "a frame without a title: a.html"),
         (
-            '<iframe title="t" srcdoc="&lt;script src=&quot;https://cdn.example/x.js&quot;&gt;&lt;/script&gt;"></iframe>',
+            (
+                '<iframe title="t" srcdoc="&lt;script src=&quot;https://cdn.example/x.js&quot;&gt;'
+                '&lt;/script&gt;"></iframe>'
+            ),
             "in a frame: script src from elsewhere: https://cdn.example/x.js",
         ),
     ],

@@ -1,4 +1,4 @@
-"""Every notebook in its stored form, its solutions, and the comparison itself: a tampered notebook turns the run red."""
+"""Every notebook as stored, its solutions, and the comparison itself: a tampered notebook turns the run red."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ TAMPER = {
 
 @pytest.fixture(scope="module")
 def outcome(tmp_path_factory):
-    """How the project's own pytest command judges the first chapter, and copies of it that were tampered with: failures by copy."""
+    """Failures, by copy, when our own pytest command judges the first chapter and tampered copies of it."""
     if not CHAPTERS:
         pytest.skip("no chapter is written yet")
     checkout = tmp_path_factory.mktemp("checkout")

@@ -65,7 +65,8 @@ def is_running(pid: int) -> bool:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 def test_a_failing_test_leaves_no_grandchild():
-    with pytest.raises(ZeroDivisionError), start([sys.executable, "-c", FAMILY], stdout=subprocess.PIPE) as process:  # fmt: skip
+    command = [sys.executable, "-c", FAMILY]
+    with pytest.raises(ZeroDivisionError), start(command, stdout=subprocess.PIPE) as process:
         pid = int(process.stdout.readline())
         assert is_running(pid)
         1 / 0
@@ -81,7 +82,11 @@ def test_an_ignored_sigint_means_something_again(tmp_path):
         BACKGROUND,
         encoding="utf-8",
     )
-    code = "import signal, os, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); os.execv(sys.executable, sys.argv[1:])"
-    done = run([sys.executable, "-c", code, sys.executable, "-m", "pytest", "-q", "-n1", "-c", os.devnull, f"--rootdir={tmp_path}", tmp_path])  # fmt: skip
+    code = (
+        "import signal, os, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); "
+        "os.execv(sys.executable, sys.argv[1:])"
+    )
+    tests = ["-m", "pytest", "-q", "-n1", "-c", os.devnull, f"--rootdir={tmp_path}", tmp_path]
+    done = run([sys.executable, "-c", code, sys.executable, *tests])
     assert "1 passed" in done.stdout, done.stdout + done.stderr
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler

@@ -1,7 +1,8 @@
 """Each chapter comes out the same on each run, and on another machine.
 
-It runs twice, in fresh kernels that order sets and hash strings differently. The second has no vector units beyond the least that
-numpy needs (its functions differ in the last bit between them) and casts the laser's rays in numpy instead of numba.
+It runs twice, in fresh kernels that order sets and hash strings differently. The second has no vector units beyond the
+least that numpy needs (its functions differ in the last bit between them) and casts the laser's rays in numpy instead
+of numba.
 """
 
 from __future__ import annotations

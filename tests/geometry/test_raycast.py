@@ -159,7 +159,7 @@ def test_a_wall_may_be_very_near(name, gap):
 
 @both
 def test_no_ray_slips_between_walls_that_share_a_corner(name):
-    """Sides of a polygon around the sensor, each with its own rounding of the corners, and rays right at the corners."""
+    """Sides of a polygon around the sensor, each with corners rounded in its own way, and rays at the corners."""
     rng = np.random.default_rng(3)
     for corners in (3, 4, 7, 50):
         for _ in range(20):
@@ -223,7 +223,7 @@ def test_a_fan_of_rays_sees_what_single_rays_see(name, start):
 
 
 def plain(segments, discs, x, y, angle, reach):
-    """The range, and whether a hair's breadth would change it: every pair, by Cramer's rule and the quadratic formula."""
+    """The range, and whether a hair's breadth would change it, by Cramer's rule and the quadratic formula."""
     c, s = math.cos(angle), math.sin(angle)
     best, unsure = math.inf, False
     for x1, y1, x2, y2 in segments:

@@ -13,6 +13,7 @@ from rosmini.graph.byte_transport import ByteTransport
 from rosmini.graph.transport import LocalTransport
 
 from ..processes import PATIENCE
+from .restless_master import RestlessMaster
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -23,11 +24,15 @@ WALL_RATE = 200.0
 LONG = PATIENCE * WALL_RATE
 """So long a test waits for what must come; it never waits so long when all is well."""
 
+RESTLESS = "restless-master"
+"""The kind of graph whose Master takes its time and does not always answer."""
+
 KINDS = {
     "local-simulated": (LocalTransport, True),
     "local-wall": (LocalTransport, False),
     "bytes-simulated": (ByteTransport, True),
     "bytes-wall": (ByteTransport, False),
+    RESTLESS: (LocalTransport, True),
 }
 
 
@@ -52,7 +57,12 @@ def threads() -> set[str]:
 def make(kind: str, **options: Any) -> Graph:
     """A graph of one of the KINDS."""
     transport, simulated = KINDS[kind]
-    return Graph(transport=transport, simulated=simulated, rate=1.0 if simulated else WALL_RATE, **options)
+    graph = Graph(
+        transports=[transport], simulated=simulated, rate=1.0 if simulated else WALL_RATE, **options
+    )
+    if kind == RESTLESS:
+        RestlessMaster(graph, seed=1)
+    return graph
 
 
 def close(graph: Graph) -> None:

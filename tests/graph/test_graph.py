@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
 from typing import Any
 
 import numpy as np
@@ -52,7 +54,8 @@ def test_a_refusal_for_another_reason_than_the_type_says_who_and_why() -> None:
     talker, listener = graph.node("talker"), graph.node("listener")
     talker.publisher("chatter", String)
     listener.subscriber("chatter", String)
-    talker.slave_call = lambda *arguments: [0, "no supported protocol implementations", []]  # type: ignore[method-assign]
+    refused = [0, "no supported protocol implementations", []]
+    talker.slave_call = lambda *arguments: refused  # type: ignore[method-assign]
     with pytest.raises(
         TransportInitError, match=r"/talker refused the connection of /listener to /chatter: no supported"
     ):
@@ -67,3 +70,21 @@ def test_a_publisher_that_left_before_the_connection_was_made_is_no_error() -> N
     publisher.unregister()
     assert graph.run(0.1).reason == "time"
     assert subscriber.num_connections() == 0
+
+
+def test_a_graph_that_was_driven_and_dropped_is_collected() -> None:
+    """Its idle greenlets hold nothing; one whose timers or scripts are parked has to be shut down."""
+    heard: list[str] = []
+    alive: list[weakref.ref[Any]] = []
+    for _ in range(10):
+        graph = Graph()
+        graph.node("listener").subscriber("chatter", String, lambda message: heard.append(message.data))
+        publisher = graph.node("talker").publisher("chatter", String)
+        publisher.wait_for_subscribers()
+        publisher.publish("x")
+        graph.run(1.0)
+        alive.append(weakref.ref(graph.scheduler))
+    del graph, publisher
+    gc.collect()
+    assert heard == ["x"] * 10
+    assert [each for each in alive if each() is not None] == []

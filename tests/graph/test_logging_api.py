@@ -17,9 +17,14 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
+TRYING = "Trying again until it answers"
+"""What a node says whose Master does not answer."""
+
+
 def texts(capsys: pytest.CaptureFixture[str]) -> list[str]:
     said = capsys.readouterr()
-    return [line.partition("]: ")[2] for line in (said.out + said.err).splitlines()]
+    lines = [line.partition("]: ")[2] for line in (said.out + said.err).splitlines()]
+    return [line for line in lines if TRYING not in line]
 
 
 # -- gates -------------------------------------------------------------------------------------------------------

@@ -21,6 +21,9 @@ class Heard(list):
     def shutdown(self, caller_api, reason) -> None:
         self.append(("shutdown", caller_api, reason))
 
+    def registrations_changed(self) -> None:
+        pass
+
 
 @pytest.fixture
 def heard() -> Heard:
@@ -102,8 +105,10 @@ def test_shutdown_is_for_whoever_serves_the_master(master: Master) -> None:
 
 
 METHODS = [
-    "registerPublisher", "unregisterPublisher", "registerSubscriber", "unregisterSubscriber", "registerService", "unregisterService",
-    "lookupService", "lookupNode", "getPublishedTopics", "getTopicTypes", "getSystemState", "getUri", "getPid", "shutdown", "setParam",
+    "registerPublisher", "unregisterPublisher", "registerSubscriber", "unregisterSubscriber", "registerService",
+    "unregisterService",
+    "lookupService", "lookupNode", "getPublishedTopics", "getTopicTypes", "getSystemState", "getUri", "getPid",
+    "shutdown", "setParam",
     "getParam", "hasParam", "deleteParam", "searchParam", "getParamNames", "subscribeParam", "unsubscribeParam",
 ]  # fmt: skip
 anything = (

@@ -1,4 +1,7 @@
-"""Services: responses, failures, persistence, servers that come and go, calls from everywhere; on every transport and clock."""
+"""Services: responses, failures, persistence, servers that come and go, calls from everywhere.
+
+On every transport and clock.
+"""
 
 from __future__ import annotations
 
@@ -432,7 +435,7 @@ def test_a_handler_may_sleep_and_the_caller_waits_that_long(graph: Graph) -> Non
     before = graph.now()
     assert graph.node("client").service_client("slow", Trigger)().message == "slept"
     took = (graph.now() - before).to_sec()
-    assert took == 2.5 if graph.simulated else took >= 2.5
+    assert took == 2.5 if graph.simulated and graph.master.is_local else took >= 2.5
 
 
 # -- waiting -----------------------------------------------------------------------------------------------------

@@ -49,6 +49,7 @@ def test_help_lists_the_options(home, method, kind):
         if one.kind is inspect.Parameter.KEYWORD_ONLY and one.name not in taken
     ]
     assert wanted
-    indent = " " * 12
-    listed = [line.strip() for line in (function.__doc__ or "").splitlines() if line.startswith(indent)]
+    listed = [
+        line.strip() for line in (inspect.getdoc(function) or "").splitlines() if line.startswith("    ")
+    ]
     assert [line[: len(start)] for line, start in zip(listed, wanted, strict=True)] == wanted

@@ -264,7 +264,7 @@ def test_shutting_down_while_everything_is_busy_leaves_nothing(build: Callable[.
         publisher = node.publisher("t", String, queue_size=None)
         node.timer(0.01, lambda _, publisher=publisher: publisher.publish("x"))
         node.subscriber("t", String, lambda _, node=node: node.sleep(0.05))
-        node.service("s", Empty, lambda _, node=node: node.sleep(1.0))
+        node.service("s", Empty, lambda _, node=node: (node.sleep(1.0), [])[1])
         node.run(lambda node=node: node.service_client("s", Empty)())
     graph.run(1.0)
 

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+import threading
+from typing import Any
 
 import pytest
 
 from rosmini.errors import TransportException, TransportInitError
-from rosmini.graph.transport import LocalSender
+from rosmini.graph import Graph
+from rosmini.graph.transport import QueuedSender
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import SetBool
 
+from ..processes import PATIENCE
 from .conftest import settle, until
-
-if TYPE_CHECKING:
-    from rosmini.graph import Graph
 
 MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"
 
@@ -40,7 +40,8 @@ def talking(graph: Graph) -> Graph:
 
 
 def test_each_method_answers_as_in_ros(talking: Graph) -> None:
-    protocol = talking.transport.protocol
+    offers = talking.transport.offers(talking.master.lookupNode("/test", "/listener")[2])
+    protocol = offers[0][0]
     assert call(talking, "/talker", "getMasterUri") == [1, talking.master_uri, talking.master_uri]
     assert call(talking, "/talker", "getPid") == [1, "", os.getpid()]
     assert call(talking, "/talker", "getSubscriptions") == [1, "subscriptions", []]
@@ -54,7 +55,7 @@ def test_each_method_answers_as_in_ros(talking: Graph) -> None:
         "subscriptions",
         [["/chatter", "std_msgs/String"]],
     ]
-    assert call(talking, "/talker", "requestTopic", "/nope", [[protocol]]) == [
+    assert call(talking, "/talker", "requestTopic", "/nope", offers) == [
         -1,
         "Not a publisher of [/nope]",
         [],
@@ -64,14 +65,14 @@ def test_each_method_answers_as_in_ros(talking: Graph) -> None:
         "no supported protocol implementations",
         [],
     ]
-    code, status, parameters = call(talking, "/talker", "requestTopic", "/chatter", [["UDPROS"], [protocol]])
+    code, status, parameters = call(talking, "/talker", "requestTopic", "/chatter", [["UDPROS"], *offers])
     assert (code, status.startswith("ready on "), parameters[0]) == (1, True, protocol)
     assert call(talking, "/talker", "paramUpdate", "/nothing", 1) == [1, "", 0]
     assert call(talking, "/talker", "publisherUpdate", "/nothing", []) == [1, "", 0]
 
 
 def test_the_bus_lists_each_connection(talking: Graph) -> None:
-    protocol = talking.transport.protocol
+    protocol = talking.transport.ways[0].protocol
     code, status, rows = call(talking, "/talker", "getBusInfo")
     assert (code, status) == (1, "bus info")
     assert [row[1:6] for row in rows if row[4] == "/chatter"] == [
@@ -126,7 +127,7 @@ def test_nobody_answers_for_a_node_that_has_gone(talking: Graph) -> None:
 def test_a_bad_header_of_a_subscriber_is_refused_in_ross_words(
     talking: Graph, capsys: pytest.CaptureFixture[str], header: dict[str, str], text: str
 ) -> None:
-    sender = LocalSender(talking.scheduler, None, "/wire")  # type: ignore[arg-type]
+    sender = QueuedSender(talking.scheduler, None, "/wire")  # type: ignore[arg-type]
     with pytest.raises(TransportInitError) as caught:
         talking.nodes["/talker"].accept_subscriber({"callerid": "/wire", **header}, sender)
     assert str(caught.value) == text
@@ -136,7 +137,7 @@ def test_a_bad_header_of_a_subscriber_is_refused_in_ross_words(
 @pytest.mark.parametrize("header", [{"type": "*", "md5sum": "*"}, {"md5sum": MD5}])
 def test_wildcards_are_welcome(talking: Graph, header: dict[str, str]) -> None:
     talker = talking.nodes["/talker"]
-    sender = LocalSender(talking.scheduler, None, "/wire")  # type: ignore[arg-type]
+    sender = QueuedSender(talking.scheduler, None, "/wire")  # type: ignore[arg-type]
     answer = talker.accept_subscriber({"callerid": "/wire", "topic": "/chatter", **header}, sender)
     assert list(answer) == ["callerid", "latching", "md5sum", "message_definition", "topic", "type"]
     assert answer["message_definition"] == "string data\n"
@@ -181,3 +182,78 @@ def test_the_master_introduces_two_nodes_and_then_steps_aside(graph: Graph) -> N
     finally:
         graph.master = master
     assert heard == ["0", "1", "2"]
+
+
+# -- from the thread of a wire -----------------------------------------------------------------------------------
+
+
+def test_a_thread_that_reads_a_wire_is_answered_while_a_callback_computes() -> None:
+    graph = Graph()
+    node, talker = graph.node("busy"), graph.node("talker")
+    computing, answered = threading.Event(), threading.Event()
+    answers: dict[str, Any] = {}
+    changed: list[Any] = []
+
+    def compute(_: Any) -> None:
+        computing.set()
+        assert answered.wait(PATIENCE)
+
+    def ping() -> None:
+        computing.wait(PATIENCE)
+        call = node.slave_call
+        for method in (
+            "getPid",
+            "getBusInfo",
+            "getBusStats",
+            "getPublications",
+            "getSubscriptions",
+            "getMasterUri",
+        ):
+            answers[method] = call(method, "/wire")
+        answers["requestTopic"] = call("requestTopic", "/wire", "/rosout", [["INPROC"]])
+        answers["paramUpdate"] = call("paramUpdate", "/master", "/speed/", 2)
+        answers["publisherUpdate"] = call("publisherUpdate", "/master", "/work", [])
+        answers["bad"] = call("publisherUpdate", "/master", "/work", 7)
+        answers["shutdown"] = call("shutdown", "/wire", "enough")
+        answered.set()
+
+    node.on_param("/speed", changed.append)
+    graph.master.setParam(
+        "/busy", "/speed", 2
+    )  # the Master spares the one who set it: the wire has to say so
+    node.subscriber("work", String, compute)
+    publisher = talker.publisher("work", String)
+    publisher.wait_for_subscribers()
+    publisher.publish("x")
+    hub = graph.scheduler.thread
+    thread = threading.Thread(target=ping)
+    thread.start()
+    graph.run(1.0)
+    thread.join()
+    assert graph.scheduler.thread == hub
+    assert answers["getPid"] == [1, "", os.getpid()]
+    rows = answers["getBusInfo"][2]
+    assert [(row[2], row[4], row[5]) for row in rows] == [("o", "/rosout", True), ("i", "/work", True)]
+    assert answers["getSubscriptions"][2] == [["/work", "std_msgs/String"]]
+    assert answers["requestTopic"][0] == 1
+    assert answers["bad"] == [-1, "ERROR: parameter [publishers] must be a list of URIs", 0]
+    assert [answers[name] for name in ("paramUpdate", "publisherUpdate", "shutdown")] == [
+        [1, "", 0],
+        [1, "", 0],
+        [1, "shutdown", 0],
+    ]
+    # What they asked for happened in the hub's thread, after the callback.
+    assert changed == [2]
+    assert node.is_shutdown()
+    assert node.shutdown_reason == "enough"
+    graph.shutdown()
+
+
+def test_a_node_that_has_ended_publishes_nothing(graph: Graph) -> None:
+    node = graph.node("talker")
+    node.publisher("chatter", String)
+    offers = graph.transport.offers(node.uri)
+    assert node.slave.call("requestTopic", "/test", "/chatter", offers)[0] == 1
+    node.shutdown()
+    answer = node.slave.call("requestTopic", "/test", "/chatter", offers)
+    assert answer == [-1, "Not a publisher of [/chatter]", []]

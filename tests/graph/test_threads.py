@@ -30,7 +30,7 @@ def graph(request: pytest.FixtureRequest) -> Iterator[Graph]:
 
 
 def in_thread(graph: Graph, work: Callable[[], object]) -> list[Any]:
-    """Run ``work`` in a real thread, drive the graph until it is done, and return its results (a value, or an error)."""
+    """Run ``work`` in a thread, drive the graph until it is done, and return its results (a value or an error)."""
     result: list[Any] = []
 
     def target() -> None:
@@ -182,7 +182,7 @@ def test_a_thread_may_drive_a_graph_that_nobody_else_drives() -> None:
 
 @pytest.mark.parametrize("transport", [LocalTransport, ByteTransport])
 def test_the_parameter_server_bears_several_threads(transport: Any) -> None:
-    graph = Graph(simulated=False, rate=WALL_RATE, transport=transport)
+    graph = Graph(simulated=False, rate=WALL_RATE, transports=[transport])
     node, problems = graph.node("node"), []
 
     def work(number: int) -> None:
@@ -211,7 +211,7 @@ def test_a_real_thread_leaves_topics_in_the_graphs_thread() -> None:
     publisher.wait_for_subscribers()
     left: list[int] = []
     dropped_in: list[int | None] = []
-    talker.drop_publication = lambda publication: dropped_in.append(threading.get_ident())  # type: ignore[method-assign]
+    talker.drop_publication = lambda _: dropped_in.append(threading.get_ident())  # type: ignore[method-assign]
 
     def leave() -> None:
         subscriber.unregister()
@@ -299,3 +299,31 @@ def test_a_look_from_another_thread_just_before_a_drive_does_not_stop_it(graph, 
     monkeypatch.setattr(scheduler, "call_at", look_first)
     scheduler.sleep_until(scheduler.now_ns() + 10**8)
     assert looks == ["seen"]
+
+
+def test_a_call_from_another_thread_leaves_the_hub_where_it_was(graph: Graph) -> None:
+    node = graph.node("node")
+    caller = threading.Thread(target=lambda: node.subscriber("chatter", String))
+    caller.start()
+    caller.join(PATIENCE)  # nobody drives: in wall time the call need not wait for that
+    assert not caller.is_alive()
+    assert graph.scheduler.is_hub_thread()
+    assert "/chatter" in node.subscriptions
+
+
+def test_in_simulated_time_a_call_from_another_thread_waits_for_whoever_drives() -> None:
+    graph = Graph()
+    node = graph.node("node")
+    made_in: list[int] = []
+
+    def call() -> None:
+        graph.scheduler.on_hub(lambda: made_in.append(threading.get_ident()))
+
+    caller = threading.Thread(target=call)
+    caller.start()
+    while caller.is_alive():
+        graph.run(0.1)
+    assert made_in == [threading.get_ident()]
+    assert graph.scheduler.is_hub_thread()
+    assert node.name in graph.nodes
+    graph.shutdown()

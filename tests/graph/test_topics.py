@@ -14,6 +14,7 @@ from rosmini.msgs.geometry_msgs.msg import Point, PointStamped, Polygon, Twist, 
 from rosmini.msgs.nav_msgs.msg import Path
 from rosmini.msgs.sensor_msgs.msg import Image, JointState, LaserScan
 from rosmini.msgs.std_msgs.msg import Int32, String
+from rosmini.msgs.template import template
 
 from .conftest import KINDS, LONG, close, make, settle, until
 
@@ -850,3 +851,20 @@ def test_an_open_connection_outlives_its_registration_and_is_not_doubled(graph: 
     settle(graph)
     assert heard == ["still here"] * 3
     assert publisher.num_connections() == 1
+
+
+def test_what_a_template_made_reaches_everybody_with_numbers_in_its_header(graph: Graph) -> None:
+    heard: dict[str, list[Any]] = {"one": [], "two": []}
+    for name, messages in heard.items():
+        graph.node(name).subscriber("point", PointStamped, messages.append)
+    publisher = connected(graph.node("sender"), "point", PointStamped, 2, queue_size=10)
+    made = template(PointStamped(), "point.x")
+    for x in range(3):
+        publisher.publish_frozen(made(float(x)))
+    until(graph, lambda: all(len(messages) == 3 for messages in heard.values()))
+    for messages in heard.values():
+        assert [(m.header.seq, m.point.x) for m in messages] == [(1, 0.0), (2, 1.0), (3, 2.0)]
+        assert {m._connection_header["callerid"] for m in messages} == {"/sender"}
+    publisher.unregister()
+    with pytest.raises(ROSException, match="unregister"):
+        publisher.publish_frozen(made(0.0))

@@ -1,4 +1,7 @@
-"""A script for actionlib that tells what actionlib does, as JSON on its last line. Run by real actionlib and by ours."""
+"""A script for actionlib that tells what actionlib does, as JSON on its last line.
+
+Run by real actionlib and by ours.
+"""
 
 import contextlib
 import inspect
@@ -31,14 +34,18 @@ def signature(thing):
 PUBLIC = {
     actionlib.ActionClient: "__init__ stop send_goal cancel_all_goals cancel_goals_at_and_before_time "
     "wait_for_action_server_to_start wait_for_server",
-    actionlib.ClientGoalHandle: "cancel get_comm_state get_goal_status get_goal_status_text get_result get_terminal_state",
-    actionlib.SimpleActionClient: "__init__ wait_for_server send_goal send_goal_and_wait wait_for_result get_result get_state "
+    actionlib.ClientGoalHandle: "cancel get_comm_state get_goal_status get_goal_status_text get_result "
+    "get_terminal_state",
+    actionlib.SimpleActionClient: "__init__ wait_for_server send_goal send_goal_and_wait wait_for_result get_result "
+    "get_state "
     "get_goal_status_text cancel_all_goals cancel_goals_at_and_before_time cancel_goal stop_tracking_goal",
     actionlib.ActionServer: "__init__ register_goal_callback register_cancel_callback start stop",
     actionlib.ServerGoalHandle: "get_default_result set_accepted set_canceled set_rejected set_aborted set_succeeded "
     "publish_feedback get_goal get_goal_id get_goal_status set_cancel_requested",
-    actionlib.SimpleActionServer: "__init__ accept_new_goal is_new_goal_available is_preempt_requested is_active set_succeeded "
-    "set_aborted publish_feedback get_default_result set_preempted register_goal_callback register_preempt_callback start",
+    actionlib.SimpleActionServer: "__init__ accept_new_goal is_new_goal_available is_preempt_requested is_active "
+    "set_succeeded "
+    "set_aborted publish_feedback get_default_result set_preempted register_goal_callback register_preempt_callback "
+    "start",
 }
 
 rospy.init_node("peer")
@@ -248,7 +255,8 @@ fed = []
 
 
 def execute(goal):
-    # Real actionlib loses a result that arrives before send_goal() has returned, and feedback that arrives after its result.
+    # Real actionlib loses a result that arrives before send_goal() has returned, and feedback that arrives after its
+    # result.
     if goal.goal in (8, 9):
         rospy.sleep(0.1)
     else:
@@ -285,7 +293,8 @@ def run(client, number, what="", cancel=False):
     """Send a goal; what its client's callbacks are told, and what it says at the end."""
     plan[number] = what
     said = []
-    # Real actionlib does not know a goal before send_goal() has returned: the real server, which needs its lock, accepts it no sooner.
+    # Real actionlib does not know a goal before send_goal() has returned: the real server, which needs its lock,
+    # accepts it no sooner.
     with getattr(simple, "lock", contextlib.nullcontext()):
         client.send_goal(
             TestGoal(number),

@@ -1,4 +1,7 @@
-"""A script for action servers alone: goals and cancellations in every order, and how long goals are listed. Run by both."""
+"""A script for action servers alone: goals and cancellations in every order, and how long goals are listed.
+
+Run by both.
+"""
 
 import json
 

@@ -1,4 +1,4 @@
-"""What rospy does before there is a node, with connections, types, failing handlers and timers: facts as JSON on the last line.
+"""What rospy does before there is a node, with connections, types, failing handlers and timers, as JSON.
 
 Run by real rospy and by ours.
 """
@@ -171,8 +171,9 @@ facts["publishes"] = [
 ]
 
 # ---- what a service proxy raises ----
-# Not asked for: a field of quite another kind (rospy lets an AttributeError of its own out there, ours names the field), and what is
-# no service class or no name (rospy takes it, or lets an AttributeError out, where ours raises ValueError).
+# Not asked for: a field of quite another kind (rospy lets an AttributeError of its own out there, ours names the
+# field), and what is no service class or no name (rospy takes it, or lets an AttributeError out, where ours raises
+# ValueError).
 
 rospy.Service("none", SetCameraInfo, lambda _: None)
 rospy.Service("none_empty", Empty, lambda _: None)

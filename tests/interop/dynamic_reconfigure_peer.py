@@ -39,7 +39,10 @@ def values(config):
 
 
 def states(tree):
-    """Number, parent and state of each group, by name. Real ones have no type there: it is not in the messages with values."""
+    """Number, parent and state of each group, by name.
+
+    Real ones have no type there: it is not in the messages with values.
+    """
     found = {tree["name"]: [tree["id"], tree["parent"], tree["state"]]}
     for inner in tree["groups"].values():
         found.update(states(inner))

@@ -1,4 +1,7 @@
-"""A script for genpy.message: messages filled from plain values, types checked, hand-written messages. Run by the real one and by ours."""
+"""A script for genpy.message: messages filled from plain values, types checked, hand-written messages.
+
+Run by the real one and by ours.
+"""
 
 import io
 import json
@@ -100,11 +103,16 @@ fill_message_args(twice, [{"stamp": {"secs": 9}}])
 facts["the rest stays"] = str(twice)
 
 CHECKS = [
-    ("int8", 127), ("int8", 128), ("int8", -129), ("uint8", -1), ("uint8", 255), ("uint8", 256), ("int32", 1.0), ("int64", 2**63),
-    ("float32", 1), ("float64", "1"), ("bool", True), ("bool", 2), ("string", "x"), ("string", 1), ("time", rospy.Time(1)),
-    ("time", 1), ("duration", rospy.Duration(-1)), ("duration", None), ("uint8[]", b"abc"), ("uint8[]", [1, 256]), ("int32[]", "abc"),
-    ("int32[]", [1, 2]), ("int32[]", [1, "2"]), ("float64[2]", [1, 2]), ("string[]", ["a", 1]), ("string[]", "abc"), ("int32[]", 5),
-    ("geometry_msgs/Twist", Twist()), ("geometry_msgs/Twist", 1), ("geometry_msgs/Twist[]", [Twist()]), ("geometry_msgs/Twist[]", [1]),
+    ("int8", 127), ("int8", 128), ("int8", -129), ("uint8", -1), ("uint8", 255), ("uint8", 256), ("int32", 1.0),
+    ("int64", 2**63),
+    ("float32", 1), ("float64", "1"), ("bool", True), ("bool", 2), ("string", "x"), ("string", 1),
+    ("time", rospy.Time(1)),
+    ("time", 1), ("duration", rospy.Duration(-1)), ("duration", None), ("uint8[]", b"abc"), ("uint8[]", [1, 256]),
+    ("int32[]", "abc"),
+    ("int32[]", [1, 2]), ("int32[]", [1, "2"]), ("float64[2]", [1, 2]), ("string[]", ["a", 1]), ("string[]", "abc"),
+    ("int32[]", 5),
+    ("geometry_msgs/Twist", Twist()), ("geometry_msgs/Twist", 1), ("geometry_msgs/Twist[]", [Twist()]),
+    ("geometry_msgs/Twist[]", [1]),
     ("std_msgs/Header", Header()), ("std_msgs/String", Twist()),
 ]  # fmt: skip
 facts["checks"] = [[f"{one[0]} {one[1]!r}", told(check_type, "field", *one)] for one in CHECKS]
@@ -178,9 +186,11 @@ one = Point2(1.5, 2, String("in"))
 buffer = io.BytesIO()
 one.serialize(buffer)
 facts["by hand"] = [
-    str(one), repr(Point2()), str(Point2(x=3.5)), one == Point2(1.5, 2, String("in")), one == Point2(1.5, 3, String("in")), one != Point2(),
+    str(one), repr(Point2()), str(Point2(x=3.5)), one == Point2(1.5, 2, String("in")),
+    one == Point2(1.5, 3, String("in")), one != Point2(),
     told(Point2, 1), told(lambda: Point2(1, 2, x=3)), told(lambda: Point2(z=3)), isinstance(one, genpy.Message),
-    str(Point2().deserialize(struct.pack("<di", 4, 5))), Point2()._get_types(), one.__getstate__()[:2], told(one._check_types),
+    str(Point2().deserialize(struct.pack("<di", 4, 5))), Point2()._get_types(), one.__getstate__()[:2],
+    told(one._check_types),
     told(Point2("a", 1, String())._check_types), str(Bare(1, "x")), str(Bare(b="y")), Bare().a, told(lambda: Bare(1)),
     told(lambda: Bare().c), str(genpy.message.strify_message(Bare(2, "z"), indent="  ")),
     genpy.message.get_printable_message_args(one),

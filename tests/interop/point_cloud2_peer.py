@@ -1,4 +1,7 @@
-"""A script for sensor_msgs.point_cloud2: clouds of all kinds, and what is read of them. Run by the real one and by ours."""
+"""A script for sensor_msgs.point_cloud2: clouds of all kinds, and what is read of them.
+
+Run by the real one and by ours.
+"""
 
 import json
 import math

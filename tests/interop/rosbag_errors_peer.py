@@ -1,6 +1,7 @@
 """What `rosbag.Bag` raises: run with the `rosbag` of the system's Python as a script, or given ours by a test.
 
-For each attempt the classes of what it raised (its own module's by their names, so that both agree), or what it answered.
+For each attempt the classes of what it raised (its own module's by their names, so that both agree), or what it
+answered.
 """
 
 import json

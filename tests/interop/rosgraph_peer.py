@@ -14,7 +14,8 @@ import roslib.names
 import rosparam
 
 facts = {
-    "constants": [rosgraph.ROS_MASTER_URI, rosgraph.ROS_IP, rosgraph.ROS_HOSTNAME, rosgraph.ROS_NAMESPACE, rosgraph.ROS_IPV6],
+    "constants": [rosgraph.ROS_MASTER_URI, rosgraph.ROS_IP, rosgraph.ROS_HOSTNAME, rosgraph.ROS_NAMESPACE,
+        rosgraph.ROS_IPV6],
     "defaults": [rosgraph.rosenv.DEFAULT_MASTER_PORT, rosgraph.rosenv.DEFAULT_MASTER_URI],
     "online": rosgraph.is_master_online(),
 }  # fmt: skip
@@ -62,14 +63,21 @@ with open(os.path.join(folder, "bytes.bin"), "wb") as data:
 facts["commands"] = [
     [" ".join(line).replace(folder, "F"), [*command(*line)]]
     for line in [
-        ["set", "/p/int", "5"], ["set", "/p/negative", "-5"], ["set", "/p/float", "-1.5"], ["set", "/p/text", "hello"], ["set", "/p/empty", ""],
-        ["set", "/p/quoted", "'5'"], ["set", "/p/list", "[1, two, 3.0]"], ["set", "/p/tree", "{a: 1, b: {c: x}}"], ["set", "-v", "/p/flag", "true"],
-        ["get", "/p/int"], ["get", "/p/negative"], ["get", "/p/float"], ["get", "/p/text"], ["get", "/p/empty"], ["get", "/p/quoted"],
-        ["get", "/p/list"], ["get", "/p/tree"], ["get", "-p", "/p/tree"], ["get", "-p", "/p/text"], ["get", "-p", "/p"], ["get", "/p"],
-        ["get", "-v", "p/int"], ["get", "/nothing"], ["get"], ["get", "a", "b"], ["set", "/p/int"], ["set"], ["list", "/p"], ["list", "/p/tree"],
+        ["set", "/p/int", "5"], ["set", "/p/negative", "-5"], ["set", "/p/float", "-1.5"], ["set", "/p/text", "hello"],
+        ["set", "/p/empty", ""],
+        ["set", "/p/quoted", "'5'"], ["set", "/p/list", "[1, two, 3.0]"], ["set", "/p/tree", "{a: 1, b: {c: x}}"],
+        ["set", "-v", "/p/flag", "true"],
+        ["get", "/p/int"], ["get", "/p/negative"], ["get", "/p/float"], ["get", "/p/text"], ["get", "/p/empty"],
+        ["get", "/p/quoted"],
+        ["get", "/p/list"], ["get", "/p/tree"], ["get", "-p", "/p/tree"], ["get", "-p", "/p/text"], ["get", "-p", "/p"],
+        ["get", "/p"],
+        ["get", "-v", "p/int"], ["get", "/nothing"], ["get"], ["get", "a", "b"], ["set", "/p/int"], ["set"],
+        ["list", "/p"], ["list", "/p/tree"],
         ["list", "a", "b"], ["set", "-t", folder + "/text.txt", "/p/file"], ["get", "/p/file"], ["get", "-p", "/p"],
-        ["set", "-b", folder + "/bytes.bin", "/p/bytes"], ["delete", "/p/bytes"], ["dump", path, "/p"], ["delete", "/p/tree"], ["list", "/p"],
-        ["delete", "-v", "/p/int"], ["delete", "/p/int"], ["delete"], ["load", path, "/q"], ["list", "/q"], ["get", "/q/tree/b"],
+        ["set", "-b", folder + "/bytes.bin", "/p/bytes"], ["delete", "/p/bytes"], ["dump", path, "/p"],
+        ["delete", "/p/tree"], ["list", "/p"],
+        ["delete", "-v", "/p/int"], ["delete", "/p/int"], ["delete"], ["load", path, "/q"], ["list", "/q"],
+        ["get", "/q/tree/b"],
         ["load", "-v", path, "again"], ["get", "/again/int"], ["load"], ["nonsense"], [],
     ]
 ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""One script, ``actionlib_peer.py``, run by real actionlib and by ours: every transition of both machines, and the simple ones together.
+"""One script, ``actionlib_peer.py``, with real actionlib and with ours: both machines and the simple ones.
 
 Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
 """

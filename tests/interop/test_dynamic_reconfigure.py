@@ -1,4 +1,4 @@
-"""One script, ``dynamic_reconfigure_peer.py``, run by the real dynamic_reconfigure and by ours, with a module that a .cfg file became.
+"""One script, ``dynamic_reconfigure_peer.py``, with the real package and with ours, and a module of a .cfg file.
 
 Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
 """

@@ -1,4 +1,4 @@
-"""One script, ``fill_peer.py``, run by the real genpy and by ours: messages filled, checked, printed and published, hand-written ones too.
+"""One script, ``fill_peer.py``, with real genpy and with ours: messages filled, checked, printed, published.
 
 Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
 """

@@ -14,8 +14,7 @@ import pytest
 
 from rosmini import Graph
 from rosmini.msgs import message_class
-from rosmini.scripts import ScriptSpec, run_scripts
-from rosmini.scripts.executables import BuiltIn, find
+from rosmini.scripts import ScriptSpec, find, rosrun, run_scripts
 
 from ..processes import run
 from .conftest import SYSTEM_PYTHON, need_ros
@@ -37,7 +36,10 @@ def graph() -> Iterator[Graph]:
 
 
 def computed(launch: str, *arguments: str, model: str = "burger") -> dict[str, Any]:
-    """What real roslaunch makes of a launch file. Our own xacro expands the descriptions, with the Python of this test."""
+    """What real roslaunch makes of a launch file.
+
+    Our own xacro expands the descriptions, with the Python of this test.
+    """
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     environment = {
         **os.environ,
@@ -57,7 +59,10 @@ def words(node: dict[str, Any]) -> tuple[str, ...]:
 
 
 def start(graph: Graph, plan: dict[str, Any]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-    """Set the parameters and start all nodes but the teleoperations; return the built-in ones' objects, and the teleoperations."""
+    """Set the parameters and start all nodes but the teleoperations.
+
+    Return the built-in ones' objects, and the teleoperations.
+    """
     for name, value in plan["params"].items():
         graph.master.setParam("/roslaunch", name, value)
     objects, scripts, teleops = {}, [], []
@@ -66,9 +71,8 @@ def start(graph: Graph, plan: dict[str, Any]) -> tuple[dict[str, Any], list[dict
         if node["package"] == "turtlebot3_teleop":
             teleops.append(node)
         elif executable.path is None:
-            built_in = BuiltIn(graph, executable, words(node))
-            built_in.start()
-            objects[node["namespace"] + node["name"]] = built_in.wait()
+            handle = rosrun(node["package"], node["type"], *words(node), graph=graph)
+            objects[node["namespace"] + node["name"]] = handle.instance()
         else:
             scripts.append(ScriptSpec(str(executable.path), words(node)))
     result = run_scripts(scripts, graph=graph, duration=10.0)

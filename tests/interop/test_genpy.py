@@ -59,13 +59,15 @@ FLOATS = [
 
 ODD_DEFINITIONS = {
     "Nothing": "# only a comment, naïve\n",
-    "Scalars": "bool a\nbool b\nint8 c\nbyte d\nchar e\nuint64 f\nint64 g\nfloat32 h\nfloat64 i\nstring j\ntime k\nduration l\n",
+    "Scalars": "bool a\nbool b\nint8 c\nbyte d\nchar e\nuint64 f\nint64 g\nfloat32 h\nfloat64 i\nstring j\ntime "
+    "k\nduration l\n",
     "Variable": "bool[] a\nbyte[] b\nchar[] c\nuint8[] d\nint16[] e\nuint32[] f\nfloat32[] g\nstring[] h\ntime[] i\n"
     "duration[] j\nNothing[] k\nScalars[] l\n",
     "Fixed": "bool[2] a\nbyte[3] b\nchar[3] c\nuint8[4] d\nint64[2] e\nfloat64[3] f\nstring[2] g\ntime[2] h\n"
     "duration[1] i\nNothing[2] j\nScalars[2] k\nVariable[2] l\n",
     "Words": "int32 from\nstring self\nfloat64 lambda\nint8 in=3\nHeader header\n",
-    "Constants": "  int32   SPACED  =  -5   # a comment\nstring TEXT= a # b = c  \nstring SPACE = x\nbool YES=True\nfloat32 F=1.50\n"
+    "Constants": "  int32   SPACED  =  -5   # a comment\nstring TEXT= a # b = c  \nstring SPACE = x\nbool "
+    "YES=True\nfloat32 F=1.50\n"
     "uint8 small_case=255\nchar C=65\nbyte B=-3\nfloat64 x # y = 3\nstring EMPTY=\n  float64    z#tight\n",
     "Stamped": "Header header\nConstants[] constants\nFixed fixed\nstd_msgs/Header other\nWords words\n",
     "Late": "int8 a\nHeader header\n",
@@ -139,7 +141,8 @@ def describe(thing: Any) -> Any:
 
 
 def ask_genpy(jobs: list[Any]) -> list[Any]:
-    environment = {**os.environ, "PYTHONPATH": "", "PYTHONDONTWRITEBYTECODE": "1"}
+    # genpy writes modules in the encoding of the locale and reads them as UTF-8
+    environment = {**os.environ, "PYTHONPATH": "", "PYTHONDONTWRITEBYTECODE": "1", "PYTHONUTF8": "1"}
     job = pickle.dumps(jobs, protocol=4)
     done = run([SYSTEM_PYTHON, PEER], stdin=job, env=environment, encoding=None, check=True)
     answers: list[Any] = pickle.loads(done.stdout)

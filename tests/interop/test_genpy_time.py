@@ -12,16 +12,22 @@ from .conftest import SYSTEM_PYTHON, need_ros
 TABLE = """
 import copy, itertools, operator, pickle
 VALUES = [
-    "Time(0)", "Time(1)", "Time(1, 500000000)", "Time(1.25)", "Time(1, 2500000000)", "Time(5, -1)", "Time.from_sec(1.1)", "TVal(2, 3)",
-    "Duration(0)", "Duration(-0.5)", "Duration(3, 700000000)", "Duration(-2, -1)", "Duration.from_sec(-1.1)", "Duration(True)",
+    "Time(0)", "Time(1)", "Time(1, 500000000)", "Time(1.25)", "Time(1, 2500000000)", "Time(5, -1)",
+    "Time.from_sec(1.1)", "TVal(2, 3)",
+    "Duration(0)", "Duration(-0.5)", "Duration(3, 700000000)", "Duration(-2, -1)", "Duration.from_sec(-1.1)",
+    "Duration(True)",
     "0", "2", "-3", "0.3", "1.5", "'x'", "None", "[1]", "True",
 ]
 BINARY = ["add", "sub", "mul", "truediv", "floordiv", "mod", "lt", "le", "gt", "ge", "eq", "ne"]
-UNARY = ["repr(v)", "str(v)", "bool(v)", "hash(v)", "v.to_sec()", "v.to_nsec()", "v.is_zero()", "-v", "abs(v)", "[v.secs, v.nsecs]",
+UNARY = ["repr(v)", "str(v)", "bool(v)", "hash(v)", "v.to_sec()", "v.to_nsec()", "v.is_zero()", "-v", "abs(v)",
+         "[v.secs, v.nsecs]",
          "v.to_time()", "copy.deepcopy(v)", "pickle.loads(pickle.dumps(v))", "v.set(1, 3000000000) or v.canon() or v",
-         "v.set(1, 3000000000) or v", "v._slot_types", "sorted(v.__slots__)", "v.__cmp__(Time(1))", "v.__cmp__(Duration(1))"]
-MAKE = ["Time(-1)", "Time(0, -1)", "Time(1.5, 2)", "Duration(1.5, 2)", "Time('x')", "Time(None)", "Time.from_sec(-1)", "Duration(1, 'x')",
-        "Time(1) - Duration(2)", "Time(3) - Time(5)", "Duration(2**40)", "Time(1, 1.5)", "Duration.from_sec('x')", "Time(float('inf'))",
+         "v.set(1, 3000000000) or v", "v._slot_types", "sorted(v.__slots__)", "v.__cmp__(Time(1))",
+         "v.__cmp__(Duration(1))"]
+MAKE = ["Time(-1)", "Time(0, -1)", "Time(1.5, 2)", "Duration(1.5, 2)", "Time('x')", "Time(None)", "Time.from_sec(-1)",
+        "Duration(1, 'x')",
+        "Time(1) - Duration(2)", "Time(3) - Time(5)", "Duration(2**40)", "Time(1, 1.5)", "Duration.from_sec('x')",
+        "Time(float('inf'))",
         "sum([Duration(1), Duration(2)], Duration(0))", "max(Time(1), Time(2))", "sorted([Duration(2), Duration(-1)])"]
 def answer(code, names):
     try:
@@ -29,10 +35,12 @@ def answer(code, names):
     except Exception as error:
         return type(error).__name__
 def table(module):
-    names = {"Time": module.Time, "Duration": module.Duration, "TVal": module.TVal, "copy": copy, "pickle": pickle, "operator": operator}
+    names = {"Time": module.Time, "Duration": module.Duration, "TVal": module.TVal}
+    names.update({"copy": copy, "pickle": pickle, "operator": operator})
     codes = list(MAKE)
     codes += ["(lambda v: %s)(%s)" % (u, v) for v in VALUES[:14] for u in UNARY]
-    codes += ["operator.%s(%s, %s)" % (op, a, b) for op in BINARY for a, b in itertools.product(VALUES, VALUES) if "(" in a + b]
+    pairs = [pair for pair in itertools.product(VALUES, VALUES) if "(" in "".join(pair)]
+    codes += ["operator.%s(%s, %s)" % (op, a, b) for op in BINARY for a, b in pairs]
     codes += ["divmod(%s, %s)" % (a, b) for a, b in itertools.product(VALUES[7:14], VALUES[7:18])]
     return [[code, answer(code, names)] for code in codes]
 """

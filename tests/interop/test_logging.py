@@ -1,4 +1,4 @@
-"""One script, ``logging_peer.py``, run by real ROS and by ours: loggers, levels set by service, the log file, the console."""
+"""One script, ``logging_peer.py``, with real ROS and with ours: loggers, levels, the log file, the console."""
 
 from __future__ import annotations
 

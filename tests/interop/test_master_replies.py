@@ -30,6 +30,9 @@ class Recorder:
     def shutdown(self, caller_api, reason) -> None:
         self.heard.append((caller_api, "shutdown", reason))
 
+    def registrations_changed(self) -> None:
+        pass
+
 
 class SlaveServer:
     """Three real slave servers that record what the real Master calls."""
@@ -78,7 +81,8 @@ def calls(one: str, two: str, three: str) -> list[tuple]:
         # nothing there
         ("getSystemState", A), ("getTopicTypes", A), ("getPublishedTopics", A, ""), ("getParamNames", A),
         ("lookupNode", A, "nope"), ("lookupNode", B, "nope"), ("lookupNode", A, "/"), ("lookupService", A, "s"),
-        ("unregisterPublisher", A, "/t", one), ("unregisterSubscriber", A, "/t", one), ("unregisterService", A, "/s", service),
+        ("unregisterPublisher", A, "/t", one), ("unregisterSubscriber", A, "/t", one),
+        ("unregisterService", A, "/s", service),
         # topics
         ("registerSubscriber", A, "/t", "*", one), ("getTopicTypes", A), ("unregisterService", A, "/s", service),
         ("registerPublisher", B, "t", "*", two), ("getTopicTypes", A), ("getPublishedTopics", A, ""),
@@ -88,40 +92,49 @@ def calls(one: str, two: str, three: str) -> list[tuple]:
         ("getSystemState", A), ("getTopicTypes", B), ("getPublishedTopics", A, "/"), ("getPublishedTopics", A, "ns"),
         ("getPublishedTopics", B, "b"), ("getPublishedTopics", A, "/n"), ("getPublishedTopics", A, 7),
         ("lookupNode", A, A), ("lookupNode", B, "b"), ("lookupNode", A, "ns/b/"),
-        ("unregisterPublisher", A, "/t", two), ("unregisterPublisher", A, "/t", one), ("unregisterPublisher", A, "/t", one),
+        ("unregisterPublisher", A, "/t", two), ("unregisterPublisher", A, "/t", one),
+        ("unregisterPublisher", A, "/t", one),
         ("unregisterSubscriber", A, "/u", one), ("unregisterSubscriber", A, "/u", one), ("getSystemState", A),
         # services
-        ("registerService", A, "/s", service, one), ("lookupService", B, "/s"), ("registerService", B, "/s", moved, two),
+        ("registerService", A, "/s", service, one), ("lookupService", B, "/s"),
+        ("registerService", B, "/s", moved, two),
         ("lookupService", B, "/s"), ("unregisterService", A, "/s", service), ("unregisterService", "/zz", "/s", moved),
         ("registerService", B, "~q", moved, two), ("getSystemState", A), ("unregisterService", B, "/s", moved),
         ("unregisterService", B, "/s", moved), ("lookupService", A, "/s"), ("unregisterService", B, "/none", moved),
         # parameters
-        ("setParam", A, "/x", 1), ("setParam", A, "y", [1, [2.5, "z"], True]), ("setParam", B, "~g", {"k": 1, "m": {"n": "o"}}),
-        ("getParam", A, "/x"), ("getParam", B, "y"), ("getParam", A, "/y"), ("getParam", A, "/ns"), ("getParam", A, "/"),
+        ("setParam", A, "/x", 1), ("setParam", A, "y", [1, [2.5, "z"], True]),
+        ("setParam", B, "~g", {"k": 1, "m": {"n": "o"}}),
+        ("getParam", A, "/x"), ("getParam", B, "y"), ("getParam", A, "/y"), ("getParam", A, "/ns"),
+        ("getParam", A, "/"),
         ("getParam", A, "/x/y"), ("getParam", A, "/none"), ("hasParam", B, "~g/m"), ("hasParam", B, "/x/y"),
         ("getParamNames", A), ("setParam", A, "/ns/b/g", {"only": 1}), ("getParamNames", A), ("setParam", A, "/x/y", 2),
         ("getParam", A, "/x"), ("setParam", A, "/", 5), ("setParam", A, "/empty", {}), ("getParamNames", A),
         ("getParam", A, "/empty"), ("setParam", A, "//d//e/", "v"), ("getParam", A, "/d"), ("deleteParam", A, "/x/y"),
         ("deleteParam", A, "/x/y"), ("deleteParam", A, "/none/at/all"), ("deleteParam", A, "/"), ("getParam", A, "/x"),
-        ("setParam", A, "", 1), ("setParam", A, 5, 1), ("getParam", A, ""), ("hasParam", A, ""), ("deleteParam", A, 3.5),
+        ("setParam", A, "", 1), ("setParam", A, 5, 1), ("getParam", A, ""), ("hasParam", A, ""),
+        ("deleteParam", A, 3.5),
         ("setParam", A, "/big", 2**31 - 1), ("getParam", A, "/big"), ("setParam", A, "/raw", {"a/b": 1}),
         ("getParam", A, "/raw/a/b"), ("getParamNames", A), ("deleteParam", A, "/raw"),
         # search
         ("setParam", A, "/ns/r/arm", 1), ("setParam", A, "/r/base", 2), ("searchParam", "/ns/b/c", "r"),
         ("searchParam", "/ns/b/c", "r/leg/x"), ("searchParam", "/other", "r/base"), ("searchParam", "/ns/b", "none"),
         ("searchParam", "/ns/b", "/r/base"), ("searchParam", "/ns/b", "/r/none"), ("searchParam", "/ns/b", "~r"),
-        ("searchParam", "ns", "r"), ("searchParam", "/ns/b", "g"), ("searchParam", "/ns/b", ""), ("searchParam", "/", "r"),
+        ("searchParam", "ns", "r"), ("searchParam", "/ns/b", "g"), ("searchParam", "/ns/b", ""),
+        ("searchParam", "/", "r"),
         ("searchParam", "/ns/", "r"), ("searchParam", "/ns/b", "/"),
         # subscriptions to parameters, and what each change tells whom
         ("subscribeParam", A, one, "/w/v"), ("subscribeParam", B, two, "/w"), ("subscribeParam", B, two, "/w/v/deep"),
-        ("setParam", A, "/w/v", 3), ("setParam", "/c", "/w/v", 4), ("setParam", "/c", "/w", {"v": {"deep": 1}, "other": 2}),
+        ("setParam", A, "/w/v", 3), ("setParam", "/c", "/w/v", 4),
+        ("setParam", "/c", "/w", {"v": {"deep": 1}, "other": 2}),
         ("setParam", A, "/w", {"v": 5}), ("setParam", B, "/w/v", {"x": 1}), ("setParam", "/c", "/wide", 1),
-        ("deleteParam", A, "/w/v"), ("deleteParam", A, "/w"), ("subscribeParam", B, two, "/ns/r"), ("subscribeParam", A, one, "/"),
+        ("deleteParam", A, "/w/v"), ("deleteParam", A, "/w"), ("subscribeParam", B, two, "/ns/r"),
+        ("subscribeParam", A, one, "/"),
         ("setParam", "/c", "/q", 1), ("unsubscribeParam", A, one, "/"), ("unsubscribeParam", A, one, "/"),
         ("setParam", "/c", "/q", 2), ("setParam", "/c", "/ns/r/arm", 9), ("subscribeParam", A, "no uri", "/w"),
         ("unsubscribeParam", A, one, ""),
         # a second node of the same name
-        ("registerPublisher", B, "/taken", "std_msgs/String", two), ("registerPublisher", B, "/taken", "std_msgs/String", three),
+        ("registerPublisher", B, "/taken", "std_msgs/String", two),
+        ("registerPublisher", B, "/taken", "std_msgs/String", three),
         ("getSystemState", A), ("lookupNode", A, B), ("lookupService", A, "/ns/b/q"), ("setParam", "/c", "/w/v", 1),
         ("unregisterPublisher", B, "/taken", two), ("unregisterPublisher", B, "/taken", three), ("lookupNode", A, B),
         # wrong arguments
@@ -136,7 +149,8 @@ def calls(one: str, two: str, three: str) -> list[tuple]:
         *[("unregisterPublisher", A, *name, one) for name in bad_names],
         *[("lookupService", A, *name) for name in bad_names],
         *[("lookupNode", A, *name) for name in bad_names],
-        ("getSystemState", "no slash"), ("registerPublisher", "plain", "rel", "std_msgs/String", three), ("getSystemState", A),
+        ("getSystemState", "no slash"), ("registerPublisher", "plain", "rel", "std_msgs/String", three),
+        ("getSystemState", A),
     ]  # fmt: skip
 
 

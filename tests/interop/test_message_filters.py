@@ -1,4 +1,4 @@
-"""One script, ``message_filters_peer.py``, run by the real message_filters and by ours: synchronisers, caches, clocks that go back.
+"""One script, ``message_filters_peer.py``, with the real package and with ours: filters, caches, clocks that jump.
 
 Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
 """

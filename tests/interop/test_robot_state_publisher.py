@@ -1,4 +1,4 @@
-"""The same description and the same joint states to the real robot_state_publisher and to ours: the same transforms of both."""
+"""One description and joint states for the real robot_state_publisher and for ours: the same transforms."""
 
 from __future__ import annotations
 
@@ -23,15 +23,18 @@ REAL = Path("/usr/lib/robot_state_publisher/robot_state_publisher")
 
 pytestmark = pytest.mark.ros
 
-ARM = """<robot name="arm"><link name="a"/><link name="b"/><link name="c"/><link name="d"/><link name="e"/><link name="f"/>
+ARM = """<robot name="arm"><link name="a"/><link name="b"/><link name="c"/>
+<link name="d"/><link name="e"/><link name="f"/>
 <joint name="turn" type="revolute"><parent link="a"/><child link="b"/><origin xyz="1 -2 3" rpy="0.3 -1.1 2.5"/>
 <axis xyz="1 2 -3"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
 <joint name="slide" type="prismatic"><parent link="b"/><child link="c"/><origin xyz="0 0 1" rpy="3 0.2 -3"/>
 <axis xyz="-1 1 0.5"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
 <joint name="same" type="continuous"><parent link="c"/><child link="d"/><axis xyz="0 1 0"/>
 <mimic joint="turn" multiplier="-2.5" offset="0.7"/></joint>
-<joint name="plane" type="planar"><parent link="d"/><child link="e"/><origin xyz="0 1 0" rpy="0 0 1"/><axis xyz="0 0 1"/></joint>
-<joint name="weld" type="fixed"><parent link="e"/><child link="f"/><origin xyz="1 0 0" rpy="1.5708 0 0"/></joint></robot>"""
+<joint name="plane" type="planar"><parent link="d"/><child link="e"/>
+<origin xyz="0 1 0" rpy="0 0 1"/><axis xyz="0 0 1"/></joint>
+<joint name="weld" type="fixed"><parent link="e"/><child link="f"/>
+<origin xyz="1 0 0" rpy="1.5708 0 0"/></joint></robot>"""
 
 CASES = {
     "arm": (ARM, {"turn": 1.234, "slide": -0.75}),
@@ -61,7 +64,7 @@ def ours(name):
         graph.node("setter").set_param("/robot_description", description(name))
         graph.node("setter").set_param("/tf_prefix", "one")
         buffer = TransformListener(graph.node("looker")).buffer
-        rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+        rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
         joints = CASES[name][1]
         publisher = graph.node("joints").publisher("joint_states", JointState, queue_size=1)
         graph.run(0.1)
@@ -70,7 +73,11 @@ def ours(name):
         publisher.publish(message)
         graph.run(0.1)
         return {
-            frame: [edge.newest.parent, edge.static, list(edge.newest.transform)]
+            frame: [
+                edge.newest.parent,
+                edge.static,
+                list(buffer.tree.lookup(edge.newest.parent, frame).transform),
+            ]
             for frame, edge in buffer.tree.edges.items()
         }
 

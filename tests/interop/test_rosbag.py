@@ -58,7 +58,8 @@ def ours(path: Path) -> dict[str, Any]:
         strings = [m.data for _, m, _ in bag.read_messages(["/chatter"])]
         info = bag.get_type_and_topic_info()
         summary = [
-            bag.get_message_count(), bag.get_message_count(["/scan"]), bag.get_start_time(), bag.get_end_time(), bag.version,
+            bag.get_message_count(), bag.get_message_count(["/scan"]), bag.get_start_time(), bag.get_end_time(),
+            bag.version,
             list(bag.get_compression_info()), info.msg_types, {name: list(one) for name, one in info.topics.items()},
             str(bag), bag.size,
         ]  # fmt: skip
@@ -207,7 +208,7 @@ UNLIKE = {
 
 
 def test_what_they_raise_we_raise(tmp_path):
-    """An ``except`` of a script for real rosbag catches ours: of wrong modes, wrong and missing files, and uses after close."""
+    """An ``except`` for real rosbag catches ours: wrong modes, wrong and missing files, uses after close."""
     for folder in ("theirs", "ours"):
         (tmp_path / folder).mkdir()
     script = Path(__file__).with_name("rosbag_errors_peer.py")

@@ -33,14 +33,16 @@ def outcome(function, argument):
     except Exception as error:
         return type(error).__name__
 for name in job["odd"]:
-    out["legal"].append([outcome(f, name) for f in (rosgraph.names.is_legal_name, rosgraph.names.is_legal_base_name, rosgraph.names.namespace)])
+    legal = (rosgraph.names.is_legal_name, rosgraph.names.is_legal_base_name, rosgraph.names.namespace)
+    out["legal"].append([outcome(f, name) for f in legal])
 out["wrong"] = [rosgraph.names.load_mappings([word]) for word in job["wrong"]]
 for node, rules, name in job["names"]:
     rospy.names.reload_mappings(["%s:=%s" % rule for rule in rules.items()])
     rospy.names.initialize_mappings(node)
     out["rospy"].append(rospy.names.resolve_name(name, node))
     out["rosgraph"].append(rosgraph.names.resolve_name(name, node))
-    out["basic"].append([rosgraph.names.namespace(name), rosgraph.names.canonicalize_name(name), rosgraph.names.ns_join(node, name)])
+    n = rosgraph.names
+    out["basic"].append([n.namespace(name), n.canonicalize_name(name), n.ns_join(node, name)])
 for argv in job["argvs"]:
     out["argv"].append([rosgraph.names.load_mappings(argv), rospy.client.load_command_line_node_params(argv),
                         rospy.client.myargv(argv), [rosgraph.names.is_legal_remap(a) for a in argv]])

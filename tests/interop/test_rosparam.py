@@ -1,4 +1,4 @@
-"""One script, ``rosparam_peer.py``, run by real ROS and by ours: YAML, merging, listing, deleting, dumping, printing."""
+"""One script, ``rosparam_peer.py``, with real ROS and with ours: YAML, merging, listing, deleting, dumping."""
 
 from __future__ import annotations
 

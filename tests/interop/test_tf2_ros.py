@@ -1,4 +1,4 @@
-"""One script, ``tf2_ros_peer.py``, run by the real tf2_ros and by ours: clients of buffers, types that scripts register.
+"""One script, ``tf2_ros_peer.py``, with the real tf2_ros and with ours: clients of buffers, registered types.
 
 Skipped where there is no rospy, unless ROSMINI_REQUIRE_ROS is set.
 """

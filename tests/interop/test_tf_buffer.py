@@ -28,7 +28,10 @@ def _real() -> None:
 
 
 def world(seed: int, *, wander: bool) -> dict[str, list]:
-    """Two trees of random frames that move at random times, some static, some late, some twice; and questions of all kinds."""
+    """Two trees of random frames that move at random times, some static, some late, some twice.
+
+    And questions of all kinds.
+    """
     rng = random.Random(seed)
 
     def pose() -> list[float]:
@@ -88,7 +91,10 @@ def our_answers(task: dict[str, list]) -> tuple[list, BufferCore]:
 
 
 def better(real: str, ours: str) -> bool:
-    """tf2 calls frames in two trees an extrapolation where an edge on the way is not known either; ours names the graver cause."""
+    """tf2 calls frames in two trees an extrapolation where an edge on the way is not known either.
+
+    Ours names the graver cause.
+    """
     return real == "ExtrapolationException" and ours == "ConnectivityException"
 
 

@@ -1,4 +1,7 @@
-"""A script for tf2_ros's client of buffers and its registry of types; it plays the server itself. Run by the real one and by ours."""
+"""A script for tf2_ros's client of buffers and its registry of types; it plays the server itself.
+
+Run by the real one and by ours.
+"""
 
 import json
 

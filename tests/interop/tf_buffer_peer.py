@@ -1,4 +1,7 @@
-"""Feeds transforms to the real ``tf2_py.BufferCore`` and asks it; writes the answers as JSON. Reads what to do from standard input."""
+"""Feeds transforms to the real ``tf2_py.BufferCore`` and asks it; writes the answers as JSON.
+
+Reads what to do from standard input.
+"""
 
 import json
 import sys

@@ -21,7 +21,7 @@ def graph():
 def start(graph, *arguments):
     heard = []
     graph.node("looker").subscriber("joint_states", JointState, heard.append)
-    return rosrun("joint_state_publisher", "joint_state_publisher", *arguments, graph=graph), heard
+    return rosrun("joint_state_publisher", "joint_state_publisher", *arguments, graph=graph).instance(), heard
 
 
 def test_positions_ten_times_a_second(graph):
@@ -60,7 +60,7 @@ def test_delta_moves_the_joints(graph):
 def test_with_robot_state_publisher_all_frames_are_there(graph):
     buffer = TransformListener(graph.node("tf")).buffer
     start(graph)
-    rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+    rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
     graph.run(0.5)
     assert {"wheel_left_link", "camera_depth_optical_frame"} <= set(buffer.tree)
     assert buffer.tree.lookup("base_footprint", "wheel_left_link").transform[:3] == pytest.approx(

@@ -8,9 +8,12 @@ from rosmini.urdf import load
 
 TEXT = """<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/><link name="e"/>
 <joint name="turn" type="continuous"><parent link="a"/><child link="b"/></joint>
-<joint name="lift" type="prismatic"><parent link="b"/><child link="c"/><limit lower="1" upper="2" effort="1" velocity="1"/></joint>
-<joint name="twice" type="continuous"><parent link="c"/><child link="d"/><mimic joint="turn" multiplier="2" offset="1"/></joint>
-<joint name="thrice" type="continuous"><parent link="d"/><child link="e"/><mimic joint="twice" multiplier="3" offset="1"/></joint></robot>"""
+<joint name="lift" type="prismatic"><parent link="b"/><child link="c"/>
+<limit lower="1" upper="2" effort="1" velocity="1"/></joint>
+<joint name="twice" type="continuous"><parent link="c"/><child link="d"/>
+<mimic joint="turn" multiplier="2" offset="1"/></joint>
+<joint name="thrice" type="continuous"><parent link="d"/><child link="e"/>
+<mimic joint="twice" multiplier="3" offset="1"/></joint></robot>"""
 
 
 def at(positions):
@@ -54,7 +57,8 @@ def test_what_others_say_is_taken_over_of_free_joints():
     ("dependent", "message"),
     [
         ({"turn": {"parent": "lift"}, "lift": {"parent": "turn"}}, "joints depend on one another in a circle"),
-        ({"turn": {"parent": "lft"}}, "the joint 'turn' depends on 'lft', which is no joint that moves; did you mean lift?"),
+        ({"turn": {"parent": "lft"}}, ("the joint 'turn' depends on 'lft', which is no joint that moves; did you mean "
+                                      "lift?")),
     ],
 )  # fmt: skip
 def test_joints_that_depend_on_what_cannot_be(dependent, message):

@@ -119,7 +119,10 @@ def test_live_needs_an_event_loop():
         pool.submit(program).result()
 
 
-CALLS = "pub.publish('from a subshell')\nprint(add(1, 2).sum)\nstart = talker.now()\ntalker.sleep(0.05)\nprint((talker.now() - start).to_sec() >= 0.05)"
+CALLS = (
+    "pub.publish('from a subshell')\nprint(add(1, 2).sum)\nstart = talker.now()\ntalker.sleep(0.05)\n"
+    "print((talker.now() - start).to_sec() >= 0.05)"
+)
 
 
 @pytest.mark.parametrize("state", ["idle", "live", "driving", "busy"])

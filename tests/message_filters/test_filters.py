@@ -169,7 +169,7 @@ def test_the_last_of_a_cache_is_the_first_not_older_than_what_came_last():
 
 
 def test_filters_of_filters(sim):
-    """A cache takes what a filter of one's own gives, and passes it on to a synchroniser, which finds the node through it."""
+    """A cache takes the output of a custom filter and passes it to a synchroniser, which finds the node through it."""
     node = sim.node("n")
 
     class Later(SimpleFilter):

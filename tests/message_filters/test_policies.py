@@ -29,7 +29,10 @@ def told(policy, story):
 
 
 def in_order(story, gap):
-    """The same messages with stamps that increase by at least `gap` in each input; inputs stay interleaved at random."""
+    """The same messages with stamps that increase by at least `gap` in each input.
+
+    Inputs stay interleaved at random.
+    """
     last = {}
     ordered = []
     for index, stamp in story:

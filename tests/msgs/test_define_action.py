@@ -8,7 +8,10 @@ from rosmini.errors import DefinitionError
 from rosmini.msgs import message_class
 from rosmini.msgs.define import define_action
 
-FIBONACCI = "#goal definition\nint32 order\n---\n#result definition\nint32[] sequence\n---\n#feedback\nint32[] sequence\n"
+FIBONACCI = (
+    "#goal definition\nint32 order\n---\n#result definition\nint32[] sequence\n---\n"
+    "#feedback\nint32[] sequence\n"
+)
 
 
 def test_the_classes_are_those_of_the_file():

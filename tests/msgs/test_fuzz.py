@@ -1,4 +1,4 @@
-"""Definitions and bytes from outside, mutated: what comes out is a class, a message or an error of ours, in bounded memory. Always the same ones."""
+"""Mutated definitions and bytes, the same ones each time: a class, a message or our error, in bounded memory."""
 
 from __future__ import annotations
 
@@ -27,11 +27,17 @@ TYPES = [
     "diagnostic_msgs/DiagnosticArray",
     "rosgraph_msgs/Log",
 ]
-ACTION = "# goal\nint32 order\nuint8 A=1\n---\nint32[] sequence\nstring NAME= x # y\n---\ngeometry_msgs/Pose[3] poses\nHeader header\n"
+ACTION = (
+    "# goal\nint32 order\nuint8 A=1\n---\nint32[] sequence\nstring NAME= x # y\n---\n"
+    "geometry_msgs/Pose[3] poses\nHeader header\n"
+)
 PIECES = [
-    "[]", "[3]", "[99999999999]", "[-1]", "[999]", "[", "]", "=", "= ", "=1", "=-1", "#", "---", "\n---\n", "\n", "\r\n", "\t", " ", "  ", "/", "//", "..",
-    "int32", "uint8", "float64", "string", "bool", "time", "duration", "Header", "std_msgs/Empty", "p/T", "T", "byte", "char", "self", "from", "None", "a", "A",
-    "serialize", "__class__", "X=1e999", "X=" + "9" * 400, "X=0x10", "X=True", "X=()", "=" * 80, "\n" + "=" * 80 + "\nMSG: p/T\n", "MSG: ", "\0", "ä", "\ud800",
+    "[]", "[3]", "[99999999999]", "[-1]", "[999]", "[", "]", "=", "= ", "=1", "=-1", "#", "---", "\n---\n", "\n",
+    "\r\n", "\t", " ", "  ", "/", "//", "..",
+    "int32", "uint8", "float64", "string", "bool", "time", "duration", "Header", "std_msgs/Empty", "p/T", "T", "byte",
+    "char", "self", "from", "None", "a", "A",
+    "serialize", "__class__", "X=1e999", "X=" + "9" * 400, "X=0x10", "X=True", "X=()", "=" * 80,
+    "\n" + "=" * 80 + "\nMSG: p/T\n", "MSG: ", "\0", "ä", "\ud800",
     "'", '"', "\\", "{", "}", "%s", "import os", "<=3", "wstring", "int32 a\n" * 50, "p/T a\n" * 5, "x" * 300,
 ]  # fmt: skip
 

@@ -147,7 +147,10 @@ def test_a_python_package_of_the_same_name_keeps_its_own_modules(
 
 
 def test_importing_the_package_is_light() -> None:
-    code = "import sys, rosmini.msgs; print([m for m in ('numpy', 'rosbags', 'yaml', 'catkin_pkg') if m in sys.modules])"
+    code = (
+        "import sys, rosmini.msgs; "
+        "print([m for m in ('numpy', 'rosbags', 'yaml', 'catkin_pkg') if m in sys.modules])"
+    )
     done = run_process([sys.executable, "-c", code], check=True)
     assert done.stdout.strip() == "[]"
 

@@ -13,7 +13,8 @@ numbers = st.floats(-5, 5)
 vectors = st.tuples(numbers, numbers, numbers)
 
 
-@given(vectors, vectors, vectors.filter(lambda v: np.linalg.norm(v) > 0.1), st.floats(-100, 100), st.sampled_from(["continuous", "prismatic", "fixed"]))  # fmt: skip
+@given(vectors, vectors, vectors.filter(lambda v: np.linalg.norm(v) > 0.1), st.floats(-100, 100),
+    st.sampled_from(["continuous", "prismatic", "fixed"]))  # fmt: skip
 def test_seven_numbers_say_what_the_matrices_of_urdf_say(xyz, rpy, axis, position, kind):
     unit = tuple(np.array(axis) / np.linalg.norm(axis))
     joint = Joint("j", kind, "a", "b", Origin(xyz, rpy), unit)
@@ -22,9 +23,11 @@ def test_seven_numbers_say_what_the_matrices_of_urdf_say(xyz, rpy, axis, positio
     assert math.hypot(*found[3:]) == pytest.approx(1, abs=1e-12)
 
 
-TEXT = """<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/><link name="e"/><link name="f"/>
+TEXT = """<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+<link name="d"/><link name="e"/><link name="f"/>
 <joint name="z" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint>
-<joint name="m2" type="continuous"><parent link="b"/><child link="c"/><mimic joint="m1" multiplier="2" offset="1"/></joint>
+<joint name="m2" type="continuous"><parent link="b"/><child link="c"/>
+<mimic joint="m1" multiplier="2" offset="1"/></joint>
 <joint name="m1" type="continuous"><parent link="b"/><child link="d"/><mimic joint="z" multiplier="-1"/></joint>
 <joint name="p" type="planar"><parent link="b"/><child link="e"/><origin xyz="1 0 0"/></joint>
 <joint name="fl" type="floating"><parent link="b"/><child link="f"/></joint></robot>"""

@@ -39,7 +39,7 @@ def joints(graph, topic="joint_states"):
 
 def test_the_frames_of_the_burger(graph):
     buffer = TransformListener(graph.node("looker")).buffer
-    made = rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+    made = rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
     assert isinstance(made, RobotStatePublisher)
     tell = joints(graph)
     graph.run(0.1)
@@ -62,7 +62,9 @@ def count(graph, topic):
 
 def test_a_joint_is_told_at_most_so_often(graph):
     heard = count(graph, "/tf")
-    rosrun("robot_state_publisher", "robot_state_publisher", "_publish_frequency:=10.0", graph=graph)
+    rosrun(
+        "robot_state_publisher", "robot_state_publisher", "_publish_frequency:=10.0", graph=graph
+    ).instance()
     tell = joints(graph)
     graph.node("t").timer(0.02, lambda _: tell(0, 0))
     graph.run(1.01)
@@ -72,7 +74,9 @@ def test_a_joint_is_told_at_most_so_often(graph):
 
 def test_or_as_often_as_it_is_heard_of(graph):
     heard = count(graph, "/tf")
-    rosrun("robot_state_publisher", "robot_state_publisher", "_ignore_timestamp:=true", graph=graph)
+    rosrun(
+        "robot_state_publisher", "robot_state_publisher", "_ignore_timestamp:=true", graph=graph
+    ).instance()
     tell = joints(graph)
     graph.node("t").timer(0.005, lambda _: tell(0, 0))
     graph.run(0.501)
@@ -83,7 +87,7 @@ def test_or_as_often_as_it_is_heard_of(graph):
 
 def test_fixed_joints_on_tf_are_half_a_second_ahead(graph):
     heard, static = count(graph, "/tf"), count(graph, "/tf_static")
-    rosrun("robot_state_publisher", "robot_state_publisher", "_use_tf_static:=false", graph=graph)
+    rosrun("robot_state_publisher", "robot_state_publisher", "_use_tf_static:=false", graph=graph).instance()
     graph.run(0.101)
     assert static == []
     assert len(heard) == 5
@@ -94,7 +98,7 @@ def test_two_robots_with_prefixes(graph):
     buffer = TransformListener(graph.node("looker")).buffer
     for name in ("one", "two"):
         graph.node("setter2").set_param(f"/{name}/tf_prefix", f"{name}_tf")
-        rosrun("robot_state_publisher", "robot_state_publisher", f"__ns:=/{name}", graph=graph)
+        rosrun("robot_state_publisher", "robot_state_publisher", f"__ns:=/{name}", graph=graph).instance()
     tell = joints(graph, "/two/joint_states")
     graph.run(0.1)
     tell(1, 1)
@@ -106,7 +110,7 @@ def test_two_robots_with_prefixes(graph):
 
 def test_messages_that_say_too_little_or_too_much(graph, capsys):
     heard = count(graph, "/tf")
-    rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+    rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
     publisher = graph.node("j").publisher("joint_states", JointState)
     graph.run(0.1)
     for message in (
@@ -127,7 +131,7 @@ def test_messages_that_say_too_little_or_too_much(graph, capsys):
 
 def test_old_joint_states_are_told_of_and_warned_about(graph, capsys):
     heard = count(graph, "/tf")
-    rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+    rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
     tell = joints(graph)
     graph.run(50)
     tell(0, 0, age=40.0)
@@ -142,10 +146,10 @@ def test_without_a_description_it_says_what_to_do():
         with pytest.raises(
             ParameterNotSet, match="needs the parameter robot_description, a URDF, which is not set"
         ):
-            rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+            rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
         graph.node("setter").set_param("/robot_description", "<robot name='r'>\n<link/></robot>")
         with pytest.raises(UrdfError, match=r"^/robot_description:2: name"):
-            rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+            rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
 
 
 @pytest.mark.parametrize(("text", "message"), [("", "this is empty"), ("robot.urdf", "this is not XML")])
@@ -153,7 +157,7 @@ def test_what_is_no_description_is_not_taken_for_a_file(text, message):
     with Graph() as graph:
         graph.node("setter").set_param("/robot_description", text)
         with pytest.raises(UrdfError, match=message):
-            rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+            rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
 
 
 def test_what_is_doubtful_in_the_description_is_said(capsys):
@@ -164,14 +168,16 @@ def test_what_is_doubtful_in_the_description_is_said(capsys):
         graph.node("setter").set_param(
             "/robot_description", f'<robot name="r"><link name="a">{inertial}</link></robot>'
         )
-        rosrun("robot_state_publisher", "robot_state_publisher", graph=graph)
+        rosrun("robot_state_publisher", "robot_state_publisher", graph=graph).instance()
         told = capsys.readouterr()
         assert "the root link 'a' has an inertia, which KDL" in told.out + told.err
 
 
 def test_a_wrong_parameter_is_told(graph):
     with pytest.raises(ParameterError, match="did you mean ~publish_frequency"):
-        rosrun("robot_state_publisher", "robot_state_publisher", "_publish_freqency:=5", graph=graph)
+        rosrun(
+            "robot_state_publisher", "robot_state_publisher", "_publish_freqency:=5", graph=graph
+        ).instance()
 
 
 def test_time_that_goes_back_makes_it_tell_all_anew(graph):

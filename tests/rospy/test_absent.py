@@ -17,7 +17,8 @@ from rosmini.scripts import run_source
 
 IMPORTS = {
     "import cv_bridge": "no module 'cv_bridge', which turns images",
-    "from cv_bridge import CvBridge": r"numpy\.frombuffer\(msg\.data, numpy\.uint8\)\.reshape\(msg\.height, msg\.width, -1\)",
+    "from cv_bridge import CvBridge": r"numpy\.frombuffer\(msg\.data, numpy\.uint8\)\.reshape\(msg\.height, "
+    r"msg\.width, -1\)",
     "from cv_bridge.boost import x": "no module 'cv_bridge'",
     "import smach_ros": "no module 'smach_ros'",
     "import rqt_plot": "a part of rqt",

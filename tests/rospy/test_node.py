@@ -12,6 +12,7 @@ from rosmini import Graph, rospy, set_default_graph
 from rosmini.errors import IllegalName
 from rosmini.graph import default_graph
 from rosmini.msgs.std_msgs.msg import String
+from rosmini.rospy.aliases import rosgraph
 
 from ..processes import PATIENCE, run
 
@@ -401,3 +402,31 @@ def test_a_scoped_name():
     assert scoped_name("/foo/node", "/foo/bar/name") == "bar/name"
     with pytest.raises(rospy.ROSException, match="must be global"):
         scoped_name("foo", "/foo")
+
+
+# -- more than one graph -----------------------------------------------------------------------------------------
+
+
+def test_a_callback_of_another_graph_speaks_for_its_own_node(sim: Graph) -> None:
+    rospy.init_node("main")
+    rospy.set_param("/where", "default")
+    said = []
+    with Graph() as other:
+        node = other.node("worker")
+        node.set_param("/where", "other")
+        other.run(5.0)
+
+        def look(_):
+            said.append((rospy.get_name(), rospy.get_param("/where"), rospy.get_time(), rospy.is_shutdown()))
+            rospy.sleep(1.0)
+            said.append((rospy.get_name(), rosgraph.Master("/tool").getParam("/where"), rospy.get_time()))
+            rospy.Publisher("answers", String, queue_size=1, latch=True).publish("done")
+
+        node.subscriber("questions", String, look)
+        publisher = other.node("asker").publisher("questions", String, latch=True)
+        publisher.publish("?")
+        other.run(3.0)
+        assert said == [("/worker", "other", 1005.0, False), ("/worker", "other", 1006.0)]
+        assert "/answers" in node.publications
+        assert (rospy.get_name(), rospy.get_param("/where")) == ("/main", "default")
+        assert "/answers" not in sim.nodes["/main"].publications

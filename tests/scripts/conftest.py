@@ -55,7 +55,7 @@ def state() -> dict[str, Any]:
         "path": list(sys.path),
         "streams": (sys.stdin, sys.stdout, sys.stderr),
         "main": sys.modules["__main__"],
-        "environ": dict(os.environ),
+        "environ": {name: value for name, value in os.environ.items() if name != "PYTEST_CURRENT_TEST"},
         "cwd": os.getcwd(),
         "random": random.getstate(),
         "logging": (list(logging.root.handlers), logging.root.level, logging.root),

@@ -33,7 +33,8 @@ def test_modules_of_the_same_name_keep_apart(run, tmp_path):
         run.file(
             folder,
             "pack/inner/deep.py",
-            "from .. import inner\nfrom helper import WHO\ndef up():\n    from .. import inner as again\n    return again is inner\n",
+            "from .. import inner\nfrom helper import WHO\ndef up():\n    from .. import inner as again\n    return "
+            "again is inner\n",
         )
         specs.append(run.file(folder, f"{who}.py", node))
     assert sorted(run(*specs).lines) == [
@@ -143,7 +144,8 @@ def test_logging_is_the_scripts_own(run):
     """
     b = """
     import logging, logging.config, sys, time
-    logging.config.dictConfig({"version": 1, "handlers": {"h": {"class": "logging.StreamHandler", "stream": "ext://sys.stdout"}},
+    handler = {"class": "logging.StreamHandler", "stream": "ext://sys.stdout"}
+    logging.config.dictConfig({"version": 1, "handlers": {"h": handler},
                                "root": {"level": "WARNING", "handlers": ["h"]}})
     time.sleep(0.004)
     logging.getLogger("x").debug("not shown")
@@ -222,7 +224,8 @@ def test_redirected_output_and_pickles(run, tmp_path):
             time.sleep(0.02)
             print("still")
         print(repr(text.getvalue()))
-        print(pickle.loads(pickle.dumps(Point(3))).x, pickle.loads(pickle.dumps(Mine(4))), inspect.getsource(Point).split(':')[0])
+        copied = [pickle.loads(pickle.dumps(each)) for each in (Point(3), Mine(4))]
+        print(copied[0].x, copied[1], inspect.getsource(Point).split(':')[0])
         """,
     )
     assert run(spec, run.text("b", "import time\ntime.sleep(0.0005)\nprint('out')")).lines == [
@@ -305,7 +308,8 @@ def test_clocks_follow_simulated_time(sim):
         d = dt.now()
         time.sleep(90)
         print(time.time() - t, time.monotonic() - m, time.perf_counter() - p, time.time_ns() - n)
-        print((dt.now() - d).total_seconds(), dt.now(datetime.timezone.utc).timestamp() == time.time(), isinstance(d, dt))
+        in_utc = dt.now(datetime.timezone.utc).timestamp()
+        print((dt.now() - d).total_seconds(), in_utc == time.time(), isinstance(d, dt))
         print(time.gmtime() == time.gmtime(time.time()), time.strftime("%Y", time.gmtime()), dt.utcnow().isoformat())
         print(isinstance(d + timedelta(1), date), date.today().year, issubclass(dt, date), repr(dt(2020, 1, 2)))
         class A:
@@ -328,7 +332,8 @@ def test_clocks_follow_simulated_time(sim):
 
 def test_bad_sleeps(run):
     ran = run(
-        "import time\nfor s in (-1, float('nan'), 'x'):\n    try:\n        time.sleep(s)\n    except Exception as e:\n        print(type(e).__name__)"
+        "import time\nfor s in (-1, float('nan'), 'x'):\n    try:\n        time.sleep(s)\n    except Exception as "
+        "e:\n        print(type(e).__name__)"
     )
     assert [line.split()[1] for line in ran.lines] == ["ValueError", "ValueError", "TypeError"]
 

@@ -9,8 +9,7 @@ from rosmini.cli.main import main
 from rosmini.errors import RosminiError, ScriptError, UnknownPackage
 from rosmini.graph import Node
 from rosmini.msgs.std_msgs.msg import Int32
-from rosmini.scripts import NodeSpec, ScriptSpec, run_scripts
-from rosmini.scripts.executables import find
+from rosmini.scripts import NodeSpec, ScriptSpec, find, run_scripts
 
 NODES = """
 from rosmini.msgs.std_msgs.msg import Int32
@@ -93,7 +92,7 @@ def heard(graph):
 def test_a_built_in_node_takes_ros_arguments_and_gives_its_object(graph):
     values = heard(graph)
     arguments = ["__name:=sheep", "__ns:=robot1", "_start:=10", "_period:=0.5", "count:=tally", "2"]
-    counter = rosrun("counting", "counter", *arguments)
+    counter = rosrun("counting", "counter", *arguments).instance()
     assert isinstance(counter.node, Node)
     assert counter.node.name == "/robot1/sheep"
     assert graph.master.getParam("/me", "/robot1/sheep/start")[2] == 10
@@ -106,25 +105,25 @@ def test_a_built_in_node_takes_ros_arguments_and_gives_its_object(graph):
 def test_a_path_is_an_argument_like_its_text(graph, tmp_path):
     path = tmp_path / "small.world"
     path.write_text('position( name "alone" )', encoding="utf-8")
-    assert rosrun("stage_ros", "stageros", path).world.name == "small"
+    assert rosrun("stage_ros", "stageros", path).instance().world.name == "small"
     with Graph() as other:
-        assert rosrun("stage_ros", "stageros", str(path), graph=other).world.name == "small"
+        assert rosrun("stage_ros", "stageros", str(path), graph=other).instance().world.name == "small"
     assert list(graph.nodes) == ["/rosout", "/stageros"]
 
 
 @pytest.mark.usefixtures("workspace")
 def test_starting_takes_no_time_unless_the_node_waits(graph):
     began = graph.now()
-    rosrun("counting", "counter", graph=graph)
+    rosrun("counting", "counter", graph=graph).instance()
     assert graph.now() == began
-    assert rosrun("counting", "patient", graph=graph) == 1
+    assert rosrun("counting", "patient", graph=graph).instance() == 1
     assert (graph.now() - began).to_sec() == pytest.approx(1.0)
 
 
 @pytest.mark.usefixtures("workspace")
 def test_what_a_node_raises_while_it_is_set_up_is_raised_and_the_node_ends(graph):
     with pytest.raises(ValueError, match="no such thing"):
-        rosrun("counting", "broken", graph=graph)
+        rosrun("counting", "broken", graph=graph).instance()
     assert "/broken" not in graph.nodes
     publishers, _, services = graph.master.getSystemState("/me")[2]
     assert all("/broken" not in holders for _, holders in (*publishers, *services))
@@ -142,14 +141,8 @@ def test_what_a_node_raises_while_it_is_set_up_is_raised_and_the_node_ends(graph
 )
 def test_bad_calls_say_what_is_there(graph, package, executable, arguments, error, says):
     with pytest.raises(error, match=says):
-        rosrun(package, executable, *arguments, graph=graph)
+        rosrun(package, executable, *arguments, graph=graph).instance()
     assert set(graph.nodes) == {"/rosout"}
-
-
-@pytest.mark.usefixtures("workspace")
-def test_options_of_scripts_are_not_for_built_in_nodes(graph):
-    with pytest.raises(ScriptError, match='"_duration:=value"'):
-        rosrun("counting", "counter", graph=graph, duration=3)
 
 
 @pytest.mark.parametrize("name", ["counter", "a/b/c", "/counter", "counting/"])
@@ -159,11 +152,14 @@ def test_names_have_two_parts(name):
 
 
 @pytest.mark.usefixtures("workspace")
-def test_a_script_of_a_package_is_run_to_its_end(graph):
+def test_a_script_of_a_package_goes_on_with_the_graph(graph):
     rosrun("counting", "counter", graph=graph)
     out = io.StringIO()
-    result = rosrun("counting", "listener.py", graph=graph, stdout=out)
-    assert result.statuses == (0,)
+    handle = rosrun("counting", "listener.py", graph=graph, stdout=out)
+    graph.run(1.5)
+    assert handle.poll() is None
+    assert out.getvalue() == "[listener] got 1\n"
+    assert handle.wait() == 0
     assert out.getvalue() == "[listener] got 1\n[listener] got 2\n[listener] got 3\n"
     assert "/counter" in graph.nodes
 
@@ -171,7 +167,8 @@ def test_a_script_of_a_package_is_run_to_its_end(graph):
 @pytest.mark.usefixtures("workspace")
 def test_a_script_can_start_a_node():
     source = (
-        "import rosmini\nc = rosmini.rosrun('counting', 'counter', '_start:=4')\nprint(c.value)\n" + SCRIPT
+        "import rosmini\nc = rosmini.rosrun('counting', 'counter', '_start:=4').instance()\nprint(c.value)\n"
+        + SCRIPT
     )
     out = io.StringIO()
     result = run_scripts([ScriptSpec("both", source=source)], stdout=out)

@@ -154,7 +154,8 @@ def test_polling_loops_go_on_and_end(run):
     ran = run(
         run.text(
             "a",
-            "got = []\nimport threading\nthreading.Timer(0.01, lambda: got.append(1)).start()\nwhile not got:\n    pass\nprint('got')",
+            "got = []\nimport threading\nthreading.Timer(0.01, lambda: got.append(1)).start()\nwhile not got:\n    "
+            "pass\nprint('got')",
         ),
         run.text("b", "import time\nt = time.time()\nwhile time.time() - t < 0.005: pass\nprint('over')"),
     )
@@ -199,7 +200,8 @@ def test_the_same_on_each_run(sim):
     def work(name):
         for _ in range(3):
             time.sleep(random.random())
-            print(name, round(time.time(), 6), random.random(), np.random.rand(), np.random.default_rng().integers(1000))
+            drawn = random.random(), np.random.rand(), np.random.default_rng().integers(1000)
+            print(name, round(time.time(), 6), *drawn)
     for name in "abc":
         threading.Thread(target=work, args=(name,)).start()
     print(random.Random().random(), {threading.current_thread().name, threading.get_ident()} and 1)
@@ -235,8 +237,8 @@ def test_interrupt(run):
         run.text("caught", "try:\n    while True: pass\nexcept KeyboardInterrupt:\n    print('stopped')"),
         run.text(
             "handler",
-            "import signal, sys\ndef stop(n, f):\n    print('handler', n)\n    sys.exit(7)\nsignal.signal(signal.SIGINT, stop)\n"
-            + keep,
+            "import signal, sys\ndef stop(n, f):\n    print('handler', n)\n    "
+            "sys.exit(7)\nsignal.signal(signal.SIGINT, stop)\n" + keep,
         ),
         run.text("plain", keep),
         run.text(

@@ -93,7 +93,8 @@ def test_a_real_pipe_parks_only_the_reader(run):
                 run.text("ask", "print('got', input())\nprint(repr(input()))"),
                 run.text(
                     "tell",
-                    f"import os, time\ntime.sleep(0.02)\nprint('tell')\nos.write({write}, b'one\\n\\xc3\\xa4\\n')\nos.close({write})",
+                    f"import os, time\ntime.sleep(0.02)\nprint('tell')\nos.write({write}, "
+                    f"b'one\\n\\xc3\\xa4\\n')\nos.close({write})",
                 ),
                 run.text("late", "import time\ntime.sleep(0.001)\nprint('late')"),
                 stdin=stream,

@@ -36,7 +36,8 @@ def test_one_tick_for_each_turn(source, count):
 
 def test_docstring_and_future_import_stay_first():
     _, names = run(
-        '"""Doc."""\nfrom __future__ import annotations\ndef f(a: Unknown):\n    """F."""\n    for i in ():\n        """not a docstring"""\n'
+        '"""Doc."""\nfrom __future__ import annotations\ndef f(a: Unknown):\n    """F."""\n    for i in ():\n        '
+        '"""not a docstring"""\n'
     )
     assert names["__doc__"] == "Doc."
     assert names["f"].__doc__ == "F."

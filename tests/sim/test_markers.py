@@ -23,7 +23,8 @@ THINGS = [
     Obstacle("post", Cylinder(0.1), (1.0, -2.0, 0.0), 0.7, "#102030", bottom=0.2),
     Obstacle("ball", Sphere(0.15), (0.0, 1.0, 0.0), colour="#00ff00"),
     Obstacle("wedge", Polygon(((0, 0), (1, 0), (0, 1))), (1.0, 0.0, 3.0), 0.4, "#808080"),
-    Obstacle("pair", Compound(((Box(0.2, 0.1), (0.3, 0, 0)), (Cylinder(0.1), (0, 0.5, 0)))), (2.0, 2.0, 1.0), 0.6, "#112233"),
+    Obstacle("pair", Compound(((Box(0.2, 0.1), (0.3, 0, 0)), (Cylinder(0.1), (0, 0.5, 0)))), (2.0, 2.0, 1.0), 0.6,
+        "#112233"),
 ]  # fmt: skip
 WALKING = World(
     "walk",

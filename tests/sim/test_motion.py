@@ -206,7 +206,7 @@ def test_a_walker_cannot_be_put_but_taken_away_and_inserted():
     engine = make(WALKER)
     engine.add("burger", BURGER, (0.0, 3.0, 0.0))
     engine.advance(2.0)
-    with pytest.raises(WorldError, match="'walker' cannot be put anywhere: it moves by itself"):
+    with pytest.raises(WorldError, match="'walker' moves by itself: take it away"):
         engine.put("walker", (5.0, 5.0, 0.0))
     engine.take_away("walker")
     assert engine.movers == {}

@@ -276,7 +276,7 @@ FAN = "position( size [0.4 0.4 0.25] {0} ) model( pose [2 0 0 0] size [0.2 4 1] 
 def stage_run(graph, tmp_path, laser):
     """A second of a robot of Stage that stands 1.8 m before the middle of a wall."""
     (tmp_path / "fan.world").write_text(FAN.format(laser), encoding="utf-8")
-    stage = rosrun("stage_ros", "stageros", tmp_path / "fan.world", graph=graph)
+    stage = rosrun("stage_ros", "stageros", tmp_path / "fan.world", graph=graph).instance()
     recorder = Recorder(graph, stage, scan="base_scan")
     graph.run(1.0)
     return recorder.recording()

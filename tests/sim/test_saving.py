@@ -142,7 +142,9 @@ def test_what_is_on_its_way_when_it_is_saved_belongs_to_the_graph(
     assert there.sim.host.now == pytest.approx(1.0)
     graph.run(0.0001)
     under_way, there.heard = there.heard, []
-    assert {topic.split("/")[1] for topic, _ in under_way} >= set(there.robots)
+    # Stage's step came before the run's end at the same instant, so its messages have arrived
+    expected = set() if kind == "stageros" else set(there.robots)
+    assert {topic.split("/")[1] for topic, _ in under_way} & set(there.robots) == expected
     there.drive(0.9)
     there.to(start + 2 * SECOND)
     first = there.heard
@@ -151,7 +153,7 @@ def test_what_is_on_its_way_when_it_is_saved_belongs_to_the_graph(
     graph.run(0.0001)
     late, there.heard = there.heard, []  # of the moment before it was restored
     assert sorted(topic for topic, _ in late) == sorted(topic for topic, _ in under_way)
-    assert late != under_way
+    assert late != under_way or not expected
     there.drive(0.9)
     there.to(start + 3 * SECOND)
     assert there.heard == first
@@ -231,9 +233,9 @@ def test_a_force_that_acts_on_a_model_of_gazebo_is_saved_too(graph: Graph, tmp_p
 def test_physics_of_gazebo_come_back_with_their_parameters(graph: Graph) -> None:
     server = GazeboServer(graph.node("gazebo"), "empty")
     state = server.save()
-    server.set_physics(replace(server.world.physics, time_step=0.002, gravity=(0.0, 0.0, -1.6)))
+    server.set_physics(replace(server.world.physics, time_step=0.002, gravity_z=-1.6))
     server.restore(state)
-    assert (server.world.physics.time_step, server.engine.gravity) == (0.001, 9.8)
+    assert (server.world.physics.time_step, server.engine.surface.gravity) == (0.001, 9.8)
     assert server.node.get_param("~gravity_z") == -9.8
 
 

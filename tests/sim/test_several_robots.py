@@ -651,12 +651,14 @@ def test_the_launch_files_say_what_the_simulator_understands(graph, name):
 @pytest.mark.parametrize(
     ("parameters", "said"),
     [
-        ({"x": 1000.0}, r"the robot 'burger' cannot start there: \(1000, 0\) is outside of the world 'arena', which goes from \(-2\.08, -2\.08\) to \(2\.08, 2\.08\)"),
+        ({"x": 1000.0}, (r"the robot 'burger' cannot start there: \(1000, 0\) is outside of the world 'arena', which "
+                        r"goes from \(-2\.08, -2\.08\) to \(2\.08, 2\.08\)")),
         ({"y": -3.0}, "outside of the world 'arena'"),
         ({"x": 1e308}, "outside of the world 'arena'"),
         ({"robots": [{"name": "a", "x": 50.0}]}, "the robot 'a' cannot start there"),
         ({"robots": 10**9}, r"/simulator/robots is 1000000000; it has to be a number of robots, up to 1000"),
-        ({"robots": ["a"] * 1001}, r"/simulator/robots is \['a', 'a', .*\.\.\.; it has to be a number of robots, up to 1000"),
+        ({"robots": ["a"] * 1001}, (r"/simulator/robots is \['a', 'a', .*\.\.\.; it has to be a number of robots, up "
+                                   r"to 1000")),
     ],
 )  # fmt: skip
 def test_a_start_outside_of_the_world_and_too_many_robots_are_errors(graph, parameters, said):

@@ -105,7 +105,7 @@ def test_repeated_data_are_told_once(graph, moving, capsys):
     assert len(warned) == 1
     assert "/robot" in warned[0]
     assert "/fake" in warned[0]
-    assert buffer.tree.edges["base"].stamps
+    assert len(buffer.tree.edges["base"]) > 1
 
 
 def test_what_is_in_a_frame_moves_to_another(graph):

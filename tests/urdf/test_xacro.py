@@ -62,26 +62,62 @@ def test_macros_properties_arguments_and_packages(index):
     ("text", "message"),
     [
         ("\n<link name='${wdith}'/>", "r.urdf.xacro:3: name 'wdith' is not defined"),
-        ("<xacro:macro name='wheel'><link name='a'/></xacro:macro>\n<xacro:weel/>", "r.urdf.xacro:3: there is no macro xacro:weel; did you mean wheel?"),
-        ("<link name='$(arg side)'/>", "r.urdf.xacro:2: $(arg side) was not given and has no default: say side:=VALUE"),
-        ("\n\n<xacro:include filename='$(find no_robot)/a.xacro'/>", "r.urdf.xacro:4: there is no package 'no_robot'; did you mean my_robot?"),
+        (
+            "<xacro:macro name='wheel'><link name='a'/></xacro:macro>\n<xacro:weel/>",
+            "r.urdf.xacro:3: there is no macro xacro:weel; did you mean wheel?",
+        ),
+        (
+            "<link name='$(arg side)'/>",
+            "r.urdf.xacro:2: $(arg side) was not given and has no default: say side:=VALUE",
+        ),
+        (
+            "\n\n<xacro:include filename='$(find no_robot)/a.xacro'/>",
+            "r.urdf.xacro:4: there is no package 'no_robot'; did you mean my_robot?",
+        ),
         ("<xacro:include filename='$(find my_robot)/urdf/none.xacro'/>", "r.urdf.xacro:2: "),
-        ("<xacro:include filename='$(find my_robot)/urdf/none.xacro'/>", "none.xacro: cannot be read: No such file or directory"),
+        (
+            "<xacro:include filename='$(find my_robot)/urdf/none.xacro'/>",
+            "none.xacro: cannot be read: No such file or directory",
+        ),
         ("\n<xacro:include/>", "r.urdf.xacro:3: xacro:include: missing attribute 'filename'"),
-        ("\n<xacro:include filename='$(fnd my_robot)/a.xacro'/>", "r.urdf.xacro:3: Unknown substitution command [fnd my_robot]. Valid commands are"),
+        (
+            "\n<xacro:include filename='$(fnd my_robot)/a.xacro'/>",
+            "r.urdf.xacro:3: Unknown substitution command [fnd my_robot]. Valid commands are",
+        ),
         ("<a>\n<xcro:if value='1'/></a>", "r.urdf.xacro:3: unbound prefix"),
-        ("<xacro:macro name='m' params='x'/>\n<xacro:m x='1'/>\n<xacro:m/>", "r.urdf.xacro:4: Undefined parameters [x] (in the macro m)"),
-        ("<xacro:macro name='m' params='x'/>\n<xacro:m x='1'/>\n<xacro:m x='1' y='2'/>", 'r.urdf.xacro:4: Invalid parameter "y" (in the macro m)'),
-        ("<xacro:macro name='m'><xacro:m/></xacro:macro><xacro:m/>", "without end (in the macro m, called by m, called by m, called by m, called by m, called by ...)"),
+        (
+            "<xacro:macro name='m' params='x'/>\n<xacro:m x='1'/>\n<xacro:m/>",
+            "r.urdf.xacro:4: Undefined parameters [x] (in the macro m)",
+        ),
+        (
+            "<xacro:macro name='m' params='x'/>\n<xacro:m x='1'/>\n<xacro:m x='1' y='2'/>",
+            'r.urdf.xacro:4: Invalid parameter "y" (in the macro m)',
+        ),
+        (
+            "<xacro:macro name='m'><xacro:m/></xacro:macro><xacro:m/>",
+            "without end (in the macro m, called by m, called by m, called by m, called by m, called by ...)",
+        ),
         ("<xacro:include filename='r.urdf.xacro'/>", "macros call or include one another without end"),
-        ("<xacro:macro name='m' params='x'><link name='a'/></xacro:macro>\n<xacro:m/>", "Undefined parameters [x]"),
-        ("<xacro:macro name='m'><link name='${y}'/></xacro:macro>\n<xacro:m/>", "r.urdf.xacro:2: name 'y' is not defined when evaluating expression 'y' (in the macro m)"),
-        ("<link name='a'>", "r.urdf.xacro:3: this closes another element than <link>, which was opened in line 2"),
+        (
+            "<xacro:macro name='m' params='x'><link name='a'/></xacro:macro>\n<xacro:m/>",
+            "Undefined parameters [x]",
+        ),
+        (
+            "<xacro:macro name='m'><link name='${y}'/></xacro:macro>\n<xacro:m/>",
+            "r.urdf.xacro:2: name 'y' is not defined when evaluating expression 'y' (in the macro m)",
+        ),
+        (
+            "<link name='a'>",
+            "r.urdf.xacro:3: this closes another element than <link>, which was opened in line 2",
+        ),
         ("<xacro:if value='${1/0}'/>", "r.urdf.xacro:2: division by zero"),
         ("<link name='${__import__(1)}'/>", "r.urdf.xacro:2: name '__import__' is not defined"),
-        ("<?xml version='1.0'?><!DOCTYPE a [<!ENTITY x 'y'>]><robot name='&x;'/>", "r.urdf.xacro:1: an XML file from outside may not"),
+        (
+            "<?xml version='1.0'?><!DOCTYPE a [<!ENTITY x 'y'>]><robot name='&x;'/>",
+            "r.urdf.xacro:1: an XML file from outside may not",
+        ),
     ],
-)  # fmt: skip
+)
 def test_errors_name_file_and_line_where_that_can_be_told(index, text, message):
     path = write(index, text)
     with pytest.raises(UrdfError) as caught:
@@ -128,7 +164,7 @@ def test_rosrun_xacro_xacro(index):
     path = write(index, "<xacro:arg name='a' default='1'/><link name='l$(arg a)'/>")
     found = PackageIndex().find_executable("xacro", "xacro")
     assert found.path == assets_dir() / "ros" / "xacro" / "scripts" / "xacro"
-    done = run([sys.executable, "-m", "rosmini", "run", "xacro/xacro", str(path), "a:=1.5"])  # fmt: skip
+    done = run([sys.executable, "-m", "rosmini", "run", "xacro/xacro", str(path), "a:=1.5"])
     assert '<link name="l1.5"/>' in done.stdout, done.stderr
 
 
@@ -154,16 +190,22 @@ def test_rosrun_xacro_xacro(index):
         "<link name='$(eval 2**10**8)'/>",
         "<xacro:include filename='/*/*/*.xacro'/>",
         "<xacro:property name='a' value='xxxxxxxxxx'/>"
-        + "".join(f"<xacro:property name='{new}' value='{10 * f'${{{old}}}'}'/>" for old, new in zip("abcdefgh", "bcdefghi", strict=True))
+        + "".join(
+            f"<xacro:property name='{new}' value='{10 * f'${{{old}}}'}'/>"
+            for old, new in zip("abcdefgh", "bcdefghi", strict=True)
+        )
         + "<link name='${i}'/>",
         "<xacro:arg name='a' default='xxxxxxxxxx'/>"
-        + "".join(f"<xacro:arg name='{new}' default='{10 * f'$(arg {old})'}'/>" for old, new in zip("abcdefgh", "bcdefghi", strict=True))
+        + "".join(
+            f"<xacro:arg name='{new}' default='{10 * f'$(arg {old})'}'/>"
+            for old, new in zip("abcdefgh", "bcdefghi", strict=True)
+        )
         + "<link name='$(arg i)'/>",
         "<xacro:macro name='m0'><link name='a'/></xacro:macro>"
         + "".join(f"<xacro:macro name='m{i + 1}'>{10 * f'<xacro:m{i}/>'}</xacro:macro>" for i in range(9))
         + "<xacro:m9/>",
     ],
-)  # fmt: skip
+)
 def test_what_only_python_could_do_is_refused(index, text, monkeypatch):
     monkeypatch.setattr("rosmini.urdf.confined.STEPS", 300_000)
     with pytest.raises(UrdfError, match=r"r\.urdf\.xacro"):
@@ -220,19 +262,26 @@ def test_what_public_descriptions_write_is_allowed(index):
 <xacro:property name="arm" value="${config['joints']['arm']}"/>
 <xacro:arg name="n" default="3"/>
 <xacro:macro name="inertial" params="m r:=${0.5} h:=2 name *origin prefix:=^|left_ flag:=false">
-  <link name="${prefix}${name}" mass="${m}" ixx="${m*(3*r*r+h*h)/12}" pi="${pi/2} ${radians(90)} ${sin(0)}"><xacro:insert_block name="origin"/></link>
+  <link name="${prefix}${name}" mass="${m}" ixx="${m*(3*r*r+h*h)/12}" pi="${pi/2} ${radians(90)} ${sin(0)}">
+    <xacro:insert_block name="origin"/></link>
 </xacro:macro>
 <xacro:inertial m="${2 ** 3}" name="x"><origin xyz="${' '.join([str(i) for i in range(3)])}"/></xacro:inertial>
-<a lower="${arm.lower}" upper="${config.joints.arm.upper}" size="${round(arm['size'], 3)}" names="${','.join(arm.names)}"/>
-<b all="${list(map(float, '1 2'.split()))[1]}" keys="${sorted(arm.keys())[0]}" ev="$(eval n * 2 + n)" tok="${xacro.tokenize('a,b;c')[1]}"/>
-<xacro:if value="${'ab'.startswith('a') and not python.any([0]) and len(arm.names) == 2}"><c v="${max(1, 2) if True else None}"/></xacro:if>
-<xacro:unless value="${xacro.arg('n') == 4}"><d e="$(optenv NOTHING_OF_THAT_NAME fallback)" f="$(dirname)"/></xacro:unless>
+<a lower="${arm.lower}" upper="${config.joints.arm.upper}" size="${round(arm['size'], 3)}"
+  names="${','.join(arm.names)}"/>
+<b all="${list(map(float, '1 2'.split()))[1]}" keys="${sorted(arm.keys())[0]}" ev="$(eval n * 2 + n)"
+  tok="${xacro.tokenize('a,b;c')[1]}"/>
+<xacro:if value="${'ab'.startswith('a') and not python.any([0]) and len(arm.names) == 2}">
+<c v="${max(1, 2) if True else None}"/></xacro:if>
+<xacro:unless value="${xacro.arg('n') == 4}">
+<d e="$(optenv NOTHING_OF_THAT_NAME fallback)" f="$(dirname)"/></xacro:unless>
 <xacro:include filename="none.xacro" optional="true"/>
 <xacro:include filename="wheel.xacro" ns="w"/><xacro:w.wheel name="w" radius="1"/>"""
     said = expand(write(index, text.replace(' f="$(dirname)"', "")), packages=index)
     for part in (
-        'name="left_x"', 'mass="8"', 'ixx="3.1666666666666665"', 'pi="1.5707963267948966 1.5707963267948966 0.0"', 'xyz="0 1 2"', 'lower="1.57',
-        'upper="6.28', 'size="0.254"', 'names="a,b"', 'all="2.0"', 'keys="lower"', 'ev="9"', 'tok="b"', '<c v="2"/>', '<d e="fallback"', 'name="w_link"',
+        'name="left_x"', 'mass="8"', 'ixx="3.1666666666666665"', 'pi="1.5707963267948966 1.5707963267948966 0.0"',
+        'xyz="0 1 2"', 'lower="1.57',
+        'upper="6.28', 'size="0.254"', 'names="a,b"', 'all="2.0"', 'keys="lower"', 'ev="9"', 'tok="b"', '<c v="2"/>',
+        '<d e="fallback"', 'name="w_link"',
     ):  # fmt: skip
         assert part in said, (part, said)
 

@@ -12,8 +12,8 @@ import pytest
 from rosmini.book.pages import page_problems
 from rosmini.viz import ViewError
 from rosmini.viz import embed as module
+from rosmini.viz.book_form import book_form
 from rosmini.viz.embed import MESHCAT, asset_path, embed
-from rosmini.viz.form import book_form
 
 SCRIPT = "globalThis.test = {mount() {}};"
 GIVEN = {"title": "A run", "alt": "A robot <runs>.", "height": 300, "fallback_html": "<p>still</p>"}

@@ -22,7 +22,10 @@ def test_a_last_bit_never_changes_a_text_even_on_the_boundary(thousandths, digit
 
 @pytest.mark.parametrize(
     ("value", "digits", "text"),
-    [(0.125, 2, "0.13"), (-0.125, 2, "-0.13"), (2.5, 0, "3"), (-0.004, 2, "0.00"), (1e6, 1, "1000000.0"), (9.999, 2, "10.00")],
+    [
+        (0.125, 2, "0.13"), (-0.125, 2, "-0.13"), (2.5, 0, "3"),
+        (-0.004, 2, "0.00"), (1e6, 1, "1000000.0"), (9.999, 2, "10.00"),
+    ],
 )  # fmt: skip
 def test_half_goes_away_from_zero_and_zero_has_no_sign(value, digits, text):
     assert fixed(value, digits) == text

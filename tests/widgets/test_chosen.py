@@ -7,13 +7,16 @@ import pytest
 
 from rosmini import rosrun
 from rosmini.sim.engine import RobotGone
+from rosmini.sim.gazebo import UnknownEntity
 from rosmini.widgets import Limits, TeleopError
 from rosmini.widgets.live import Link
 from rosmini.widgets.page import pad_data
 
 CAR = (
-    '<sdf version="1.6"><model name="{name}"><link name="link"><inertial><mass>1</mass></inertial><collision name="c"><geometry>'
-    '<box><size>0.4 0.4 0.4</size></box></geometry></collision></link><plugin name="drive" filename="libgazebo_ros_planar_move.so">'
+    '<sdf version="1.6"><model name="{name}"><link name="link"><inertial><mass>1</mass></inertial>'
+    '<collision name="c"><geometry>'
+    "<box><size>0.4 0.4 0.4</size></box></geometry></collision></link>"
+    '<plugin name="drive" filename="libgazebo_ros_planar_move.so">'
     "<robotNamespace>{name}</robotNamespace></plugin></model></sdf>"
 )
 
@@ -22,7 +25,7 @@ CAR = (
 def four(graph):
     return rosrun(
         "stage_ros", "stageros", "package://stage_ros/world/willow-four-erratics.world", graph=graph
-    )
+    ).instance()
 
 
 def test_a_chosen_robot_of_stage_is_driven_and_seen(four, graph):
@@ -79,13 +82,13 @@ def test_the_live_page_of_a_chosen_robot_gets_its_scans(four, graph):
 def test_what_is_no_robot_is_said(four, graph):
     with pytest.raises(RobotGone, match="no robot 'robot_9'"):
         four.pad("robot_9")
-    server = rosrun("gazebo_ros", "gzserver", graph=graph)
+    server = rosrun("gazebo_ros", "gzserver", graph=graph).instance()
     with pytest.raises(TeleopError, match="listens to velocities; robots that can: none"):
         server.pad()
 
 
 def test_a_model_of_gazebo_is_driven(graph):
-    server = rosrun("gazebo_ros", "gzserver", graph=graph)
+    server = rosrun("gazebo_ros", "gzserver", graph=graph).instance()
     server.spawn(CAR.format(name="a"), "a", (0.0, 0.0, 0.0))
     server.spawn(CAR.format(name="b"), "b", (0.0, 2.0, 0.0))
     pad = server.pad("b")
@@ -96,7 +99,7 @@ def test_a_model_of_gazebo_is_driven(graph):
     assert server.truth("b")[0] > 0.1
     assert server.truth("a") == (0.0, 0.0, 0.0)
     assert server.pad().topic == "/a/cmd_vel"
-    with pytest.raises(TeleopError, match="no robot 'c'"):
+    with pytest.raises(UnknownEntity, match="no model 'c'"):
         server.pad("c")
 
 
@@ -115,7 +118,7 @@ def test_a_second_robot_of_the_simulator_is_driven(simulator, graph):
 
 def test_what_is_not_on_two_wheels_does_not_move_by_itself_in_the_book(graph, monkeypatch):
     monkeypatch.setenv("ROSMINI_DISPLAY", "book")
-    omni = rosrun("stage_ros", "stageros", "package://stage_ros/world/omni.world", graph=graph)
+    omni = rosrun("stage_ros", "stageros", "package://stage_ros/world/omni.world", graph=graph).instance()
     assert "rosminiPad" not in omni.pad().html
-    wheels = rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph)
+    wheels = rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph).instance()
     assert "rosminiPad" in wheels.pad().html

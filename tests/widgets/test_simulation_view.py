@@ -1,4 +1,4 @@
-"""The view's scripted twin on the three simulators, what it says, and what goes between it and its page, which the test plays."""
+"""The view's scripted twin on the three simulators, and its messages with the page, which the test plays."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ from rosmini.widgets import SimulationView
 from rosmini.widgets.view_link import ViewLink
 
 BOX = (
-    '<sdf version="1.6"><model name="{name}"><link name="link"><inertial><mass>1</mass></inertial><collision name="c"><geometry>'
+    '<sdf version="1.6"><model name="{name}"><link name="link"><inertial><mass>1</mass></inertial><collision '
+    'name="c"><geometry>'
     "<box><size>0.4 0.4 0.4</size></box></geometry></collision></link>{more}</model></sdf>"
 )
 DRIVE = '<plugin name="drive" filename="libgazebo_ros_planar_move.so"/>'
@@ -29,25 +30,26 @@ DRIVE = '<plugin name="drive" filename="libgazebo_ros_planar_move.so"/>'
 
 @pytest.fixture
 def stage(graph):
-    return rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph)
+    return rosrun("stage_ros", "stageros", "package://stage_ros/world/boxes.world", graph=graph).instance()
 
 
 @pytest.fixture
 def four(graph):
     return rosrun(
         "stage_ros", "stageros", "package://stage_ros/world/willow-four-erratics.world", graph=graph
-    )
+    ).instance()
 
 
 @pytest.fixture
 def server(graph):
-    server = rosrun("gazebo_ros", "gzserver", graph=graph)
+    server = rosrun("gazebo_ros", "gzserver", graph=graph).instance()
     server.spawn(BOX.format(name="crate", more=""), "crate", (1.0, 0.0, 0.0))
     server.spawn(BOX.format(name="mover", more=DRIVE), "mover", (-1.0, 0.0, 0.5))
     return server
 
 
-# -- the twin ------------------------------------------------------------------------------------------------------------
+# -- the twin
+# ------------------------------------------------------------------------------------------------------------
 
 
 def test_robots_of_stage_are_dragged_and_turned(four, graph):
@@ -116,7 +118,7 @@ def test_a_robot_of_stage_has_its_name_in_the_file_too(four):
 
 def test_time_of_gazebo_is_stopped_as_its_services_do_it(server, graph):
     heard: list = []
-    server.world.on_time.append(lambda: heard.append(server.world.paused))
+    server.host.on_time.append(lambda: heard.append(server.world.paused))
     view = server.view()
     view.pause()
     graph.run(1.0)
@@ -146,14 +148,16 @@ def test_models_of_gazebo_are_dragged(server, graph):
 def test_the_pose_of_a_model_is_that_of_its_origin_wherever_its_wheels_are(graph):
     wheels = "".join(
         f'<link name="{side}"><pose>0.1 {y} 0 0 0 0</pose><inertial><mass>0.1</mass></inertial></link>'
-        f'<joint name="{side}_joint" type="revolute"><parent>link</parent><child>{side}</child><axis><xyz>0 1 0</xyz></axis></joint>'
+        f'<joint name="{side}_joint" type="revolute"><parent>link</parent><child>{side}</child><axis><xyz>0 1 '
+        "0</xyz></axis></joint>"
         for side, y in (("left", 0.2), ("right", -0.2))
     )
     drive = (
-        '<plugin name="drive" filename="libgazebo_ros_diff_drive.so"><leftJoint>left_joint</leftJoint><rightJoint>right_joint</rightJoint>'
+        '<plugin name="drive" '
+        'filename="libgazebo_ros_diff_drive.so"><leftJoint>left_joint</leftJoint><rightJoint>right_joint</rightJoint>'
         "<wheelSeparation>0.4</wheelSeparation><wheelDiameter>0.1</wheelDiameter></plugin>"
     )
-    server = rosrun("gazebo_ros", "gzserver", graph=graph)
+    server = rosrun("gazebo_ros", "gzserver", graph=graph).instance()
     server.spawn(BOX.format(name="car", more=wheels + drive), "car", (0.0, 0.0, 0.0))
     view = server.view()
     assert server.axle("car") == pytest.approx((0.1, 0.0, 0.0))
@@ -262,7 +266,8 @@ def test_a_simulation_that_has_ended_is_said_so(stage, graph):
     assert graph.run(1.0).reason == "time"
 
 
-# -- the page ------------------------------------------------------------------------------------------------------------
+# -- the page
+# ------------------------------------------------------------------------------------------------------------
 
 
 class Page:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from io import BytesIO
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from rosmini.bag import Bag, FilterError
 from rosmini.bag.expressions import compile_expression
-from rosmini.book.checks import exercise, expect
+from rosmini.book.checks import exercise, expect, expect_type
 from rosmini.msgs import message_class
 from rosmini.time import Time
 
@@ -45,21 +44,12 @@ def _odometry(x: float, y: float) -> Any:
 # ---- 15.1: how many messages on which topic ----
 
 
-@exercise(
-    "15.1",
-    praise="One line of `rosbag info` for each topic.",
-    mistakes=[
-        lambda: lambda bag: {topic: 1 for topic, _, _ in bag.read_messages()},
-        lambda: lambda bag: bag.get_message_count(),
-        lambda: lambda bag: {"/chatter": bag.get_message_count("/chatter")},
-        lambda: lambda bag: [topic for topic, _, _ in bag.read_messages()],
-    ],
-)
+@exercise("15.1", praise="One line of `rosbag info` for each topic.")
 def message_counts(answer: Any) -> None:
     """A dictionary from topics to numbers of messages."""
     bag = _bag([("/chatter", _string(), float(i)) for i in range(5)] + [("/news", _string(), 2.5)])
     found = answer(bag)
-    expect(isinstance(found, dict), f"It returned a {type(found).__name__}, not a dictionary.")
+    expect_type(found, dict, "It returned", "a dictionary")
     expect(
         set(found) == {"/chatter", "/news"},
         f"The topics of my bag are /chatter and /news, not {sorted(found)}.",
@@ -74,29 +64,14 @@ def message_counts(answer: Any) -> None:
 # ---- 15.2: the longest silence ----
 
 
-def _silences(bag: Bag, topic: str) -> list[float]:
-    times = [t.to_sec() for _, _, t in bag.read_messages(topic)]
-    return [after - before for before, after in pairwise(times)]
-
-
-@exercise(
-    "15.2",
-    praise="The timeline frames it; your function measures it.",
-    mistakes=[
-        lambda: lambda bag, topic: min(_silences(bag, topic)),
-        lambda: lambda bag, topic: sum(_silences(bag, topic)),
-        lambda: lambda bag, topic: _silences(bag, topic)[0],
-        lambda: lambda bag, _: bag.get_end_time() - bag.get_start_time(),
-        lambda: lambda bag, _: max(_silences(bag, "/chatter")),
-    ],
-)
+@exercise("15.2", praise="The timeline frames it; your function measures it.")
 def longest_silence(answer: Any) -> None:
     """The longest time between two messages of one topic."""
     times = (10.0, 10.5, 14.25, 15.0)
     messages = [("/chatter", _string(), time) for time in times]
     bag = _bag([*messages, *(("/news", _string(), float(time)) for time in range(10, 17))])
     found = answer(bag, "/chatter")
-    expect(isinstance(found, int | float), f"It returned a {type(found).__name__}, not a number of seconds.")
+    expect_type(found, int | float, "It returned", "a number of seconds")
     expect(
         math.isclose(found, 3.75, abs_tol=1e-6),
         f"/chatter of my bag is silent from 10.5 to 14.25 s, for 3.75 s; you say {found:g} s.",
@@ -113,19 +88,7 @@ def longest_silence(answer: Any) -> None:
 # ---- 15.3: a filter ----
 
 
-@exercise(
-    "15.3",
-    praise="And `and` looks at the field only where the topic has it.",
-    mistakes=[
-        lambda: "topic == '/cmd_vel'",
-        lambda: "m.linear.x > 0.1",
-        lambda: "topic == '/cmd_vel' and m.linear.x >= 0.1",
-        lambda: "topic == '/cmd_vel' and m.angular.z > 0.1",
-        lambda: "topic == '/cmd_vel' and abs(m.linear.x) > 0.1",
-        lambda: "topic == '/odom' and m.linear.x > 0.1",
-        lambda: 1,
-    ],
-)
+@exercise("15.3", praise="And `and` looks at the field only where the topic has it.")
 def fast_commands(answer: Any) -> None:
     """An expression that keeps the commands to drive ahead faster than 0.1 m/s."""
     expect(isinstance(answer, str), f"The expression is text between quotes, not a {type(answer).__name__}.")
@@ -153,14 +116,7 @@ def fast_commands(answer: Any) -> None:
 
 
 @exercise(
-    "15.4",
-    praise="Small steps add up to the way; the distance between its ends would forget every turn.",
-    mistakes=[
-        lambda: lambda _: 2.0,
-        lambda: lambda bag: len(list(bag.read_messages("/odom"))),
-        lambda: lambda bag: math.hypot(*_ends(bag)),
-        lambda: lambda bag: sum(_ends(bag)),
-    ],
+    "15.4", praise="Small steps add up to the way; the distance between its ends would forget every turn."
 )
 def distance_driven(answer: Any) -> None:
     """The length of the way that /odom tells, in metres."""
@@ -170,15 +126,9 @@ def distance_driven(answer: Any) -> None:
         + [("/news", _string(), 1.5)]
     )
     found = answer(bag)
-    expect(isinstance(found, int | float), f"It returned a {type(found).__name__}, not a number of metres.")
+    expect_type(found, int | float, "It returned", "a number of metres")
     expect(
         math.isclose(found, 6.5, abs_tol=1e-6),
         f"In my bag the robot drives 1 + 2 + 1.5 + 2 = 6.5 m; you say {found:.2f} m.",
         "add up the distances from each position to the next: math.dist((x0, y0), (x1, y1))",
     )
-
-
-def _ends(bag: Bag) -> tuple[float, float]:
-    table = bag.table("/odom")
-    x, y = table["pose.pose.position.x"], table["pose.pose.position.y"]
-    return float(x[-1] - x[0]), float(y[-1] - y[0])

@@ -8,13 +8,13 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from rosmini import names
-from rosmini.book.checks import exercise, expect
+from rosmini.book.checks import exercise, expect, expect_type
 from rosmini.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.scripts import run_source
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
 
 # ---- 17.1: resolve ----
@@ -31,33 +31,7 @@ CASES = [
 ]
 
 
-def _resolve(
-    *, in_root: str = "/", private: Callable[[str, str], str] = lambda node, rest: f"{node}/{rest}"
-) -> Callable[[], Any]:
-    def resolve(name: str, namespace: str, node_name: str) -> str:
-        if name[0] == "/":
-            return name
-        if name[0] == "~":
-            return private(node_name, name[1:])
-        return (in_root if namespace == "/" else namespace + "/") + name
-
-    return lambda: resolve
-
-
-@exercise(
-    "17.1",
-    praise="Three cases, told apart by the first character, and that is all there is to it.",
-    mistakes=[
-        _resolve(in_root="//"),
-        _resolve(in_root=""),
-        _resolve(private=lambda node, rest: f"{node}/~{rest}"),
-        _resolve(private=lambda node, rest: f"{node.rpartition('/')[0]}/{rest}"),
-        _resolve(private=lambda node, rest: node + rest),
-        lambda: lambda name, namespace, _: name if name[0] == "/" else f"{namespace.rstrip('/')}/{name}",
-        lambda: lambda name, namespace, _: f"{namespace.rstrip('/')}/{name}",
-        lambda: lambda *_: "/map",
-    ],
-)
+@exercise("17.1", praise="Three cases, told apart by the first character, and that is all there is to it.")
 def resolve(answer: Any) -> None:
     """The full name that a name stands for."""
     for name, namespace, node in CASES:
@@ -93,24 +67,10 @@ def _started(arguments: Sequence[str]) -> list[str]:
     return lines[-1].split("|")
 
 
-@exercise(
-    "17.2",
-    praise="The namespace stands in one place, and everything else is relative to it.",
-    mistakes=[
-        list,
-        lambda: ["__ns:=/crew", "__name:=eve", "chatter:=/crew/radio/news", "_text:=landed"],
-        lambda: ["__ns:=/crew", "__name:=eve", "chatter:=news", "_text:=landed"],
-        lambda: ["__ns:=/crew", "_name:=eve", "chatter:=radio/news", "_text:=landed"],
-        lambda: ["__ns:=/crew", "__name:=eve", "chatter:=radio/news", "text:=landed"],
-        lambda: ["__name:=eve", "chatter:=/crew/radio/news", "_text:=landed"],
-        lambda: ["__ns:=/crew", "__name:=eve", "/chatter:=radio/news", "_text:=landed"],
-        lambda: ["__ns:=/crew", "__name:=crew/eve", "chatter:=radio/news", "_text:=landed"],
-        lambda: "__ns:=/crew __name:=eve chatter:=radio/news _text:=landed",
-    ],
-)
+@exercise("17.2", praise="The namespace stands in one place, and everything else is relative to it.")
 def arguments(answer: Any) -> None:
     """The command line that gives a talker its node name, its topic and its text."""
-    expect(isinstance(answer, (list, tuple)), f"arguments is a {type(answer).__name__}, not a list.", "[...]")
+    expect_type(answer, (list, tuple), "arguments is", "a list", "[...]")
     expect(all(isinstance(word, str) for word in answer), "Each argument is a string.", '"from:=to"')
     node, topic, text = _started(answer)
     expect(
@@ -136,42 +96,7 @@ def arguments(answer: Any) -> None:
 # ---- 17.3: one report for all ----
 
 
-def _reporter(
-    battery: str = "battery",
-    report: str = "/report",
-    text: str = "{ns}: {value:.1f} V",
-    name: str = "reporter",
-) -> Callable[[], Any]:
-    def start(graph: Graph, namespace: str) -> None:
-        node = graph.node(name, namespace=namespace)
-        out = node.publisher(report, message_class("std_msgs/String"), queue_size=10)
-        node.subscriber(
-            battery,
-            message_class("std_msgs/Float32"),
-            lambda message: out.publish(text.format(ns=node.namespace, value=message.data, name=node.name)),
-        )
-
-    return lambda: start
-
-
-def _without_namespace(graph: Graph, _: str) -> None:
-    _reporter()()(graph, "/")
-
-
-@exercise(
-    "17.3",
-    praise="A third robot costs one more call, and the screen need not know of it.",
-    mistakes=[
-        _reporter(battery="/battery"),
-        _reporter(battery="~battery"),
-        _reporter(report="report"),
-        _reporter(text="{name}: {value:.1f} V"),
-        _reporter(text="{ns}: {value} V"),
-        _reporter(name="reporter1"),
-        lambda: _without_namespace,
-        lambda: lambda graph, namespace: graph.node("reporter", namespace=namespace),
-    ],
-)
+@exercise("17.3", praise="A third robot costs one more call, and the screen need not know of it.")
 def start_reporter(answer: Any) -> None:
     """One node for each robot, with a topic of its own to read and a common one to write."""
     got: list[str] = []
@@ -212,39 +137,9 @@ def start_reporter(answer: Any) -> None:
 # ---- 17.4: find the file ----
 
 
-def _finder(
-    *, manifest: bool = True, first_only: bool = True, check: bool = True, cut: int = 1
-) -> Callable[[], Any]:
-    def find(url: str, folders: list[Path]) -> Path | None:
-        name, *rest = url.removeprefix("package://").split("/", cut)
-        for folder in folders:
-            if (folder / name / ("package.xml" if manifest else "")).exists():
-                file = folder.joinpath(name, rest[0])
-                if file.exists() or (first_only and not check):
-                    return file
-                if first_only:
-                    return None
-        return None
-
-    return lambda: find
-
-
-def _last_first(url: str, folders: list[Path]) -> Path | None:
-    found: Path | None = _finder()()(url, folders[::-1])
-    return found
-
-
 @exercise(
     "17.4",
     praise="The reader of such an address need not know where the package lies, and an overlay can take its place.",
-    mistakes=[
-        _finder(manifest=False),
-        _finder(first_only=False),
-        _finder(check=False),
-        _finder(cut=2),
-        lambda: _last_first,
-        lambda: lambda _, folders: folders[0],
-    ],
 )
 def find_file(answer: Any) -> None:
     """What an address package://NAME/PATH means in a list of folders."""

@@ -1,8 +1,9 @@
 """A map as ROS keeps it in files: a YAML file with its numbers, and an image with a pixel for each cell.
 
-What the fields and the colours mean stands on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is silent, this does what
-map_server's image loader does: alpha is averaged with the colours in the mode `trinary` and means "unknown" where it is 0 in the mode `scale`;
-values are cut, not rounded. It is stricter in one thing: numbers that make no map are errors here.
+What the fields and the colours mean stands on http://wiki.ros.org/map_server, sections 1.1 to 1.3. Where that page is
+silent, this does what map_server's image loader does: alpha is averaged with the colours in the mode `trinary` and
+means "unknown" where it is 0 in the mode `scale`; values are cut, not rounded. It is stricter in one thing: numbers
+that make no map are errors here.
 """
 
 from __future__ import annotations
@@ -50,7 +51,10 @@ class GridMap:
     """A map of square cells, as nav_msgs/OccupancyGrid has it."""
 
     occupancy: NDArray[np.int8]
-    """(h, w), row 0 at the bottom: 0 free, 100 occupied, between them the probability [%], -1 unknown. In the mode raw it is any byte."""
+    """(h, w), row 0 at the bottom: 0 free, 100 occupied, between them the probability [%], -1 unknown.
+
+    In the mode raw it is any byte.
+    """
     resolution: float
     """The side of a cell [m]."""
     origin: tuple[float, float, float]
@@ -91,9 +95,9 @@ class _Fields:
 def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
     """The map that a YAML file describes. Its image is looked for beside the YAML file, unless its path is absolute.
 
-    Raises `MapError` if a file is not there, or is no YAML or no image; if a field is missing or has a value of another type; if the
-    resolution is not positive, a number not finite, a threshold not between 0 and 1, or `free_thresh` above `occupied_thresh`; and if
-    the image has no pixels or leaves every cell unknown.
+    Raises `MapError` if a file is not there, or is no YAML or no image; if a field is missing or has a value of another
+    type; if the resolution is not positive, a number not finite, a threshold not between 0 and 1, or `free_thresh`
+    above `occupied_thresh`; and if the image has no pixels or leaves every cell unknown.
     """
     path = Path(yaml_path)
     document = _document(path)
@@ -102,12 +106,14 @@ def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
     occupancy = _occupancy(_channels(image, document.place("image")), fields)
     side = max(occupancy.shape) * fields.resolution
     if not SMALLEST <= fields.resolution <= side <= LARGEST:
-        wanted = f"the side of a cell in metres, {SMALLEST:g} or more, and with {max(occupancy.shape)} of them no more than {LARGEST:g}"
+        most = max(occupancy.shape)
+        wanted = f"the side of a cell in metres, {SMALLEST:g} or more, and with {most} of them no more than {LARGEST:g}"
         raise _wrong(document, "resolution", fields.resolution, wanted)
     if fields.mode != "raw" and (occupancy == UNKNOWN).all():
         raise MapError(
             f"{path}: every cell of the map is unknown, for no pixel of {image} is darker than occupied_thresh "
-            f"({fields.occupied_thresh:g}) or lighter than free_thresh ({fields.free_thresh:g}) asks for; change the image or these fields"
+            f"({fields.occupied_thresh:g}) or lighter than free_thresh ({fields.free_thresh:g}) asks for; change the "
+            "image or these fields"
         )
     occupancy.flags.writeable = False
     return GridMap(occupancy, fields.resolution, fields.origin, path)
@@ -152,8 +158,8 @@ def _fields(document: _Document) -> _Fields:
             raise _wrong(document, name, value, "a probability, from 0 to 1")
     if free > occupied:
         raise MapError(
-            f"{document.place('free_thresh')}: free_thresh ({free:g}) is above occupied_thresh ({occupied:g}), so cells would be both; "
-            "usual are 0.196 and 0.65"
+            f"{document.place('free_thresh')}: free_thresh ({free:g}) is above occupied_thresh ({occupied:g}), so "
+            "cells would be both; usual are 0.196 and 0.65"
         )
     negate = found["negate"]
     if isinstance(negate, bool) or negate not in (0, 1):

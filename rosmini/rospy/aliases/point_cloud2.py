@@ -1,4 +1,4 @@
-"""The module that scripts import as ``sensor_msgs.point_cloud2``: the points of a ``sensor_msgs/PointCloud2`` as tuples, and clouds of tuples."""
+"""The module that scripts import as ``sensor_msgs.point_cloud2``: clouds from and to tuples."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def read_points(
     skip_nans: bool = False,
     uvs: Iterable[tuple[int, int]] = (),
 ) -> Iterator[tuple[Any, ...]]:
-    """Give the points of a cloud one after another, row by row, each a tuple of its fields in the order of their place in memory.
+    """Yield the points of a cloud row by row, each a tuple of its fields in the order of their place in memory.
 
     Args:
         cloud: a ``sensor_msgs/PointCloud2``.
@@ -58,7 +58,7 @@ def _points(
             values = point.unpack_from(data, row * v + step * u)
         except struct.error as error:
             raise MessageException(
-                f"point ({u}, {v}) of a cloud of {cloud.width} x {cloud.height} points lies outside of its data of {len(data)} bytes "
+                f"point ({u}, {v}) of {cloud.width} x {cloud.height} points is outside of its data, {len(data)} bytes "
                 f"(point_step {step}, row_step {row})"
             ) from error
         if not (skip_nans and any(map(math.isnan, values))):
@@ -71,7 +71,7 @@ def read_points_list(
     skip_nans: bool = False,
     uvs: Iterable[tuple[int, int]] = (),
 ) -> list[Any]:
-    """Return the points of a cloud as a list of named tuples; the arguments and errors are those of :func:`read_points`."""
+    """Return the points of a cloud as a list of named tuples; arguments and errors as :func:`read_points`."""
     names = [field.name for field in cloud.fields] if field_names is None else field_names
     make: Any = namedtuple  # the names come with the cloud: nothing for a type checker
     point = make("Point", names)
@@ -79,7 +79,7 @@ def read_points_list(
 
 
 def create_cloud(header: Any, fields: Sequence[Any], points: Iterable[Sequence[Any]]) -> Any:
-    """Return a cloud of one row: ``points`` are tuples of the values of ``fields``, which are ``sensor_msgs/PointField`` by their offsets.
+    """Return a cloud of one row: ``points`` are tuples of the values of ``fields``, each a ``sensor_msgs/PointField``.
 
     Raises ``MessageException`` for a point that does not fit the fields.
     """

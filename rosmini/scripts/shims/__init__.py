@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.scripts.context import ScriptContext
+    from rosmini.scripts.script import Script
 
 PRIVATE_COPIES = frozenset(
     {
@@ -49,18 +49,18 @@ _BUILDERS_IN = {
 }
 
 
-def _build(name: str, context: ScriptContext) -> ModuleType:
+def _build(name: str, context: Script) -> ModuleType:
     maker = importlib.import_module(f"{__name__}.{_BUILDERS_IN[name]}")
     module: ModuleType = getattr(maker, f"make_{name.strip('_')}")(context)
     return module
 
 
-BUILDERS: dict[str, Callable[[ScriptContext], ModuleType]] = {
+BUILDERS: dict[str, Callable[[Script], ModuleType]] = {
     name: functools.partial(_build, name) for name in _BUILDERS_IN
 }
 
 
-def finish_copy(context: ScriptContext, name: str, module: ModuleType) -> None:
+def finish_copy(context: Script, name: str, module: ModuleType) -> None:
     """Change what a private copy cannot get from its imports."""
     if name == "queue":
         # The one in C blocks the whole process; the standard library has it in Python too.

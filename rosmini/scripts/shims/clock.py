@@ -17,12 +17,12 @@ from . import as_builtins, copy_of
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from rosmini.scripts.context import ScriptContext
+    from rosmini.scripts.script import Script
 
 _COUNTERS = ("monotonic", "perf_counter", "process_time", "thread_time")
 
 
-def make_time(context: ScriptContext) -> ModuleType:
+def make_time(context: Script) -> ModuleType:
     """Make the ``time`` of one script."""
     module = copy_of(real_time)
     scheduler = context.scheduler
@@ -75,7 +75,7 @@ def make_time(context: ScriptContext) -> ModuleType:
     return module
 
 
-def make_datetime(context: ScriptContext) -> ModuleType:
+def make_datetime(context: Script) -> ModuleType:
     """Make the ``datetime`` of one script: the real one in wall time."""
     module = copy_of(dt)
     if not context.scheduler.simulated:

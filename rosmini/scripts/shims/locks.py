@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rosmini.graph.lanes import Waiter
-    from rosmini.scripts.context import ScriptContext
+    from rosmini.scripts.script import Script
 
 
 def to_ns(seconds: float | None) -> int | None:
@@ -26,7 +26,7 @@ def to_ns(seconds: float | None) -> int | None:
 class ForScript:
     """Something that belongs to one script."""
 
-    _script: ClassVar[ScriptContext]
+    _script: ClassVar[Script]
 
 
 class Lock(ForScript):

@@ -1,4 +1,4 @@
-"""What belongs to a process and therefore to each script: ``sys``, ``builtins``, ``atexit``, ``signal``, ``importlib``."""
+"""What belongs to a process, and so to each script: ``sys``, ``builtins``, ``atexit``, ``signal``, ``importlib``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from . import as_builtins, copy_of
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from rosmini.scripts.context import ScriptContext
+    from rosmini.scripts.script import Script
 
 _OWN = ("argv", "path", "stdin", "stdout", "stderr")
 
@@ -23,7 +23,7 @@ _OWN = ("argv", "path", "stdin", "stdout", "stderr")
 class _ScriptSys(ModuleType):
     """``sys``: the script's arguments, path and streams, also when one of its real threads asks; else the real one."""
 
-    def __init__(self, context: ScriptContext) -> None:
+    def __init__(self, context: Script) -> None:
         super().__init__("sys", real_sys.__doc__)
         self.__dict__["_context"] = context
         self.__dict__["excepthook"] = real_sys.excepthook
@@ -43,17 +43,17 @@ class _ScriptSys(ModuleType):
         return sorted({*dir(real_sys), *self.__dict__})
 
 
-def make_sys(context: ScriptContext) -> ModuleType:
+def make_sys(context: Script) -> ModuleType:
     """Make the ``sys`` of one script."""
     return _ScriptSys(context)
 
 
-def make_builtins(context: ScriptContext) -> ModuleType:
+def make_builtins(context: Script) -> ModuleType:
     """Return the script's builtins; what it changes there stays there."""
     return context.builtins_module
 
 
-def make_importlib(context: ScriptContext) -> ModuleType:
+def make_importlib(context: Script) -> ModuleType:
     """Make an ``importlib`` that finds the modules beside the script."""
     module = copy_of(real_importlib)
     load = context.importer.load
@@ -74,7 +74,7 @@ def make_importlib(context: ScriptContext) -> ModuleType:
     return module
 
 
-def make_atexit(context: ScriptContext) -> ModuleType:
+def make_atexit(context: Script) -> ModuleType:
     """Make an ``atexit`` whose functions run when this script ends, last in, first out."""
     module = copy_of(real_atexit)
     calls = context.exit_calls
@@ -99,7 +99,7 @@ def make_atexit(context: ScriptContext) -> ModuleType:
     return module
 
 
-def make_signal(context: ScriptContext) -> ModuleType:
+def make_signal(context: Script) -> ModuleType:
     """Make a ``signal`` that notes handlers for this script; on Ctrl-C the runner calls them."""
     module = copy_of(real_signal)
     handlers = context.handlers
@@ -142,7 +142,7 @@ def make_signal(context: ScriptContext) -> ModuleType:
 class _Alarm:
     """``alarm`` and ``setitimer`` in graph time. Only ``ITIMER_REAL``: there is no processor time of one script."""
 
-    def __init__(self, context: ScriptContext) -> None:
+    def __init__(self, context: Script) -> None:
         self._context = context
         self._timer: Any = None
         self._interval = 0.0
@@ -177,7 +177,7 @@ class _Alarm:
         self._context.deliver(real_signal.SIGALRM)
 
 
-def make_builtins_module(context: ScriptContext) -> ModuleType:
+def make_builtins_module(context: Script) -> ModuleType:
     """Make the builtins of one script: with its own ``__import__``, ``input`` and ``print``."""
     module = copy_of(real_builtins)
 

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from rosmini.scripts.context import ScriptContext
+    from rosmini.scripts.script import Script
 
 
-def seed_copy(context: ScriptContext, module: ModuleType) -> None:
+def seed_copy(context: Script, module: ModuleType) -> None:
     """Make a private ``random`` repeatable in simulated time, its unseeded ``Random()`` objects too."""
     if not context.scheduler.simulated:
         return
@@ -38,7 +38,7 @@ class NumpyRandom:
     They are bound methods of one ``RandomState`` in numpy; here each script has its own.
     """
 
-    def __init__(self, context: ScriptContext) -> None:
+    def __init__(self, context: Script) -> None:
         from numpy import random
 
         seed = None

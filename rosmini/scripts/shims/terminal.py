@@ -1,4 +1,4 @@
-"""``select``, ``termios``, ``tty`` and ``msvcrt`` as keyboard scripts use them: to wait for a key for a tenth of a second.
+"""``select``, ``termios``, ``tty`` and ``msvcrt`` as keyboard scripts use them: to wait a tenth of a second for a key.
 
 With a real terminal they act on it. With supplied input, or input from a pipe, the terminal settings are
 accepted and mean nothing, so the same script runs in a test.
@@ -16,10 +16,10 @@ from rosmini.scripts.stdin import ConsoleFeed, ScriptInput
 from . import as_builtins, copy_of
 
 if TYPE_CHECKING:
-    from rosmini.scripts.context import ScriptContext
+    from rosmini.scripts.script import Script
 
 
-def _own_input(context: ScriptContext, item: object) -> ScriptInput | None:
+def _own_input(context: Script, item: object) -> ScriptInput | None:
     """The script's standard input if ``item`` (a file or a descriptor) is it."""
     stdin = context.get_own("stdin")
     if isinstance(item, ScriptInput):
@@ -29,7 +29,7 @@ def _own_input(context: ScriptContext, item: object) -> ScriptInput | None:
     return None
 
 
-def make_select(context: ScriptContext) -> ModuleType:
+def make_select(context: Script) -> ModuleType:
     """Make a ``select`` whose ``select()`` parks the lane; ``poll`` and the others are the real ones."""
     module = copy_of(real_select)
     scheduler = context.scheduler
@@ -85,8 +85,8 @@ def _console(stdin: object) -> ConsoleFeed | None:
     return feed if isinstance(feed, ConsoleFeed) else None
 
 
-def make_msvcrt(context: ScriptContext) -> ModuleType:
-    """Make an ``msvcrt`` whose keys park the lane. Raises ``ModuleNotFoundError`` where there is none: anywhere but on Windows."""
+def make_msvcrt(context: Script) -> ModuleType:
+    """Make an ``msvcrt`` whose keys park the lane. Raises ``ModuleNotFoundError`` anywhere but on Windows."""
     real = _optional("msvcrt")
     if real is None:
         raise ModuleNotFoundError("No module named 'msvcrt'", name="msvcrt")
@@ -112,17 +112,18 @@ def make_msvcrt(context: ScriptContext) -> ModuleType:
     return module
 
 
-def make_termios(context: ScriptContext) -> ModuleType:
+def make_termios(context: Script) -> ModuleType:
     """Make a ``termios`` that leaves input alone which is no terminal.
 
-    On Windows, which has none, it switches between lines and keys. Raises ``ModuleNotFoundError`` where it can do neither.
+    On Windows, which has none, it switches between lines and keys. Raises ``ModuleNotFoundError`` where it can do
+    neither.
     """
     real = _optional("termios")
     stdin = context.get_own("stdin")
     console = _console(stdin)
     if real is None and console is None and (not isinstance(stdin, ScriptInput) or stdin.isatty()):
         raise ModuleNotFoundError(
-            "No module named 'termios': this terminal has none. Run the script in a console of Windows, or give it its input by a pipe",
+            "No module named 'termios': this terminal has none. Run the script in a Windows console, or pipe its input",
             name="termios",
         )
     module: Any = ModuleType("termios") if real is None else copy_of(real)
@@ -168,7 +169,7 @@ def _descriptor(item: Any) -> int:
     return item if isinstance(item, int) else int(item.fileno())
 
 
-def make_tty(context: ScriptContext) -> ModuleType:
+def make_tty(context: Script) -> ModuleType:
     """Make a ``tty`` to go with :func:`make_termios`."""
     termios: Any = context.importer.load("termios")
     real = _optional("tty")

@@ -1,7 +1,7 @@
 """``threading`` and ``_thread`` of one script.
 
-In simulated time a thread is a lane of the graph: it runs when the others block, in the same order each time. In wall time
-it is a real thread that knows its script and node, so that what it calls in rospy works. Locks (see
+In simulated time a thread is a lane of the graph: it runs when the others block, in the same order each time. In wall
+time it is a real thread that knows its script and node, so that what it calls in rospy works. Locks (see
 :mod:`rosmini.scripts.shims.locks`) work between all of them.
 """
 
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from rosmini.graph.lanes import Lane
-    from rosmini.scripts.context import ScriptContext
+    from rosmini.scripts.script import Script
 
 
 class Threads:
     """The threads of one script: who is who."""
 
-    def __init__(self, context: ScriptContext) -> None:
+    def __init__(self, context: Script) -> None:
         self.context = context
         self.by_lane: dict[Lane, Thread] = {}
         self.idents = itertools.count(1)
@@ -50,7 +50,7 @@ class Threads:
     def foreign(self, lane: Lane) -> Thread:
         """Make a thread object for a lane that the script did not start."""
         cls = self.context.thread_class()
-        thread = cls.__new__(cls)
+        thread: Thread = cls.__new__(cls)
         Thread.__init__(thread, name=f"Dummy-{next(self.names)}", daemon=True)
         thread.adopt(lane, next(self.idents))
         return thread
@@ -248,16 +248,19 @@ class Thread(locks.ForScript):
         if self._lane is not None:
             self._script.threads.by_lane.pop(self._lane, None)
         self._ended.set()
-        self._script.scheduler.call_soon(_nothing)  # the runner looks again whether all threads have ended
+        self._script.scheduler.call_soon(self._script.thread_ended)
+
+    @property
+    def busy(self) -> bool:
+        """Whether it may still run code of the script: false for a callback's between two calls."""
+        return self.is_alive() and (
+            self._real is not None or (self._lane is not None and not self._lane.idle)
+        )
 
     def end(self) -> None:
         """Ask it to end where it blocks: the script is over."""
         if self._real is None and self._lane is not None:
             self._lane.kill()
-
-
-def _nothing() -> None:
-    """Be an event of the graph."""
 
 
 class Timer(Thread):
@@ -292,7 +295,7 @@ class Timer(Thread):
 class _Threading(ModuleType):
     """``threading``; its ``local`` is made on first use, because it needs the rest."""
 
-    def __init__(self, context: ScriptContext) -> None:
+    def __init__(self, context: Script) -> None:
         super().__init__("threading", real_threading.__doc__)
         self.__dict__["_context"] = context
         self.__dict__["__all__"] = list(real_threading.__all__)
@@ -309,7 +312,7 @@ class _Threading(ModuleType):
         super().__setattr__(name, value)
 
 
-def script_classes(context: ScriptContext) -> dict[str, type]:
+def script_classes(context: Script) -> dict[str, type]:
     """Make the subclasses of one script."""
 
     def own(base: type, **more: object) -> type:
@@ -335,7 +338,7 @@ def script_classes(context: ScriptContext) -> dict[str, type]:
     }
 
 
-def make_threading(context: ScriptContext) -> ModuleType:
+def make_threading(context: Script) -> ModuleType:
     """Make the ``threading`` of one script."""
     threads = context.threads
     module: Any = _Threading(context)
@@ -372,7 +375,7 @@ def make_threading(context: ScriptContext) -> ModuleType:
     return module  # type: ignore[no-any-return]
 
 
-def make_thread(context: ScriptContext) -> ModuleType:
+def make_thread(context: Script) -> ModuleType:
     """Make the ``_thread`` of one script."""
     module = ModuleType("_thread", real_thread.__doc__)
     lock: Any = context.thread_classes["Lock"]

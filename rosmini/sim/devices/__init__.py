@@ -1,12 +1,14 @@
-"""The devices of simulated robots, which TurtleBot3's simulator, Stage and Gazebo share: topics, frames, rates and noise are their arguments."""
+"""The devices of simulated robots, shared by TurtleBot3's simulator, Stage and Gazebo."""
 
 from .board import BatteryDevice, SensorStateDevice, Switches, contacts
 from .bumper import Bumper
 from .camera import CameraDevice
 from .clock import ClockDevice
-from .drive import DifferentialDrive, GroundTruth, JointStates, OdometryTransforms, PlanarMove
-from .names import one_of, order, prefixed, within
-from .sensors import ImuDevice, Laser, RangeDevice
+from .drive import DifferentialDrive, GroundTruth, JointStates, OdometryTransforms, PlanarMove, one_of
+from .imu import ImuDevice
+from .laser import Laser, RangeDevice
+from .namespaces import prefixed, within
+from .sensor import Outlet, Sensor
 
 __all__ = [
     "BatteryDevice",
@@ -19,13 +21,14 @@ __all__ = [
     "JointStates",
     "Laser",
     "OdometryTransforms",
+    "Outlet",
     "PlanarMove",
     "RangeDevice",
+    "Sensor",
     "SensorStateDevice",
     "Switches",
     "contacts",
     "one_of",
-    "order",
     "prefixed",
     "within",
 ]

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rosmini.msgs import message_class
 from rosmini.sim.host import Device, Host, Stamp
-from rosmini.sim.messages import Headed
 from rosmini.sim.sensors.battery import Battery, Charge
 from rosmini.sim.sensors.contact_sensor import TURTLEBOT3_BUMPER, BumperModel, bits, pressed
 
 from .drive import DifferentialDrive
-from .names import order
+from .sensor import Outlet, Sensor
 
 if TYPE_CHECKING:
     from rosmini.sim.engine.robot import Robot
@@ -27,7 +25,7 @@ DRAIN_S = 1.0
 
 
 class BatteryDevice(Device):
-    """`sensor_msgs/BatteryState` of a battery that drains while the robot stands, and faster while it drives and pushes.
+    """`sensor_msgs/BatteryState` of a battery that drains, faster while the robot drives and pushes.
 
     When it is empty, the motors of `drive` get no current any more.
 
@@ -43,7 +41,8 @@ class BatteryDevice(Device):
 
     """
 
-    order = order("battery")
+    order = 70.0
+    kept = ("battery", "shown", "_used", "_since")
 
     def __init__(
         self,
@@ -64,19 +63,17 @@ class BatteryDevice(Device):
         self.shown: Charge = self.battery.read()
         """What it showed last."""
         self._used, self._since = 0.0, 0.0  # [J] and [s] that are not taken from it yet
-        self._told = Headed("sensor_msgs/BatteryState", frame)
-        message = self._told.message
+        message: Any = message_class("sensor_msgs/BatteryState")()
+        message.header.frame_id = frame
         model = self.battery.model
         message.design_capacity = message.capacity = model.capacity
         message.temperature = math.nan
         message.power_supply_status = message.POWER_SUPPLY_STATUS_DISCHARGING
         message.power_supply_health = message.POWER_SUPPLY_HEALTH_GOOD
         message.power_supply_technology = message.POWER_SUPPLY_TECHNOLOGY_LIPO
-        message.present = True
         message.location = model.name
-        self._publisher = None
-        if topic is not None:
-            self._publisher = host.node.publisher(topic, type(message), queue_size=10)
+        varying = ("voltage", "current", "charge", "percentage", "present")
+        self._outlet = None if topic is None else Outlet(host.node, topic, message, varying)
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Drain the battery, and tell how it is."""
@@ -92,13 +89,11 @@ class BatteryDevice(Device):
         self._since += period
         if self._since >= DRAIN_S:
             self._drain()
-        if self._publisher is not None and self._publisher.num_connections():
-            shown, message = self.shown, self._told.message
-            message.voltage, message.current, message.charge = shown.voltage, shown.current, shown.charge
-            message.percentage = shown.percentage
-            message.present = not shown.empty
-            self._told.stamp(*stamp)
-            self._publisher.publish(message)
+        if self._outlet is not None and self._outlet.heard():
+            shown = self.shown
+            self._outlet.publish(
+                stamp, (shown.voltage, shown.current, shown.charge, shown.percentage, not shown.empty)
+            )
 
     def _drain(self) -> None:
         self.shown = self.battery.drain(self._used / self._since, self._since)
@@ -110,44 +105,42 @@ class BatteryDevice(Device):
             )
 
     def charge(self, level: float = 1.0) -> None:
-        """Charge it, or put in another one that is so full (0 to 1); the motors get current again. Raises `BatteryError`."""
+        """Charge it, or put in another one that is so full (0 to 1); the motors get current again.
+
+        Raises `BatteryError`.
+        """
         self.battery.level = level
         self.shown = self.battery.read()
         if self.drive is not None and not self.shown.empty:
             self.drive.power(True)
 
-    def state(self) -> Any:
-        """The charge."""
-        return copy.deepcopy(self.battery), self.shown, self._used, self._since
-
-    def restore(self, state: Any) -> None:
-        """Be as full as then."""
-        battery, self.shown, self._used, self._since = state
-        self.battery = copy.deepcopy(battery)
-
     def close(self) -> None:
         """End the topic."""
-        if self._publisher is not None:
-            self._publisher.unregister()
+        if self._outlet is not None:
+            self._outlet.close()
 
 
-class SensorStateDevice(Device):
-    """`turtlebot3_msgs/SensorState`: bumper, motors, encoders and voltage. There is no cliff sensor, sonar, light sensor, lamp or button: 0.
+class SensorStateDevice(Sensor):
+    """`turtlebot3_msgs/SensorState`: bumper, motors, encoders and voltage.
+
+    There is no cliff sensor, sonar, light sensor, lamp or button: 0.
 
     Args:
-        host: where it happens.
+        host: the simulated world.
         drive: whose encoders and motors.
         battery: whose voltage; None: 0.0 V.
         bumper: which switches it has; a Burger as it is sold has none in its way.
         topic: where it is published.
-        frame: what the header says; the firmware writes nothing.
+        frame: the frame of the header; the firmware leaves it empty.
         rate: how often [Hz].
-        name: the device's; without it robot/sensor_state.
+        name: the device's; robot/sensor_state if not given.
 
     """
 
-    order = order("sensor_state")
-    always = False
+    message_type = "turtlebot3_msgs/SensorState"
+    default_topic, default_rate = "sensor_state", BOARD_RATE
+    order = 80.0
+    varying = ("bumper", "torque", "left_encoder", "right_encoder", "battery")
 
     def __init__(
         self,
@@ -156,38 +149,32 @@ class SensorStateDevice(Device):
         battery: BatteryDevice | None = None,
         *,
         bumper: BumperModel = TURTLEBOT3_BUMPER,
-        topic: str = "sensor_state",
-        frame: str = "",
-        rate: float = BOARD_RATE,
+        topic: str | None = None,
+        frame: str | None = None,
+        rate: float | None = None,
         name: str | None = None,
     ) -> None:
-        self.robot: Robot = drive.robot
-        super().__init__(host, name or f"{self.robot.name}/sensor_state", rate)
+        super().__init__(host, drive.robot.name, topic=topic, frame=frame, rate=rate, name=name)
         self.drive, self.battery, self.bumper = drive, battery, bumper
-        self._told = Headed("turtlebot3_msgs/SensorState", frame)
-        self._publisher = host.node.publisher(topic, type(self._told.message), queue_size=10)
 
-    def wanted(self) -> bool:
-        """Tell whether anybody listens."""
-        return self._publisher.num_connections() > 0
-
-    def due(self, stamp: Stamp, _: int, /) -> None:
-        """Tell the state."""
-        robot, message = self.robot, self._told.message
-        message.bumper = bits(pressed(self.bumper, robot.pose, contacts(self.host, robot.name)))
-        message.torque = self.drive.powered
-        message.left_encoder, message.right_encoder = (_int32(ticks) for ticks in robot.ticks)
-        message.battery = 0.0 if self.battery is None else self.battery.shown.voltage
-        self._told.stamp(*stamp)
-        self._publisher.publish(message)
-
-    def close(self) -> None:
-        """End the topic."""
-        self._publisher.unregister()
+    def sample(self, _: int) -> tuple[int, bool, int, int, float]:
+        """Return the state of the switches, the motors, the encoders and the battery."""
+        robot = self.robot
+        sectors = pressed(self.bumper, robot.pose, contacts(self.host, robot.name))
+        left, right = (_int32(ticks) for ticks in robot.ticks)
+        return (
+            bits(sectors),
+            self.drive.powered,
+            left,
+            right,
+            self.battery.shown.voltage if self.battery else 0.0,
+        )
 
 
 class Switches:
-    """TurtleBot3's topics `motor_power` (std_msgs/Bool) and `reset` (std_msgs/Empty): current for the motors; odometry at zero and a calibrated gyroscope.
+    """TurtleBot3's topics `motor_power` (std_msgs/Bool) and `reset` (std_msgs/Empty): current for the motors.
+
+    Odometry at zero and a calibrated gyroscope.
 
     Args:
         host: where they are.

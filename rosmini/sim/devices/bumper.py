@@ -2,67 +2,57 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.msgs import message_class
-from rosmini.sim.host import Device, Host, Stamp
-from rosmini.sim.messages import Headed
+from rosmini.sim.host import Host
 
-from .names import order
-
-if TYPE_CHECKING:
-    from rosmini.sim.engine.robot import Robot
+from .sensor import Sensor
 
 
-class Bumper(Device):
+class Bumper(Sensor):
     """`gazebo_msgs/ContactsState`: one state for each thing that is touched, with places, normals and forces.
 
     Args:
-        host: where it happens.
+        host: the simulated world.
         robot: the engine's name of what carries it.
         topic: where it is published.
-        frame: what the header says, and in which all is told: the world's.
+        frame: the world's frame, in which everything is published.
         rate: how often [Hz].
-        collision: how its own collision is called in the messages; without it the robot's name.
+        collision: what its own collision is called in the messages; the robot's name if not given.
         height: how high above the ground it is touched [m].
-        name: the device's; without it robot/bumper.
+        name: the device's; robot/bumper if not given.
 
     """
 
-    order = order("bumper")
-    always = False
+    message_type = "gazebo_msgs/ContactsState"
+    default_topic, default_frame, label = "bumper_states", "world", "bumper"
+    default_rate = 50.0
+    order = 75.0
+    varying = ("states",)
 
     def __init__(
         self,
         host: Host,
         robot: str,
         *,
-        topic: str = "bumper_states",
-        frame: str = "world",
-        rate: float = 50.0,
+        topic: str | None = None,
+        frame: str | None = None,
+        rate: float | None = None,
         collision: str | None = None,
         height: float = 0.0,
         name: str | None = None,
     ) -> None:
-        super().__init__(host, name or f"{robot}/bumper", rate)
-        self.robot: Robot = host.engine.robot(robot)
+        super().__init__(host, robot, topic=topic, frame=frame, rate=rate, name=name)
         self._collision = collision or robot
         self._height = height
-        self._told = Headed("gazebo_msgs/ContactsState", frame)
-        self._publisher = host.node.publisher(topic, type(self._told.message), queue_size=10)
 
-    def wanted(self) -> bool:
-        """Tell whether anybody listens."""
-        return self._publisher.num_connections() > 0
-
-    def due(self, stamp: Stamp, _: int, /) -> None:
-        """Tell what it touches."""
-        self._told.message.states = self.states()
-        self._told.stamp(*stamp)
-        self._publisher.publish(self._told.message)
+    def sample(self, _: int) -> tuple[list[Any]]:
+        """Return what it touches."""
+        return (self.states(),)
 
     def states(self) -> list[Any]:
-        """What is touched now: `gazebo_msgs/ContactState`s, in the sequence in which the engine finds them."""
+        """Return what is touched now: `gazebo_msgs/ContactState`s, in the order in which the engine finds them."""
         state, wrench, vector = (
             message_class(kind)
             for kind in ("gazebo_msgs/ContactState", "geometry_msgs/Wrench", "geometry_msgs/Vector3")
@@ -92,7 +82,3 @@ class Bumper(Device):
         for one in found.values():
             one.info += f" at {len(one.depths)} point{'s' * (len(one.depths) != 1)}"
         return list(found.values())
-
-    def close(self) -> None:
-        """End the topic."""
-        self._publisher.unregister()

@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.graph import Publisher
 from rosmini.msgs import message_class
 from rosmini.sim.host import Device, Host, Stamp
-from rosmini.sim.messages import Headed
 from rosmini.sim.models import CameraModel
-from rosmini.sim.sensors.camera import camera_info, camera_noise, capture
+from rosmini.sim.sensors.rendering import camera_info, camera_noise, capture
 from rosmini.sim.sensors.scene import Scene, parts_of
 
-from .names import order
+from .sensor import Outlet
 
 if TYPE_CHECKING:
     from rosmini.sim.engine.robot import Robot
@@ -26,11 +24,13 @@ Depths = NDArray[np.float32]
 
 
 DEAR = 20e6
-"""From so many pixels a second of the world's time on, drawing them is dear: with numba this number takes about a second, with numpy alone two or more."""
+"""From so many pixels in each second of simulated time on, a camera warns: drawing them takes two seconds or more."""
 
 
 class CameraDevice(Device):
-    """`sensor_msgs/Image` and `sensor_msgs/CameraInfo` of a camera on a robot; and, if it measures that, depths and points.
+    """`sensor_msgs/Image` and `sensor_msgs/CameraInfo` of a camera on a robot.
+
+    And, if it measures that, depths and points.
 
     Args:
         host: where it happens.
@@ -40,7 +40,8 @@ class CameraDevice(Device):
         info: the topic of the camera's numbers; None: they are not told.
         depth: the topic of the depths (32FC1, metres, inf beyond reach: REP 117 and 118); None: they are not told.
         depth_info: the topic of the numbers that belong to the depths.
-        points: the topic of the coloured points (`sensor_msgs/PointCloud2`, x, y, z in the optical frame, rgb); None: they are not told.
+        points: the topic of the coloured points (`sensor_msgs/PointCloud2`, x, y, z in the optical frame, rgb); None:
+            they are not told.
         frame: what the header says: the optical frame; without it what the camera's model says.
         rate: how often; without it as often as the camera's model says [Hz].
         noise: scales the noise of the camera's model; 0: none.
@@ -49,7 +50,7 @@ class CameraDevice(Device):
 
     """
 
-    order = order("camera")
+    order = 90.0
     always = False
 
     def __init__(
@@ -76,44 +77,47 @@ class CameraDevice(Device):
         self._fixed: tuple[World, Scene] | None = None
         self._warned = False
         frame = frame or camera.frame
-        self._image = image_message(camera, frame, "rgb8", 3)
-        self._depth = image_message(camera, frame, "32FC1", 4)
-        self._info = info_message(camera, frame, baseline)
-        self._points = points_message(camera, frame)
         node = host.node
 
-        def publisher(topic: str | None, message: Headed) -> Publisher | None:
-            return None if topic is None else node.publisher(topic, type(message.message), queue_size=2)
+        def outlet(topic: str | None, message: Any, *varying: str) -> Outlet | None:
+            return None if topic is None else Outlet(node, topic, message, varying, queue_size=2)
 
-        self._to_image, self._to_info = publisher(image, self._image), publisher(info, self._info)
-        self._to_depth, self._to_depth_info = publisher(depth, self._depth), publisher(depth_info, self._info)
-        self._to_points = publisher(points, self._points)
-        every = (self._to_image, self._to_info, self._to_depth, self._to_depth_info, self._to_points)
-        self._publishers = tuple(one for one in every if one is not None)
+        self._image = outlet(image, image_message(camera, frame, "rgb8", 3), "data")
+        self._info = outlet(info, info_message(camera, frame, baseline))
+        self._depth = outlet(depth, image_message(camera, frame, "32FC1", 4), "data")
+        self._depth_info = outlet(depth_info, info_message(camera, frame, baseline))
+        self._points = outlet(points, points_message(camera, frame), "data")
+
+    def outlets(self) -> tuple[Outlet, ...]:
+        """Return its topics."""
+        every = (self._image, self._info, self._depth, self._depth_info, self._points)
+        return tuple(each for each in every if each is not None)
 
     def wanted(self) -> bool:
         """Tell whether anybody listens to anything."""
-        return any(publisher.num_connections() for publisher in self._publishers)
+        return any(outlet.heard() for outlet in self.outlets())
 
     def due(self, stamp: Stamp, number: int, /) -> None:
-        """Look, and tell those who listen. Each image has noise of its own, whether those before it were wanted or not."""
-        for to in (self._to_info, self._to_depth_info):
-            if heard(to):
-                self._info.stamp(*stamp)
-                to.publish(self._info.message)  # type: ignore[union-attr]
-        if not (heard(self._to_image) or heard(self._to_depth) or heard(self._to_points)):
+        """Look, and tell those who listen.
+
+        Each image has noise of its own, whether those before it were wanted or not.
+        """
+        for info in (self._info, self._depth_info):
+            if info is not None and info.heard():
+                info.publish(stamp)
+        if not (heard(self._image) or heard(self._depth) or heard(self._points)):
             return
         self.warn()
         image, depths = self.look(number)
-        for to, told, data in ((self._to_image, self._image, image), (self._to_depth, self._depth, depths)):
-            if to is not None and heard(to):
-                told.message.data = data.tobytes()
-                told.stamp(*stamp)
-                to.publish(told.message)
-        if self._to_points is not None and heard(self._to_points):
-            self._points.message.data = cloud(self.camera, image, depths).tobytes()
-            self._points.stamp(*stamp)
-            self._to_points.publish(self._points.message)
+        if self._points is not None and self._points.heard():
+            self._points.publish(stamp, [cloud(self.camera, image, depths).tobytes()])
+        self.publish_pixels(stamp, image, depths)
+
+    def publish_pixels(self, stamp: Stamp, image: NDArray[Any], depths: NDArray[Any]) -> None:
+        """Publish an image and depths, each if somebody listens."""
+        for outlet, pixels in ((self._image, image), (self._depth, depths)):
+            if outlet is not None and outlet.heard():
+                outlet.publish(stamp, [pixels.tobytes()])
 
     def warn(self) -> None:
         """Warn, once, if what is to be drawn costs more time than a second in each second of the world."""
@@ -123,13 +127,14 @@ class CameraDevice(Device):
             return
         self._warned = True
         self.host.node.logwarn(
-            f"the camera {self.name}, whose images somebody hears, draws {width} x {height} pixels {self.rate:g} times a second: {pixels / 1e6:.0f} million pixels for "
-            f"each second of the world, where {DEAR / 1e6:.0f} million take a computer about a second (with numba; without it two or more). Give it a smaller "
-            f"width and height, a lower rate (for example {DEAR / pixels * self.rate:.2g} Hz), or end the subscriptions that nobody needs"
+            f"the camera {self.name}, whose images somebody hears, draws {width} x {height} pixels {self.rate:g} times "
+            f"a second: {pixels / 1e6:.0f} million pixels for each simulated second, where {DEAR / 1e6:.0f} million "
+            f"take a computer about two seconds. Give it a smaller width and height, a lower rate (for example "
+            f"{DEAR / pixels * self.rate:.2g} Hz), or end the subscriptions that nobody needs"
         )
 
     def look(self, number: int = 0) -> tuple[Image, Depths]:
-        """The image (h, w, 3), red, green and blue, and the depths (h, w) [m] that it sees now, with the noise of image `number`."""
+        """Return the RGB image (h, w, 3) and the depths (h, w) [m] seen now, with the noise of image `number`."""
         noise = None
         if self.camera.noise and self._noise:
             noise = camera_noise(self.camera, self.host.rng(f"{self.name}/{number}"), self._noise)
@@ -149,44 +154,41 @@ class CameraDevice(Device):
 
     def close(self) -> None:
         """End the topics."""
-        for publisher in self._publishers:
-            publisher.unregister()
+        for outlet in self.outlets():
+            outlet.close()
 
 
-def heard(publisher: Publisher | None) -> bool:
-    """Tell whether there is such a topic and somebody listens."""
-    return publisher is not None and publisher.num_connections() > 0
+def heard(outlet: Outlet | None) -> bool:
+    """Return whether there is such a topic and somebody listens."""
+    return outlet is not None and outlet.heard() > 0
 
 
-def image_message(camera: CameraModel, frame: str, encoding: str, size: int) -> Headed:
-    """An empty image with pixels of `size` bytes."""
-    told = Headed("sensor_msgs/Image", frame)
-    message = told.message
-    message.height, message.width = camera.height, camera.width
+def image_message(camera: CameraModel, frame: str, encoding: str, size: int) -> Any:
+    """Return an empty image with pixels of `size` bytes."""
+    message = message_class("sensor_msgs/Image")(height=camera.height, width=camera.width)
+    message.header.frame_id = frame
     message.encoding, message.step = encoding, size * camera.width
-    return told
+    return message
 
 
-def info_message(camera: CameraModel, frame: str, baseline: float) -> Headed:
-    """The camera's numbers: no distortion."""
-    told = Headed("sensor_msgs/CameraInfo", frame)
-    message, info = told.message, camera_info(camera, baseline)
-    message.height, message.width = info.height, info.width
-    message.distortion_model = "plumb_bob"
-    message.D = [0.0] * 5
-    message.K, message.P = list(info.K), list(info.P)
-    message.R = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
-    return told
+def info_message(camera: CameraModel, frame: str, baseline: float) -> Any:
+    """Return the numbers of a camera without distortion."""
+    info = camera_info(camera, baseline)
+    message = message_class("sensor_msgs/CameraInfo")(height=info.height, width=info.width)
+    message.header.frame_id = frame
+    message.distortion_model, message.D = info.distortion_model, info.D
+    message.K, message.R, message.P = info.K, info.R, info.P
+    return message
 
 
 POINT = np.dtype([("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("rgb", "<u4")])
 """One point of a cloud; its colour as 0x00rrggbb, which others read as a float32."""
 
 
-def points_message(camera: CameraModel, frame: str) -> Headed:
-    """An empty cloud, a point for each pixel."""
-    told = Headed("sensor_msgs/PointCloud2", frame)
-    message = told.message
+def points_message(camera: CameraModel, frame: str) -> Any:
+    """Return an empty cloud with a point for each pixel."""
+    message = message_class("sensor_msgs/PointCloud2")()
+    message.header.frame_id = frame
     field = message_class("sensor_msgs/PointField")
     message.fields = [
         field(name=name, offset=4 * i, datatype=field.FLOAT32, count=1)
@@ -195,11 +197,14 @@ def points_message(camera: CameraModel, frame: str) -> Headed:
     message.height, message.width = camera.height, camera.width
     message.point_step = POINT.itemsize
     message.row_step = POINT.itemsize * camera.width
-    return told
+    return message
 
 
 def cloud(camera: CameraModel, image: Image, depths: Depths) -> NDArray[Any]:
-    """The points (h, w) of type `POINT` that the pixels show, in the optical frame; nan where nothing is within reach."""
+    """The points (h, w) of type `POINT` that the pixels show, in the optical frame.
+
+    Nan where nothing is within reach.
+    """
     k = camera_info(camera).K
     height, width = depths.shape
     u, v = np.arange(width), np.arange(height)[:, None]

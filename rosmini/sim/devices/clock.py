@@ -5,7 +5,9 @@ from __future__ import annotations
 from rosmini.msgs import message_class
 from rosmini.sim.host import Device, Host, Stamp
 
-from .names import order
+from .sensor import Outlet
+
+FIELDS = ("clock.secs", "clock.nsecs")
 
 
 class ClockDevice(Device):
@@ -18,19 +20,16 @@ class ClockDevice(Device):
 
     """
 
-    order = order("clock")
+    order = 0.0
 
     def __init__(self, host: Host, *, rate: float = 100.0, topic: str = "/clock") -> None:
         super().__init__(host, f"time on {topic}", rate)
-        self._message = message_class("rosgraph_msgs/Clock")()
-        self._publisher = host.node.publisher(topic, type(self._message), queue_size=10)
+        self._outlet = Outlet(host.node, topic, message_class("rosgraph_msgs/Clock")(), FIELDS)
 
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Tell what time it is."""
-        if self._publisher.num_connections():
-            clock = self._message.clock
-            clock.secs, clock.nsecs = stamp
-            self._publisher.publish(self._message)
+        if self._outlet.heard():
+            self._outlet.publish(stamp, stamp)
 
     def tell(self) -> None:
         """Tell it at once: after time was set back, or stepped while it stands."""
@@ -39,4 +38,4 @@ class ClockDevice(Device):
 
     def close(self) -> None:
         """End the topic."""
-        self._publisher.unregister()
+        self._outlet.close()

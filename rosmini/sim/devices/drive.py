@@ -1,15 +1,18 @@
-"""What moves a robot, and what tells how it moved: `cmd_vel` in; `odom`, `/tf`, `joint_states` and the ground truth out."""
+"""What moves a robot, and what tells how it moved: `cmd_vel` in.
+
+`odom`, `/tf`, `joint_states` and the ground truth out.
+"""
 
 from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from rosmini.errors import RosminiError, nearest
 from rosmini.geometry.angles import normalize_angle
 from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.graph import Publisher
 from rosmini.msgs import message_class
 from rosmini.sim.engine.odometry import Odometry
 from rosmini.sim.engine.robot import HolonomicRobot
@@ -19,26 +22,32 @@ from rosmini.sim.messages import (
     BASE_LINK,
     MAP,
     ODOM,
+    ODOMETRY_FIELDS,
     POSE_COVARIANCE,
-    WHEELS,
-    JointStateMessage,
-    OdometryMessage,
-    TransformMessage,
+    MakeTransform,
+    describe_odometry,
+    moving_transform,
+    odometry_values,
 )
 
-from .names import one_of, order
+from .imu import ImuDevice
+from .sensor import Outlet, Sensor
 
 if TYPE_CHECKING:
     from rosmini.sim.engine.robot import Robot
 
-    from .sensors import ImuDevice
+WHEELS = ("wheel_left_joint", "wheel_right_joint")
+"""The joints of TurtleBot3's wheels."""
 
 SOURCES = ("encoder", "world", "start")
-"""From where a drive takes its odometry: the encoders of its wheels; the truth in the frame of the world; the truth seen from where it started."""
+"""From where a drive takes its odometry: the encoders of its wheels; the truth in the frame of the world.
+
+The truth seen from where it started.
+"""
 
 
 class Reckoned(NamedTuple):
-    """What odometry tells: the pose in its frame, and the speeds ahead and to the side [m/s] and to the left [rad/s]."""
+    """What odometry reports: the pose in its frame, and the speeds ahead and aside [m/s] and to the left [rad/s]."""
 
     pose: Pose
     v: float
@@ -60,13 +69,14 @@ class DifferentialDrive(Device):
         rate: how often; without it as often as the robot's model says [Hz].
         timeout: how long a command holds [s]; 0: until the next one, as in Gazebo. TurtleBot3 has 0.5, Stage 0.2.
         source: from where the odometry is taken: "encoder", "world" or "start", see `SOURCES`.
-        imu: what says how far the robot has turned, for an odometry from encoders: TurtleBot3's firmware asks its IMU. None: the wheels do.
+        imu: what says how far the robot has turned, for an odometry from encoders: TurtleBot3's firmware asks its IMU.
+            None: the wheels do.
         covariance: of x, y, z and the turns about them, as the odometry's messages state it.
         name: the device's; without it robot/drive.
 
     """
 
-    order = order("drive")
+    order = 10.0
     sideways = False
     """Whether it can go to the side as well."""
 
@@ -103,10 +113,11 @@ class DifferentialDrive(Device):
         """What was told last."""
         self._zero: Pose = self.robot.start
         self._complained: set[str] = set()
-        self._message = OdometryMessage(odom_frame, base_frame, covariance)
-        self._publisher: Publisher | None = None
+        self._outlet: Outlet | None = None
         if odom is not None:
-            self._publisher = host.node.publisher(odom, type(self._message.message), queue_size=30)
+            message = message_class("nav_msgs/Odometry")()
+            describe_odometry(message, odom_frame, base_frame, covariance)
+            self._outlet = Outlet(host.node, odom, message, ODOMETRY_FIELDS, queue_size=30)
         self._commands = None
         if cmd_vel is not None:
             twist = message_class("geometry_msgs/Twist")
@@ -136,7 +147,10 @@ class DifferentialDrive(Device):
     # -- commands ------------------------------------------------------------------------------------------------
 
     def command(self, v: float, w: float, vy: float = 0.0) -> None:
-        """Let the robot go ahead and to the side [m/s] and turn to the left [rad/s] until the time-out. Raises `RosminiError` for no finite number."""
+        """Let the robot go ahead and to the side [m/s] and turn to the left [rad/s] until the time-out.
+
+        Raises `RosminiError` for no finite number.
+        """
         if not self.powered:
             v = w = vy = 0.0
         self.host.catch_up()
@@ -167,8 +181,9 @@ class DifferentialDrive(Device):
         if sender not in self._complained and self._commands is not None:
             self._complained.add(sender)
             self.host.node.logwarn(
-                f"{sender} published {field} = {value} on {self._commands.topic}: a velocity has to be a finite number. "
-                f"The robot stops instead, and so it will at each such message of {sender}, without another warning."
+                f"{sender} published {field} = {value} on {self._commands.topic}: a velocity has to be a finite "
+                f"number. The robot stops instead, and so it will at each such message of {sender}, without another "
+                "warning."
             )
 
     # -- odometry ------------------------------------------------------------------------------------------------
@@ -176,11 +191,8 @@ class DifferentialDrive(Device):
     def due(self, stamp: Stamp, _: int, /) -> None:
         """Learn what the encoders show now, and tell it."""
         self._update()
-        publisher = self._publisher
-        if publisher is not None and publisher.num_connections():
-            message = self._message
-            message.stamp(*stamp)
-            publisher.publish(message.fill(*self.reckoned))
+        if self._outlet is not None and self._outlet.heard():
+            self._outlet.publish(stamp, odometry_values(*self.reckoned))
 
     def _update(self) -> None:
         robot = self.robot
@@ -200,7 +212,7 @@ class DifferentialDrive(Device):
 
     def _true(self) -> Reckoned:
         robot = self.robot
-        v, vy, w = speeds(robot)
+        v, vy, w = robot.velocity
         pose = robot.pose if self.source == "world" else compose(inverse(self._zero), robot.pose)
         return Reckoned(pose, v, vy, w)
 
@@ -230,14 +242,17 @@ class DifferentialDrive(Device):
         """End the topics."""
         if self._transforms is not None:
             self._transforms.leave(self)
-        if self._publisher is not None:
-            self._publisher.unregister()
+        if self._outlet is not None:
+            self._outlet.close()
         if self._commands is not None:
             self._commands.unregister()
 
 
 class PlanarMove(DifferentialDrive):
-    """A base that goes ahead, to the side and turns as it is told: Gazebo's planar move, Stage's drive "omni". Arguments as for `DifferentialDrive`."""
+    """A base that goes ahead, to the side and turns as it is told: Gazebo's planar move, Stage's drive "omni".
+
+    Arguments as for `DifferentialDrive`.
+    """
 
     sideways = True
     _reckoned_from: Pose = (0.0, 0.0, 0.0)
@@ -272,160 +287,140 @@ class PlanarMove(DifferentialDrive):
 
 
 class OdometryTransforms(Device):
-    """The transforms of all drives of one rate that go to one topic: one message tells of all of them. Made by `publish_transform`."""
+    """The transforms of all drives of one rate on one topic, in one message. Made by `publish_transform`."""
 
-    order = order("transforms")
+    order = 20.0
 
     def __init__(self, host: Host, topic: str, rate: float, name: str) -> None:
         super().__init__(host, name, rate)
-        self._drives: dict[DifferentialDrive, TransformMessage] = {}
-        self._list: Any = message_class("tf2_msgs/TFMessage")()
-        self._publisher = host.node.publisher(topic, type(self._list), queue_size=100)
+        self._drives: dict[DifferentialDrive, MakeTransform] = {}
+        self._list: Any = message_class("tf2_msgs/TFMessage")
+        self._publisher = host.node.publisher(topic, self._list, queue_size=100)
 
     def join(self, drive: DifferentialDrive) -> None:
-        """Tell of this drive too."""
-        self._drives[drive] = TransformMessage(drive.odom_frame, drive.base_frame)
-        self._gather()
+        """Add a drive."""
+        self._drives[drive] = moving_transform(drive.odom_frame, drive.base_frame)
 
     def leave(self, drive: DifferentialDrive) -> None:
-        """Tell no more of this drive; with the last one the topic ends."""
-        if self._drives.pop(drive, None) is not None:
-            self._gather()
-            if not self._drives:
-                self.host.remove(self)
-
-    def _gather(self) -> None:
-        self._list.transforms = [message.message for message in self._drives.values()]
+        """Remove a drive; the topic ends with the last one."""
+        if self._drives.pop(drive, None) is not None and not self._drives:
+            self.host.remove(self)
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Tell where all are."""
+        """Publish where all are."""
         if self._publisher.num_connections():
-            secs, nsecs = stamp
-            for drive, message in self._drives.items():
-                message.stamp(secs, nsecs)
-                message.fill(drive.reckoned.pose)
-            self._publisher.publish(self._list)
+            made = [make(*stamp, drive.reckoned.pose) for drive, make in self._drives.items()]
+            self._publisher.publish_frozen(self._list(transforms=made))
 
     def state(self) -> Any:
-        """In which sequence it tells of them."""
+        """Return the order of the drives."""
         return tuple(drive.name for drive in self._drives)
 
     def restore(self, state: Any) -> None:
-        """Tell of them in that sequence."""
+        """Put the drives into that order."""
         place = {name: i for i, name in enumerate(state)}
         self._drives = dict(sorted(self._drives.items(), key=lambda item: place[item[0].name]))
-        self._gather()
 
     def close(self) -> None:
         """End the topic."""
         self._publisher.unregister()
 
 
-class JointStates(Device):
+class JointStates(Sensor):
     """`sensor_msgs/JointState` of a drive's two wheels, as far as the encoders show it.
 
     Args:
-        host: where it happens.
+        host: the simulated world.
         drive: whose wheels.
         topic: where it is published.
         joints: the names of the left and of the right wheel's joint.
-        frame: what the header says; TurtleBot3's firmware writes base_link, Gazebo's plugin nothing.
-        rate: how often; without it as often as the odometry [Hz].
-        name: the device's; without it robot/joints.
+        frame: the frame of the header; TurtleBot3's firmware writes base_link, Gazebo's plugin nothing.
+        rate: how often [Hz]; as often as the odometry if not given.
+        name: the device's; robot/joints if not given.
 
     """
 
-    order = order("joints")
+    message_type = "sensor_msgs/JointState"
+    default_topic, default_frame, label = "joint_states", BASE_LINK, "joints"
+    order = 30.0
+    queue_size = 30
+    varying = ("position", "velocity")
 
     def __init__(
         self,
         host: Host,
         drive: DifferentialDrive,
         *,
-        topic: str = "joint_states",
+        topic: str | None = None,
         joints: Sequence[str] = WHEELS,
-        frame: str = BASE_LINK,
+        frame: str | None = None,
         rate: float | None = None,
         name: str | None = None,
     ) -> None:
-        super().__init__(host, name or f"{drive.robot.name}/joints", rate or drive.rate)
-        self.drive = drive
-        self._message = JointStateMessage(joints, frame)
-        self._publisher = host.node.publisher(topic, type(self._message.message), queue_size=30)
+        self.drive, self._joints = drive, joints
+        super().__init__(host, drive.robot.name, topic=topic, frame=frame, rate=rate or drive.rate, name=name)
 
-    def due(self, stamp: Stamp, _: int, /) -> None:
-        """Tell how far the wheels have turned."""
-        if self._publisher.num_connections():
-            self._message.stamp(*stamp)
-            self._publisher.publish(self._message.fill(self.drive.odometry))
+    def describe(self, message: Any) -> None:
+        """Fill in the names of the joints."""
+        message.name = list(self._joints)
 
-    def close(self) -> None:
-        """End the topic."""
-        self._publisher.unregister()
+    def sample(self, _: int) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return how far the wheels have turned [rad], and how fast they turn [rad/s]."""
+        odometry = self.drive.odometry
+        return (odometry.left, odometry.right), (odometry.left_rate, odometry.right_rate)
 
 
-class GroundTruth(Device):
+class GroundTruth(Sensor):
     """`nav_msgs/Odometry` of where a robot really is: Stage's `base_pose_ground_truth`, Gazebo's p3d plugin.
 
     Args:
-        host: where it happens.
+        host: the simulated world.
         robot: the engine's name of the robot.
         topic: where it is published.
         frame: the world's frame.
         child: the robot's own frame.
-        rate: how often; without it as often as the robot's model says [Hz].
-        noise: standard deviation of x, y [m] and the heading [rad]; Gazebo's `gaussianNoise`.
+        rate: how often [Hz]; as the robot's model says if not given.
         covariance: as the messages state it.
-        name: the device's; without it robot/truth.
+        name: the device's; robot/truth if not given.
 
     """
 
-    order = order("truth")
+    message_type = "nav_msgs/Odometry"
+    default_topic, default_frame, label = "base_pose_ground_truth", MAP, "truth"
+    order = 40.0
+    queue_size = 30
+    varying = ODOMETRY_FIELDS
 
     def __init__(
         self,
         host: Host,
         robot: str,
         *,
-        topic: str = "base_pose_ground_truth",
+        topic: str | None = None,
         frame: str = MAP,
         child: str = BASE,
         rate: float | None = None,
-        noise: float = 0.0,
         covariance: Sequence[float] = POSE_COVARIANCE,
         name: str | None = None,
     ) -> None:
-        self.robot = host.engine.robot(robot)
-        super().__init__(host, name or f"{robot}/truth", rate or self.robot.model.rate)
-        self._message = OdometryMessage(frame, child, covariance)
-        self._publisher = host.node.publisher(topic, type(self._message.message), queue_size=30)
-        self._noise = noise
-        self._rng = host.rng(self.name) if noise else None
+        self._fixed = (frame, child, covariance)
+        rate = rate or host.engine.robot(robot).model.rate
+        super().__init__(host, robot, topic=topic, rate=rate, name=name)
 
-    def due(self, stamp: Stamp, _: int, /) -> None:
-        """Tell where it is."""
-        x, y, theta = self.robot.pose
-        if self._rng is not None:
-            ex, ey, turn = (self._noise * self._rng.standard_normal(3)).tolist()
-            x, y, theta = x + ex, y + ey, theta + turn
-        if self._publisher.num_connections():
-            message = self._message
-            message.stamp(*stamp)
-            self._publisher.publish(message.fill((x, y, theta), *speeds(self.robot)))
+    def describe(self, message: Any) -> None:
+        """Fill in the frames and the covariances."""
+        describe_odometry(message, *self._fixed)
 
-    def state(self) -> Any:
-        """The noise that is still to come."""
-        return copy.deepcopy(self._rng)
-
-    def restore(self, state: Any) -> None:
-        """Draw the noise that was drawn after that."""
-        self._rng = copy.deepcopy(state)
-
-    def close(self) -> None:
-        """End the topic."""
-        self._publisher.unregister()
+    def sample(self, _: int) -> tuple[float, ...]:
+        """Return where the robot is, and how fast it goes."""
+        return odometry_values(self.robot.pose, *self.robot.velocity)
 
 
-def speeds(robot: Robot) -> tuple[float, float, float]:
-    """How fast a robot really goes: ahead and to its left side [m/s], and to the left [rad/s]."""
-    return robot.velocity
+def one_of(what: str, value: str, values: Iterable[str]) -> str:
+    """Return `value`. Raises `RosminiError`, with the nearest, if it is none of `values`."""
+    known = tuple(values)
+    if value not in known:
+        hint = nearest(value, known) or f"it is one of {', '.join(known)}"
+        msg = f"there is no {what} {value!r}; {hint}"
+        raise RosminiError(msg)
+    return value

@@ -11,7 +11,7 @@ from rosmini.sim.messages import MAP
 
 
 class ObstacleMarkers(Device):
-    """`visualization_msgs/MarkerArray` with all that moves, as RViz draws it: one marker for each simple part, its namespace the thing's name.
+    """`visualization_msgs/MarkerArray` of all that moves: a marker for each simple part, its namespace the name.
 
     Args:
         host: where it happens.

@@ -13,7 +13,7 @@ SQUARE = 2.0
 
 
 class Nearby:
-    """Boxes (n, 4) around things, each x and y of its lower and upper corner [m], sorted by the squares of the ground in which their middles are."""
+    """Boxes (n, 4), each x and y of its lower and upper corner [m], in a grid by their centres."""
 
     def __init__(self, boxes: Floats) -> None:
         self.boxes = boxes

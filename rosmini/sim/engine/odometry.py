@@ -1,17 +1,22 @@
-"""Odometry: where a robot believes to be when it counts the turns of its wheels, and perhaps asks a gyroscope where it heads.
+"""Odometry: where a robot believes to be by the turns of its wheels, and perhaps by a gyroscope.
 
-Each encoder counts ticks, N a turn. From the ticks since the last time the wheels' ways are d = r 2 pi ticks / N, and then
+Each encoder counts ticks, N a turn. From the ticks since the last time the wheels' ways are d = r 2 pi ticks / N, and
+then
 
     ds = (d_left + d_right) / 2,   dtheta = (d_right - d_left) / b
     x += ds cos(theta + dtheta / 2),   y += ds sin(theta + dtheta / 2),   theta += dtheta
 
-TurtleBot3's firmware does so 30 times a second (`calcOdometry` of `turtlebot3_core` in https://github.com/ROBOTIS-GIT/OpenCR), but for one thing: it takes
-dtheta from the orientation that its IMU tells, and the line with the wheels is commented out. Its v is ds / dt, and its w dtheta / dt. (It does not wrap the
-difference of two orientations, so one step goes wrong each time its heading passes 180 degrees; here none does.) Gazebo's plugin takes the wheels.
+TurtleBot3's firmware does so 30 times a second (`calcOdometry` of `turtlebot3_core` in
+https://github.com/ROBOTIS-GIT/OpenCR), but for one thing: it takes dtheta from the orientation that its IMU
+tells, and the line with the wheels is commented out. Its v is ds / dt, and its w dtheta / dt. (It does not
+wrap the difference of two orientations, so one step goes wrong each time its heading passes 180 degrees; here
+none does.) Gazebo's plugin takes the wheels.
 
-r and b are the numbers on paper. The real wheels are a little larger, smaller or farther apart, and they slip: so the belief drifts away from the
-truth, without bound (Borenstein and Feng, Measurement and correction of systematic odometry errors in mobile robots, IEEE Transactions on Robotics and
-Automation, 1996). A gyroscope does not notice that wheels slip, but it drifts even while the robot stands: see `rosmini.sim.sensors.imu`.
+r and b are the numbers on paper. The real wheels are a little larger, smaller or farther apart, and they
+slip: so the belief drifts away from the truth, without bound (Borenstein and Feng, Measurement and correction
+of systematic odometry errors in mobile robots, IEEE Transactions on Robotics and Automation, 1996). A
+gyroscope does not notice that wheels slip, but it drifts even while the robot stands: see
+`rosmini.sim.sensors.imu`.
 """
 
 from __future__ import annotations
@@ -38,7 +43,10 @@ def ticks(angle: float, ticks_per_turn: int) -> int:
 def dead_reckoning(
     pose: Pose, left: float, right: float, separation: float, turn: float | None = None
 ) -> Pose:
-    """The pose after the wheels have rolled `left` and `right` [m]: the equations above. `turn` [rad] is what something else says of dtheta."""
+    """The pose after the wheels have rolled `left` and `right` [m]: the equations above.
+
+    `turn` [rad] is what something else says of dtheta.
+    """
     x, y, theta = pose
     ds = (left + right) / 2
     if turn is None:
@@ -66,7 +74,7 @@ class Odometry:
     _right_ticks: int = 0
 
     def update(self, left_ticks: int, right_ticks: int, dt: float, turn: float | None = None) -> None:
-        """Learn what the encoders show `dt` seconds after the last time, and how far a gyroscope says that the robot has turned since [rad], if one does."""
+        """Update with the encoders `dt` seconds later and, if there is a gyroscope, with its turn since then [rad]."""
         model = self.model
         tick = 2 * math.pi / model.ticks_per_turn
         left, right = (left_ticks - self._left_ticks) * tick, (right_ticks - self._right_ticks) * tick
@@ -80,9 +88,10 @@ class Odometry:
 
 
 class RealWheels:
-    """How far the wheels of one robot differ from the model's: `left` and `right` metres on the ground per metre of rim on paper.
+    """How one robot's wheels differ from the model's: `left` and `right` are metres on the ground per metre on paper.
 
-    The radii and the separation are drawn once, the slip every `SLIP_PERIOD`. With `scale` 0 the wheels are those of the model.
+    The radii and the separation are drawn once, the slip every `SLIP_PERIOD`. With `scale` 0 the wheels are those of
+    the model.
     """
 
     def __init__(self, model: RobotModel, rng: np.random.Generator, scale: float = 1.0) -> None:

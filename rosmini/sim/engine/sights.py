@@ -1,7 +1,8 @@
 """What lasers see: the cross-section of a world, its things and its robots at the height of a laser.
 
-Straight sides are segments (n, 4), what is round discs (m, 3), as `rosmini.geometry.raycast` wants them. What does not change is made once: fixed things for
-each height, the outline of each model for each height in the model's own frame. Robots at one moment are cut once, whoever of them looks.
+Straight sides are segments (n, 4), what is round discs (m, 3), as `rosmini.geometry.raycast` wants them. What
+does not change is made once: fixed things for each height, the outline of each model for each height in the
+model's own frame. Robots at one moment are cut once, whoever of them looks.
 """
 
 from __future__ import annotations
@@ -148,19 +149,40 @@ class Sights:
     """What lasers see in one world; it remembers what does not change."""
 
     def __init__(self, world: World) -> None:
-        self.forget(world)
-        self._templates: dict[tuple[int, float], tuple[RobotModel, Cut]] = {}
-        self._things: dict[tuple[str, float], tuple[Obstacle, Pose, Cut]] = {}
-        self._crowds: tuple[Hashable, dict[float, Crowd]] = (None, {})
-
-    def forget(self, world: World) -> None:
-        """Look at another world from now on."""
         self.world = world
+        self._fixed = {obstacle.name: obstacle for obstacle in world.obstacles if obstacle.fixed}
         self._solid: dict[float, Cut] = {}
+        self._cuts: dict[str, dict[float, Cut]] = {}
         self._nearby: dict[float, Nearby] = {}
         self._around: dict[tuple[str, float, float], tuple[float, float, Floats]] = {}
-        self._things = {}
-        self._crowds = (None, {})
+        self._things: dict[str, dict[float, tuple[Obstacle, Pose, Cut]]] = {}
+        self._templates: dict[tuple[int, float], tuple[RobotModel, Cut]] = {}
+        self._crowds: tuple[Hashable, dict[float, Crowd]] = (None, {})
+
+    def insert(self, obstacle: Obstacle) -> None:
+        """Learn of another fixed obstacle."""
+        self._fixed[obstacle.name] = obstacle
+        for height, solid in self._solid.items():
+            self._solid[height] = stacked([solid, self._cut(obstacle, height)])
+        self._look_again()
+
+    def remove(self, name: str) -> None:
+        """Forget an obstacle that is gone, if it was seen."""
+        self._things.pop(name, None)
+        if self._fixed.pop(name, None) is not None:
+            self._cuts.pop(name, None)
+            self._solid.clear()
+            self._look_again()
+
+    def _look_again(self) -> None:
+        self._nearby.clear()
+        self._around.clear()
+
+    def _cut(self, obstacle: Obstacle, height: float) -> Cut:
+        cuts = self._cuts.setdefault(obstacle.name, {})
+        if height not in cuts:
+            cuts[height] = cut_obstacle(obstacle, height)
+        return cuts[height]
 
     def forget_viewer(self, name: str) -> None:
         """Forget what was around a laser that is gone."""
@@ -170,7 +192,7 @@ class Sights:
         """The fixed things at this height, all of them."""
         if height not in self._solid:
             world = self.world
-            cuts = [cut_obstacle(o, height) for o in world.obstacles if o.fixed]
+            cuts = [self._cut(obstacle, height) for obstacle in self._fixed.values()]
             if world.wall_height >= height:
                 cuts.insert(0, (world.walls.reshape(-1, 4), NOTHING[1]))
             self._solid[height] = stacked(cuts)
@@ -192,10 +214,10 @@ class Sights:
 
     def thing(self, obstacle: Obstacle, height: float, pose: Pose) -> Cut:
         """A thing that may be elsewhere than it was."""
-        key = (obstacle.name, height)
-        kept = self._things.get(key)
+        things = self._things.setdefault(obstacle.name, {})
+        kept = things.get(height)
         if kept is None or kept[0] is not obstacle or kept[1] != pose:
-            kept = self._things[key] = (obstacle, pose, cut_obstacle(obstacle, height, pose))
+            kept = things[height] = (obstacle, pose, cut_obstacle(obstacle, height, pose))
         return kept[2]
 
     def template(self, model: RobotModel, height: float) -> Cut:
@@ -205,15 +227,14 @@ class Sights:
             self._templates[key] = (model, cut_model(model, height))  # with the model its id stays its own
         return self._templates[key][1]
 
-    def crowd(
-        self, moment: Hashable, height: float, models: Sequence[RobotModel], poses: Sequence[Pose]
-    ) -> Crowd:
+    def crowd(self, moment: Hashable, height: float, robots: Sequence[Robot]) -> Crowd:
         """The robots at one moment, made once for each height; `moment` is another whenever any pose is."""
         if self._crowds[0] != moment:
             self._crowds = (moment, {})
         crowds = self._crowds[1]
         if height not in crowds:
-            places = np.array(poses).reshape(-1, 3)
+            places = np.array([each.pose for each in robots]).reshape(-1, 3)
+            models = [each.model for each in robots]
             crowds[height] = Crowd(models, places, lambda model: self.template(model, height))
         return crowds[height]
 
@@ -227,7 +248,7 @@ class Sights:
         moment: Hashable,
         moved: float = 0.0,
     ) -> Cut:
-        """What a laser on one of the robots can see: all that may be within its reach, other robots among them, in the frame map.
+        """What a robot's laser can see: all that may be within its reach, other robots too, in the frame map.
 
         So much [m] it may have moved while it measured.
         """
@@ -241,10 +262,8 @@ class Sights:
         found += [self.thing(crate.obstacle, height, crate.pose) for crate in crates]
         found += [self.thing(mover.obstacle, height, mover.pose) for mover in movers]
         if len(robots) > 1:
-            poses = [each.pose for each in robots]
-            crowd = self.crowd(moment, height, [each.model for each in robots], poses)
             own = next(i for i, each in enumerate(robots) if each is viewer)
-            found.append(crowd.around(x, y, radius + moved, own))
+            found.append(self.crowd(moment, height, robots).around(x, y, radius + moved, own))
         return stacked(found)
 
 

@@ -1,151 +1,236 @@
-"""What a laser measures that needs its time for a revolution: each beam from where the robot was at the time of that beam, and of what stood there then.
+"""What a laser measures that takes time for a revolution: each beam from where the robot was then.
 
-Exact poses are found at `GRID` + 1 times of a revolution, and between them the robot is taken to move along arcs. So its beams start exactly where they
-should while its speeds are constant; where they change, at most a T^2 / (8 GRID^2) beside it with a the acceleration and T the time of a revolution: a
-Burger that begins to turn as fast as it can, with 12.5 rad/s^2, is off by 0.6 milliradians for a moment. Others that move are put for each
-`TOGETHER` beams to where they are in the middle of them: off by 2.2 ms of their way, half a millimetre for a Burger, and 3 mm for who walks at 1.4 m/s.
+Exact poses are found at `GRID` + 1 times of a revolution, and between them what moves is taken to go along
+arcs. So beams start exactly where they should while speeds are constant; where they change, at most a T^2 /
+(8 GRID^2) beside it, with a the acceleration and T the time of a revolution: a Burger that begins to turn as
+fast as it can, with 12.5 rad/s^2, is off by 0.6 milliradians for a moment. Others that move are put, for each
+`TOGETHER` beams, to where they are in the middle of them: off by 2.2 ms of their way, half a millimetre for a
+Burger, and 3 mm for a walker at 1.4 m/s.
+
+With numba one function does it all, `rosmini.sim.engine.sweep_kernel.sweep`; else numpy, with the same ranges
+to 1e-9.
 """
 
 from __future__ import annotations
 
+import itertools
+import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.geometry.raycast import raycast_each
+from rosmini.geometry import raycast
 from rosmini.sim.models import LidarModel
 from rosmini.sim.sensors.lidar import measured
 
+from . import sweep_kernel
 from .sights import Cut, at_poses, cut_obstacle, stacked
-from .trails import Later, between
+from .sweep_kernel import TOGETHER
+from .trails import Later, Trails, between
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from rosmini.geometry.poses import Pose
 
     from .bodies import Crate
-    from .engine import Engine
     from .movers import Mover
+    from .population import Population
     from .robot import Robot
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 GRID = 10
-"""At so many times and one of a revolution poses are exact."""
+"""Poses are exact at so many times of a revolution, and at its begin."""
 
-PARTS = np.arange(GRID, -1, -1) / GRID
+PARTS = tuple(part / GRID for part in range(GRID, -1, -1))
 """How much of a revolution is left at these times."""
 
-TOGETHER = 8
-"""For so many beams, one after the other, what moves stands still."""
+NO_NOISE: Floats = np.empty(0)
+
+
+def prepare(trails: Trails, seconds: float) -> None:
+    """Get ready for sweeps that take so long: remember where all were, and compile what numba compiles."""
+    trails.remember(1.01 * seconds)
+    if raycast.backend() == "numba":
+        sweep_kernel.compiled()
 
 
 class Sweeps:
     """What moved in an engine during the last revolution, found once for all lasers that turn in step."""
 
-    def __init__(self, engine: Engine) -> None:
-        self._engine = engine
+    def __init__(
+        self, population: Population, scan: Callable[[str, Floats | None, LidarModel], Floats]
+    ) -> None:
+        self._population = population
+        self._scan = scan  # all beams at once
         self._moment: tuple[float, int, float] | None = None
 
     def scan(
         self, viewer: Robot, lidar: LidarModel, beam_time: float, noise: Floats | None
     ) -> tuple[Floats, Floats]:
-        """The ranges (beams,) [m], and where the robot was at each beam (beams, 3): the first is measured now, each further one `beam_time` [s] before."""
-        engine, count = self._engine, lidar.beams
-        self._turn(beam_time * count)
-        track = self._tracks.get(viewer.name)
-        if not self._tracks:
-            return engine.scan(viewer.name, noise, lidar), np.tile(viewer.pose, (count, 1))
-        beams = np.arange(count, dtype=np.float64)
-        if track is None:
-            poses = np.tile(viewer.pose, (count, 1))
-        else:
-            poses = between(self._grid, track, engine.now - beam_time * beams)
-        angles = poses[:, 2] + (lidar.yaw + lidar.angle_min) + lidar.increment * beams
-        c, s = np.cos(poses[:, 2]), np.sin(poses[:, 2])
-        mx, my, height = lidar.mount
-        places = np.column_stack([poses[:, 0] + c * mx - s * my, poses[:, 1] + s * mx + c * my])
-        reach = lidar.range_max if noise is None else lidar.range_max + 6 * lidar.noise
-        moved = float(np.hypot(*(places - places[0]).T).max())
-        still = engine.sights.of(lidar, viewer, *self._still(viewer), self._moment, moved)
-        near = self._near(viewer, height, places[0], reach + moved, beam_time, count)
-        segments, discs = stacked([still, *(each for each, _ in near)])
-        rays = [
-            np.vstack([np.tile((0, count), (len(still[i]), 1)), *(of[i] for _, of in near)]) if near else None
-            for i in (0, 1)
-        ]
-        ranges = raycast_each(segments, discs, places, angles, reach, segment_rays=rays[0], disc_rays=rays[1])
-        return measured(lidar, ranges if noise is None else ranges + noise), poses
+        """Return the ranges (beams,) [m], and where the robot was at each beam (beams, 3).
 
-    def _turn(self, duration: float) -> None:
+        The first beam is measured now, each further one `beam_time` [s] before.
+        """
+        count = lidar.beams
+        self._look_back(beam_time * count)
+        seen_from = np.empty((count, 3))
+        if viewer.name not in self._numbers:
+            seen_from[:] = viewer.pose
+        if not self._numbers:
+            return self._scan(viewer.name, noise, lidar), seen_from
+        reach = lidar.range_max if noise is None else lidar.range_max + 6 * lidar.noise
+        if raycast.backend() == "numpy":
+            return self._with_numpy(viewer, lidar, beam_time, noise, reach, seen_from), seen_from
+        own = self._numbers.get(viewer.name, -1)
+        mx, my, height = lidar.mount
+        ranges = np.empty(count)
+        first = lidar.yaw + lidar.angle_min
+        sweep_kernel.compiled()(
+            own,
+            self._population.now,
+            beam_time,
+            np.array((mx, my, first, lidar.increment, reach, lidar.range_min, lidar.range_max)),
+            self._starts,
+            self._times,
+            self._poses,
+            *self._outlines(height),
+            self._around,
+            *self._still(viewer, lidar),
+            NO_NOISE if noise is None else noise,
+            seen_from,
+            ranges,
+        )
+        return ranges, seen_from
+
+    def _with_numpy(
+        self,
+        viewer: Robot,
+        lidar: LidarModel,
+        beam_time: float,
+        noise: Floats | None,
+        reach: float,
+        seen_from: Floats,
+    ) -> Floats:
+        """Do the same without numba, and fill in `seen_from` if the viewer moved."""
+        count, now = lidar.beams, self._population.now
+        beams = np.arange(count, dtype=np.float64)
+        own = self._numbers.get(viewer.name, -1)
+        if own >= 0:
+            seen_from[:] = between(*self._track(own), now - beam_time * beams)
+        angles = seen_from[:, 2] + (lidar.yaw + lidar.angle_min) + lidar.increment * beams
+        c, s = np.cos(seen_from[:, 2]), np.sin(seen_from[:, 2])
+        mx, my, height = lidar.mount
+        places = np.column_stack([seen_from[:, 0] + c * mx - s * my, seen_from[:, 1] + s * mx + c * my])
+        moved = float(np.hypot(*(places - places[0]).T).max())
+        away = np.hypot(*(self._around[:, :2] - places[0]).T) - self._around[:, 2]
+        begins = np.arange(0, count, TOGETHER)
+        spans = np.column_stack([begins, np.minimum(begins + TOGETHER, count)])
+        middles = now - beam_time * (spans.sum(axis=1) - 1) / 2
+        sides, segments, discs = self._outlines(height)
+        cuts = [self._still(viewer, lidar)]
+        rays = [tuple(np.tile((0, count), (len(part), 1)) for part in cuts[0])]
+        for k in np.flatnonzero(away < reach + moved).tolist():
+            if k != own:
+                a, b, d, e = sides[k]
+                template = (segments[a:b], discs[d:e])
+                cuts.append(at_poses(template, between(*self._track(k), middles)))
+                rays.append(tuple(np.repeat(spans, len(part), axis=0) for part in template))
+        segment_rays, disc_rays = (np.vstack(each) for each in zip(*rays, strict=True))
+        ranges = raycast.raycast_each(
+            *stacked(cuts), places, angles, reach, segment_rays=segment_rays, disc_rays=disc_rays
+        )
+        return measured(lidar, ranges if noise is None else ranges + noise)
+
+    def _track(self, number: int) -> tuple[Floats, Floats]:
+        rows = slice(self._starts[number], self._starts[number + 1])
+        return self._times[rows], self._poses[rows]
+
+    def _look_back(self, duration: float) -> None:
         """Find where all were during the last `duration` seconds."""
-        engine = self._engine
-        moment = (engine.now, engine.changed, duration)
+        everything = self._population
+        moment = (everything.now, everything.changed, duration)
         if moment == self._moment:
             return
         self._moment = moment
-        self._grid = engine.now - duration * PARTS
-        self._cuts: dict[tuple[str, float, int], tuple[Cut, tuple[Ints, Ints]]] = {}
-        times = self._grid.tolist()
-        self._tracks: dict[str, Floats] = {}
-        sizes: list[float] = []
+        self._cuts: dict[float, tuple[Ints, Floats, Floats]] = {}
+        grid = [everything.now - duration * part for part in PARTS]
+        self._numbers: dict[str, int] = {}
+        starts = [0]
+        times: list[float] = []
+        poses: list[Pose] = []
+        around: list[tuple[float, float, float]] = []
         for name, pose, reach, later in self._all():
-            track = engine.trails.track(name, times, engine.now, pose, later)
-            if not (track == pose).all():
-                self._tracks[name] = track
-                sizes.append(reach + float(np.hypot(*(track - track[GRID // 2])[:, :2].T).max()))
-        self._names, self._sizes = list(self._tracks), np.array(sizes)
-        self._middles = np.array([track[GRID // 2, :2] for track in self._tracks.values()]).reshape(-1, 2)
+            track = everything.trails.track(name, grid, pose, later)
+            if track is not None:
+                self._numbers[name] = len(self._numbers)
+                times += track[0]
+                poses += track[1]
+                starts.append(len(times))
+                around.append(_around(track[1], reach))
+        self._starts, self._times = np.array(starts), np.array(times)
+        self._poses, self._around = np.array(poses).reshape(-1, 3), np.array(around).reshape(-1, 3)
+        moving = self._numbers
+        self._standing = [each for each in everything.robots.values() if each.name not in moving]
+        self._crates: list[Crate] = [
+            each for each in everything.contacts.crates if each.shown and each.obstacle.name not in moving
+        ]
+        self._movers: list[Mover] = [
+            each for each in everything.movers.values() if each.obstacle.name not in moving
+        ]
 
     def _all(self) -> Iterator[tuple[str, Pose, float, Later | None]]:
-        """All that may move: where it is, how far from there it reaches [m], and what tells where it was."""
-        engine = self._engine
-        for robot in engine.robots.values():
+        """Yield what may move: its name, its position, its reach from there [m], and what knows its former poses."""
+        everything = self._population
+        for robot in everything.robots.values():
             yield robot.name, robot.pose, robot.model.extent, robot.later
-        for mover in engine.movers.values():
+        for mover in everything.movers.values():
             yield mover.obstacle.name, mover.pose, mover.reach, mover.later
-        for crate in engine.contacts.crates:
+        for crate in everything.contacts.crates:
             if crate.shown:
                 yield crate.obstacle.name, crate.pose, crate.reach, None
 
-    def _still(self, viewer: Robot) -> tuple[list[Robot], list[Crate], list[Mover]]:
-        """Who did not move, and the viewer."""
-        engine, moving = self._engine, self._tracks
-        return (
-            [each for each in engine.robots.values() if each is viewer or each.name not in moving],
-            [each for each in engine.contacts.crates if each.shown and each.obstacle.name not in moving],
-            [each for each in engine.movers.values() if each.obstacle.name not in moving],
-        )
+    def _still(self, viewer: Robot, lidar: LidarModel) -> Cut:
+        """Return what the laser can see of what did not move."""
+        robots, moved, moment = self._standing, 0.0, (self._moment, "")
+        own = self._numbers.get(viewer.name)
+        if own is not None:
+            robots, moment = [viewer, *robots], (self._moment, viewer.name)
+            moved = 2 * (self._around[own, 2] + math.hypot(*lidar.mount[:2]))
+        return self._population.sights.of(lidar, viewer, robots, self._crates, self._movers, moment, moved)
 
-    def _near(
-        self, viewer: Robot, height: float, place: Floats, reach: float, beam_time: float, count: int
-    ) -> list[tuple[Cut, tuple[Ints, Ints]]]:
-        """What moved within reach, but for the viewer: its cross-section at each time, and which beams see that of which time."""
-        if self._names in ([], [viewer.name]):
-            return []
-        away = np.hypot(*(self._middles - place).T) - self._sizes
-        found = []
-        for which in np.flatnonzero(away < reach).tolist():
-            name = self._names[which]
-            if name == viewer.name:
-                continue
-            key = (name, height, count)
-            if key not in self._cuts:
-                self._cuts[key] = self._cut(name, height, beam_time, count)
-            found.append(self._cuts[key])
-        return found
+    def _outlines(self, height: float) -> tuple[Ints, Floats, Floats]:
+        """Return the outlines of what moved, each in its own frame: which rows are whose, segments and discs."""
+        if height not in self._cuts:
+            cuts = [self._outline(name, height) for name in self._numbers]
+            sides = np.zeros((len(cuts), 4), dtype=np.int64)
+            for column, part in ((0, 0), (2, 1)):
+                sides[:, column + 1] = np.cumsum([len(cut[part]) for cut in cuts])
+                sides[1:, column] = sides[:-1, column + 1]
+            self._cuts[height] = (sides, *stacked(cuts))
+        return self._cuts[height]
 
-    def _cut(self, name: str, height: float, beam_time: float, count: int) -> tuple[Cut, tuple[Ints, Ints]]:
-        engine = self._engine
-        if name in engine.robots:
-            template = engine.sights.template(engine.robots[name].model, height)
-        else:
-            template = cut_obstacle(engine.obstacle(name), height, (0.0, 0.0, 0.0))
-        first = np.arange(0, count, TOGETHER)
-        beams = np.column_stack([first, np.minimum(first + TOGETHER, count)])
-        middles = engine.now - beam_time * (beams.sum(axis=1) - 1) / 2
-        rays = tuple(np.repeat(beams, len(part), axis=0) for part in template)
-        return at_poses(template, between(self._grid, self._tracks[name], middles)), (rays[0], rays[1])
+    def _outline(self, name: str, height: float) -> Cut:
+        everything = self._population
+        if name in everything.robots:
+            return everything.sights.template(everything.robots[name].model, height)
+        owner = everything.movers[name] if name in everything.movers else everything.contacts.loose[name]
+        return cut_obstacle(owner.obstacle, height, (0.0, 0.0, 0.0))
+
+
+def _around(poses: Sequence[Pose], reach: float) -> tuple[float, float, float]:
+    """Return a circle, as x, y and radius, that something stays in which reaches so far, on arcs from pose to pose."""
+    x, y, _ = poses[len(poses) // 2]
+    radius = max(math.hypot(px - x, py - y) for px, py, _ in poses)
+    bulge = 0.0  # no point of an arc is farther than half its length from the nearer end
+    for (x1, y1, begin), (x2, y2, end) in itertools.pairwise(poses):
+        half = abs(end - begin) / 2
+        if half > math.pi / 2:
+            return (x, y, math.inf)
+        chord = math.hypot(x2 - x1, y2 - y1)
+        bulge = max(bulge, chord / 2 * (half / math.sin(half) if half else 1.0))
+    return (x, y, reach + radius + bulge)

@@ -5,19 +5,17 @@ from __future__ import annotations
 from . import examples, ros_plugins  # their plugins are known from here on
 from .client import GazeboClient
 from .errors import GazeboError, SpawnError, UnknownEntity, UnknownPlugin
-from .gz import Gz
+from .plugin_tags import Tags, tag
 from .plugins import ModelPlugin, SensorPlugin, WorldPlugin, plugin_class, plugin_filenames
 from .server import Gazebo, GazeboServer
-from .tags import Tags, tag
-from .transport import Master, TransportNode
+from .transport import GazeboMaster, TransportNode
 
 __all__ = [
     "Gazebo",
     "GazeboClient",
     "GazeboError",
+    "GazeboMaster",
     "GazeboServer",
-    "Gz",
-    "Master",
     "ModelPlugin",
     "SensorPlugin",
     "SpawnError",

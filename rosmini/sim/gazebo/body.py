@@ -1,12 +1,12 @@
-"""What a model with a drive or with sensors is to the engine: its parts, its outline, its mass and its wheels, from links, collisions and joints.
+"""What a model with a drive or sensors is to the engine: parts, outline, mass and wheels, from its links and joints.
 
-The engine's robots turn about the middle of their axle; a model's own origin may be elsewhere. `Body.axle` is where the engine's frame is in the model's.
+The engine's robots turn about the middle of their axle; a model's origin may be elsewhere. `Body.axle` is the pose of
+the engine's frame in the model's.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose, compose, inverse, transform_points
 from rosmini.sim.models import Drive, RobotModel, WheelErrors, hull
-from rosmini.sim.sdf import ORIGIN, Pose6, SdfJoint, SdfLink, SdfModel, SdfPlugin, to_obstacles
+from rosmini.sim.sdf import ORIGIN, Pose6, SdfJoint, SdfModel, SdfPlugin, placed_links, to_obstacles
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.sdf.poses import matrix
 from rosmini.sim.shapes import Box, Cylinder, Part, Polygon, Sphere, outline_at, simple_parts
@@ -23,10 +23,10 @@ from rosmini.sim.world import Obstacle
 from .errors import SpawnError
 
 TICKS = 1 << 20
-"""A turn of a wheel, as its encoder counts it: Gazebo's joints say their angle exactly."""
+"""Encoder ticks of one turn of a wheel: Gazebo's joints give their angle exactly."""
 
 CIRCLE = 24
-"""So many corners stand for a round part of an outline."""
+"""Corners in place of a round part of an outline."""
 
 DOT = 0.005
 """Half the side of the outline of a model without collisions [m]."""
@@ -45,6 +45,8 @@ class Body:
     axle: Pose = (0.0, 0.0, 0.0)
     wheels: tuple[str, str] | None = None
     """The joints of the left and of the right wheel."""
+    sides: dict[str, int] = field(default_factory=dict)
+    """The joints of all wheels: 0 for one on the left, 1 for one on the right."""
     notes: list[str] = field(default_factory=list)
 
     def joint(self, name: str) -> SdfJoint:
@@ -56,31 +58,42 @@ class Body:
         hint = nearest(name, names) or f"its joints are: {', '.join(names) or 'none'}"
         raise SpawnError(f"the model {self.model.name!r} has no joint {name!r}; {hint}")
 
-    def put_on_wheels(self, left: str, right: str, separation: float, radius: float) -> None:
-        """Let two wheels drive it; which of them is the left one is seen from where they are. Raises `SpawnError` if there are no such joints."""
+    def put_on_wheels(
+        self, left: str, right: str, separation: float, radius: float, rear: tuple[str, str] | None = None
+    ) -> None:
+        """Let two wheels drive it, or four, two of them in the `rear`. The left ones are seen from where they are.
+
+        The middle of all wheels is what it turns about. Raises `SpawnError` if there are no such joints.
+        """
         self.drive, self.wheels = "differential", (left, right)
         self.wheel_separation, self.wheel_radius = separation, radius
         places = {name: pose for name, _, pose in placed_links(self.model)}
         a, b = (np.array(places[self.joint(name).child][:2]) for name in (left, right))
+        middle = (a + b) / 2
+        if rear is not None:
+            back = sum(np.array(places[self.joint(name).child][:2]) for name in rear) / 2
+            middle = (middle + back) / 2
         distance = float(np.hypot(*(a - b)))
         if distance < 1e-6:
             raise SpawnError(
-                f"the wheels of the joints {left!r} and {right!r} of the model {self.model.name!r} are at the same place"
+                f"the wheels of the joints {left!r} and {right!r} of the model {self.model.name!r} are in one place"
             )
-        middle = (a + b) / 2
         heading = math.atan2(a[1] - b[1], a[0] - b[0]) - math.pi / 2
         heading = math.remainder(heading, 2 * math.pi)
         if abs(heading) > math.pi / 2 + 1e-6:  # the left wheel is on the right
             self.wheels = (right, left)
             heading = math.remainder(heading + math.pi, 2 * math.pi)
+            rear = rear and (rear[1], rear[0])
+        self.sides = {joint: i for pair in (self.wheels, rear or ()) for i, joint in enumerate(pair)}
         self.axle = (float(middle[0]), float(middle[1]), heading if abs(heading) > 1e-9 else 0.0)
         if abs(distance - separation) > 0.05 * distance:
             self.notes.append(
-                f"the wheels of the model {self.model.name!r} are {distance:.3f} m apart, but its plugin says {separation:g} m: it is taken as the plugin says"
+                f"the wheels of the model {self.model.name!r} are {distance:.3f} m apart, but its plugin says "
+                f"{separation:g} m: it is taken as the plugin says"
             )
 
     def robot_model(self) -> RobotModel:
-        """The numbers by which the engine knows it."""
+        """What the engine knows of it."""
         parts = self.parts()
         mass, inertia = self.weight()
         return RobotModel(
@@ -113,7 +126,7 @@ class Body:
         return tuple(found)
 
     def weight(self) -> tuple[float, float]:
-        """Mass, and inertia about the vertical axis through the middle of the axle [kg, kg m2] (the theorem of parallel axes)."""
+        """Mass, and inertia about the vertical axis in the middle of the axle [kg, kg m2] (parallel axis theorem)."""
         mass = inertia = 0.0
         for _, link, pose in placed_links(self.model):
             own = link.inertial
@@ -127,23 +140,13 @@ class Body:
         return max(mass, 1e-6), max(inertia, 1e-9)
 
 
-def placed_links(
-    model: SdfModel, pose: Pose6 = ORIGIN, inside: str = ""
-) -> Iterator[tuple[str, SdfLink, Pose6]]:
-    """The links of a model, and of the models within it, each with its name and where it is if the model is at `pose`."""
-    for link in model.links:
-        yield inside + link.name, link, compose6(pose, link.pose)
-    for each in model.models:
-        yield from placed_links(each, compose6(pose, each.pose), f"{inside}{each.name}::")
-
-
 def plugins_of(model: SdfModel) -> list[SdfPlugin]:
     """The plugins of a model and of the models within it."""
     return [*model.plugins, *(plugin for each in model.models for plugin in plugins_of(each))]
 
 
 def is_still(model: SdfModel) -> bool:
-    """Tell whether a model of a world's file is scenery: nothing drives it, pushes it or measures on it."""
+    """Return whether a model is scenery: nothing drives or pushes it, or measures on it."""
     if plugins_of(model) or any(link.sensors for _, link, _ in placed_links(model)):
         return False
     return not any(each.movable for each in to_obstacles(model))
@@ -162,12 +165,6 @@ def obstacles_at(pose: Pose6, model: SdfModel, old: tuple[Obstacle, ...]) -> tup
     if any(link.collisions for _, link, _ in placed_links(model)):
         return to_obstacles(model, pose)
     return tuple(replace(each, pose=(pose[0], pose[1], pose[5])) for each in old)
-
-
-def outline_of(obstacle: Obstacle) -> tuple[tuple[float, float], ...]:
-    """The corners of the smallest convex polygon around an obstacle, seen from its pose."""
-    still = replace(obstacle, pose=(0.0, 0.0, 0.0))
-    return _footprint(tuple(Part(shape, pose, 0.0, 1.0) for shape, pose in still.parts()))
 
 
 def _footprint(parts: tuple[Part, ...]) -> tuple[tuple[float, float], ...]:

@@ -1,13 +1,14 @@
-"""A URDF as Gazebo sees it: Gazebo makes an SDF model of it before anything else, and so does this.
+"""URDF as Gazebo sees it: Gazebo turns it into an SDF model before anything else, and so does this.
 
-Links that hang on fixed joints become part of the link that they hang on, as in Gazebo (http://classic.gazebosim.org/tutorials?tut=ros_urdf), unless a
-`<gazebo>` element says `preserveFixedJoint` or `disableFixedJointLumping`: so the links of a TurtleBot3 are base_footprint and its two wheels.
+Links on fixed joints become part of the link that they are fixed to, as in Gazebo, unless a `<gazebo>` element says
+`preserveFixedJoint` or `disableFixedJointLumping`: so the links of a TurtleBot3 are base_footprint and its two wheels
+(http://classic.gazebosim.org/tutorials?tut=ros_urdf).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from rosmini import urdf
 from rosmini.markup import Element
 from rosmini.sim.sdf import (
+    ORIGIN,
     Pose6,
     SdfCollision,
     SdfGeometry,
@@ -22,11 +24,12 @@ from rosmini.sim.sdf import (
     SdfJoint,
     SdfLink,
     SdfModel,
-    SdfPlugin,
     SdfSensor,
     SdfVisual,
 )
-from rosmini.sim.sdf.colours import colour_of
+from rosmini.sim.sdf.frames import Scope
+from rosmini.sim.sdf.material_colours import colour_of
+from rosmini.sim.sdf.parts import plugins, sensor
 from rosmini.sim.sdf.poses import matrix, pose6
 
 Matrix = NDArray[np.float64]
@@ -40,9 +43,9 @@ class Converted:
 
     model: SdfModel
     frames: Mapping[str, tuple[str, Pose6]] = field(default_factory=dict)
-    """Where the links are that became part of others: from a link's name to the other's, and the pose in it."""
+    """The links that became part of others: name of the other link, and pose in it."""
     warnings: tuple[str, ...] = ()
-    """What is wrong with the description and was left out or replaced, each with file and line."""
+    """What is wrong and was left out or replaced, with file and line."""
 
 
 def from_urdf(robot: urdf.Robot) -> Converted:
@@ -73,7 +76,7 @@ class _Conversion:
             static=static,
             links=tuple(self._link(name) for name in links),
             joints=tuple(self._joint(joint) for joint in joints),
-            plugins=tuple(_plugin(tag) for each in top for tag in each.all("plugin")),
+            plugins=tuple(tag for each in top for tag in plugins(each)),
             path=robot.path,
         )
         lumped = {
@@ -84,7 +87,7 @@ class _Conversion:
         return Converted(model, lumped)
 
     def _kept(self, joint: str) -> bool:
-        """Tell whether a fixed joint is to stay one."""
+        """Return whether a fixed joint is to be kept."""
         for element in self.about.get(joint, []):
             for tag in ("preserveFixedJoint", "disableFixedJointLumping"):
                 found = element.find(tag)
@@ -145,21 +148,11 @@ class _Conversion:
         return None
 
     def _sensor(self, tag: Element, host: str, name: str) -> SdfSensor:
-        at = tag.find("pose")
-        own = (0.0,) * 6 if at is None or not at.text else at.floats(at.text, 6)
-        pose = self._pose(matrix((own[0], own[1], own[2], own[3], own[4], own[5])), host, name)
-        rate = tag.find("update_rate")
-        return SdfSensor(
-            tag.attribute("name"),
-            tag.attribute("type"),
-            pose,
-            rate.floats(rate.text, 1)[0] if rate is not None and rate.text else 0.0,
-            tag,
-            tuple(_plugin(each) for each in tag.all("plugin")),
-        )
+        own = sensor(tag, Scope("world", what="the robot"), ORIGIN)
+        return replace(own, pose=self._pose(matrix(own.pose), host, name))
 
     def _inertial(self, name: str, parts: list[urdf.Link]) -> SdfInertial:
-        """All the parts' masses as one (the theorem of parallel axes)."""
+        """The masses of all parts as one (parallel axis theorem)."""
         bodies = []
         for part in parts:
             if part.inertial is not None and part.inertial.mass > 0:
@@ -185,10 +178,6 @@ class _Conversion:
         kind = {"continuous": "revolute"}.get(joint.type, joint.type)
         parent = self.host[joint.parent]
         return SdfJoint(joint.name, kind, parent, joint.child, axis=joint.axis, line=joint.line)
-
-
-def _plugin(tag: Element) -> SdfPlugin:
-    return SdfPlugin(tag.get("name"), tag.attribute("filename"), tag)
 
 
 def _geometry(shape: urdf.model.Geometry) -> SdfGeometry:

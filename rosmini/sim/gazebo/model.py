@@ -1,39 +1,132 @@
-"""A model in the running world: what plugins and services speak of.
+"""A model in the running world, and the world as models and plugins see it.
 
-What can drive, or carries a sensor, is a robot of the engine. Of the rest, what is static is one fixed obstacle or more, and what is not is one that can
-be pushed. All stands upright on flat ground: a height, a roll or a pitch stays as it was when the model came.
+What drives or carries a sensor is a robot of the engine. Anything else is one or more fixed obstacles if it is
+static, and one that can be pushed if not. Everything stands upright on flat ground: height, roll and pitch stay as
+they were at first.
 """
 
 from __future__ import annotations
 
 import contextlib
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.graph import Node
 from rosmini.markup import Element
+from rosmini.sim.engine import Engine
 from rosmini.sim.engine.robot import Robot
-from rosmini.sim.sdf import ORIGIN, Pose6, SdfModel, SdfSensor
+from rosmini.sim.host import Host
+from rosmini.sim.sdf import ORIGIN, Pose6, SdfModel, SdfSensor, placed_links
 from rosmini.sim.sdf.poses import compose as compose6
 from rosmini.sim.sdf.poses import pose6
-from rosmini.sim.world import WorldError
+from rosmini.sim.world import World, WorldError
 
-from .body import Body, placed_links
+from .body import Body
 from .errors import UnknownEntity
-
-if TYPE_CHECKING:
-    from .plugins import Plugin
-    from .world import GazeboWorld
+from .physics_properties import PhysicsProperties
 
 Velocity = tuple[float, float, float]
 """Along x and y of the world [m/s], and counter-clockwise [rad/s]."""
 
 STILL: Velocity = (0.0, 0.0, 0.0)
+
+WORLD_FRAMES = ("", "world", "map", "/map")
+"""What stands for the world where a model or a link is named."""
+
+
+class GazeboWorld(ABC):
+    """The world as its models and plugins see it (gazebo::physics::World); `RunningWorld` is one."""
+
+    node: Node
+    name: str
+    noise: float
+    """Scales the noise of all sensors; 0: none."""
+    physics: PhysicsProperties
+    flat: World
+    """Its walls and fixed obstacles, as they were at first."""
+    engine: Engine
+    host: Host
+    """Its time: `pause`, `unpause`, `step`."""
+    models: dict[str, Model]
+    """By name, in insertion order."""
+
+    def __repr__(self) -> str:
+        return f"<GazeboWorld {self.name}: {len(self.models)} models, {self.now:.3f} s{', paused' * self.paused}>"
+
+    @property
+    def now(self) -> float:
+        """The world's time [s]."""
+        return self.host.now
+
+    @property
+    def paused(self) -> bool:
+        """Whether time stands still."""
+        return self.host.paused
+
+    @abstractmethod
+    def spawn(
+        self,
+        sdf: SdfModel,
+        name: str = "",
+        pose: Pose6 | None = None,
+        *,
+        namespace: str = "",
+        frames: Mapping[str, tuple[str, Pose6]] | None = None,
+    ) -> Model:
+        """Insert a model, as `name`, at `pose`, from which its own pose counts. Unless static it stands on the ground.
+
+        Raises `SpawnError`, and inserts nothing, if the name is used, something stands there, or a plugin lacks what it
+        needs; and what the readers raise.
+        """
+
+    @abstractmethod
+    def delete(self, name: str) -> None:
+        """Remove a model, whether it moves or not: its topics end, all else goes on. Raises `UnknownEntity`."""
+
+    @abstractmethod
+    def move(self, model: Model, pose: Pose6, velocity: Velocity = STILL) -> None:
+        """Put a model elsewhere, with a velocity in the world's frame.
+
+        Raises `GazeboError` for what is not finite, `WorldError` if something is in the way.
+        """
+
+    def model(self, name: str) -> Model:
+        """The model of this name. Raises `UnknownEntity`, with the nearest."""
+        if name not in self.models:
+            hint = nearest(name, self.models) or f"the models are: {', '.join(self.models) or 'none'}"
+            raise UnknownEntity(f"there is no model {name!r} in the world {self.name!r}; {hint}")
+        return self.models[name]
+
+    def entity(self, name: str) -> tuple[Model, str]:
+        """The model and the link that `model::link` names; `model` means its first link. Raises `UnknownEntity`."""
+        model_name, _, link = name.partition("::")
+        model = self.model(model_name)
+        if not link:
+            link = model.links[0] if model.links else ""
+        elif link not in model.frames:
+            model.link_frame(link)
+        return model, link
+
+    def frame(self, name: str) -> tuple[Pose6, Velocity]:
+        """Pose and velocity, in the world, of a model, of a link, or of the world itself. Raises `UnknownEntity`."""
+        if name in WORLD_FRAMES:
+            return ORIGIN, STILL
+        model, link = self.entity(name)
+        if "::" not in name or not link:
+            return model.pose, model.velocity
+        return model.link_pose(link), model.link_velocity(link)
+
+    def holds(self, name: str) -> bool:
+        """Return whether what the engine calls so cannot be pushed: a wall, or a fixed obstacle."""
+        if name in self.engine.robots:
+            return math.isinf(self.engine.robots[name].model.mass)
+        return not any(each.name == name for each in self.engine.obstacles())
 
 
 @dataclass
@@ -45,19 +138,18 @@ class Model:
     sdf: SdfModel
     """What it is, seen from its own origin."""
     start: Pose6
-    """Where it came into the world, and where a reset puts it."""
+    """Where it was spawned, and where a reset puts it."""
     namespace: str = ""
-    """Of its topics, where its plugins do not say their own."""
+    """Of its topics, unless its plugins name their own."""
     frames: Mapping[str, tuple[str, Pose6]] = field(default_factory=dict)
-    """Links of its URDF that became part of others: of which, and where in it."""
+    """Links of its URDF that became part of others: of which, and their pose in it."""
     body: Body | None = None
-    """None: a thing, and no robot of the engine."""
+    """None for a thing, which is no robot of the engine."""
     obstacles: tuple[str, ...] = ()
-    """What it is to the engine if it is a thing."""
+    """The names of its obstacles in the engine, if it is a thing."""
     fixed: Pose6 | None = None
-    """Where it is if nothing but a service moves it."""
+    """Its pose if nothing but a service moves it."""
     sensors: list[Sensor] = field(default_factory=list)
-    plugins: list[Plugin] = field(default_factory=list)
 
     def __repr__(self) -> str:
         x, y, _, _, _, yaw = self.pose
@@ -111,13 +203,16 @@ class Model:
         return Body(self.sdf).weight()
 
     def set_pose(self, pose: Pose6, velocity: Velocity = STILL) -> None:
-        """Put it elsewhere, with a velocity in the frame of the world. Raises `GazeboError` for what is not finite, `WorldError` if something stands there."""
+        """Put it elsewhere, with a velocity in the world's frame.
+
+        Raises `GazeboError` for what is not finite, `WorldError` if something is in the way.
+        """
         self.world.move(self, pose, velocity)
 
     def set_velocity(self, velocity: Velocity) -> None:
-        """Give it a velocity in the frame of the world: what pushes, drags or kicks it; if something is in its way it keeps its own.
+        """Push, drag or kick it: give it a velocity in the world's frame. If something is in its way, it keeps its own.
 
-        A driven robot's wheels take that back. Raises `GazeboError` for what is not finite.
+        A driven robot's wheels undo that. Raises `GazeboError` for what is not finite.
         """
         self.world.host.catch_up()
         vx, vy, w = velocity
@@ -126,12 +221,12 @@ class Model:
                 self.name if self.body is not None else self.obstacles[0]
             ):
                 inwards = min(0.0, vx * touch.nx + vy * touch.ny)
-                if inwards and self.world.holds(touch.other):  # what stands fast would have to be pushed
+                if inwards and self.world.holds(touch.other):  # what cannot be pushed would have to be
                     vx, vy = vx - inwards * touch.nx, vy - inwards * touch.ny
         with contextlib.suppress(WorldError):
             self.world.move(self, self.pose, (vx, vy, w))
 
-    # -- of what it consists -------------------------------------------------------------------------------------
+    # -- its parts ----------------------------------------------------------------------------------------------
 
     @property
     def links(self) -> tuple[str, ...]:
@@ -163,11 +258,11 @@ class Model:
         return compose6((x, y, 0.0, 0.0, 0.0, yaw), pose)
 
     def link_in_model(self, link: str) -> Pose6:
-        """Where a link is in the model now: wheels turn. Raises `UnknownEntity`."""
+        """Pose of a link in the model now: wheels turn. Raises `UnknownEntity`."""
         frame = self.link_frame(link)
-        wheels = self.body.wheels if self.body is not None else None
+        wheels = self.body.sides if self.body is not None else {}
         for joint in self.sdf.joints:
-            if wheels and joint.child == link and joint.name in wheels:
+            if joint.child == link and joint.name in wheels:
                 return compose6(frame, _spin(joint.axis, self.joint(joint.name)[0]))
         return frame
 
@@ -182,16 +277,16 @@ class Model:
         return (vx - w * (here[1] - at[1]), vy + w * (here[0] - at[0]), w)
 
     def joint(self, name: str) -> tuple[float, float]:
-        """The position of a joint and how fast it changes [rad, rad/s]; what is no wheel stands at 0. Raises `UnknownEntity`."""
+        """The position of a joint and its rate [rad, rad/s]; 0 for all but wheels. Raises `UnknownEntity`."""
         if name not in self.joints:
             hint = nearest(name, self.joints) or f"its joints are: {', '.join(self.joints) or 'none'}"
             raise UnknownEntity(f"the model {self.name!r} has no joint {name!r}; {hint}")
         robot = self.robot
-        if robot is None or self.body is None or not self.body.wheels or name not in self.body.wheels:
+        if robot is None or self.body is None or name not in self.body.sides:
             return (0.0, 0.0)
         radius = self.body.wheel_radius
-        left = name == self.body.wheels[0]
-        way, speed = (robot.left_way, robot.left) if left else (robot.right_way, robot.right)
+        right = self.body.sides[name]
+        way, speed = (robot.right_way, robot.right) if right else (robot.left_way, robot.left)
         return (way / radius, speed / radius)
 
 

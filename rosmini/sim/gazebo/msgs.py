@@ -18,7 +18,11 @@ from rosmini.tf.rigid import from_rpy
 class Message:
     """The base of all messages."""
 
-    TYPE: ClassVar[str] = ""
+    TYPE: ClassVar[str]
+    """What `gz topic -i` calls it."""
+
+    def __init_subclass__(cls) -> None:
+        cls.TYPE = f"gazebo.msgs.{cls.__name__}"
 
     def __str__(self) -> str:
         return "\n".join(_lines(self, ""))
@@ -28,7 +32,6 @@ class Message:
 class Time(Message):
     """A time [s] in two parts."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Time"
     sec: int = 0
     nsec: int = 0
 
@@ -43,7 +46,6 @@ class Time(Message):
 class Vector3d(Message):
     """Three numbers."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Vector3d"
     x: float = 0.0
     y: float = 0.0
     z: float = 0.0
@@ -53,7 +55,6 @@ class Vector3d(Message):
 class Quaternion(Message):
     """A rotation."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Quaternion"
     x: float = 0.0
     y: float = 0.0
     z: float = 0.0
@@ -64,7 +65,6 @@ class Quaternion(Message):
 class Pose(Message):
     """Where something of a name is, seen from the world."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Pose"
     name: str
     id: int
     position: Vector3d
@@ -81,7 +81,6 @@ class Pose(Message):
 class PosesStamped(Message):
     """Where everything is."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.PosesStamped"
     time: Time
     pose: tuple[Pose, ...] = ()
 
@@ -90,7 +89,6 @@ class PosesStamped(Message):
 class LaserScan(Message):
     """What a ray sensor measured."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.LaserScan"
     frame: str
     world_pose: Pose
     angle_min: float
@@ -106,7 +104,6 @@ class LaserScan(Message):
 class LaserScanStamped(Message):
     """What a ray sensor measured, and when."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.LaserScanStamped"
     time: Time
     scan: LaserScan
 
@@ -115,7 +112,6 @@ class LaserScanStamped(Message):
 class WorldStatistics(Message):
     """How time goes on."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.WorldStatistics"
     sim_time: Time
     pause_time: Time
     real_time: Time
@@ -128,7 +124,6 @@ class WorldStatistics(Message):
 class WorldReset(Message):
     """What is to go back to how it was."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.WorldReset"
     all: bool = False
     time_only: bool = False
     model_only: bool = False
@@ -138,7 +133,6 @@ class WorldReset(Message):
 class WorldControl(Message):
     """What the server is to do with time."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.WorldControl"
     pause: bool | None = None
     step: bool | None = None
     multi_step: int | None = None
@@ -149,7 +143,6 @@ class WorldControl(Message):
 class Request(Message):
     """A question to the server, or an order; it answers on ~/response."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Request"
     id: int
     request: str
     data: str = ""
@@ -159,7 +152,6 @@ class Request(Message):
 class Response(Message):
     """An answer."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Response"
     id: int
     request: str
     response: str
@@ -173,7 +165,6 @@ class Response(Message):
 class Factory(Message):
     """A model that is to come into the world."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Factory"
     sdf: str
     edit_name: str = ""
     pose: Pose | None = None
@@ -189,7 +180,6 @@ class Word(str):
 class Color(Message):
     """A colour: parts from 0 to 1."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Color"
     r: float = 0.0
     g: float = 0.0
     b: float = 0.0
@@ -200,7 +190,6 @@ class Color(Message):
 class Material(Message):
     """What the surface of something looks like."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Material"
     diffuse: Color
 
 
@@ -208,7 +197,6 @@ class Material(Message):
 class BoxGeom(Message):
     """The lengths of a box."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.BoxGeom"
     size: Vector3d
 
 
@@ -216,7 +204,6 @@ class BoxGeom(Message):
 class CylinderGeom(Message):
     """A cylinder along its z."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.CylinderGeom"
     radius: float
     length: float
 
@@ -225,7 +212,6 @@ class CylinderGeom(Message):
 class SphereGeom(Message):
     """A ball."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.SphereGeom"
     radius: float
 
 
@@ -233,7 +219,6 @@ class SphereGeom(Message):
 class Vector2d(Message):
     """Two numbers."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Vector2d"
     x: float = 0.0
     y: float = 0.0
 
@@ -242,16 +227,14 @@ class Vector2d(Message):
 class PlaneGeom(Message):
     """A flat rectangle."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.PlaneGeom"
     normal: Vector3d
     size: Vector2d
 
 
 @dataclass(frozen=True)
-class PolylineGeom(Message):
+class Polyline(Message):
     """A closed outline, and how far it reaches up."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Polyline"
     height: float
     point: tuple[Vector2d, ...]
 
@@ -260,7 +243,6 @@ class PolylineGeom(Message):
 class MeshGeom(Message):
     """A file of triangles."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.MeshGeom"
     filename: str
     scale: Vector3d
     submesh: str | None = None
@@ -270,7 +252,6 @@ class MeshGeom(Message):
 class Geometry(Message):
     """A shape; of the fields one is set, that of its type."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Geometry"
     type: Word
     """BOX, CYLINDER, SPHERE, PLANE, POLYLINE, MESH or EMPTY."""
     box: BoxGeom | None = None
@@ -278,14 +259,13 @@ class Geometry(Message):
     sphere: SphereGeom | None = None
     plane: PlaneGeom | None = None
     mesh: MeshGeom | None = None
-    polyline: tuple[PolylineGeom, ...] = ()
+    polyline: tuple[Polyline, ...] = ()
 
 
 @dataclass(frozen=True)
 class Visual(Message):
     """What is drawn of a link."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Visual"
     name: str
     """MODEL::LINK::VISUAL"""
     id: int
@@ -301,7 +281,6 @@ class Visual(Message):
 class Collision(Message):
     """What is solid of a link."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Collision"
     id: int
     name: str
     pose: Pose
@@ -312,7 +291,6 @@ class Collision(Message):
 class Link(Message):
     """A rigid body of a model."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Link"
     id: int
     name: str
     """MODEL::LINK"""
@@ -324,7 +302,7 @@ class Link(Message):
 
 @dataclass(frozen=True)
 class Flat:
-    """What a model is seen from above, in rosmini's flat world; Gazebo's messages have nothing like it, so it is not printed."""
+    """A model seen from above, in rosmini's flat world; not printed, for Gazebo's messages have nothing like it."""
 
     solids: tuple[Obstacle, ...] = ()
     """At the model's pose of zero."""
@@ -338,7 +316,6 @@ class Flat:
 class Model(Message):
     """A model that has come into the world, or one that is to be changed."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Model"
     name: str
     id: int
     is_static: bool = False
@@ -352,7 +329,6 @@ class Model(Message):
 class Scene(Message):
     """All that there is in the world."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Scene"
     name: str
     model: tuple[Model, ...] = ()
     flat: World | None = None
@@ -363,7 +339,6 @@ class Scene(Message):
 class Physics(Message):
     """How the world is stepped."""
 
-    TYPE: ClassVar[str] = "gazebo.msgs.Physics"
     type: str = "ODE"
     max_step_size: float = 0.001
     real_time_update_rate: float = 1000.0

@@ -1,7 +1,8 @@
 """Plugins: code that a world, a model or a sensor brings along, found by the file name in its `<plugin>` tag.
 
-In Gazebo a plugin is a shared library that the server loads; here it is a class that says which library it stands for. To write one, derive from
-`WorldPlugin`, `ModelPlugin` or `SensorPlugin` and override `load`; once the class exists, a file that names it finds it:
+In Gazebo a plugin is a shared library that the server loads; here it is a class that names the library it stands for.
+To write one, derive from `WorldPlugin`, `ModelPlugin` or `SensorPlugin` and override `load`. Files find it once the
+class exists:
 
 >>> class Shout(ModelPlugin, filename="libshout.so"):
 ...     def load(self, model, sdf):
@@ -9,7 +10,7 @@ In Gazebo a plugin is a shared library that the server loads; here it is a class
 >>> plugin_class("libshout.so") is Shout
 True
 
-http://classic.gazebosim.org/tutorials?cat=write_plugin tells how it is done there.
+http://classic.gazebosim.org/tutorials?cat=write_plugin shows how it is done there.
 """
 
 from __future__ import annotations
@@ -18,19 +19,16 @@ import importlib.util
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from rosmini.errors import nearest
 from rosmini.markup import Element
 from rosmini.sim.host import Device, Host, Stamp
 
 from .absent import ABSENT
+from .body import Body
 from .errors import UnknownPlugin
-
-if TYPE_CHECKING:
-    from .body import Body
-    from .model import Model, Sensor
-    from .world import GazeboWorld
+from .model import GazeboWorld, Model, Sensor
 
 PLUGIN_PATH = "GAZEBO_PLUGIN_PATH"
 """The environment variable that names folders with plugins."""
@@ -41,7 +39,7 @@ _CLASSES: dict[str, type[Plugin]] = {}
 
 
 class Plugin:
-    """What all plugins have. Derive from one of the three kinds, not from this."""
+    """The base of all plugins. Derive from one of the three kinds, not from this."""
 
     kind: ClassVar[str] = ""
     filenames: ClassVar[tuple[str, ...]] = ()
@@ -57,7 +55,7 @@ class Plugin:
         self.world = world
         """The running world."""
         self.name = name
-        """What the tag calls it, under the name of what it belongs to."""
+        """The tag's name, after the name of what it belongs to."""
         self._endings: list[Callable[[], object]] = []
 
     def __repr__(self) -> str:
@@ -69,20 +67,20 @@ class Plugin:
         self.add(Update(self.world.host, name, rate, callback))
 
     def add(self, device: D) -> D:
-        """Take a device into the world's host, until the plugin is closed; return it."""
+        """Add a device to the world's host, until the plugin is closed; return it."""
         self.world.host.add(device)
         self.at_close(lambda: self.world.host.remove(device))
         return device
 
     def at_close(self, ending: Callable[[], object]) -> None:
-        """Call `ending()` when the plugin is closed, also if it was closed because the rest of its `load` failed."""
+        """Call `ending()` when the plugin is closed, also because the rest of its `load` failed."""
         self._endings.append(ending)
 
     def reset(self) -> None:
-        """Go back to how it was in the beginning, because the world does."""
+        """Return to the initial state: the world is reset."""
 
     def close(self) -> None:
-        """End, the last thing first: what it belongs to leaves the world. Who overrides this calls it too."""
+        """End, in reverse order: what it belongs to leaves the world. An override calls this too."""
         while self._endings:
             self._endings.pop()()
 
@@ -93,7 +91,7 @@ class WorldPlugin(Plugin):
     kind = "world"
 
     def load(self, world: GazeboWorld, sdf: Element) -> None:
-        """Begin; `sdf` is the plugin's tag."""
+        """Start; `sdf` is the plugin's tag."""
 
 
 class ModelPlugin(Plugin):
@@ -103,10 +101,10 @@ class ModelPlugin(Plugin):
 
     @classmethod
     def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
-        """Say, before the model comes into the world, how it is driven. Only drives need this."""
+        """Say how the model is driven, before it is inserted. Only drives need this."""
 
     def load(self, model: Model, sdf: Element) -> None:
-        """Begin; `sdf` is the plugin's tag."""
+        """Start; `sdf` is the plugin's tag."""
 
 
 class SensorPlugin(Plugin):
@@ -115,7 +113,7 @@ class SensorPlugin(Plugin):
     kind = "sensor"
 
     def load(self, sensor: Sensor, sdf: Element) -> None:
-        """Begin; `sdf` is the plugin's tag."""
+        """Start; `sdf` is the plugin's tag."""
 
 
 class Update(Device):
@@ -126,12 +124,12 @@ class Update(Device):
         self._callback = callback
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Call the plugin; what it raises is told, and the simulation goes on."""
+        """Call the plugin; what it raises is reported, and the simulation goes on."""
         self.host.node.guarded(self._callback, stamp[0] + stamp[1] * 1e-9, what=self.name)
 
 
 def _base(filename: str) -> str:
-    """A library's name without its folder; Gazebo takes it with and without `lib` and `.so`."""
+    """A library's name without its folder: Gazebo accepts it with and without `lib` and `.so`."""
     name = filename.strip().rsplit("/", 1)[-1]
     return name.removeprefix("lib").removesuffix(".so").removesuffix(".dylib")
 
@@ -139,8 +137,9 @@ def _base(filename: str) -> str:
 def plugin_class(filename: str) -> type[Plugin]:
     """The class that stands for a library.
 
-    One that is not known yet is looked for as a Python file of its name (`libshout.so`: `shout.py` or `libshout.py`) in the folders of
-    GAZEBO_PLUGIN_PATH, which is run then. Raises `UnknownPlugin`, with the nearest name, and what that file raises.
+    One that is not known yet is looked for as a Python file of its name (`libshout.so`: `shout.py` or `libshout.py`)
+    in the folders of GAZEBO_PLUGIN_PATH, and run. Raises `UnknownPlugin`, with the nearest name, also if running it
+    fails.
     """
     base = _base(filename)
     if base not in _CLASSES:
@@ -159,7 +158,7 @@ def plugin_class(filename: str) -> type[Plugin]:
 
 
 def _run(path: Path, name: str) -> None:
-    """Run a file that holds a plugin."""
+    """Run a file with a plugin."""
     spec = importlib.util.spec_from_file_location(f"gazebo_plugin_{name}", path)
     if spec is None or spec.loader is None:
         raise UnknownPlugin(f"{path} is no Python file")
@@ -171,5 +170,5 @@ def _run(path: Path, name: str) -> None:
 
 
 def plugin_filenames() -> tuple[str, ...]:
-    """The libraries that there are plugins for, sorted."""
+    """The libraries that have a plugin here, sorted."""
     return tuple(sorted({name for cls in _CLASSES.values() for name in cls.filenames}))

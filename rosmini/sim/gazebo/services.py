@@ -1,146 +1,162 @@
 """The services of /gazebo, with the replies of gazebo_ros_api_plugin (http://wiki.ros.org/gazebo_msgs).
 
-What is refused is no error of the call: `success` is false, and `status_message` says why, in the words of the real plugin and, where there is more to
-be said, in ours after them.
+A refusal is no error of the call: `success` is false, and `status_message` says why, in the words of the real plugin
+and, if there is more to say, in ours after them.
 """
 
 from __future__ import annotations
 
+import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from rosmini.errors import RosminiError
 from rosmini.markup import parse
 from rosmini.msgs import message_class, service_class
-from rosmini.sim.sdf import Pose6
+from rosmini.sim.sdf import Pose6, placed_links
 from rosmini.sim.sdf.poses import compose, from_quaternion, inverse, matrix
 
-from .body import placed_links
-from .errors import UnknownEntity
+from .errors import GazeboError, UnknownEntity
 from .model import Model, Velocity
 from .msgs import quaternion
-from .physics import PhysicsProperties
+from .physics_properties import PhysicsProperties
+from .running_world import RunningWorld
 from .spawning import spawn_text
-from .world import GazeboWorld
 
 Reply = dict[str, Any]
 
 SCOPE = "did you forget to scope the {} by model name?"
+JOINTS = {"revolute": 0, "continuous": 1, "prismatic": 2, "fixed": 3, "ball": 4, "universal": 5}
+
+
+class Refusal(GazeboError):
+    """What a service was asked for is refused; the text is the status message."""
+
+
+@contextmanager
+def otherwise(refusal: str) -> Iterator[None]:
+    """Refuse with these words, and the error's own after them, if something goes wrong."""
+    try:
+        yield
+    except Refusal:
+        raise
+    except RosminiError as error:
+        raise Refusal(f"{refusal} {error}") from error
+
+
+def answering(handler: Callable[[Services, Any], Reply]) -> Callable[[Services, Any], Reply]:
+    """Make a refusal the answer of a service."""
+
+    @functools.wraps(handler)
+    def answer(self: Services, request: Any) -> Reply:
+        try:
+            return handler(self, request)
+        except Refusal as refusal:
+            return {"success": False, "status_message": str(refusal)}
+
+    return answer
 
 
 def done(message: str, **fields: Any) -> Reply:
-    """A reply that it was done."""
+    """Return the answer of a service that did what it was asked for."""
     return {"success": True, "status_message": message, **fields}
-
-
-def refused(message: str, **fields: Any) -> Reply:
-    """A reply that it was not, and why."""
-    return {"success": False, "status_message": message, **fields}
 
 
 class Services:
     """The services of a running world, in its node's private namespace."""
 
-    def __init__(self, world: GazeboWorld, set_physics: Callable[[PhysicsProperties], object]) -> None:
+    def __init__(self, world: RunningWorld, set_physics: Callable[[PhysicsProperties], object]) -> None:
         self.world = world
         self._set_physics = set_physics
         self._counts: dict[str, int] = {}
+        empty = {
+            "pause_physics": (world.host.pause,),
+            "unpause_physics": (world.host.unpause,),
+            "reset_world": (world.reset_models,),
+            "reset_simulation": (world.reset_models, world.host.reset_time),
+        }
+        for name, actions in empty.items():
+            world.node.service(
+                f"~{name}", service_class("std_srvs/Empty"), functools.partial(self._empty, actions)
+            )
         for name, kind, handler in (
-            ("spawn_urdf_model", "gazebo_msgs/SpawnModel", self.spawn_urdf),
-            ("spawn_sdf_model", "gazebo_msgs/SpawnModel", self.spawn_sdf),
-            ("delete_model", "gazebo_msgs/DeleteModel", self.delete_model),
-            ("get_model_state", "gazebo_msgs/GetModelState", self.get_model_state),
-            ("set_model_state", "gazebo_msgs/SetModelState", self.set_model_state),
-            ("get_model_properties", "gazebo_msgs/GetModelProperties", self.get_model_properties),
-            ("get_world_properties", "gazebo_msgs/GetWorldProperties", self.get_world_properties),
-            ("get_link_state", "gazebo_msgs/GetLinkState", self.get_link_state),
-            ("set_link_state", "gazebo_msgs/SetLinkState", self.set_link_state),
-            ("get_link_properties", "gazebo_msgs/GetLinkProperties", self.get_link_properties),
-            ("get_joint_properties", "gazebo_msgs/GetJointProperties", self.get_joint_properties),
-            ("set_model_configuration", "gazebo_msgs/SetModelConfiguration", self.set_model_configuration),
-            ("get_physics_properties", "gazebo_msgs/GetPhysicsProperties", self.get_physics),
-            ("set_physics_properties", "gazebo_msgs/SetPhysicsProperties", self.set_physics),
-            ("apply_body_wrench", "gazebo_msgs/ApplyBodyWrench", self.apply_body_wrench),
-            ("clear_body_wrenches", "gazebo_msgs/BodyRequest", self.clear_body_wrenches),
-            ("pause_physics", "std_srvs/Empty", lambda _: self._empty(world.pause)),
-            ("unpause_physics", "std_srvs/Empty", lambda _: self._empty(world.unpause)),
-            ("reset_world", "std_srvs/Empty", lambda _: self._empty(world.reset_models)),
-            ("reset_simulation", "std_srvs/Empty", lambda _: self._empty(world.reset)),
+            ("spawn_urdf_model", "SpawnModel", self.spawn_urdf),
+            ("spawn_sdf_model", "SpawnModel", self.spawn_sdf),
+            ("delete_model", "DeleteModel", self.delete_model),
+            ("get_model_state", "GetModelState", self.get_model_state),
+            ("set_model_state", "SetModelState", self.set_model_state),
+            ("get_model_properties", "GetModelProperties", self.get_model_properties),
+            ("get_world_properties", "GetWorldProperties", self.get_world_properties),
+            ("get_link_state", "GetLinkState", self.get_link_state),
+            ("set_link_state", "SetLinkState", self.set_link_state),
+            ("get_link_properties", "GetLinkProperties", self.get_link_properties),
+            ("get_joint_properties", "GetJointProperties", self.get_joint_properties),
+            ("set_model_configuration", "SetModelConfiguration", self.set_model_configuration),
+            ("get_physics_properties", "GetPhysicsProperties", self.get_physics),
+            ("set_physics_properties", "SetPhysicsProperties", self.set_physics),
+            ("apply_body_wrench", "ApplyBodyWrench", self.apply_body_wrench),
+            ("clear_body_wrenches", "BodyRequest", self.clear_body_wrenches),
         ):
-            world.node.service(f"~{name}", service_class(kind), handler)
+            world.node.service(f"~{name}", service_class(f"gazebo_msgs/{kind}"), handler)
 
     @staticmethod
-    def _empty(what: Callable[[], object]) -> Reply:
-        what()
+    def _empty(actions: tuple[Callable[[], object], ...], _: Any) -> Reply:
+        for action in actions:
+            action()
         return {}
 
     # -- models come and go --------------------------------------------------------------------------------------
 
+    @answering
     def spawn_urdf(self, request: Any) -> Reply:
-        """Let a robot come into the world that a URDF describes."""
-        try:
-            root = parse(request.model_xml, "model_xml")
-            if root.tag != "robot":
-                return refused("SpawnModel: Failure - model format is not URDF.")
-            return self._spawn(request)
-        except RosminiError as error:
-            return refused(f"SpawnModel: Failure - {error}")
+        """Insert the robot that a URDF describes."""
+        return self._spawn(request, ("robot",), "SpawnModel: Failure - model format is not URDF.")
 
+    @answering
     def spawn_sdf(self, request: Any) -> Reply:
-        """Let a model come into the world that an SDF (or a URDF, as in Gazebo) describes."""
-        try:
-            root = parse(request.model_xml, "model_xml")
-            if root.tag not in ("sdf", "gazebo", "robot"):
-                return refused(
-                    "GazeboRosApiPlugin SpawnModel Failure: input model_xml not SDF or URDF, or cannot be converted to Gazebo compatible format."
-                )
-            return self._spawn(request)
-        except RosminiError as error:
-            return refused(f"SpawnModel: Failure - {error}")
+        """Insert the model that an SDF (or a URDF, as in Gazebo) describes."""
+        return self._spawn(
+            request,
+            ("sdf", "gazebo", "robot"),
+            "GazeboRosApiPlugin SpawnModel Failure: input model_xml not SDF or URDF, or cannot be converted to Gazebo "
+            "compatible format.",
+        )
 
-    def _spawn(self, request: Any) -> Reply:
+    def _spawn(self, request: Any, tags: tuple[str, ...], wrong: str) -> Reply:
         world, name = self.world, request.model_name
-        if name in world.models:
-            return refused("SpawnModel: Failure - entity already exists.")
-        try:
-            frame = self._frame(request.reference_frame)[0]
-        except UnknownEntity as error:
-            return refused(f"SpawnModel: reference reference_frame not found, {SCOPE.format('link')} {error}")
-        pose = compose(frame, pose_of(request.initial_pose))
-        model = spawn_text(world, request.model_xml, name, pose, namespace=request.robot_namespace)
+        with otherwise("SpawnModel: Failure -"):
+            if parse(request.model_xml, "model_xml").tag not in tags:
+                raise Refusal(wrong)
+            if name in world.models:
+                raise Refusal("SpawnModel: Failure - entity already exists.")
+            with otherwise(f"SpawnModel: reference reference_frame not found, {SCOPE.format('link')}"):
+                frame, _ = world.frame(request.reference_frame)
+            pose = compose(frame, pose_of(request.initial_pose))
+            model = spawn_text(world, request.model_xml, name, pose, namespace=request.robot_namespace)
         world.node.loginfo(f"{model!r} came into the world {world.name!r}")
         return done("SpawnModel: Successfully spawned entity")
 
+    @answering
     def delete_model(self, request: Any) -> Reply:
-        """Take a model out of the world."""
-        try:
+        """Remove a model."""
+        with otherwise("DeleteModel: model does not exist:"):
             self.world.delete(request.model_name)
-        except UnknownEntity as error:
-            return refused(f"DeleteModel: model does not exist: {error}")
         return done("DeleteModel: successfully deleted model")
 
     # -- where they are ------------------------------------------------------------------------------------------
 
-    def _frame(self, name: str) -> tuple[Pose6, Velocity]:
-        return self.world.frame(name)
-
+    @answering
     def get_model_state(self, request: Any) -> Reply:
-        """Where a model is, and how fast it goes, seen from another or from the world."""
+        """Pose and velocity of a model, seen from another or from the world."""
         name, other = request.model_name, request.relative_entity_name
-        try:
+        with otherwise("GetModelState: model does not exist:"):
             model = self.world.model(name)
-        except UnknownEntity as error:
-            return refused(f"GetModelState: model does not exist: {error}")
-        try:
-            pose, velocity = relative((model.pose, model.velocity), self._frame(other))
-        except UnknownEntity as error:
-            text = f"GetModelState: reference relative_entity_name not found, {SCOPE.format('body')} {error}"
-            return refused(text)
-        self._counts[name] = self._counts.get(name, 0) + 1
-        header = message_class("std_msgs/Header")(
-            seq=self._counts[name], stamp=self.world.host.stamp, frame_id=other
-        )
+        with otherwise(f"GetModelState: reference relative_entity_name not found, {SCOPE.format('body')}"):
+            pose, velocity = relative((model.pose, model.velocity), self.world.frame(other))
+        seq = self._counts[name] = self._counts.get(name, 0) + 1
+        header = message_class("std_msgs/Header")(seq=seq, stamp=self.world.host.stamp, frame_id=other)
         return done(
             "GetModelState: got properties",
             header=header,
@@ -148,43 +164,27 @@ class Services:
             twist=twist_message(velocity),
         )
 
+    @answering
     def set_model_state(self, request: Any) -> Reply:
-        """Put a model elsewhere, whatever stands there."""
+        """Put a model elsewhere."""
         state = request.model_state
-        try:
+        with otherwise("SetModelState: model does not exist:"):
             model = self.world.model(state.model_name)
-        except UnknownEntity as error:
-            return refused(f"SetModelState: model does not exist: {error}")
-        try:
-            frame = self._frame(state.reference_frame)
-        except UnknownEntity as error:
-            return refused(f"SetModelState: specified reference frame entity does not exist: {error}")
-        return self._move(model, state, frame, "SetModelState: set model state done", "SetModelState")
-
-    def _move(
-        self, model: Model, state: Any, frame: tuple[Pose6, Velocity], message: str, service: str
-    ) -> Reply:
+        with otherwise("SetModelState: specified reference frame entity does not exist:"):
+            frame, _ = self.world.frame(state.reference_frame)
         vx, vy, w = state.twist.linear.x, state.twist.linear.y, state.twist.angular.z
-        c, s = math.cos(frame[0][5]), math.sin(frame[0][5])
-        try:
-            pose = compose(frame[0], pose_of(state.pose))
-            self.world.move(model, pose, (c * vx - s * vy, s * vx + c * vy, w))
-        except RosminiError as error:
-            return refused(f"{service}: {error}")
-        return done(message)
+        c, s = math.cos(frame[5]), math.sin(frame[5])
+        with otherwise("SetModelState:"):
+            self.world.move(model, compose(frame, pose_of(state.pose)), (c * vx - s * vy, s * vx + c * vy, w))
+        return done("SetModelState: set model state done")
 
+    @answering
     def get_link_state(self, request: Any) -> Reply:
-        """Where a link is, and how fast it goes."""
-        try:
+        """Pose and velocity of a link."""
+        with otherwise(f"GetLinkState: link not found, {SCOPE.format('link')}"):
             model, link = self._link(request.link_name)
-        except UnknownEntity as error:
-            return refused(f"GetLinkState: link not found, {SCOPE.format('link')} {error}")
-        try:
-            frame = self._frame(request.reference_frame)
-        except UnknownEntity as error:
-            return refused(
-                f"GetLinkState: reference reference_frame not found, {SCOPE.format('link')} {error}"
-            )
+        with otherwise(f"GetLinkState: reference reference_frame not found, {SCOPE.format('link')}"):
+            frame = self.world.frame(request.reference_frame)
         pose, velocity = relative((model.link_pose(link), model.link_velocity(link)), frame)
         return done(
             "GetLinkState: got state",
@@ -196,20 +196,17 @@ class Services:
             ),
         )
 
+    @answering
     def set_link_state(self, request: Any) -> Reply:
         """Put a model so that a link of it is there."""
         state = request.link_state
-        try:
+        with otherwise("SetLinkState: link does not exist:"):
             model, link = self._link(state.link_name)
-        except UnknownEntity as error:
-            return refused(f"SetLinkState: link does not exist: {error}")
-        try:
-            frame = self._frame(state.reference_frame)
-            target = compose(frame[0], pose_of(state.pose))
+        with otherwise("SetLinkState: failed:"):
+            frame, _ = self.world.frame(state.reference_frame)
+            target = compose(frame, pose_of(state.pose))
             velocity = (state.twist.linear.x, state.twist.linear.y, state.twist.angular.z)
             self.world.move(model, compose(target, inverse(model.link_frame(link))), velocity)
-        except RosminiError as error:
-            return refused(f"SetLinkState: failed: {error}")
         return done("SetLinkState: success")
 
     def _link(self, name: str) -> tuple[Model, str]:
@@ -226,19 +223,17 @@ class Services:
 
     # -- what they are -------------------------------------------------------------------------------------------
 
+    @answering
     def get_model_properties(self, request: Any) -> Reply:
         """The links, shapes and joints of a model."""
-        try:
+        with otherwise("GetModelProperties: model does not exist:"):
             model = self.world.model(request.model_name)
-        except UnknownEntity as error:
-            return refused(f"GetModelProperties: model does not exist: {error}")
-        shapes = [each.name for _, link, _ in placed_links(model.sdf) for each in link.collisions]
         links = list(model.links)
         return done(
             "GetModelProperties: got properties",
             canonical_body_name=links[0] if links else "",
             body_names=links,
-            geom_names=shapes,
+            geom_names=[each.name for _, link, _ in placed_links(model.sdf) for each in link.collisions],
             joint_names=list(model.joints),
             child_model_names=[each.name for each in model.sdf.models],
             is_static=model.static,
@@ -253,97 +248,75 @@ class Services:
             rendering_enabled=True,
         )
 
+    @answering
     def get_link_properties(self, request: Any) -> Reply:
         """The mass and the inertia of a link."""
-        try:
+        with otherwise(f"GetLinkProperties: link not found, {SCOPE.format('link')}"):
             model, name = self._link(request.link_name)
-            link = next(each for called, each, _ in placed_links(model.sdf) if called == name)
-        except (UnknownEntity, StopIteration) as error:
-            return refused(f"GetLinkProperties: link not found, {SCOPE.format('link')} {error}".rstrip())
-        inertial = link.inertial
-        ixx, iyy, izz, ixy, ixz, iyz = inertial.inertia
+            if name not in model.links:
+                raise UnknownEntity(f"the link {name!r} has become part of {model.frames[name][0]!r}")
+        inertial = next(link.inertial for called, link, _ in placed_links(model.sdf) if called == name)
+        inertia = zip(("ixx", "iyy", "izz", "ixy", "ixz", "iyz"), inertial.inertia, strict=True)
         return done(
             "GetLinkProperties: got properties",
             com=pose_message(inertial.pose),
             gravity_mode=True,
             mass=inertial.mass,
-            ixx=ixx,
-            ixy=ixy,
-            ixz=ixz,
-            iyy=iyy,
-            iyz=iyz,
-            izz=izz,
+            **dict(inertia),
         )
 
+    @answering
     def get_joint_properties(self, request: Any) -> Reply:
         """The position of a joint, and how fast it changes."""
         for model in self.world.models.values():
-            if request.joint_name in model.joints:
-                position, rate = model.joint(request.joint_name)
-                kinds = {
-                    "revolute": 0,
-                    "continuous": 1,
-                    "prismatic": 2,
-                    "fixed": 3,
-                    "ball": 4,
-                    "universal": 5,
-                }
-                kind = next(each.type for each in model.sdf.joints if each.name == request.joint_name)
-                message = "GetJointProperties: got properties"
-                return done(message, type=kinds.get(kind, 0), position=[position], rate=[rate])
-        return refused("GetJointProperties: joint not found")
+            for joint in model.sdf.joints:
+                if joint.name == request.joint_name:
+                    position, rate = model.joint(joint.name)
+                    message, kind = "GetJointProperties: got properties", JOINTS.get(joint.type, 0)
+                    return done(message, type=kind, position=[position], rate=[rate])
+        raise Refusal("GetJointProperties: joint not found")
 
+    @answering
     def set_model_configuration(self, request: Any) -> Reply:
         """Joints that drive nothing stay where they are here, so only 0 can be asked for."""
-        try:
+        with otherwise("SetModelConfiguration: model does not exist:"):
             model = self.world.model(request.model_name)
             if len(request.joint_names) != len(request.joint_positions):
-                return refused("SetModelConfiguration: joint name and position list have different lengths")
+                raise Refusal("SetModelConfiguration: joint name and position list have different lengths")
             for name, position in zip(request.joint_names, request.joint_positions, strict=True):
-                there, _ = model.joint(name)
-                if abs(position - there) > 1e-9:
-                    return refused(
-                        f"SetModelConfiguration: the joint {name!r} cannot be put to {position:g}: rosmini moves no joints but driven wheels"
+                if abs(position - model.joint(name)[0]) > 1e-9:
+                    raise Refusal(
+                        f"SetModelConfiguration: the joint {name!r} cannot be put to {position:g}: rosmini moves no "
+                        "joints but driven wheels"
                     )
-        except UnknownEntity as error:
-            return refused(f"SetModelConfiguration: model does not exist: {error}")
         return done("SetModelConfiguration: success")
 
     # -- physics -------------------------------------------------------------------------------------------------
 
     def get_physics(self, _: Any) -> Any:
         """How the world is stepped."""
-        physics = self.world.physics
         response = service_class("gazebo_msgs/GetPhysicsProperties")._response_class()
-        response.time_step, response.pause = physics.time_step, self.world.paused
-        response.max_update_rate = physics.max_update_rate
-        physics.to_messages(response.ode_config, response.gravity)
-        response.success = True
+        self.world.physics.fill(response)
+        response.pause, response.success = self.world.paused, True
         response.status_message = "GetPhysicsProperties: got properties"
         return response
 
+    @answering
     def set_physics(self, request: Any) -> Reply:
         """Change how the world is stepped."""
-        try:
+        with otherwise("physics engine not updated:"):
             self._set_physics(PhysicsProperties.of_request(request))
-        except RosminiError as error:
-            return refused(f"physics engine not updated: {error}")
         return done("physics engine updated")
 
+    @answering
     def apply_body_wrench(self, request: Any) -> Reply:
         """Push a thing for a while."""
-        try:
+        with otherwise("ApplyBodyWrench: body does not exist:"):
             model, link = self._link(request.body_name)
-        except UnknownEntity as error:
-            return refused(f"ApplyBodyWrench: body does not exist: {error}")
-        try:
-            frame = self._frame(request.reference_frame)[0]
-        except UnknownEntity as error:
-            return refused(f"ApplyBodyWrench: reference_frame not found: {error}")
-        try:
+        with otherwise("ApplyBodyWrench: reference_frame not found:"):
+            frame, _ = self.world.frame(request.reference_frame)
+        with otherwise("ApplyBodyWrench:"):
             self.world.wrenches.apply(model, link, frame, request)
-        except RosminiError as error:
-            return refused(f"ApplyBodyWrench: {error}")
         return done("")
 
     def clear_body_wrenches(self, request: Any) -> Reply:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -28,8 +29,47 @@ class Robot:
     """Of the middle of its axle: x [m], y [m], heading [rad]."""
 
 
+class Pictured(ABC):
+    """What has a snapshot to be shown: the server, a client, and a snapshot itself."""
+
+    @abstractmethod
+    def snapshot(self) -> Snapshot:
+        """The world as it is now, or as it was when this was made."""
+
+    def show(self, **options: Any) -> Any:
+        """A picture of the world from above.
+
+        Options, with what they are unless given:
+            robot=None: the pose of the robot of `scan`, `trail` and `odom`; None: that of `name`
+            model=None: what robot it is; None: as Gazebo has it
+            scan=None: what its laser measured: a `sensor_msgs/LaserScan`, or ranges [m]
+            scan_from=None: where it was then; None: where it is
+            trail=None: where it was, (n, 2) or (n, 3)
+            odom=None: where its odometry believes that it was, likewise
+            others=(): more robots, each an `Other`
+            name='': of the model that is drawn as the first robot; '': the first that drives
+            title=None: a caption under the picture, and the first words of its text form
+            size=(660.0, 540.0): the largest width and height [CSS px]
+        """
+        return show("gazebo", self.snapshot(), **options)
+
+    def show3d(self, **options: Any) -> Any:
+        """The world in three dimensions.
+
+        Options, with what they are unless given:
+            focus='world': what the camera looks at: 'world', or the name of a model
+            collisions=False: show what is solid in place of what one sees
+            distance=None: of the camera from what it looks at [m]; None: what shows it well
+            azimuth=None: from where it looks [deg], 0: from the side of x, 90: of y; None: what shows it well
+            elevation=None: how high from [deg]; None: what shows it well
+            title=None: a caption under the picture, and the first words of its text form
+            height=420: of the viewer [CSS px]
+        """
+        return show("gazebo_3d", self.snapshot(), **options)
+
+
 @dataclass(frozen=True)
-class Snapshot:
+class Snapshot(Pictured):
     """What there is in a world, where all of it is, and what time it is there."""
 
     name: str
@@ -47,6 +87,10 @@ class Snapshot:
         models = tuple(_moved(model, poses) for model in scene.model)
         flat = scene.flat or World(scene.name)
         return cls(scene.name, models, flat, time, paused)
+
+    def snapshot(self) -> Snapshot:
+        """The snapshot itself."""
+        return self
 
     @property
     def title(self) -> str:
@@ -81,37 +125,6 @@ class Snapshot:
                 count = names[each.name] = names.get(each.name, 0) + 1
                 found.append(each if count == 1 else replace(each, name=f"{each.name} ({count})"))
         return replace(self.flat, name=self.name, obstacles=tuple(found), title=self.title)
-
-    def show(self, **options: Any) -> Any:
-        """A picture from above.
-
-        Options, with what they are unless given:
-            robot=None: where the robot is that `scan`, `trail` and `odom` belong to: x [m], y [m], heading [rad]; None: where that of `name` is
-            model=None: what robot it is; None: as Gazebo has it
-            scan=None: what its laser measured: a `sensor_msgs/LaserScan`, or ranges [m]
-            scan_from=None: where it was then; None: where it is
-            trail=None: where it was, (n, 2) or (n, 3)
-            odom=None: where its odometry believes that it was, likewise
-            others=(): more robots, each an `Other`
-            name='': of the model that is drawn as the first robot; '': the first that drives
-            title=None: a caption under the picture, and the first words of its text form
-            size=(660.0, 540.0): the largest width and height [CSS px]
-        """
-        return show("gazebo", self, **options)
-
-    def show3d(self, **options: Any) -> Any:
-        """The same in three dimensions.
-
-        Options, with what they are unless given:
-            focus='world': what the camera looks at: 'world', or the name of a model
-            collisions=False: show what is solid in place of what one sees
-            distance=None: of the camera from what it looks at [m]; None: what shows it well
-            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
-            elevation=None: how high from [deg]; None: what shows it well
-            title=None: a caption under the picture, and the first words of its text form
-            height=420: of the viewer [CSS px]
-        """
-        return show("gazebo_3d", self, **options)
 
 
 def solids_of(model: Model) -> Iterator[Obstacle]:

@@ -5,24 +5,18 @@ from __future__ import annotations
 from rosmini import urdf
 from rosmini.markup import MarkupError, parse
 from rosmini.sim import sdf
-from rosmini.sim.sdf import Pose6, SdfModel
+from rosmini.sim.sdf import Pose6
 
 from .from_urdf import Converted, from_urdf
-from .model import Model
-from .world import GazeboWorld
+from .model import GazeboWorld, Model
 
 
 def model_of_text(text: str, path: str = "model_xml") -> Converted:
-    """The model that a URDF, or an SDF with a model in it, describes. Raises `UrdfError`, `SdfError` or `MarkupError`."""
+    """The model that a URDF or an SDF describes. Raises `UrdfError`, `SdfError` or `MarkupError`."""
     root = parse(text, path)
     if root.tag == "robot":
         return from_urdf(urdf.load(text, path=path))
     return _of_sdf(text)
-
-
-def model_of_sdf(xml: str) -> SdfModel:
-    """The first model of an SDF text; one of its world, if it has a world. Raises `SdfError`."""
-    return _of_sdf(xml).model
 
 
 def _of_sdf(xml: str) -> Converted:
@@ -33,7 +27,7 @@ def _of_sdf(xml: str) -> Converted:
 
 
 def spawn_text(world: GazeboWorld, text: str, name: str, pose: Pose6 | None, *, namespace: str = "") -> Model:
-    """Let the model that a text describes come into a world. Raises `SpawnError` and what the readers raise."""
+    """Insert the model that a text describes. Raises `SpawnError` and what the readers raise."""
     converted = model_of_text(text)
     if converted.warnings:
         world.node.logwarn("\n".join([f"the model {name!r} is not whole:", *converted.warnings]))

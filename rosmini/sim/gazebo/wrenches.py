@@ -1,26 +1,23 @@
 """Forces on things: what the service apply_body_wrench does.
 
-While a force F [N] and a torque T [N m] act on a thing of the mass m and the inertia I, each step of `PERIOD` adds F dt / m to its velocity and
-T dt / I to its turning; friction takes of it what it takes of any sliding thing.
+While a force F [N] and a torque T [N m] act on a thing of mass m and inertia I, each step dt adds F dt / m to its
+velocity and T dt / I to its angular velocity. Friction acts as on any sliding thing.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.sim.sdf import Pose6
 
 from .errors import GazeboError
-from .model import Model
+from .model import GazeboWorld, Model
 from .plugins import Update
 
-if TYPE_CHECKING:
-    from .world import GazeboWorld
-
 RATE = 200.0
-"""How often forces act [Hz]: once in each of the engine's own steps."""
+"""How often forces act [Hz]: once in each step of the engine."""
 
 
 @dataclass
@@ -39,7 +36,7 @@ class Wrench:
 
 @dataclass(frozen=True)
 class WrenchState:
-    """The same of a moment, with the name of its model."""
+    """A wrench as plain data, with the name of its model."""
 
     model: str
     body: str
@@ -50,7 +47,7 @@ class WrenchState:
 
 
 class Wrenches:
-    """All that act in a world."""
+    """All wrenches that act in a world."""
 
     def __init__(self, world: GazeboWorld) -> None:
         self._world = world
@@ -58,13 +55,16 @@ class Wrenches:
         self._update: Update | None = None
 
     def apply(self, model: Model, link: str, frame: Pose6, request: Any) -> None:
-        """Let what a gazebo_msgs/ApplyBodyWrench asks for act. Raises `GazeboError` for what wheels or the ground hold, and for no finite force."""
+        """Apply what a gazebo_msgs/ApplyBodyWrench asks for.
+
+        Raises `GazeboError` for what wheels or the ground hold, and for no finite force.
+        """
         if model.fixed is not None or model.static:
             raise GazeboError(f"the model {model.name!r} is static: no force moves it")
         if model.body is not None and model.body.drive:
             raise GazeboError(
-                f"the model {model.name!r} stands on its wheels, which hold it where its drive wants it; give it a velocity on cmd_vel, or push it with "
-                "another model"
+                f"the model {model.name!r} stands on its wheels, which hold it where its drive wants it; give it a "
+                "velocity on cmd_vel, or push it with another model"
             )
         force, torque, point = request.wrench.force, request.wrench.torque, request.reference_point
         if not all(math.isfinite(each) for each in (force.x, force.y, torque.z, point.x, point.y)):
@@ -78,10 +78,10 @@ class Wrenches:
         mass, inertia = model.weight
         end = math.inf if lasting < 0 else start + lasting
         self._acting.append(Wrench(model, f"{model.name}::{link}", (fx, fy), turn, start, end, mass, inertia))
-        self._look()
+        self._schedule()
 
-    def _look(self) -> None:
-        """Be called while something acts."""
+    def _schedule(self) -> None:
+        """Have `_push` called while something acts."""
         host = self._world.host
         if self._acting and self._update is None:
             self._update = host.add(Update(host, "forces on bodies", RATE, self._push))
@@ -90,7 +90,7 @@ class Wrenches:
             self._update = None
 
     def clear(self, body: str) -> None:
-        """Let nothing act on a body any more."""
+        """Stop everything that acts on a body."""
         self._acting = [each for each in self._acting if body not in (each.body, each.model.name)]
 
     def _push(self, now: float) -> None:
@@ -111,10 +111,10 @@ class Wrenches:
                         w + each.torque * span / each.inertia,
                     )
                 )
-        self._look()
+        self._schedule()
 
     def state(self) -> tuple[WrenchState, ...]:
-        """All that act, as plain data."""
+        """Return all that act, as plain data."""
         there = self._world.models
         return tuple(
             WrenchState(each.model.name, each.body, each.force, each.torque, each.start, each.end)
@@ -123,10 +123,10 @@ class Wrenches:
         )
 
     def restore(self, state: tuple[WrenchState, ...]) -> None:
-        """Let those act that acted then."""
+        """Make those act that acted then."""
         models = [self._world.model(each.model) for each in state]
         self._acting = [
             Wrench(model, each.body, each.force, each.torque, each.start, each.end, *model.weight)
             for model, each in zip(models, state, strict=True)
         ]
-        self._look()
+        self._schedule()

@@ -1,4 +1,4 @@
-"""SDF, the format of Gazebo's worlds and models (http://sdformat.org): read to plain data, and made into a flat world."""
+"""SDF, the format of Gazebo's worlds and models (http://sdformat.org): read as data, and made into flat worlds."""
 
 from .convert import converted, to_obstacles, to_walker, to_world
 from .document import (
@@ -20,6 +20,7 @@ from .document import (
     SdfWorld,
 )
 from .errors import SdfError
+from .poses import placed_links
 from .reader import load
 
 __all__ = [
@@ -42,6 +43,7 @@ __all__ = [
     "SdfWorld",
     "converted",
     "load",
+    "placed_links",
     "to_obstacles",
     "to_walker",
     "to_world",

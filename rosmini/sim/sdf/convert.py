@@ -1,9 +1,10 @@
-"""Makes flat worlds of SDF: what is static stands, what is not can be pushed, actors walk, and doors open.
+"""Flat worlds from SDF: what is static stands, what is not can be pushed, actors walk, and doors open.
 
-Collisions count, for bodies run against them and Gazebo's ray sensors see them; visuals give the colours. A static model becomes as many obstacles as
-it has solid parts: `MODEL` if there is one, else `MODEL::COLLISION` (with more links than one: `MODEL::LINK::COLLISION`). A model that is not static
-becomes one obstacle `MODEL` with the mass of its links, and the friction and the restitution of its surfaces (the least, as the engine has it); its
-inertia follows from its mass and its outline, and its joints are held. So all that is of a model is called `MODEL`, or begins with `MODEL::`.
+Collisions count, since bodies touch them and Gazebo's ray sensors see them; visuals give the colours. A static model
+becomes as many obstacles as it has solid parts: `MODEL` if there is one, else `MODEL::COLLISION` (with more than one
+link: `MODEL::LINK::COLLISION`). A model that is not static becomes one obstacle `MODEL` with the mass of its links,
+and the least friction and restitution of its surfaces; its inertia follows from its mass and outline, and its joints
+are held. So every part of a model is called `MODEL`, or begins with `MODEL::`.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ from rosmini.sim.shapes import Compound, Cylinder, Shape, Sphere
 from rosmini.sim.world import Obstacle, World, WorldError
 from rosmini.urdf.meshes import MeshError
 
-from .colours import HOUSE
 from .document import Note, Pose6, SdfActor, SdfCollision, SdfJoint, SdfLink, SdfModel, SdfWorld
 from .doors import door_of
 from .errors import SdfError
-from .poses import compose
+from .material_colours import HOUSE
+from .poses import compose, placed_links
 from .solids import FLAT, Solid, solids
 
 WALKER = Cylinder(0.2)
@@ -52,7 +53,7 @@ def to_world(world: SdfWorld, *, title: str = "") -> World:
 
 
 def converted(world: SdfWorld, *, title: str = "") -> tuple[World, tuple[Note, ...]]:
-    """The flat world of an SDF world, and notes about what was left out or taken for something simpler. Raises `SdfError`."""
+    """The flat world of an SDF world, and notes on what was left out or simplified. Raises `SdfError`."""
     notes: list[Note] = []
     obstacles = [each for model in world.models for each in _obstacles(model, model.pose, notes)]
     obstacles += [to_walker(actor) for actor in world.actors]
@@ -72,7 +73,7 @@ def converted(world: SdfWorld, *, title: str = "") -> tuple[World, tuple[Note, .
 
 
 def to_obstacles(model: SdfModel, pose: Pose | Pose6 | None = None) -> tuple[Obstacle, ...]:
-    """What a model is in a flat world, at `pose` (x, y, heading, or all six numbers), or where the file puts it. Raises `SdfError`."""
+    """The obstacles of a model at `pose` (x, y, heading, or all six numbers), or at its own. Raises `SdfError`."""
     if pose is None:
         place = model.pose
     elif len(pose) == 3:
@@ -83,7 +84,7 @@ def to_obstacles(model: SdfModel, pose: Pose | Pose6 | None = None) -> tuple[Obs
 
 
 def to_walker(actor: SdfActor) -> Obstacle:
-    """The person that an actor is: it walks its waypoints at an even speed, and waits where the file says the same place twice.
+    """The person of an actor: walks the waypoints at an even speed, and waits where a place is repeated.
 
     Raises `SdfError`.
     """
@@ -168,7 +169,7 @@ def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]
                 for each in solid
             )
         )
-    surfaces = [collision for _, link in _links(model) for collision in link.collisions]
+    surfaces = [collision for _, link, _ in placed_links(model) for collision in link.collisions]
     frictions = [each.friction for each in surfaces if each.friction is not None]
     return Obstacle(
         model.name,
@@ -176,7 +177,7 @@ def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]
         pose,
         max(each.top for each in solid),
         found[0].colour,
-        None if motion else sum(link.inertial.mass for _, link in _links(model)),
+        None if motion else sum(link.inertial.mass for _, link, _ in placed_links(model)),
         min(each.bottom for each in solid),
         motion,
         drag=min(frictions) if frictions and motion is None else None,
@@ -189,7 +190,7 @@ def _one(model: SdfModel, pose: Pose, motion: Motion | None, found: list[_Piece]
 
 def _pieces(model: SdfModel, pose: Pose6, notes: list[Note], *, sliced: bool) -> Iterator[_Piece]:
     """What is solid of a model and the models within it, above the ground, at a pose."""
-    for name, link, place in _placed(model, pose):
+    for name, link, place in placed_links(model, pose):
         for collision in link.collisions:
             try:
                 found, remark = solids(collision.geometry, compose(place, collision.pose), sliced=sliced)
@@ -207,20 +208,8 @@ def _pieces(model: SdfModel, pose: Pose6, notes: list[Note], *, sliced: bool) ->
                     bottom = each.bottom if isinstance(each.shape, Sphere) else max(0.0, each.bottom)
                     yield _Piece(f"{name}::{collision.name}", replace(each, bottom=bottom), colour)
                 elif each.top > 0:
-                    flat = f"{collision.name!r} of the model {model.name!r} is {each.top * 1000:.0f} mm high: wheels roll over it, left out"
-                    notes.append(Note(model.path, collision.line, flat))
-
-
-def _placed(model: SdfModel, pose: Pose6, inside: str = "") -> Iterator[tuple[str, SdfLink, Pose6]]:
-    """The links of a model and of the models within it, with their names and where they are, if the model is at `pose`."""
-    for link in model.links:
-        yield inside + link.name, link, compose(pose, link.pose)
-    for each in model.models:
-        yield from _placed(each, compose(pose, each.pose), f"{inside}{each.name}::")
-
-
-def _links(model: SdfModel) -> list[tuple[str, SdfLink]]:
-    return [(name, link) for name, link, _ in _placed(model, model.pose)]
+                    what = f"{collision.name!r} of the model {model.name!r} is {each.top * 1000:.0f} mm high"
+                    notes.append(Note(model.path, collision.line, f"{what}: wheels roll over it, left out"))
 
 
 def _joints(model: SdfModel) -> Iterator[SdfJoint]:

@@ -1,8 +1,9 @@
-"""What stands in an SDF file, as plain data: worlds, models, links, and what hangs on them.
+"""The contents of an SDF file as plain data: worlds, models, links, and what is on them.
 
-Lengths are in metres, angles in radians, masses in kilograms (http://sdformat.org/spec). Every pose here is resolved: whatever frame a file gave it
-in (`relative_to`), a model's is seen from its world (or from the model around it), a link's from its model, that of a collision, visual or sensor from
-its link. `element` holds the raw text of what only a plugin or a sensor understands.
+Lengths are in metres, angles in radians, masses in kilograms (http://sdformat.org/spec). Every pose is resolved,
+whatever frame a file gave it in (`relative_to`): a model's is seen from its world (or from the model around it), a
+link's from its model, that of a collision, visual or sensor from its link. `element` holds the raw text of what only
+a plugin or a sensor understands.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ class Note:
     line: int
     text: str
     warning: bool = False
-    """Whether it is a fault of the file, which Gazebo complains of before it goes on; else it is something that rosmini has not."""
+    """Whether it is a fault of the file, of which Gazebo complains too; else rosmini lacks something."""
 
     def __str__(self) -> str:
         return f"{self.path}:{self.line}: {self.text}"

@@ -1,12 +1,16 @@
-"""Doors: models with a plugin of ours that opens them. In real Gazebo, which does not know it, they swing freely on their hinges.
+"""Doors: models with a plugin of ours that opens them. In real Gazebo, which lacks it, they swing freely.
 
-    <model name="door">
+In real Gazebo, which does not know it, they swing freely on their hinges. <model name="door">
       <link name="leaf">...</link>
-      <joint name="hinge" type="revolute"><parent>world</parent><child>leaf</child><pose>-0.45 0 0 0 0 0</pose>...</joint>
-      <plugin name="door" filename="librosmini_door.so"><opening>1.5708</opening><moving>2</moving><open>5</open><closed>5</closed></plugin>
+      <joint name="hinge" type="revolute">
+        <parent>world</parent><child>leaf</child><pose>-0.45 0 0 0 0 0</pose>...
+      </joint>
+      <plugin name="door" filename="librosmini_door.so">
+        <opening>1.5708</opening><moving>2</moving><open>5</open><closed>5</closed>
+      </plugin>
     </model>
 
-A joint of the type `prismatic` makes it slide along the joint's axis.
+With a joint of type `prismatic` it slides along the joint's axis.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Which frame a pose is given in (http://sdformat.org/tutorials?tut=pose_frame_semantics), found out once, when a file is read."""
+"""The frames that poses are given in, resolved once, when a file is read.
+
+http://sdformat.org/tutorials?tut=pose_frame_semantics
+"""
 
 from __future__ import annotations
 
@@ -67,7 +70,7 @@ class Scope:
         return name in self._given
 
     def place(self, name: str, asked: Element | None = None) -> Pose6:
-        """Where a frame is, seen from the root. Raises `SdfError` if there is no such frame, or if frames hang on one another in a circle."""
+        """The pose of a frame, seen from the root. Raises `SdfError` if there is none, or if frames form a circle."""
         if name in self._known:
             return self._known[name]
         pose = self._given.get(name)
@@ -88,7 +91,7 @@ class Scope:
         return self._known[name]
 
     def seen(self, pose: Given, default: str = "") -> Pose6:
-        """A given pose, seen from the root; `default` is the frame it is in if it names none. Raises as `place` does."""
+        """A given pose, seen from the root; `default` is its frame if it names none. Raises as `place` does."""
         frame = pose.frame or default or self.root
         return pose.pose if frame == self.root else compose(self.place(frame, pose.element), pose.pose)
 

@@ -10,7 +10,6 @@ from rosmini.errors import nearest
 from rosmini.markup import FARTHEST, HEAVIEST, Element
 from rosmini.urdf import meshes
 
-from .colours import colour_of
 from .document import (
     GeometryKind,
     Note,
@@ -26,6 +25,7 @@ from .document import (
 )
 from .errors import MissingError
 from .frames import Scope, given
+from .material_colours import colour_of
 from .resources import Resources
 
 MOST_MODELS = 50_000
@@ -57,7 +57,7 @@ class Reading:
             raise element.error(f"there are more than {MOST_MODELS} models in what this file includes")
 
     def unknown(self, element: Element, known: tuple[str, ...]) -> None:
-        """A note about each child that SDF does not have there. Those with a prefix (`other:tag`) are somebody's own."""
+        """Note each child that SDF does not have there. Those with a prefix (`other:tag`) are somebody's own."""
         for child in element:
             if child.tag not in known and ":" not in child.tag:
                 hint = nearest(child.tag, known)
@@ -103,8 +103,9 @@ def plugins(element: Element) -> tuple[SdfPlugin, ...]:
 
 
 LINK_TAGS = (
-    "pose", "inertial", "collision", "visual", "sensor", "gravity", "self_collide", "kinematic", "enable_wind", "must_be_base_link",
-    "velocity_decay", "projector", "audio_source", "audio_sink", "battery", "light", "particle_emitter", "frame", "material",
+    "pose", "inertial", "collision", "visual", "sensor", "gravity", "self_collide", "kinematic", "enable_wind",
+    "must_be_base_link", "velocity_decay", "projector", "audio_source", "audio_sink", "battery", "light",
+    "particle_emitter", "frame", "material",
 )  # fmt: skip
 
 
@@ -122,7 +123,7 @@ def link(element: Element, scope: Scope, reading: Reading) -> SdfLink:
             _collision(each, scope, here, reading) for each in unique(element.all("collision"), "collision")
         ),
         tuple(_visual(each, scope, here, reading) for each in unique(element.all("visual"), "visual")),
-        tuple(_sensor(each, scope, here) for each in unique(element.all("sensor"), "sensor")),
+        tuple(sensor(each, scope, here) for each in unique(element.all("sensor"), "sensor")),
         element.line,
     )
 
@@ -213,7 +214,8 @@ def _visual(element: Element, scope: Scope, here: Pose6, reading: Reading) -> Sd
     )
 
 
-def _sensor(element: Element, scope: Scope, here: Pose6) -> SdfSensor:
+def sensor(element: Element, scope: Scope, here: Pose6) -> SdfSensor:
+    """A sensor on a link that is `here`. Raises `SdfError`."""
     rate = number(element, "update_rate", 0.0)
     if rate < 0:
         raise element.need("update_rate").error(f"a rate is 0 (always) or more, not {rate:g}")

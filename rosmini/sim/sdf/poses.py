@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .document import ORIGIN, Pose6
+from .document import ORIGIN, Pose6, SdfLink, SdfModel
 
 Matrix = NDArray[np.float64]
 
@@ -27,7 +28,7 @@ def matrix(pose: Pose6) -> Matrix:
 
 
 def pose6(transform: Matrix) -> Pose6:
-    """The pose that a matrix (4, 4) stands for. Where it looks straight up or down, roll is 0 and yaw takes all of the turn."""
+    """The pose of a matrix (4, 4). Where it looks straight up or down, roll is 0 and yaw takes the whole turn."""
     x, y, z = transform[:3, 3]
     flat = math.hypot(transform[0, 0], transform[1, 0])
     pitch = math.atan2(-transform[2, 0], flat)
@@ -40,7 +41,7 @@ def pose6(transform: Matrix) -> Pose6:
 
 
 def compose(first: Pose6, second: Pose6) -> Pose6:
-    """`second`, which is seen from `first`, seen from where `first` is seen from; exact where one of the two is the origin."""
+    """The pose `second`, given in `first`, in the frame of `first`; exact where one of the two is the origin."""
     if first == ORIGIN:
         return second
     if second == ORIGIN:
@@ -63,8 +64,18 @@ def inverse(pose: Pose6) -> Pose6:
     return pose6(back)
 
 
+def placed_links(
+    model: SdfModel, pose: Pose6 = ORIGIN, inside: str = ""
+) -> Iterator[tuple[str, SdfLink, Pose6]]:
+    """The links of a model, and of the models within it, each with its name, and its pose if the model is at `pose`."""
+    for link in model.links:
+        yield inside + link.name, link, compose(pose, link.pose)
+    for each in model.models:
+        yield from placed_links(each, compose(pose, each.pose), f"{inside}{each.name}::")
+
+
 def upright(pose: Pose6, tolerance: float = 1e-6) -> bool:
-    """Tell whether the z axis of a pose points straight up."""
+    """Return whether the z axis of a pose points straight up."""
     return (
         math.cos(pose[3]) * math.cos(pose[4]) >= 1 - tolerance**2 / 2 and abs(math.sin(pose[4])) <= tolerance
     )

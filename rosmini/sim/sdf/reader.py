@@ -22,20 +22,21 @@ DEEPEST = 20
 """How many models may stand inside one another."""
 
 MODEL_TAGS = (
-    "static", "self_collide", "allow_auto_disable", "include", "model", "enable_wind", "frame", "pose", "link", "joint", "plugin",
-    "gripper", "name", "description", "author",
+    "static", "self_collide", "allow_auto_disable", "include", "model", "enable_wind", "frame", "pose", "link", "joint",
+    "plugin", "gripper", "name", "description", "author",
 )  # fmt: skip
 WORLD_TAGS = (
-    "audio", "wind", "include", "gravity", "magnetic_field", "atmosphere", "gui", "physics", "scene", "light", "frame", "model",
-    "actor", "plugin", "joint", "road", "spherical_coordinates", "state", "population",
+    "audio", "wind", "include", "gravity", "magnetic_field", "atmosphere", "gui", "physics", "scene", "light", "frame",
+    "model", "actor", "plugin", "joint", "road", "spherical_coordinates", "state", "population",
 )  # fmt: skip
 
 
 def load(source: str | os.PathLike[str], *, models: Iterable[str | os.PathLike[str]] = ()) -> Sdf:
-    """The worlds, models and actors of an SDF file, by its path or `package://` address, or of a text that begins with `<`.
+    """The worlds, models and actors of an SDF file: a path, a `package://` address, or a text that begins with `<`.
 
-    `models` are folders in which `model://` addresses are looked up first; then come GAZEBO_MODEL_PATH, `~/.gazebo/models`, rosmini's own models and
-    those that ROS packages export. What Gazebo would use and this leaves out is in `notes`. Raises `SdfError`, which names file and line.
+    `models` are folders in which `model://` addresses are looked up first; then come GAZEBO_MODEL_PATH,
+    `~/.gazebo/models`, rosmini's own models and those that ROS packages export. What Gazebo would use and this leaves
+    out is in `notes`. Raises `SdfError`, which names file and line.
     """
     reading = Reading(Resources(models))
     if isinstance(source, str) and source.lstrip().startswith("<"):
@@ -118,7 +119,8 @@ def _sorted(things: list[SdfModel | SdfActor], element: Element) -> list[SdfMode
         if each.name in seen:
             where = Element("model", line=each.line, path=element.path, failure=SdfError)
             raise where.error(
-                f"the world has another model {each.name!r} in line {seen[each.name].line}; give each its own name (<name> in an <include>)"
+                f"the world has another model {each.name!r} in line {seen[each.name].line}; give each its own name "
+                "(<name> in an <include>)"
             )
         seen[each.name] = each
     return things
@@ -232,7 +234,7 @@ def _inside(model: SdfModel) -> list[tuple[str, Pose6]]:
 
 
 def _included(element: Element, reading: Reading, depth: int) -> list[tuple[Element, Element]]:
-    """Every `<include>` of a world or a model, with the model or actor that it is of. What is not there is left out, as Gazebo does."""
+    """Each `<include>` with the model or actor it names. What is not there is left out, as in Gazebo."""
     found = []
     for each in element.all("include"):
         try:
@@ -317,7 +319,7 @@ def _actor(element: Element, scope: Scope, reading: Reading) -> SdfActor:
 
 
 def is_sdf(path: str | os.PathLike[str]) -> bool:
-    """Tell whether a file looks like SDF: an XML file whose first element is `<sdf>`, or `<gazebo>` as it was once called."""
+    """Return whether a file looks like SDF: XML that begins with `<sdf>`, or `<gazebo>` as it once did."""
     try:
         head = read(path)[:20000].decode("utf-8", "replace")
     except OSError:

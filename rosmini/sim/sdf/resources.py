@@ -1,7 +1,8 @@
 """Where models and meshes are: `model://`, `file://` and `package://` addresses, and paths.
 
-Models are looked for as Gazebo does (http://classic.gazebosim.org/tutorials?tut=components): in the folders of GAZEBO_MODEL_PATH, in
-`~/.gazebo/models`, and in the folders that ROS packages export as `gazebo_model_path`; and in the models that rosmini brings. Nothing is fetched.
+Models are looked for as Gazebo does: in the folders of GAZEBO_MODEL_PATH, in `~/.gazebo/models`, and in the folders
+that ROS packages export as `gazebo_model_path`; and among rosmini's own models. Nothing is downloaded.
+(http://classic.gazebosim.org/tutorials?tut=components)
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ class Resources:
         return self._parsed[path]
 
     def find(self, uri: str, asked: Element) -> Path:
-        """The file or folder at an address. Raises `MissingError` at `asked` if it is not there, `SdfError` if it is no address."""
+        """The file or folder at an address. Raises `MissingError` at `asked` for a missing one, else `SdfError`."""
         if not uri.strip():
             raise asked.error(
                 f"<{asked.tag}> is empty; an address is model://NAME, package://PACKAGE/PATH, file://PATH or a path"
@@ -101,7 +102,8 @@ class Resources:
         hint = nearest(name, names)
         raise _missing(
             asked,
-            f"there is no model {shown(name)}{'; ' + hint if hint else ''}; searched: {searched}; put its folder on {MODEL_PATH}",
+            f"there is no model {shown(name)}{'; ' + hint if hint else ''}; searched: {searched}; put its folder on "
+            f"{MODEL_PATH}",
         )
 
     def _all_folders(self) -> Iterator[Path]:

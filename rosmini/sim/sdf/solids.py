@@ -1,7 +1,8 @@
 """Shapes of SDF as a flat world has them: upright solids, each an outline on the ground with a bottom and a top.
 
-What stands upright is taken as it is. What lies on a side or stands aslant is taken as its shadow: the outline of it seen from above, from its lowest
-to its highest point. A mesh is cut level at several heights, and stands for each cut as high as it resembles it.
+What stands upright is taken as it is. What lies on a side or stands aslant is taken as its shadow: the outline of it
+seen from above, from its lowest to its highest point. A mesh is cut level at several heights, and stands for each cut
+as high as it resembles it.
 """
 
 from __future__ import annotations

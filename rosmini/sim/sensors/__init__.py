@@ -1,1 +1,4 @@
-"""What a robot measures: lasers, cameras, inertial units, bumpers, batteries and their errors. Numbers in, numbers out."""
+"""What a robot measures: lasers, cameras, inertial units, bumpers, batteries and their errors.
+
+Numbers in, numbers out.
+"""

@@ -1,20 +1,23 @@
 """A battery that drains: how much of its charge is left, and the voltage that this gives.
 
-The open-circuit voltage E follows from the charge that is left; the robot draws the power P, whatever the voltage, through the resistance R inside
-of the battery. From P = V I and V = E - R I:
+The open-circuit voltage E follows from the charge that is left; the robot draws the power P, whatever the voltage,
+through the resistance R inside of the battery. From P = V I and V = E - R I:
 
     I = (E - sqrt(E^2 - 4 R P)) / (2 R),   dq/dt = -I.
 
 Where the numbers are from:
 
-- 11.1 V, 1800 mAh, 19.98 Wh, and that a Burger runs for 2.5 h and a Waffle for 2 h: https://emanual.robotis.com/docs/en/platform/turtlebot3/features/.
-  So a Burger draws 8.0 W and a Waffle 10.0 W.
-- Of these a laser takes 2.0 W (400 mA at 5 V: https://emanual.robotis.com/docs/en/platform/turtlebot3/appendix_lds_01/), and two motors that stand 1.2 W
-  (52 mA each at 11.1 V: https://emanual.robotis.com/docs/en/dxl/x/xl430-w250/). That a motor takes 0.8 W more at full speed without a load is our estimate; the
-  rest is the computers'. So the published time is that of a robot that always drives; one that stands runs longer.
-- The firmware warns below 11.0 V (`updateVoltageCheck` in `turtlebot3_core` of https://github.com/ROBOTIS-GIT/OpenCR), and so does `turtlebot3_diagnostics`.
-- The curve is a usual one of a lithium polymer cell, 4.2 V full, flat around 3.8 V, steep at the end; a cell is cut off at 3.0 V. It is of a
-  typical cell, not of this very one, and so is the resistance.
+- 11.1 V, 1800 mAh, 19.98 Wh, and that a Burger runs for 2.5 h and a Waffle for 2 h:
+  https://emanual.robotis.com/docs/en/platform/turtlebot3/features/. So a Burger draws 8.0 W and a Waffle 10.0 W.
+- Of these a laser takes 2.0 W (400 mA at 5 V:
+  https://emanual.robotis.com/docs/en/platform/turtlebot3/appendix_lds_01/), and two motors that stand 1.2 W (52 mA each
+  at 11.1 V: https://emanual.robotis.com/docs/en/dxl/x/xl430-w250/). That a motor takes 0.8 W more at full speed without
+  a load is our estimate; the rest is the computers'. So the published time is that of a robot that always drives; one
+  that stands runs longer.
+- The firmware warns below 11.0 V (`updateVoltageCheck` in `turtlebot3_core` of https://github.com/ROBOTIS-GIT/OpenCR),
+  and so does `turtlebot3_diagnostics`.
+- The curve is a usual one of a lithium polymer cell, 4.2 V full, flat around 3.8 V, steep at the end; a cell is cut off
+  at 3.0 V. It is of a typical cell, not of this very one, and so is the resistance.
 """
 
 from __future__ import annotations
@@ -94,7 +97,10 @@ class Charge:
     level: float
     """What is left, 0 to 1."""
     percentage: float
-    """What TurtleBot3's firmware calls so: its voltage by the nominal 11.1 V. A full battery shows 1.13, an empty one about 0.8."""
+    """What TurtleBot3's firmware calls so: its voltage by the nominal 11.1 V.
+
+    A full battery shows 1.13, an empty one about 0.8.
+    """
     low: bool
     """The firmware warns: its buzzer sounds, and `turtlebot3_diagnostics` asks for a charger."""
     empty: bool
@@ -112,7 +118,10 @@ class Battery:
 
     @property
     def level(self) -> float:
-        """How much of its charge is left, 0 to 1. To set it is to charge it, or to put in another one. Raises `BatteryError`."""
+        """How much of its charge is left, 0 to 1.
+
+        To set it is to charge it, or to put in another one. Raises `BatteryError`.
+        """
         return self._level
 
     @level.setter
@@ -123,7 +132,10 @@ class Battery:
         self._empty = False
 
     def drain(self, power: float, duration: float) -> Charge:
-        """Draw `power` [W] for `duration` [s]; return what the battery shows after that. Raises `BatteryError` for what is negative or no number."""
+        """Draw `power` [W] for `duration` [s]; return what the battery shows after that.
+
+        Raises `BatteryError` for what is negative or no number.
+        """
         if not (0.0 <= power < math.inf and 0.0 <= duration < math.inf):
             raise BatteryError(
                 f"a battery cannot give {power} W for {duration} s: both have to be finite, and 0 or more"
@@ -163,7 +175,10 @@ class Battery:
         return spent
 
     def _spent(self) -> bool:
-        """Cut it off if there is nothing more to take from it. It stays off until it is charged: without a load its voltage would come back."""
+        """Cut it off if there is nothing more to take from it.
+
+        It stays off until it is charged: without a load its voltage would come back.
+        """
         self._empty = self._empty or self._level <= 0.0 or self._voltage() <= self.model.cutoff
         return self._empty
 

@@ -1,6 +1,7 @@
 """A bumper: which of its sectors is pressed, from where a robot touches something and how hard.
 
-A sector is pressed when a contact lies within its angles, seen from the middle of the robot, and presses with the bumper's least force or more.
+A sector is pressed when a contact lies within its angles, seen from the middle of the robot, and presses with the
+bumper's least force or more.
 """
 
 from __future__ import annotations
@@ -49,7 +50,10 @@ TURTLEBOT3_BUMPER = BumperModel(
         Sector("backward", math.pi / 2, 3 * math.pi / 2, 2),
     )
 )
-"""The two switches that TurtleBot3's firmware reads; `turtlebot3_msgs/SensorState` calls their bits BUMPER_FORWARD and BUMPER_BACKWARD."""
+"""The two switches that TurtleBot3's firmware reads.
+
+`turtlebot3_msgs/SensorState` calls their bits BUMPER_FORWARD and BUMPER_BACKWARD.
+"""
 
 KOBUKI_BUMPER = BumperModel(
     (
@@ -58,7 +62,7 @@ KOBUKI_BUMPER = BumperModel(
         Sector("left", math.radians(30), math.radians(90), 4),
     )
 )
-"""Three switches in front, as on a TurtleBot 2 (`kobuki_msgs/SensorState`: BUMPER_RIGHT, BUMPER_CENTRE and BUMPER_LEFT)."""
+"""Three front switches, as on a TurtleBot 2 (`kobuki_msgs/SensorState`: BUMPER_RIGHT, _CENTRE and _LEFT)."""
 
 
 def pressed(bumper: BumperModel, pose: Pose, contacts: Iterable[Contact]) -> tuple[Sector, ...]:

@@ -1,21 +1,24 @@
 """An inertial measurement unit: angular velocity, acceleration and heading of the place where it sits.
 
-At (x, y) from the middle of the axle, of a robot with the speed v ahead and w to the left and their rates dv and dw, the acceleration is
+At (x, y) from the middle of the axle, of a robot with the speed v ahead and w to the left and their rates dv and dw,
+the acceleration is
 
     a_x = dv - x w^2 - y dw,   a_y = v w + x dw - y w^2,   a_z = g
 
-and if it goes to its left too, with u and its rate du, then - u w and du come on top of these (a_z points up at rest: REP 145,
-https://www.ros.org/reps/rep-0145.html). To each comes white noise, and a bias that stays. The gyroscope shows (1 + s) w of a turn, and its heading is the
-integral of what it shows: Madgwick's filter without a magnetometer, which TurtleBot3's board runs, knows nothing else about the heading of a robot on flat
-ground (`IMU.cpp` and `MadgwickAHRS.cpp` in https://github.com/ROBOTIS-GIT/OpenCR). So after t seconds, turned by a, the heading is off by
+and if it goes to its left too, with u and its rate du, then - u w and du come on top of these (a_z points up at rest:
+REP 145, https://www.ros.org/reps/rep-0145.html). To each comes white noise, and a bias that stays. The gyroscope shows
+(1 + s) w of a turn, and its heading is the integral of what it shows: Madgwick's filter without a magnetometer, which
+TurtleBot3's board runs, knows nothing else about the heading of a robot on flat ground (`IMU.cpp` and
+`MadgwickAHRS.cpp` in https://github.com/ROBOTIS-GIT/OpenCR). So after t seconds, turned by a, the heading is off by
 
     s a + b t + n,   n ~ N(0, sigma^2 t / f)
 
-with s the error of the scale, b the bias, and sigma the deviation of one of f samples a second. That board calibrates the gyroscope when it is connected to,
-and again on the topic `reset`: it takes the mean of 512 samples for its zero, rounded down to whole steps of the converter. What remains for b is anything
-from none to one step, 0.061 degrees a second: so the heading of a TurtleBot3 that stands drifts to the left, as its users report
-(https://github.com/ROBOTIS-GIT/turtlebot3/issues/819). Published are sigma, the step and the largest s; our choice is that s is normal, a third
-of the largest. Left out: warmth, which moves b, the low-pass filter of the chip, and tilts.
+with s the error of the scale, b the bias, and sigma the deviation of one of f samples a second. That board calibrates
+the gyroscope when it is connected to, and again on the topic `reset`: it takes the mean of 512 samples for its zero,
+rounded down to whole steps of the converter. What remains for b is anything from none to one step, 0.061 degrees a
+second: so the heading of a TurtleBot3 that stands drifts to the left, as its users report
+(https://github.com/ROBOTIS-GIT/turtlebot3/issues/819). Published are sigma, the step and the largest s; our choice is
+that s is normal, a third of the largest. Left out: warmth, which moves b, the low-pass filter of the chip, and tilts.
 """
 
 from __future__ import annotations
@@ -88,9 +91,10 @@ class Imu:
         self.calibrate(-1)
 
     def calibrate(self, number: int, w: float = 0.0) -> None:
-        """Take what the gyroscope shows now for its zero, in whole steps, from the sample after `number` on. It should stand: a turn of `w` [rad/s] is taken for zero too.
+        """Take what the gyroscope shows now for its zero, in whole steps, from the sample after `number` on.
 
-        The real unit takes two and a half seconds for it, this one no time.
+        It should stand: a turn of `w` [rad/s] is taken for zero too. The real unit takes two and a half seconds for it,
+        this one no time.
         """
         if self._step:
             shown = self._offset + self._unit.standard_normal(3) * self._deviations[:3] / math.sqrt(
@@ -119,7 +123,7 @@ class Imu:
         dw: float,
         aside: tuple[float, float] = (0.0, 0.0),
     ) -> tuple[float, float, float, float, float, float]:
-        """Sample `number`, counted from 0 and never backwards: angular velocities x, y, z [rad/s] and accelerations x, y, z [m/s2]."""
+        """Sample `number`, from 0 and never backwards: angular velocities [rad/s] and accelerations [m/s2], x, y, z."""
         x, y, _ = self._mount
         ax, ay = acceleration(x, y, v, w, dv, dw, aside)
         if not self._scale:
@@ -130,7 +134,10 @@ class Imu:
         return (e[0], e[1], w * self.scale + e[2], ax + e[3], ay + e[4], self.model.gravity + e[5])
 
     def heading(self, number: int, turned: float) -> float:
-        """The integral of what the gyroscope showed up to sample `number` [rad], of a robot that has turned so far; in multiples of `FINEST`."""
+        """The integral of what the gyroscope showed up to sample `number` [rad], of a robot that has turned so far.
+
+        In multiples of `FINEST`.
+        """
         if self._scale:
             if number >= self._end:
                 self._draw(number)

@@ -1,16 +1,19 @@
 """A laser: from what stands around to the ranges of a `sensor_msgs/LaserScan`.
 
-Beam i looks at the angle angle_min + i increment, counter-clockwise from where the laser looks, and measures the distance to the first thing in its way
-plus Gaussian noise. A laser that turns has beams all around: angle_min is 0, and the increment 2 pi / n.
-What it cannot measure follows REP 117 (https://www.ros.org/reps/rep-0117.html), as in Gazebo: inf where nothing is within reach, -inf where something is
-too close. A real LDS-01 sends 0 for what it cannot measure, and its driver, `hls_lfcd_lds_driver`, passes that on; `unmeasured` makes this form of ours.
+Beam i looks at the angle angle_min + i increment, counter-clockwise from where the laser looks, and measures the
+distance to the first thing in its way plus Gaussian noise. A laser that turns has beams all around: angle_min is 0, and
+the increment 2 pi / n. What it cannot measure follows REP 117 (https://www.ros.org/reps/rep-0117.html), as in Gazebo:
+inf where nothing is within reach, -inf where something is too close. A real LDS-01 sends 0 for what it cannot measure,
+and its driver, `hls_lfcd_lds_driver`, passes that on; `unmeasured` makes this form of ours.
 
-A real LDS-01 takes 0.2 s for a scan, while the robot moves on: a message of a robot that turns is bent. The simulator's laser sweeps likewise, see
-`rosmini.sim.engine.sweep`, and its messages are laid out as those of the driver (`hlds_laser_publisher`, 1.1.2, the last one for Noetic): the mirror
-goes round clockwise, the driver writes ranges from the last one measured to the first, so that angles increase, and it takes the stamp when all have come
-in. So the stamp is the time of `ranges[0]`, straight ahead, and `ranges[i]` is older by i / 1800 s. We say so with a negative `time_increment`, -1/1800 s, which
-stamp + i time_increment then is true for; the driver writes 0.00003 s there, too little and of the wrong sign
-(https://github.com/ROBOTIS-GIT/turtlebot3/issues/634). In Stage and Gazebo, and with `_sweep:=false`, all beams are measured at one moment, and it is 0.
+A real LDS-01 takes 0.2 s for a scan, while the robot moves on: a message of a robot that turns is bent. The simulator's
+laser sweeps likewise, see `rosmini.sim.engine.sweep`, and its messages are laid out as those of the driver
+(`hlds_laser_publisher`, 1.1.2, the last one for Noetic): the mirror goes round clockwise, the driver writes ranges from
+the last one measured to the first, so that angles increase, and it takes the stamp when all have come in. So the stamp
+is the time of `ranges[0]`, straight ahead, and `ranges[i]` is older by i / 1800 s. We say so with a negative
+`time_increment`, -1/1800 s, which stamp + i time_increment then is true for; the driver writes 0.00003 s there, too
+little and of the wrong sign (https://github.com/ROBOTIS-GIT/turtlebot3/issues/634). In Stage and Gazebo, and with
+`_sweep:=false`, all beams are measured at one moment, and it is 0.
 """
 
 from __future__ import annotations
@@ -32,7 +35,8 @@ def scan(
 ) -> Floats:
     """The ranges (beams,) [m] that the laser of a robot at `pose` measures.
 
-    `segments` (n, 4) and `discs` (m, 3) are what is as high as the laser, in the world's frame; `noise` (beams,) is added to what is hit.
+    `segments` (n, 4) and `discs` (m, 3) are what is as high as the laser, in the world's frame; `noise` (beams,) is
+    added to what is hit.
     """
     x, y, theta = pose
     c, s = math.cos(theta), math.sin(theta)

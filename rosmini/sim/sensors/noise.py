@@ -2,12 +2,14 @@
 
     measured = step * round((truth + b(t) + n) / step),   n ~ N(mean, stddev^2)
 
-b(0) is drawn once for each unit, from N(bias_mean, bias_stddev^2), with either sign; after that it wanders as a Gauss-Markov process does,
+b(0) is drawn once for each unit, from N(bias_mean, bias_stddev^2), with either sign; after that it wanders as a
+Gauss-Markov process does,
 
     b(t + dt) = b(t) exp(-dt / tau) + N(0, sigma^2 (tau / 2) (1 - exp(-2 dt / tau))),
 
-and without `drift` (sigma = 0) it stays. These are the numbers that Gazebo's `<noise>` tag gives (http://sdformat.org/spec?elem=sensor: `type`, `mean`,
-`stddev`, `bias_mean`, `bias_stddev`, `dynamic_bias_stddev`, `dynamic_bias_correlation_time`, `precision`); `dropout` is ours.
+and without `drift` (sigma = 0) it stays. These are the numbers that Gazebo's `<noise>` tag gives
+(http://sdformat.org/spec?elem=sensor: `type`, `mean`, `stddev`, `bias_mean`, `bias_stddev`, `dynamic_bias_stddev`,
+`dynamic_bias_correlation_time`, `precision`); `dropout` is ours.
 """
 
 from __future__ import annotations

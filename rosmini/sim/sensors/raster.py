@@ -1,13 +1,13 @@
 """From things to see to pixels: which of them each pixel shows, and how near it is.
 
-A pixel (u, v) looks along r = ((u - cx) / fx, (v - cy) / fy, 1) in the frame of the camera. A flat face with the corners P_i covers it if r is on the
-inner side of each plane through the camera and two neighbouring corners, that is if (P_i x P_i+1) . r has the same sign for all i; and the inverse of the
-depth at which r meets the face's plane n . P = d is n . r / d. Both are linear in u and v, so no corner has to be in front of the camera and nothing is
-clipped (Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997). The nearest face wins; of two that are equally near, the first.
+A pixel (u, v) looks along r = ((u - cx) / fx, (v - cy) / fy, 1) in the frame of the camera. A flat face with the
+corners P_i covers it if r is on the inner side of each plane through the camera and two neighbouring corners, that is
+if (P_i x P_i+1) . r has the same sign for all i; and the inverse of the depth at which r meets the face's plane n . P =
+d is n . r / d. Both are linear in u and v, so no corner has to be in front of the camera and nothing is clipped (Olano
+and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997). The nearest face wins; of two that are
+equally near, the first.
 
 Cylinders and balls meet r where a quadratic says so.
-
-`draw` does it with numpy, a face at a time; `rosmini.sim.sensors.raster_numba` has the same arithmetic as loops.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ GROUND = -1
 
 
 class Lens(NamedTuple):
-    """How a camera projects: a point (X, Y, Z), X to the right, Y down, Z ahead, is seen at u = fx X / Z + cx, v = fy Y / Z + cy."""
+    """How a camera projects a point (X right, Y down, Z ahead): u = fx X / Z + cx, v = fy Y / Z + cy."""
 
     width: int
     height: int
@@ -42,7 +42,7 @@ class Lens(NamedTuple):
 
 
 class Eye(NamedTuple):
-    """A camera in the world: where it is (3,), and, as rows (3, 3), where its right, its down and its ahead point to."""
+    """A camera in the world: its position (3,), and the directions right, down and ahead as rows (3, 3)."""
 
     position: Floats
     axes: Floats
@@ -54,20 +54,23 @@ class Eye(NamedTuple):
         return turned
 
     def project(self, points: Floats) -> Floats:
-        """Where points (n, 3) of the world are on the image, and how deep: u, v and depth (n, 3). Behind the camera the depth is negative."""
+        """Where points (n, 3) of the world are on the image, and how deep: u, v and depth (n, 3).
+
+        Behind the camera the depth is negative.
+        """
         x, y, z = self.seen(np.asarray(points, dtype=float).reshape(-1, 3)).T
         lens = self.lens
         return np.column_stack([lens.fx * x / z + lens.cx, lens.fy * y / z + lens.cy, z])
 
     def rays(self) -> Floats:
-        """The coefficients (3, 3) of the way d, in the world, that a pixel looks along for one metre of depth: d_i = row i . (1, u, v)."""
+        """Return the coefficients (3, 3) of a pixel's ray d, per metre of depth: d_i = row i . (1, u, v)."""
         lens = self.lens
         right, down, ahead = self.axes[0] / lens.fx, self.axes[1] / lens.fy, self.axes[2]
         return np.column_stack([ahead - right * lens.cx - down * lens.cy, right, down])
 
 
 class Plan(NamedTuple):
-    """Faces made ready, those that are seen: the coefficients of what is linear in u and v, and where on the image they are."""
+    """The visible faces, prepared: the coefficients of what is linear in u and v, and their boxes on the image."""
 
     number: Ints
     """(n,) which face it is."""
@@ -80,7 +83,10 @@ class Plan(NamedTuple):
 
 
 def plan(corners: Floats, seen: NDArray[np.bool_], lens: Lens) -> Plan:
-    """Make faces (n, 4, 3), in the frame of the camera, ready; those that are not `seen`, or outside of the image, are left out."""
+    """Make faces (n, 4, 3), in the frame of the camera, ready.
+
+    Those that are not `seen`, or outside of the image, are left out.
+    """
     number = np.flatnonzero(
         seen & (corners[:, :, 2].max(axis=1) > lens.near) & (corners[:, :, 2].min(axis=1) < lens.far)
     )
@@ -143,12 +149,13 @@ def _pixels(left: Floats, right: Floats, top: Floats, bottom: Floats, lens: Lens
 
 
 def boxes_around(low: Floats, high: Floats, eye: Eye) -> Ints:
-    """Where on the image things are at most, (n, 4), that lie within upright boxes from `low` to `high` (n, 3), in the frame of the world."""
+    """Return the boxes on the image (n, 4) of things within upright boxes from `low` to `high` (n, 3) in the world."""
     x0, y0, z0 = low.T
     x1, y1, z1 = high.T
     sides = np.stack(
         [
-            np.stack([np.column_stack([x, y, z]) for x, y, z in ((xa, ya, z0), (xb, yb, z0), (xb, yb, z1), (xa, ya, z1))], axis=1)
+            np.stack([np.column_stack([x, y, z]) for x, y,
+                z in ((xa, ya, z0), (xb, yb, z0), (xb, yb, z1), (xa, ya, z1))], axis=1)
             for xa, ya, xb, yb in ((x0, y0, x1, y0), (x1, y0, x1, y1), (x1, y1, x0, y1), (x0, y1, x0, y0))
         ],
         axis=1,
@@ -161,7 +168,7 @@ def boxes_around(low: Floats, high: Floats, eye: Eye) -> Ints:
 
 
 def draw(plan: Plan, lens: Lens, inverse: Floats, shown: Ints) -> None:
-    """Draw faces into `inverse` (h, w), the inverse of the depth of what is shown so far, and `shown` (h, w), its number."""
+    """Draw faces into `inverse` (h, w), the inverse depth of what is shown so far, and `shown` (h, w), its number."""
     columns, rows = np.arange(lens.width, dtype=np.float64), np.arange(lens.height, dtype=np.float64)
     most, least = 1.0 / lens.near, 1.0 / lens.far
     for number, edges, (a, b, c), (left, right, top, bottom) in zip(
@@ -208,7 +215,10 @@ def draw_rods(
     inverse: Floats,
     shown: Ints,
 ) -> None:
-    """Draw upright cylinders (m, 5), of which the first has the number `first`, as `draw` does. A camera inside of one does not see it."""
+    """Draw upright cylinders (m, 5), of which the first has the number `first`, as `draw` does.
+
+    A camera inside of one does not see it.
+    """
     ex, ey, ez = position.tolist()
     for i, ((x, y, radius, bottom, top), box) in enumerate(zip(rods.tolist(), boxes.tolist(), strict=True)):
         ox, oy = ex - x, ey - y

@@ -1,6 +1,7 @@
 """What a camera can see of a world, as arrays: flat faces, cylinders and balls, each with its colour.
 
-Upright sides, tops and bottoms are faces of four corners; a polygon's top is cut into trapezia, which also does for walls that go round something.
+Upright sides, tops and bottoms are faces of four corners; a polygon's top is cut into trapezia, which also does for
+walls that go round something.
 """
 
 from __future__ import annotations
@@ -134,9 +135,10 @@ def placed(parts: Iterable[Part], pose: tuple[float, float, float]) -> list[Part
 
 
 def trapezia(segments: Floats, height: float) -> Floats:
-    """Level faces (n, 4, 3) at `height` that fill, by the even-odd rule, what the closed outlines of segments (m, 4) go round.
+    """Level faces (n, 4, 3) at `height` that fill the closed outlines of segments (m, 4) by the even-odd rule.
 
-    The plane is cut into strips from one corner's y to the next; in a strip, each two sides that follow one another bound a trapezium.
+    The plane is cut into strips from one corner's y to the next; in a strip, each two sides that follow one another
+    bound a trapezium.
     """
     sides = np.asarray(segments, dtype=float).reshape(-1, 4)
     sides = sides[sides[:, 1] != sides[:, 3]]

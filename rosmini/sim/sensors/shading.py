@@ -1,7 +1,8 @@
 """How things look: light from above and from one side, a chequered ground, a pale sky, and a little haze.
 
-A surface with the normal n has its colour times 0.76 + 0.26 n . l, where l points to the light: walls that meet in a corner differ, and what one sees from
-above is brightest. The ground's squares are as large as a step, so that motion is seen; where they are smaller than a pixel they blur into their mean.
+A surface with the normal n has its colour times 0.76 + 0.26 n . l, where l points to the light: walls that meet in a
+corner differ, and what one sees from above is brightest. The ground's squares are as large as a step, so that motion is
+seen; where they are smaller than a pixel they blur into their mean.
 """
 
 from __future__ import annotations
@@ -30,8 +31,6 @@ HORIZON: Rgb = (0.905, 0.930, 0.955)
 ZENITH: Rgb = (0.520, 0.680, 0.860)
 HAZE = 45.0
 """At this distance [m] things have 63 % of the horizon's colour."""
-
-LOOKS = np.array([LIGHT, GROUND_LIGHT, GROUND_DARK, HORIZON, ZENITH])
 
 
 def coloured(eye: Eye, scene: Scene, inverse: Floats, shown: Ints) -> Pixels:
@@ -113,12 +112,6 @@ def face_colours(eye: Eye, scene: Scene) -> Floats:
     return colours
 
 
-def looks_of(eye: Eye, scene: Scene) -> tuple[Floats, Floats, Floats, Floats]:
-    """What a loop over pixels needs: the faces' colours, the cylinders, the balls, and the colours of both."""
-    paints = np.concatenate([scene.rod_paints, scene.ball_paints])
-    return face_colours(eye, scene), scene.rods, scene.balls, paints
-
-
 def _colours(eye: Eye, scene: Scene, near: Pixels, number: Ints, things: Ints, ways: Ways) -> Pixels:
     """The colours (3, n) of the pixels where something is shown, in the light."""
     shown, faces = number[things], len(scene.faces)
@@ -128,29 +121,28 @@ def _colours(eye: Eye, scene: Scene, near: Pixels, number: Ints, things: Ints, w
     bent = np.flatnonzero(shown >= faces)
     if len(bent):
         where = things[bent]
-        colours[:, bent] = _round(
-            eye, scene, near[where], shown[bent] - faces, [way[where] for way in ways]
-        ).T
+        colours[:, bent] = _round(eye, scene, near[where], shown[bent] - faces, [way[where] for way in ways])
     return colours
 
 
-def _round(eye: Eye, scene: Scene, near: Pixels, number: Ints, ways: Sequence[Pixels]) -> Floats:
-    """The colours (n, 3) of cylinders and balls: their normals follow from where they were met."""
+def _round(eye: Eye, scene: Scene, near: Pixels, number: Ints, ways: Sequence[Pixels]) -> Pixels:
+    """Return the colours (3, n) of cylinders and balls: their normals follow from where they were met."""
     rods = len(scene.rods)
-    depth = 1 / near
-    x, y, z = (e + depth * way for e, way in zip(eye.position, ways, strict=True))
-    normals = np.zeros((len(number), 3))
-    rod = number < rods
-    if rod.any():
-        cx, cy, radius, bottom, top = scene.rods[number[rod]].T
-        away = np.column_stack([x[rod] - cx, y[rod] - cy, np.zeros(len(cx))]) / radius[:, None]
-        above, below = (z[rod] > top - 1e-4) & (eye.position[2] > top), eye.position[2] < bottom
-        below &= z[rod] < bottom + 1e-4
-        away[above], away[below] = (0, 0, 1), (0, 0, -1)
-        normals[rod] = away
-    if not rod.all():
-        cx, cy, cz, radius = scene.balls[number[~rod] - rods].T
-        normals[~rod] = np.column_stack([x[~rod] - cx, y[~rod] - cy, z[~rod] - cz]) / radius[:, None]
-    paints = np.concatenate([scene.rod_paints, scene.ball_paints])
-    colours: Floats = paints[number] * lit(normals)[:, None]
-    return colours
+    depth = np.reciprocal(near)
+    x, y, z = (depth * way + np.float32(e) for e, way in zip(eye.position, ways, strict=True))
+    shine = np.empty(len(number), dtype=np.float32)
+    lx, ly, lz = LIGHT.astype(np.float32)
+    rod, ball = np.flatnonzero(number < rods), np.flatnonzero(number >= rods)
+    if len(rod):
+        cx, cy, radius, bottom, top = (column[number[rod]] for column in scene.rods.T.astype(np.float32))
+        bright = ((x[rod] - cx) * lx + (y[rod] - cy) * ly) / radius
+        height = np.float32(eye.position[2])
+        bright[(height > top) & (z[rod] > top - np.float32(1e-4))] = lz
+        bright[(height < bottom) & (z[rod] < bottom + np.float32(1e-4))] = -lz
+        shine[rod] = bright
+    if len(ball):
+        cx, cy, cz, radius = (column[number[ball] - rods] for column in scene.balls.T.astype(np.float32))
+        shine[ball] = ((x[ball] - cx) * lx + (y[ball] - cy) * ly + (z[ball] - cz) * lz) / radius
+    shine = np.float32(AMBIENT) + np.float32(DIFFUSE) * shine
+    paints = np.concatenate([scene.rod_paints, scene.ball_paints]).astype(np.float32)
+    return np.stack([column[number] * shine for column in paints.T])

@@ -5,12 +5,13 @@
 >>> [robot.drive for robot in stage.robots]
 ['diff']
 
-Stage is the simulator of the Player project, by Richard Vaughan (https://github.com/rtv/Stage): many robots, plain models, a flat world.
+Stage is the simulator of the Player project, by Richard Vaughan: many robots, plain models, a flat world
+(https://github.com/rtv/Stage).
 """
 
 from .errors import Place, StageError
-from .file import StageWindow, StageWorld, load
 from .robots import StageCamera, StageLaser, StageRobot
+from .world_file import StageWindow, StageWorld, load
 
 __all__ = [
     "Place",

@@ -18,8 +18,9 @@ UNSEEN = (-2.0, -1.0)
 def robot_model(robot: StageRobot, interval: float) -> RobotModel:
     """The model of a robot that is looked at every `interval` [s].
 
-    It has the velocity that it is told at once, up to its bounds, as in Stage, and its wheels are as on paper: what is wrong with its odometry is Stage's
-    own model (`StageOdometry`). What touches others is the smallest convex polygon around its body. Raises `StageError`.
+    It reaches a commanded velocity at once, within its bounds, as in Stage, and its wheels are perfect: the errors of
+    its odometry are Stage's own model (`StageOdometry`). What touches others is the smallest convex polygon around
+    its body. Raises `StageError`.
     """
     bodies = [(thing, each) for thing in robot.body for each in _solids(thing)]
     touching = [each for thing, each in bodies if thing.solid] or [each for _, each in bodies]

@@ -1,8 +1,9 @@
 """Bodies of Stage's models: blocks, which are polygons with a bottom and a top, or what is dark in an image.
 
-Whatever a body is made of is stretched to the model's `size`: the smallest box around all of it becomes that size, its middle the model's origin. So a
-floor plan's image needs black up to its edges (or a `boundary`) to keep its scale: white margins are not counted, which surprises those who come from
-map_server. A pixel is dark if its first channel is not over 127 (facts: libstage's blockgroup.cc, block.cc and stage.cc).
+A body is stretched to the model's `size`: the smallest box around it becomes that size, and its middle the model's
+origin. So a floor plan's image needs black up to its edges (or a `boundary`) to keep its scale: white margins do not
+count, which surprises those who come from map_server. A pixel is dark if its first channel is not over 127 (facts:
+libstage's blockgroup.cc, block.cc and stage.cc).
 """
 
 from __future__ import annotations
@@ -71,7 +72,7 @@ def block(points: Floats, bottom: float, top: float, place: Place) -> Block:
 
 
 def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, float, float, float], str]:
-    """The outlines of what is dark, in pixels, y up; the smallest box around it (x0, y0, x1, y1); and what is odd about it, or nothing."""
+    """Outlines of what is dark, in pixels, y up; the box around it (x0, y0, x1, y1); and what is odd about it."""
     try:
         with images.opened(path) as found:
             first = np.asarray(found.convert("RGB"))[:, :, 0]
@@ -86,8 +87,8 @@ def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, flo
     odd = ""
     if (box[2] - box[0], box[3] - box[1]) != (width, height):
         odd = (
-            f"of the bitmap's {width} x {height} pixels the {box[2] - box[0]:.0f} x {box[3] - box[1]:.0f} that are not white margin are "
-            "stretched to the model's size"
+            f"of the bitmap's {width} x {height} pixels the {box[2] - box[0]:.0f} x {box[3] - box[1]:.0f} that are not "
+            "white margin are stretched to the model's size"
         )
     return tuple(Block(loop) for loop in outlines(dark)), box, odd
 
@@ -95,9 +96,9 @@ def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, flo
 def stretched(
     blocks: tuple[Block, ...], size: Size, box: tuple[float, float, float, float] | None = None
 ) -> tuple[Block, ...]:
-    """Blocks so that the smallest box around them, or `box` (x0, y0, x1, y1), has the size [m] and its middle in the origin.
+    """Scale blocks so that the smallest box around them, or `box` (x0, y0, x1, y1), has a size [m] and is centred.
 
-    Heights begin where they begin: only their extent is made that of the size.
+    Heights start where they start: only their extent is scaled.
     """
     if box is None:
         points = np.vstack([each.outline for each in blocks])

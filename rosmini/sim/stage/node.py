@@ -2,17 +2,18 @@
 
     rosrun stage_ros stageros [-g] [-u] world/willow-erratic.world
 
-Of each robot it subscribes to `cmd_vel`, and publishes `odom`, `base_scan`, `base_pose_ground_truth`, and, of a camera, `image`, `depth` and `camera_info`; and
-for all of them `/tf` and `/clock`, all of it once a step of the simulation (`interval_sim`, as a rule 0.1 s). Of several robots each has a namespace,
-`/robot_0` and so on. The service `reset_positions` puts all back to where they began. Time begins at 0, and /use_sim_time is set, so that nodes that
-start later live on it.
+For each robot it subscribes to `cmd_vel`, and publishes `odom`, `base_scan`, `base_pose_ground_truth` and, for a
+camera, `image`, `depth` and `camera_info`; for all of them `/tf` and `/clock`; everything once a step of the
+simulation (`interval_sim`, usually 0.1 s). With several robots each has a namespace: `/robot_0` and so on. The
+service `reset_positions` puts everything back to where it started. Time starts at 0, and /use_sim_time is set, so
+that nodes that start later follow it.
 
-After 0.2 s without a command to any robot all of them stop: `~base_watchdog_timeout`. It is one watchdog for all, as in stageros: who is told nothing more goes on
-while another one is told something.
+After 0.2 s without a command to any robot all of them stop: `~base_watchdog_timeout`. It is one watchdog for all, as in
+stageros: a robot without commands goes on while another one gets some.
 
-Facts: http://wiki.ros.org/stage_ros, and stageros.cpp of https://github.com/ros-simulation/stage_ros. What differs from there: base_link is where it is there, but
-frames have no slash before them; messages of several transforms are one; bodies touch, slide and push (there a robot that would touch something stays
-where it is); with -g there are cameras too.
+Facts: http://wiki.ros.org/stage_ros, and stageros.cpp of https://github.com/ros-simulation/stage_ros. What differs:
+frames have no slash before them; messages of several transforms are one; bodies touch, slide and push (there a robot
+that would touch something stays where it is); with -g there are cameras too.
 """
 
 from __future__ import annotations
@@ -21,33 +22,32 @@ import os
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from rosmini.errors import IllegalName, RosminiError, ScriptError, nearest
 from rosmini.geometry.angles import quaternion_from_yaw
 from rosmini.geometry.poses import Pose
 from rosmini.graph import Node
-from rosmini.graph.show import show
 from rosmini.msgs import service_class
+from rosmini.parameters import Parameters, parameter
 from rosmini.sim.devices.clock import ClockDevice
-from rosmini.sim.dragging import drag
 from rosmini.sim.engine import Engine, RobotGone
-from rosmini.sim.host import Host, HostState
+from rosmini.sim.host import Host
 from rosmini.sim.models import RobotModel
-from rosmini.sim.parameters import Parameters, parameter
+from rosmini.sim.simulation import Simulation
 
 from .bases import laser_model, robot_model
-from .camera import StageCameraDevice
+from .camera_device import StageCameraDevice
 from .devices import End, StageBase, StageLaserDevice, StageTransforms, StageTruth, Watchdog
 from .errors import StageError
-from .file import StageWorld, load
-from .names import Names
 from .odometry import STILL
+from .robot_names import Names
 from .robots import StageRobot
+from .world_file import StageWorld, load
 
 USAGE = "Usage: stageros [-g] [-u] <worldfile>   (-g: no window; -u: topics by the names of the models)"
 WATCHDOG = 0.2
+
+WINDOWLESS_RATE = 10.0
+"""Without a window stageros takes so many steps a second, however long they are and whatever `speedup` says [Hz]."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ class OneRobot:
         return camera
 
 
-class Stageros:
+class Stageros(Simulation):
     """A Stage world on a graph.
 
     Args:
@@ -134,23 +134,24 @@ class Stageros:
 
     """
 
+    program = "stage_ros/stageros"
+
     def __init__(self, node: Node, *arguments: str) -> None:
-        self.node = node
-        path, by_model = _options(arguments)
+        path, by_model, window = _options(arguments)
         self.parameters = StageParameters.read(node)
         self.file: StageWorld = load(path)
         self.world = self.file.world
         for note in self.file.notes:
             node.loginfo(note)
-        self.engine = Engine(self.world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=0.0)
-        self.host = Host(node, self.engine, from_zero=True, speed=self.file.speedup, paused=True)
+        engine = Engine(self.world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=0.0)
+        speed = self.file.speedup if window else WINDOWLESS_RATE * self.file.interval
+        super().__init__(node, Host(node, engine, from_zero=True, speed=speed, paused=True))
         rate = 1 / self.file.interval
-        self._ended = False
         node.set_param("/use_sim_time", True)
         self.watchdog = self.host.add(Watchdog(self.host, rate, self.parameters.base_watchdog_timeout))
         self.transforms = self.host.add(StageTransforms(self.host, rate))
         self.robots: dict[str, OneRobot] = {}
-        """By the names that the engine has for them: robot_0, robot_1 ..., in the sequence of the file."""
+        """By the names that the engine has for them: robot_0, robot_1 ..., in the order of the file."""
         self._bring(by_model=by_model)
         self.clock = self.host.add(ClockDevice(self.host, rate=rate))
         if self.file.quit_time:
@@ -158,7 +159,6 @@ class Stageros:
         self._service = node.service(
             "reset_positions", service_class("std_srvs/Empty"), self._reset_positions
         )
-        node.on_shutdown(self._end)
         self.host.unpause()  # only now: a kernel may have had to be compiled meanwhile
 
     def __repr__(self) -> str:
@@ -196,16 +196,11 @@ class Stageros:
     def _quit(self) -> None:
         self.node.scheduler.call_soon(lambda: self.node.shutdown("quit_time of the world file"))
 
-    def _end(self) -> None:
-        self._ended = True
-        self.host.end()
-
     # -- for who started it --------------------------------------------------------------------------------------
 
     def robot(self, name: str = "") -> OneRobot:
         """The robot of this name (robot_0, or the one that the file gives it), or the first. Raises `RobotGone`."""
-        if self._ended:
-            raise RobotGone(f"the node {self.node.name} was shut down; start another stageros")
+        self._check_running()
         if not self.robots:
             raise RobotGone(f"the world {self.file.name!r} has no robots: none of its models is a position")
         if not name:
@@ -231,146 +226,21 @@ class Stageros:
         """The first robot's model."""
         return self.robot().model
 
-    def truth(self, robot: str = "") -> Pose:
-        """Where a robot really is now: x [m], y [m], heading [rad, not wrapped], in the world's frame. Raises `RobotGone`."""
-        return self.node.scheduler.on_hub(
-            lambda: self.engine.peek(self.robot(robot).name, self.host.engine_now)
-        )
+    def _entity(self, name: str) -> str:
+        if any(each.name == name for each in self.engine.world.obstacles):
+            return name
+        return self.robot(name).name
 
-    def drag(self, name: str, pose: Pose) -> None:
-        """Take a robot, or a thing that can be pushed, and put it down elsewhere, as one does with the mouse in Stage's window.
-
-        A robot forgets its command; with localization "odom" it does not notice that it is elsewhere. Raises `WorldError` if something stands there,
-        and `RobotGone` if there is nothing of this name.
-        """
-
-        def put() -> None:
-            self.host.catch_up()
-            if any(each.name == name for each in self.engine.world.obstacles):
-                drag(self.engine, name, pose)
-                return
-            robot = self.robot(name)
-            drag(self.engine, robot.name, pose)
+    def _drag(self, name: str, pose: Pose) -> None:
+        """Drag as in Stage's window: a robot forgets its command, and with localization "odom" it does not notice."""
+        super()._drag(name, pose)
+        robot = self.robots.get(self._entity(name))
+        if robot is not None:
             robot.base.reckoning.told(STILL, self.host.engine_now)
 
-        self.node.scheduler.on_hub(put)
 
-    def reset(self) -> None:
-        """Put all robots, and all that was pushed, back to where it was: the service `reset_positions`. Odometry goes on. Raises `RobotGone`."""
-
-        def put_back() -> None:
-            if self._ended:
-                raise RobotGone(f"the node {self.node.name} was shut down; start another stageros")
-            self.host.reset()
-
-        self.node.scheduler.on_hub(put_back)
-
-    def pause(self) -> None:
-        """Let the world's time stand."""
-        self.node.scheduler.on_hub(self.host.pause)
-
-    def unpause(self) -> None:
-        """Let the world's time go on."""
-        self.node.scheduler.on_hub(self.host.unpause)
-
-    def save(self) -> HostState:
-        """All that goes on from here: poses, velocities, odometry, noise that is to come, and the time. It can be pickled.
-
-        Messages that are on their way are no part of it. What was published in a step is heard right after that step: whoever saves between the two
-        hears it before what follows, and whoever restores then hears first what was published last before, with its later stamp.
-        """
-        return self.node.scheduler.on_hub(self.host.save)
-
-    def restore(self, state: HostState) -> None:
-        """Go on, to the last bit, as it went on after `save`; time goes back too, and with it /clock.
-
-        Raises `RosminiError` for what is no state of a stageros, or that of another world.
-        """
-
-        def become() -> None:
-            if isinstance(state, HostState) and state.engine.world.name != self.world.name:
-                there = state.engine.world.name
-                msg = f"a state of the world {there!r} cannot be restored in the world {self.world.name!r}"
-                raise RosminiError(msg)
-            self.host.restore(state)
-
-        self.node.scheduler.on_hub(become)
-
-    @property
-    def speedup(self) -> float:
-        """How many seconds of the world pass in one."""
-        return self.host.speed
-
-    @speedup.setter
-    def speedup(self, speed: float) -> None:
-        self.host.speed = speed
-
-    def last_scan(self, robot: str = "") -> Any:
-        """The last `sensor_msgs/LaserScan` of a robot's first laser, whether anybody heard it or not; None before the first. Raises `RobotGone`."""
-
-        def copy() -> Any:
-            lasers = self.robot(robot).lasers
-            return lasers[0].message if lasers else None
-
-        return self.node.scheduler.on_hub(copy)
-
-    @property
-    def scan_pose(self) -> Pose:
-        """Where the first robot was when its laser measured last."""
-        robot = self.robot()
-        return robot.lasers[0].pose if robot.lasers else robot.base.robot.pose
-
-    @property
-    def scan_poses(self) -> NDArray[np.float64]:
-        """The same for a picture of the scan (1, 3): Stage measures all beams at once."""
-        return np.array([self.scan_pose])
-
-    def pad(self, robot: str = "", **options: Any) -> Any:
-        """A pad to drive a robot with, the first if none is named. Raises `RobotGone`.
-
-        Options, with what they are unless given:
-            topic='cmd_vel': where to publish, as the simulation's node calls it: in its namespace, remapped as it is there
-            name='teleop_pad': the name of the pad's node
-            limits=None: how fast at most; None: as fast as the robot may
-            title=None: a caption under the pad, and the first line of its text form
-        """
-        return show("teleop_pad", self, robot=self.robot(robot).name, **options)
-
-    def view(self, **options: Any) -> Any:
-        """The running world, in which robots and boxes are dragged.
-
-        Options, with what they are unless given:
-            title=None: a caption under the view, and the first line of its text form
-        """
-        return show("simulation_view", self, **options)
-
-    def show3d(self, **options: Any) -> Any:
-        """The world with its robots, to be turned.
-
-        Options, with what they are unless given:
-            focus='robot': what the camera looks at, or 'world'
-            distance=None: of the camera from what it looks at [m]; None: what shows it well
-            azimuth=None: from where it looks [deg]: at 0 from the side of x, at 90 from the side of y; None: what shows it well
-            elevation=None: how high from [deg]; None: what shows it well
-            title=None: a caption under the picture, and the first words of its text form
-            height=420: of the viewer [CSS px]
-        """
-        return show("simulation_3d", self, **options)
-
-    def show(self, **options: Any) -> Any:
-        """A picture of the world with its robots.
-
-        Options, with what they are unless given:
-            scan=True: draw the first robot's last scan from where it was taken; there is none before its laser's first revolution
-            trail=None: where the robot was: a `Recording`, of which odometry is drawn, too, or poses (n, 2) or (n, 3)
-            title=None: a caption under the picture, and the first words of its text form
-            size=(660.0, 540.0): the largest width and height [CSS px]
-        """
-        return show("simulation", self, **options)
-
-
-def _options(arguments: tuple[str, ...]) -> tuple[str, bool]:
-    """The world file, and whether -u was given. Raises `ScriptError`."""
+def _options(arguments: tuple[str, ...]) -> tuple[str, bool, bool]:
+    """The world file, whether -u was given, and whether there is a window. Raises `ScriptError`."""
     files = [each for each in arguments if not each.startswith("-")]
     flags = [each for each in arguments if each.startswith("-")]
     unknown = [each for each in flags if each not in ("-g", "-u")]
@@ -381,7 +251,7 @@ def _options(arguments: tuple[str, ...]) -> tuple[str, bool]:
             else f"stageros needs one world file, not {len(files)}"
         )
         raise ScriptError(f"{what}.\n{USAGE}")
-    return os.fspath(files[0]), "-u" in flags
+    return os.fspath(files[0]), "-u" in flags, "-g" not in flags
 
 
 def _count(number: int, what: str) -> str:

@@ -1,16 +1,17 @@
 """Stage's odometry: the truth, or a belief that drifts.
 
-With `localization "gps"`, the default, a robot knows where it is in the world. With "odom" it adds up its own velocity (v, v_y, w) from where it started, and
-is wrong by the same part of it all the time:
+With `localization "gps"`, the default, a robot knows its pose in the world. With "odom" it integrates its own velocity
+(v, v_y, w) from where it started, and is wrong by a constant part of it:
 
     its belief goes on with ((1 + e_x) v, (1 + e_y) v_y, (1 + e_a) w)
 
-The numbers of `odom_error [x y z a]` are these e, each time the same; a is an angle to Stage, so that in a file in degrees 0.05 is e_a = 0.00087. A robot of which the
-file does not say it draws them once, when it starts, even between -E/2 and E/2 with E = 0.03, 0.03 and 0.05. That is what Stage 4.3 does
-(model_position.cc); its manual tells otherwise, that a file's numbers are E too.
+The numbers of `odom_error [x y z a]` are these e; a is an angle to Stage, so that in a file in degrees 0.05 is e_a =
+0.00087. A robot without them in the file draws them once, when it starts, uniformly between -E/2 and E/2 with E =
+0.03, 0.03 and 0.05. That is what Stage 4.3 does (model_position.cc); its manual says that a file's numbers are E too.
 
-Stage adds up in steps of Euler's, one each `interval_sim`; here the arcs are exact. One slip of its code is not followed: it adds a way to the left as one to
-the right. As in Stage, what counts is the velocity that the robot was told: when something holds it, its belief goes on.
+Stage integrates by Euler's method, once each `interval_sim`; here the arcs are exact. One slip of its code is not
+followed: it adds a way to the left as one to the right. As in Stage, the commanded velocity counts: when something
+holds the robot, its belief goes on.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 
 from rosmini.geometry.poses import Pose, compose, inverse
-from rosmini.sim.engine.drive import glide
+from rosmini.sim.engine.free_motion import glide
 
 from .robots import StageRobot
 
@@ -66,5 +67,9 @@ class StageOdometry:
         self.velocity = velocity
 
     def pose(self, truth: Pose) -> Pose:
-        """Where the robot believes to be, if it is at `truth` really. The origin is the world's with "gps", whatever `localization_origin` says, as in Stage's code, but not in its manual."""
+        """Where the robot believes it is, if it really is at `truth`.
+
+        With "gps" the origin is the world's, whatever `localization_origin` says: as in Stage's code, not as in its
+        manual.
+        """
         return truth if self.gps else self.belief

@@ -8,8 +8,9 @@
     )
     erratic( pose [1 2 0 90] name "era" )
 
-A defined entity begins with all of its base, in its order; then come the properties and children of where it is used. What is said last holds.
-(Stage's manual: https://player-stage-manual.readthedocs.io, "Worldfiles"; facts of the grammar from libstage's worldfile.cc.)
+A defined entity begins with all of its base, in its order; then come the properties and children of where it is used.
+What is said last holds. (Stage's manual: https://player-stage-manual.readthedocs.io, "Worldfiles"; facts of the
+grammar from libstage's worldfile.cc.)
 """
 
 from __future__ import annotations
@@ -138,7 +139,8 @@ class _Parser:
         for word in (name, base):
             if word is None or word.kind != "word":
                 found = "the end" if word is None else _shown(word)
-                msg = f"after define come a name and what it is based on, as in define erratic position (...), not {found}"
+                example = "define erratic position (...)"
+                msg = f"after define come a name and what it is based on, as in {example}, not {found}"
                 raise StageError(define.place, msg)
         assert name is not None and base is not None  # noqa: S101, PT018  # for mypy; the loop has told the user
         following = words.peek()

@@ -1,8 +1,9 @@
 """Positions of a Stage file, with what they carry: bases that drive, lasers and cameras.
 
-Where a ranger sees from: with `stack_children` (the default) what is on a model stands on top of it, so a laser on a robot 0.25 m high with
-`pose [0.05 0 0 0]` looks out 0.26 m above the ground (half of the sensor's own 2 cm more), over the heads of robots of the same kind. That they do not see
-one another is no error of the simulator: give the laser a negative z.
+Where a ranger sees from: with `stack_children` (the default) what is on a model stands on top of it, so a laser with
+`pose [0.05 0 0 0]` on a robot 0.25 m high looks out 0.26 m above the ground (plus half of the sensor's own 2 cm),
+over the heads of robots of the same kind. That they do not see each other is no error of the simulator: give the
+laser a negative z.
 """
 
 from __future__ import annotations
@@ -89,7 +90,7 @@ class StageRobot:
     localization_origin: tuple[float, float, float]
     """The pose in the world where its odometry is 0."""
     odom_error: tuple[float | None, float | None, float | None]
-    """By which part of each way ahead, to the left and around the odometry is wrong; None: the file does not say, and it is drawn."""
+    """The relative errors ahead, to the left and around; None: the file does not say, and it is drawn."""
     mass: float
     body: tuple[Thing, ...]
     """All that has a body: the base, and what it carries."""
@@ -154,7 +155,7 @@ def robot(thing: Thing, number: int, units: Units) -> StageRobot:
 
 
 def _odom_error(reader: Reader) -> tuple[float | None, float | None, float | None]:
-    """What the file says of odometry's errors. The turn's is an angle to Stage, so that it is in degrees like all angles of a file."""
+    """The odometry errors of a file. The turn's is an angle to Stage, in degrees like all angles of a file."""
     found = reader.find("odom_error")
     if found is None:
         return (None, None, None)
@@ -176,7 +177,10 @@ def _bounds(reader: Reader) -> tuple[Bounds, Bounds, Bounds]:
 
 def _notes(reader: Reader, units: Units) -> None:
     if reader.find("acceleration_bounds") is not None:
-        what = "acceleration_bounds change nothing: stageros tells bases their velocity, which they have at once, as in Stage"
+        what = (
+            "acceleration_bounds change nothing: stageros tells bases their velocity, which they have at once, as in "
+            "Stage"
+        )
         units.note(reader.place("acceleration_bounds"), what)
     if reader.find("odom") is not None:
         units.note(reader.place("odom"), "Stage no longer knows odom; see localization_origin")
@@ -252,7 +256,8 @@ def _old_laser(thing: Thing, base: Thing, units: Units) -> StageLaser:
 def _check(reader: Reader, low: float, high: float, fov: float, samples: int) -> None:
     name = "range" if "range" in reader.entity.properties else "range_max"
     if low < 0 or high <= low:
-        what = f"a ranger measures from {low:g} m to {high:g} m; the first has to be 0 or more, and the second more than it"
+        span = f"from {low:g} m to {high:g} m"
+        what = f"a ranger measures {span}; the first has to be 0 or more, and the second more than it"
         raise StageError(reader.place(name), what)
     if not 0 <= fov <= 2 * math.pi + 1e-9:
         raise StageError(

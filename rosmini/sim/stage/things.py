@@ -1,4 +1,4 @@
-"""What every model of a Stage file has: a name, a pose in its parent's frame, a body, and what sensors and wheels make of it.
+"""What every model of a Stage file has: name, pose, body, and how sensors and wheels see it.
 
 Defaults are those of Stage 4.3 (libstage's model.cc; https://player-stage-manual.readthedocs.io, "model").
 """
@@ -13,18 +13,23 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .blocks import Block, Body, block, frame, image, square, stretched
-from .colours import colour, rgb, suggestion
 from .errors import Place, StageError
 from .parse import Entity, Parsed, unknown_kind
 from .tokens import find_file, searched
 from .values import Reader, Units
+from .x11_colours import colour, rgb, suggestion
 
 Pose4 = tuple[float, float, float, float]
 """x, y, z [m] and heading [rad]."""
 
 ORIGIN: Pose4 = (0.0, 0.0, 0.0, 0.0)
 
-SIZES = {"ranger": (0.15, 0.15, 0.2), "laser": (0.15, 0.15, 0.2), "camera": (0.1, 0.07, 0.05), "fiducial": (0.1, 0.1, 0.1)}  # fmt: skip
+SIZES = {
+    "ranger": (0.15, 0.15, 0.2),
+    "laser": (0.15, 0.15, 0.2),
+    "camera": (0.1, 0.07, 0.05),
+    "fiducial": (0.1, 0.1, 0.1),
+}
 SIZE = (0.4, 0.4, 1.0)
 """Of a model of another kind [m]."""
 
@@ -35,16 +40,20 @@ BODILESS = ("ranger", "laser", "fiducial")
 """Kinds that nothing bumps into or sees, unless they are given blocks."""
 
 SIMULATED = ("model", "position", "ranger", "laser", "camera")
-LEFT_OUT = ("actuator", "blinkenlight", "blobfinder", "bumper", "fiducial", "gripper", "lightindicator", "loadcell", "puck", "speech", "wifi")  # fmt: skip
+LEFT_OUT = (
+    "actuator", "blinkenlight", "blobfinder", "bumper", "fiducial", "gripper", "lightindicator", "loadcell", "puck",
+    "speech", "wifi",
+)  # fmt: skip
 """Kinds of Stage that do nothing here."""
 
 MASS = 10.0
 """Of a model of which nothing is said [kg]: the manual's number."""
 
 UNUSED = (
-    "alwayson", "blob_return", "ctrl", "debug", "event_queue", "fiducial_key", "fiducial_return", "friction", "give_watts",
-    "gui_grid", "gui_move", "gui_nose", "gui_outline", "gravity_return", "joules", "joules_capacity", "kjoules", "kjoules_capacity", "map_resolution",
-    "noblocks", "say", "take_watts", "trail_interval", "trail_length", "update_interval", "watts",
+    "alwayson", "blob_return", "ctrl", "debug", "event_queue", "fiducial_key", "fiducial_return", "friction",
+    "give_watts", "gui_grid", "gui_move", "gui_nose", "gui_outline", "gravity_return", "joules", "joules_capacity",
+    "kjoules", "kjoules_capacity", "map_resolution", "noblocks", "say", "take_watts", "trail_interval", "trail_length",
+    "update_interval", "watts",
 )  # fmt: skip
 """Properties that Stage knows, and that change nothing here."""
 
@@ -68,7 +77,7 @@ class Thing:
     body: Body | None
     colour: str
     solid: bool
-    """Whether things bump into it."""
+    """Whether it is solid."""
     seen: float
     """How well rangers see it: its reflectance; below 0 they see through it."""
     pushable: bool
@@ -173,7 +182,10 @@ class Maker:
 
     def _seen(self, reader: Reader) -> float:
         if reader.find("laser_return") is not None:
-            what = "Stage 4 knows no laser_return, and nor does this: whether rangers see a thing says ranger_return, negative if they do not"
+            what = (
+                "Stage 4 knows no laser_return, and nor does this: whether rangers see a thing says ranger_return, "
+                "negative if they do not"
+            )
             if reader.number("laser_return", 1.0) <= 0:
                 self.units.note(reader.place("laser_return"), what)
         return reader.number("ranger_return", 1.0)

@@ -1,8 +1,9 @@
 """The words of a Stage world file: names, numbers, strings, brackets and parentheses, each with its file and line.
 
-Stage's rules: `#` begins a comment, names begin with a letter (and may have indices, `point[0]`), numbers have a sign and a decimal point but no
-exponent, strings are in double quotes on one line, `include "file"` puts the words of another file in its place. An included file is sought beside
-the world file (as Stage does), beside the file that includes it, and in the folders of the environment variable STAGEPATH.
+Stage's rules: `#` begins a comment, names begin with a letter (and may have indices, `point[0]`), numbers have a sign
+and a decimal point but no exponent, strings are in double quotes on one line, `include "file"` puts the words of
+another file in its place. An included file is sought beside the world file (as Stage does), beside the file that
+includes it, and in the folders of the environment variable STAGEPATH.
 """
 
 from __future__ import annotations
@@ -119,7 +120,7 @@ def find_file(name: str, root: Path, mentioned_in: Path) -> Path | None:
 
 
 def expanded(name: str) -> Path:
-    """A path with the home of whom it names in place of ``~``; of somebody whom the system does not know, it stays what it is."""
+    """A path with a home folder in place of ``~``; that of an unknown user stays as it is."""
     try:
         return Path(name).expanduser()
     except RuntimeError:

@@ -31,7 +31,7 @@ class Units:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What there is to say, each thing once, with the place where it was found first, and how often it was found."""
+        """All notes, each once, with the place where it was found first, and how often it was found."""
         return tuple(
             found[0] if len(found) == 1 else f"{found[0]} ({len(found)} times in this world)"
             for found in self._notes.values()
@@ -39,7 +39,7 @@ class Units:
 
 
 class Reader:
-    """Reads the properties of one entity. Each method raises `StageError` for a value of another kind than it should be."""
+    """Reads the properties of one entity. Each method raises `StageError` for a value of another kind."""
 
     def __init__(self, entity: Entity, units: Units) -> None:
         self.entity = entity

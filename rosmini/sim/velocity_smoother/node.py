@@ -1,7 +1,8 @@
-"""The node `yocs_velocity_smoother/velocity_smoother`, which in ROS is a nodelet (http://wiki.ros.org/yocs_velocity_smoother).
+"""`yocs_velocity_smoother/velocity_smoother`, a nodelet in ROS (http://wiki.ros.org/yocs_velocity_smoother).
 
-It takes commands on `~raw_cmd_vel` and publishes what the robot can follow on `~smooth_cmd_vel`; with `robot_feedback` 1 it listens to `~odometry`, with 2
-to `~robot_cmd_vel`. Its limits can be changed while it runs (dynamic_reconfigure). All topics are private: a launch file remaps them, as in ROS.
+It takes commands on `~raw_cmd_vel` and publishes what the robot can follow on `~smooth_cmd_vel`; with `robot_feedback`
+1 it listens to `~odometry`, with 2 to `~robot_cmd_vel`. Its limits can be changed while it runs (dynamic_reconfigure).
+All topics are private: a launch file remaps them, as in ROS.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.dynamic_reconfigure import Server
 from rosmini.msgs import message_class
-from rosmini.sim.parameters import Parameters, parameter
+from rosmini.parameters import Parameters, parameter
 
 from .smoother import FEEDBACK, Limits, VelocitySmoother
 
@@ -96,8 +97,8 @@ class VelocitySmootherNode:
             if not self._quiet:
                 self._quiet = True
                 self.node.logwarn(
-                    f"a command of {v} m/s and {w} rad/s came in: a velocity has to be a finite number. It counts as a stop, "
-                    "and so will others, without another warning."
+                    f"a command of {v} m/s and {w} rad/s came in: a velocity has to be a finite number. It counts as "
+                    "a stop, and so will others, without another warning."
                 )
             v = w = 0.0
         self.smoother.command(v, w, self._now())

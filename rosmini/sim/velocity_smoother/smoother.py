@@ -1,13 +1,14 @@
 """A velocity smoother: commands that a robot can follow, out of commands that jump.
 
-Between two outputs, T seconds apart, the speed ahead v and the turn w change by at most a T, with a limit a of each. If the wanted change (dv, dw) is larger
-than that, it is shortened to
+Between two outputs, T seconds apart, the speed ahead v and the turn w change by at most a T, with a limit a of each. If
+the wanted change (dv, dw) is larger than that, it is shortened to
 
     s (dv, dw)   with   s = min(1, a_v T / |dv|, a_w T / |dw|),
 
-so that both come to their targets along a straight line of the (v, w) plane, and the way that the robot draws keeps its shape. Where a change
-takes a speed away from its target's sign, towards 0, the limit is a times the deceleration factor. This is what `yocs_velocity_smoother`
-does (http://wiki.ros.org/yocs_velocity_smoother), with its parameters and its rules of when an input has ended.
+so that both come to their targets along a straight line of the (v, w) plane, and the way that the robot draws keeps its
+shape. Where a change takes a speed away from its target's sign, towards 0, the limit is a times the deceleration
+factor. This is what `yocs_velocity_smoother` does (http://wiki.ros.org/yocs_velocity_smoother), with its parameters and
+its rules of when an input has ended.
 """
 
 from __future__ import annotations
@@ -32,7 +33,10 @@ TRUST = (0.2, 2.0)
 """If the robot's speeds differ more than this from the last output [m/s, rad/s], it starts again from the robot's."""
 
 FEEDBACK = ("none", "odometry", "commands")
-"""Where the robot's speeds are from: nowhere, its odometry, or the commands that it gets in the end. Their places are the numbers in ROS."""
+"""Where the robot's speeds are from: nowhere, its odometry, or the commands that it gets in the end.
+
+Their places are the numbers in ROS.
+"""
 
 
 @dataclass(frozen=True)
@@ -128,7 +132,10 @@ class VelocitySmoother:
         return median(self._record) if len(self._record) > RECORD // 2 else 0.1
 
     def step(self, now: float) -> Velocity | None:
-        """What is to be told the robot now; None if nothing comes in and it stands as it should. To be called every `period`."""
+        """What is to be told the robot now; None if nothing comes in and it stands as it should.
+
+        To be called every `period`.
+        """
         silence, typical = now - self._heard, self._typical
         if self.active and typical > 0 and silence > min(PATIENCE * typical, LONGEST):
             self.active = False

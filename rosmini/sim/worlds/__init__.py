@@ -1,7 +1,8 @@
-"""Worlds by name: those that rosmini brings, and those in files: Gazebo's and Stage's worlds, and ROS maps."""
+"""Worlds by name: those that rosmini brings, Gazebo's and Stage's world files, and ROS maps."""
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -9,13 +10,13 @@ from types import MappingProxyType
 
 from rosmini.errors import nearest
 from rosmini.packages import assets_dir
-from rosmini.sim.world import World, WorldError
+from rosmini.sim.world import Pose, World, WorldError
 
-from . import floor, house, indoor, maze, office, pillars
+from . import rooms
 from .files import kind_of, world_from_file, world_from_sdf
 from .random import random_world
-from .rasters import to_map
 from .traced import world_from_map
+from .world_map import to_map
 
 __all__ = [
     "kind_of",
@@ -33,23 +34,33 @@ __all__ = [
 SCHEME = "package://"
 
 
-def _floor() -> World:
-    return world_from_map(floor.maps_dir() / "floor.yaml", title=floor.TITLE, starts=floor.STARTS)
-
-
 _MAKERS: Mapping[str, Callable[[], World]] = MappingProxyType(
-    {"arena": indoor.arena, "empty": indoor.empty, "floor": _floor, "room": indoor.room}
+    {"arena": rooms.arena, "empty": rooms.empty, "room": rooms.room}
 )
 
 _FILES: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
-        "house": ("turtlebot3_gazebo/worlds/turtlebot3_house.world", house.TITLE),
-        "maze": ("rosmini_sim/worlds/maze.world", maze.TITLE),
-        "office": ("rosmini_sim/worlds/office.world", office.TITLE),
-        "pillars": ("turtlebot3_gazebo/worlds/turtlebot3_world.world", pillars.TITLE),
+        "floor": ("rosmini_sim/maps/floor.yaml", "A floor of five rooms and a corridor, 12 m by 8 m"),
+        "house": (
+            "turtlebot3_gazebo/worlds/turtlebot3_house.world",
+            "A house of seven rooms and a hall, 16 m by 10 m",
+        ),
+        "maze": ("rosmini_sim/worlds/maze.world", "A maze of 10 by 8 cells"),
+        "office": ("rosmini_sim/worlds/office.world", "An office floor, 20 m by 12 m, with people and doors"),
+        "pillars": ("turtlebot3_gazebo/worlds/turtlebot3_world.world", "Nine pillars in a hexagonal fence"),
     }
 )
-"""Worlds that are SDF files: where below the packages that rosmini brings, and what they are."""
+"""Worlds in files, which `assets/generate` makes: the path below the packages that rosmini brings, and the title."""
+
+_FLOOR_STARTS: tuple[Pose, ...] = (
+    (0.0, 0.0, 0.0),
+    (1.0, 2.3, -math.pi / 2),
+    (6.3, 2.4, -math.pi / 2),
+    (9.2, 1.5, math.pi / 2),
+    (1.4, -2.2, math.pi / 2),
+    (6.0, -2.6, 0.0),
+)
+"""A map has no place for them, as an SDF file has."""
 
 
 def names() -> list[str]:
@@ -59,8 +70,6 @@ def names() -> list[str]:
 
 def source(name: str) -> Path | None:
     """The file of a world that rosmini brings; None if it is made in Python."""
-    if name == "floor":
-        return floor.maps_dir() / "floor.yaml"
     return assets_dir() / "ros" / _FILES[name][0] if name in _FILES else None
 
 
@@ -70,11 +79,11 @@ def title(name: str) -> str:
 
 
 def world(name: str | os.PathLike[str]) -> World:
-    """The world of this name, or the one in a file, by its path or `package://` address: a Gazebo world (SDF), a Stage world, or a ROS map (YAML).
+    """The world of this name or file, which is given by its path or `package://` address.
 
-    What kind a file is, is told from what stands in it. A path is seen from the working directory. Raises `WorldError` for a name that is none,
-    with the nearest; `SdfError`, `StageError` or `MapError` for a file that is none of its kind; and `UnknownPackage` or `RosminiError` for an
-    address that leads nowhere.
+    A file is a Gazebo world (SDF), a Stage world or a ROS map (YAML), told apart by its content; a relative path starts
+    at the working directory. Raises `WorldError` for an unknown name, with the nearest one; `SdfError`, `StageError` or
+    `MapError` for a broken file; `UnknownPackage` or `RosminiError` for an address that leads nowhere.
     """
     if not isinstance(name, (str, os.PathLike)):
         raise WorldError(
@@ -85,7 +94,10 @@ def world(name: str | os.PathLike[str]) -> World:
         return _MAKERS[text]()
     if text in _FILES:
         path, what = _FILES[text]
-        return world_from_sdf(assets_dir() / "ros" / path, name=text, title=what)
+        file = assets_dir() / "ros" / path
+        if file.suffix == ".yaml":
+            return world_from_map(file, title=what, starts=_FLOOR_STARTS)
+        return world_from_sdf(file, name=text, title=what)
     if text.startswith(SCHEME):
         from rosmini.packages import PackageIndex
 
@@ -94,6 +106,6 @@ def world(name: str | os.PathLike[str]) -> World:
         return world_from_file(text)
     hint = nearest(text, names())
     raise WorldError(
-        f"there is no world {text!r}{': ' + hint if hint else ''}; there are {', '.join(names())}, and any Gazebo or Stage world and "
-        "any map by the path of its file"
+        f"there is no world {text!r}{': ' + hint if hint else ''}; there are {', '.join(names())}, and any Gazebo or "
+        "Stage world and any map by the path of its file"
     )

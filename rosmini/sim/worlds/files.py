@@ -24,10 +24,10 @@ SCHEME = "package://"
 
 
 def kind_of(path: str | os.PathLike[str]) -> Kind:
-    """What a file is, told from what stands in it: XML by its first element, a map by its suffix or fields, else it is taken for a Stage world.
+    """What a file is, by its content: XML by its first element, a map by its suffix or fields, else a Stage world.
 
-    In a file that says nothing the suffix is believed. The file is given by its path or its `package://` address. Raises `UnknownPackage` or
-    `RosminiError` for an address that leads nowhere.
+    Where the content says nothing, the suffix decides. The file is given by its path or `package://` address. Raises
+    `UnknownPackage` or `RosminiError` for an address that leads nowhere.
     """
     text = os.fspath(path)
     path = Path(PackageIndex().resolve(text)) if text.startswith(SCHEME) else Path(text)
@@ -69,7 +69,8 @@ def world_from_file(path: str | os.PathLike[str]) -> World:
 def world_from_sdf(path: str | os.PathLike[str], *, name: str = "", title: str = "") -> World:
     """The first world in an SDF file; see `sdf_world` for what was left out.
 
-    One warning lists the models and meshes that are not there, and what else is wrong with the file and was replaced. Raises `SdfError`.
+    One warning lists missing models and meshes, and whatever else in the file was wrong and was replaced. Raises
+    `SdfError`.
     """
     made, notes = sdf_world(path, name=name, title=title)
     wrong = [str(note) for note in notes if note.warning]

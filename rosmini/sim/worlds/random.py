@@ -1,7 +1,7 @@
-"""Worlds by chance: rooms with doors and things in them, always connected, the same for the same seed.
+"""Random worlds: rooms with doors and things in them, always connected, the same for the same seed.
 
-Rooms come of splitting a rectangle again and again by a wall with a door in it, so every room can be reached. Things then stand so far from the
-walls and from one another that a robot gets around each of them: what is taken out of a connected floor are patches that do not touch.
+A rectangle is split again and again by a wall with a door in it, so every room can be reached. Things are placed so far
+from the walls and from one another that a robot gets around each: they take patches that do not touch from the floor.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from rosmini.sim.motion import Walk
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Shape, is_finite
 from rosmini.sim.world import Obstacle, Pose, World, WorldError
 
-from .furniture import wall
+from .walls import wall
 
 PASSAGE = 0.7
 """A robot of this diameter gets everywhere [m]."""
@@ -44,11 +44,12 @@ def random_world(
     walkers: int = 0,
     starts: int = 3,
 ) -> World:
-    """A walled floor of `size` [m] with its centre in the origin, split into rooms with things in them; the same for the same arguments.
+    """A walled floor of `size` [m] around the origin, split into furnished rooms; the same for the same arguments.
 
-    A robot less than 0.7 m wide can go from every start to every room and around every thing. `movable` of the things can be pushed, and `walkers`
-    people walk up and down. Where there is no room for as many rooms, things or walkers as were asked for, there are fewer; `starts` there are as many
-    as asked for, or a `WorldError` is raised, as it is for a floor narrower than 2 m and for numbers that make no sense.
+    A robot narrower than 0.7 m can go from every start to every room and around every thing. `movable` more things can
+    be pushed, and `walkers` people walk up and down. There are fewer rooms, things and walkers than asked for where
+    there is no space for more. Raises `WorldError` if there is no space for all `starts`, for a floor narrower than
+    2 m, and for impossible numbers.
     """
     _check(size, seed=seed, rooms=rooms, obstacles=obstacles, movable=movable, walkers=walkers, starts=starts)
     plan = _Plan(np.random.default_rng(seed), (-size[0] / 2, -size[1] / 2, size[0] / 2, size[1] / 2))

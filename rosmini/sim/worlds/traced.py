@@ -27,8 +27,8 @@ def world_from_map(
 ) -> World:
     """The world that a map shows: its walls are the outlines of the occupied cells, in the frame of the map.
 
-    What is unknown is taken for free, since nothing is known to stand there. Without `starts` a robot starts in the origin of the frame if there is
-    room, as where a map is made by a robot it began there; else where there is most room. Raises `MapError` as `load_map` does.
+    Unknown cells count as free. Without `starts` a robot starts at the origin of the map's frame, where the robot that
+    made the map usually began, or where there is most space if the origin is not free. Raises `MapError` as `load_map`.
     """
     grid = load_map(yaml_path)
     return World(

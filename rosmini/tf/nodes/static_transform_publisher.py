@@ -19,7 +19,7 @@ x, y, z in metres, angles in radians: where child_frame_id is in frame_id."""
 
 
 def parse(arguments: tuple[str, ...], period: str = "") -> tuple[str, str, Rigid]:
-    """Frame, child frame and transform of the arguments: three metres, then three angles (yaw, pitch, roll) or four of a quaternion.
+    """Frame, child and transform of the arguments: three metres, then yaw, pitch, roll or a quaternion.
 
     Raises `ScriptError` if they are none.
     """
@@ -57,7 +57,7 @@ class StaticTransformPublisher:
 
 
 class RepeatingTransformPublisher:
-    """`tf/static_transform_publisher`: one transform, sent on `/tf` every so many milliseconds, stamped one period ahead as there."""
+    """`tf/static_transform_publisher`: one transform, sent periodically on `/tf`, stamped one period ahead as there."""
 
     def __init__(self, node: Node, *arguments: str) -> None:
         usage = " period_in_ms"

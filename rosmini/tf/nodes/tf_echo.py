@@ -37,8 +37,8 @@ def report(found: Found) -> str:
 class TfEcho:
     """Prints `rate` times a second (once, if it is not given) where `target_frame` is in `source_frame`.
 
-    The tool's names are as they are: the transform takes data in `target_frame` to `source_frame`. Raises `ScriptError` for a rate that
-    is none.
+    The tool's names are as they are: the transform takes data in `target_frame` to `source_frame`. Raises `ScriptError`
+    for a rate that is none.
     """
 
     def __init__(self, node: Node, source_frame: str, target_frame: str, echo_rate: str = "1") -> None:

@@ -1,4 +1,4 @@
-"""`tf/tf_monitor`: who sends which transforms, how often, and how late they come (http://wiki.ros.org/tf#tf_monitor)."""
+"""`tf/tf_monitor`: who sends which transforms, how often, how late (http://wiki.ros.org/tf#tf_monitor)."""
 
 from __future__ import annotations
 
@@ -40,7 +40,10 @@ class Delays:
 
 
 class TfMonitor:
-    """Prints once a second what came, of all frames or of the chain between two. Raises `ScriptError` for one frame alone."""
+    """Prints once a second what came, of all frames or of the chain between two.
+
+    Raises `ScriptError` for one frame alone.
+    """
 
     def __init__(self, node: Node, framea: str = "", frameb: str = "") -> None:
         if bool(framea) != bool(frameb):

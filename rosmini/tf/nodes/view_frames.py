@@ -1,4 +1,4 @@
-"""`tf/view_frames`: listens for five seconds and writes the tree of frames to files (http://wiki.ros.org/tf#view_frames)."""
+"""`tf/view_frames`: listens for five seconds and writes the tree of frames (http://wiki.ros.org/tf#view_frames)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LISTEN_S = 5.0
 
 
 class ViewFrames:
-    """Writes `frames.gv` (for graphviz) and `frames.svg` (drawn by us, so that nothing needs to be installed) where it is started.
+    """Writes `frames.gv` (for graphviz) and `frames.svg` (drawn by us, so nothing is needed) to the working directory.
 
     The real tool makes `frames.pdf` of the first. `picture` is what was drawn. The node has done its work then.
     """

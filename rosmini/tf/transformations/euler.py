@@ -1,7 +1,7 @@
-"""Euler angles of any of the 24 kinds: `sxyz` means about the static axes x, y, z in turn, `rzyx` about the axes as they turn.
+"""Euler angles of all 24 kinds: `sxyz` is about the static axes x, y, z in turn, `rzyx` about the rotating axes.
 
-For static axes i, j, k the rotation is R_k R_j R_i. Turning axes in one order are static ones in the other, with the angles in the other
-order too (Shoemake, "Euler angle conversion", Graphics Gems IV, 1994).
+For static axes i, j, k the rotation is R_k R_j R_i. Turning axes in one order are static ones in the other, with the
+angles in the other order too (Shoemake, "Euler angle conversion", Graphics Gems IV, 1994).
 """
 
 from __future__ import annotations
@@ -20,7 +20,10 @@ Axes = str | tuple[int, int, int, int]
 
 
 class Order(NamedTuple):
-    """Static axes, first to last; the third axis of the three; 1 or -1 for their handedness; whether the angles come reversed."""
+    """Static axes, first to last; the third axis of the three; 1 or -1 for their handedness.
+
+    Whether the angles come reversed.
+    """
 
     axes: tuple[int, int, int]
     other: int
@@ -29,7 +32,10 @@ class Order(NamedTuple):
 
 
 def order_of(axes: Axes) -> Order:
-    """What a name such as `sxyz` means, or tf's tuple (first axis, odd order, first axis again, turning). Raises `KeyError`."""
+    """What a name such as `sxyz` means, or tf's tuple (first axis, odd order, first axis again, turning).
+
+    Raises `KeyError`.
+    """
     if isinstance(axes, str):
         letters = ["xyz".find(letter) for letter in axes[1:]]
         if (

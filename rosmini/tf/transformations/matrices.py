@@ -121,7 +121,10 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats]:
 def scale_matrix(
     factor: float, origin: ArrayLike | None = None, direction: ArrayLike | None = None
 ) -> Floats:
-    """Scale by `factor` about `origin`: in all directions, or along `direction` only. A factor of -1 mirrors at the point."""
+    """Scale by `factor` about `origin`: in all directions, or along `direction` only.
+
+    A factor of -1 mirrors at the point.
+    """
     if direction is None:
         return about(factor * np.identity(3), origin)
     axis = unit(direction)
@@ -129,7 +132,10 @@ def scale_matrix(
 
 
 def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Floats, Floats | None]:
-    """Factor, a point (4) that stays, and the direction (3; None: all) of a scaling. Raises `ValueError` if the matrix is none."""
+    """Factor, a point (4) that stays, and the direction (3; None: all) of a scaling.
+
+    Raises `ValueError` if the matrix is none.
+    """
     whole = np.asarray(matrix, dtype=np.float64)
     linear = whole[:3, :3]
     along = float(np.trace(linear)) - 2.0
@@ -169,9 +175,10 @@ def shear_matrix(angle: float, direction: ArrayLike, point: ArrayLike, normal: A
 def superimposition_matrix(
     v0: ArrayLike, v1: ArrayLike, scaling: bool = False, usesvd: bool = True
 ) -> Floats:
-    """The motion that brings the points `v0` (3, n) nearest to `v1` (3, n), in the sum of squares; with `scaling`, its size too.
+    """The motion that brings the points `v0` (3, n) nearest to `v1` (3, n), in the sum of squares.
 
-    By the singular value decomposition (Kabsch, 1976), whatever `usesvd` says. Raises `ValueError` for fewer than three points.
+    With `scaling`, its size too. By the singular value decomposition (Kabsch, 1976), whatever `usesvd` says. Raises
+    `ValueError` for fewer than three points.
     """
     del usesvd
     first = np.array(v0, dtype=np.float64)[:3]

@@ -20,7 +20,7 @@ def compose_matrix(
     translate: ArrayLike | None = None,
     perspective: ArrayLike | None = None,
 ) -> Floats:
-    """Perspective (4), translation (3), rotation (angles about the static axes x, y, z), shear (xy, xz, yz) and scale (3), in this order."""
+    """Perspective (4), translation (3), rotation (static x, y, z), shear (xy, xz, yz) and scale (3), in this order."""
     result = np.identity(4)
     if perspective is not None:
         result[3, :] = np.asarray(perspective, dtype=np.float64)[:4]
@@ -42,7 +42,10 @@ def compose_matrix(
 def decompose_matrix(
     matrix: ArrayLike,
 ) -> tuple[Floats, list[float], list[float], Floats, Floats]:
-    """Scale, shear, angles, translation and perspective, as `compose_matrix` takes them. Raises `ValueError` if it cannot be done."""
+    """Scale, shear, angles, translation and perspective, as `compose_matrix` takes them.
+
+    Raises `ValueError` if it cannot be done.
+    """
     whole = np.array(matrix, dtype=np.float64)
     if abs(whole[3, 3]) < EPS:
         raise ValueError("M[3, 3] is zero")
@@ -69,9 +72,10 @@ def projection_matrix(
     perspective: ArrayLike | None = None,
     pseudo: bool = False,
 ) -> Floats:
-    """Onto the plane through `point` with this normal: straight down, along `direction`, or towards the eye `perspective`.
+    """Projection on the plane through `point`: straight, along `direction`, or towards the eye `perspective`.
 
-    With `pseudo`, the depth stays in what comes out of a perspective, so that things in front can be told from things behind.
+    With `pseudo`, the depth stays in what comes out of a perspective, so that things in front can be told from things
+    behind.
     """
     place, axis = np.asarray(point, dtype=np.float64)[:3], unit(normal)
     if perspective is None:
@@ -93,7 +97,10 @@ def projection_matrix(
 def clip_matrix(
     left: float, right: float, bottom: float, top: float, near: float, far: float, perspective: bool = False
 ) -> Floats:
-    """From a view's box, or with `perspective` from its frustum, to the cube from -1 to 1. Raises `ValueError` for one without a volume."""
+    """From a view's box, or with `perspective` from its frustum, to the cube from -1 to 1.
+
+    Raises `ValueError` for one without a volume.
+    """
     if left >= right or bottom >= top or near >= far:
         raise ValueError("invalid frustum: left < right, bottom < top and near < far are needed")
     width, height, depth = right - left, top - bottom, far - near
@@ -112,7 +119,7 @@ def clip_matrix(
 
 
 def orthogonalization_matrix(lengths: ArrayLike, angles: ArrayLike) -> Floats:
-    """From a crystal's own coordinates, with axes of these lengths (3) and angles (3, in degrees), to Cartesian ones."""
+    """From a crystal's own coordinates, with axes of lengths (3) and angles (3, in degrees), to Cartesian ones."""
     a, b, c = np.asarray(lengths, dtype=np.float64)
     alpha, beta, gamma = np.radians(np.asarray(angles, dtype=np.float64))
     sine = math.sin(beta)

@@ -54,7 +54,10 @@ def quaternion_about_axis(angle: float, axis: ArrayLike) -> Floats:
 
 
 def quaternion_matrix(quaternion: ArrayLike) -> Floats:
-    """The matrix (4, 4) of a rotation; the quaternion need not have length 1, and one of length 0 counts as no rotation."""
+    """The matrix (4, 4) of a rotation.
+
+    The quaternion need not have length 1, and one of length 0 counts as no rotation.
+    """
     four = _four(quaternion)
     square = float(four @ four)
     result = np.identity(4)
@@ -71,7 +74,7 @@ def quaternion_matrix(quaternion: ArrayLike) -> Floats:
 
 
 def quaternion_from_matrix(matrix: ArrayLike) -> Floats:
-    """The quaternion of a rotation's matrix (4, 4), by its largest component (Shepperd, 1978): w, if positive, is at least 0.5 there."""
+    """The quaternion of a rotation matrix (4, 4), by its largest component (Shepperd, 1978)."""
     whole = np.array(matrix, dtype=np.float64)[:4, :4]
     m = whole[:3, :3] / whole[3, 3]
     trace = float(np.trace(m))
@@ -96,7 +99,10 @@ def quaternion_from_matrix(matrix: ArrayLike) -> Floats:
 def quaternion_slerp(
     quat0: ArrayLike, quat1: ArrayLike, fraction: float, spin: int = 0, shortestpath: bool = True
 ) -> Floats:
-    """Between two rotations, at constant speed on the great arc (Shoemake, 1985); `spin` adds half turns of 180 degrees on the way."""
+    """Between two rotations, at constant speed on the great arc (Shoemake, 1985).
+
+    `spin` adds half turns of 180 degrees on the way.
+    """
     first, second = (four / math.sqrt(four @ four) for four in (_four(quat0), _four(quat1)))
     if fraction in (0.0, 1.0):
         return second if fraction else first
@@ -115,7 +121,10 @@ def quaternion_slerp(
 
 
 def random_quaternion(rand: ArrayLike | None = None) -> Floats:
-    """A rotation, all alike probable (Shoemake, 1992), of three numbers in [0, 1); without them, of fresh random ones."""
+    """A rotation, all alike probable (Shoemake, 1992), of three numbers in [0, 1).
+
+    Without them, of fresh random ones.
+    """
     u, v, w = np.random.default_rng().random(3) if rand is None else np.asarray(rand, dtype=np.float64)
     a, b = math.sqrt(1 - u), math.sqrt(u)
     return np.array(

@@ -1,7 +1,4 @@
-"""Meshes of robots: read from files, written as COLLADA, and those of the TurtleBot3 made from their measures.
-
-``python -m rosmini.urdf.meshes`` makes the files in `assets/ros/turtlebot3_description/meshes` again, byte by byte.
-"""
+"""Meshes of robots: surfaces, and the files they are read from."""
 
 from __future__ import annotations
 

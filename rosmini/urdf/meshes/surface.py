@@ -108,23 +108,8 @@ def box(centre: Sequence[float], size: Sequence[float]) -> list[Surface]:
     return prism(corners, z - c, z + c)
 
 
-def rounded(length: float, width: float, radius: float, steps: int = 4) -> Floats:
-    """The outline (n, 2) of a rectangle with round corners around the origin."""
-    points = []
-    for quarter, (a, b) in enumerate(((1, 1), (-1, 1), (-1, -1), (1, -1))):
-        for step in range(steps):
-            angle = (quarter + step / (steps - 1)) * math.pi / 2
-            points.append(
-                (
-                    a * (length / 2 - radius) + radius * math.cos(angle),
-                    b * (width / 2 - radius) + radius * math.sin(angle),
-                )
-            )
-    return np.array(points)
-
-
 def lathe(profile: Sequence[tuple[float, float]], corners: int, axis: str = "z") -> Surface:
-    """What a lathe makes of a profile of (radius, height), from below to above: round to the eye, with sharp edges between.
+    """The surface of revolution of a profile of (radius, height), upwards: smooth around the axis, with sharp edges.
 
     The axis is z, or y from right to left, or x from back to front.
     """

@@ -121,7 +121,10 @@ def _arrange(
     entries = sorted(bundles.items(), key=lambda entry: sum(map(wish, entry[1])) / len(entry[1]))
     if ranking:
         grouped = [i for i, (key, _) in enumerate(entries) if isinstance(key, tuple)]
-        ranked = sorted((entries[i] for i in grouped), key=lambda entry: (ranking[entry[0]], entry[0]))  # type: ignore[index]
+        ranked = sorted(
+            (entries[i] for i in grouped),
+            key=lambda entry: (ranking[entry[0]], entry[0]),  # type: ignore[index]
+        )
         for i, entry in zip(grouped, ranked, strict=True):
             entries[i] = entry
     result: list[Slot] = []

@@ -1,7 +1,7 @@
 """The TurtleBot3 Burger as solids: plates, wheels, boards and laser, as large and where its model says.
 
-What a model has no number for (how thick a plate is, how far apart its holes are) is taken from the robot's proportions:
-a stack of four "waffle" plates on standoffs; motors under it, battery, controller and computer on the floors above.
+What a model has no number for (the thickness of a plate, the spacing of its holes) follows the robot's proportions: a
+stack of four "waffle" plates on standoffs; motors under it, battery, controller and computer on the floors above.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def body(model: RobotModel, node: str) -> list[Part]:
 
 
 def wheel(model: RobotModel, node: str, outwards: int) -> list[Part]:
-    """The parts of a wheel in its own frame, turning about y; `outwards` is 1 for the left one, -1 for the right one."""
+    """The parts of a wheel in its own frame, turning about y; `outwards` is 1 for the left one, -1 for the right."""
     radius, hub = model.wheel_radius, 0.62 * model.wheel_radius
     spokes = tuple(
         Rod(
@@ -91,7 +91,7 @@ def _treads(radius: float, count: int = 16) -> Facets:
 
 
 def _holes(x: float, length: float, width: float, heights: list[float]) -> Facets:
-    """What makes a waffle of a plate: a grid of square holes, as dark tiles on it; below the highest, those that one sees."""
+    """The dark square holes of the plates, as tiles on them; below the highest plate only those that one sees."""
     pitch, half = 0.0125, 0.0036
     rows, columns = int((length / 2 - 0.008) / pitch), int((width / 2 - 0.008) / pitch)
     tile = np.array(

@@ -1,7 +1,7 @@
 """The still picture of a scene: an SVG in the perspective in which the viewer begins.
 
-Faces that look away are left out; the others are painted from far to near, each thing as a whole: things stand beside one
-another. What is only fine detail is left out too.
+Faces that look away are left out; the others are painted from far to near, each thing as a whole, since things stand
+beside one another. Fine detail is left out too.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from rosmini.viz import style
 from rosmini.viz.rounding import snap
 from rosmini.viz.svg import document, element
 
-from .hidden import painting_order as painting_order_of_triangles
-from .order import painting_order
-from .scene import Camera, Scene3D, grid
+from .scene3d import Camera, Scene3D, grid
+from .solid_order import painting_order
 from .solids import Part, Prism, Solid, triangulate
 from .surfaces import LinkPart, triangles_in_world
+from .triangle_order import painting_order as painting_order_of_triangles
 
 Floats = NDArray[np.float64]
 

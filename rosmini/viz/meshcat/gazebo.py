@@ -10,13 +10,13 @@ from rosmini.errors import nearest
 from rosmini.sim.gazebo.msgs import Model
 from rosmini.sim.gazebo.snapshot import Snapshot, place_of, solids_of
 from rosmini.sim.shapes import Box, Cylinder, Polygon, Sphere, outline_at
-from rosmini.viz.gazebo import places, when
+from rosmini.viz.gazebo_pictures import places, when
 from rosmini.viz.rounding import snap
 from rosmini.viz.view import ViewError
-from rosmini.viz.world import pose_text
+from rosmini.viz.world_pictures import pose_text
 
 from .links import link_parts
-from .scene import TINY, Camera, Scene3D
+from .scene3d import TINY, Camera, Scene3D
 from .solids import Floats
 from .view import HEIGHT, MeshcatView, camera_for, free_sight
 from .visuals import SOLID, is_plain, surfaces, transform

@@ -47,8 +47,8 @@ def link_surfaces(
 ) -> list[Surface]:
     """What there is to see of a link, in its frame: one surface for each colour.
 
-    A material of the URDF comes before the colours of a mesh file, as in RViz. Surfaces in one of the colours `without`,
-    `#rrggbb`, are left out. Raises `MeshError`.
+    A material of the URDF comes before the colours of a mesh file, as in RViz. Surfaces in one of the colours
+    `without`, `#rrggbb`, are left out. Raises `MeshError`.
     """
     found: dict[str, list[Surface]] = {}
     described = robot.link(link)

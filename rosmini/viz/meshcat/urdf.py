@@ -8,10 +8,11 @@ import numpy as np
 
 from rosmini.urdf import Robot
 from rosmini.viz.rounding import fixed, snap
+from rosmini.viz.rqt.wording import plural
 from rosmini.viz.view import ViewError
 
 from .links import link_parts, link_surfaces
-from .scene import ROBOT, Camera, Scene3D
+from .scene3d import ROBOT, Camera, Scene3D
 from .view import HEIGHT, MeshcatView
 
 
@@ -64,11 +65,10 @@ def urdf_3d(
     said = "".join(f"; {name} at {fixed(position, 2)}" for name, position in at.items())
     kind = "collision shapes of " if collisions else ""
     text = (
-        f"3D: {kind}{robot.name}, {span} m, {_plural(len(shown), 'link')} to see of {len(robot.links)}{said}"
+        f"3D: {kind}{robot.name}, {span} m, {plural(len(shown), 'link')} to see of {len(robot.links)}{said}"
     )
-    alt = f"{robot.name} in three dimensions: {kind and 'its collision shapes, '}{span} metres, with {', '.join(shown)}{said}."
+    alt = (
+        f"{robot.name} in three dimensions: {kind and 'its collision shapes, '}{span} metres, "
+        f"with {', '.join(shown)}{said}."
+    )
     return MeshcatView(scene, label=f"{robot.name} in 3D", text=text, alt=alt, title=title, height=height)
-
-
-def _plural(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"

@@ -19,10 +19,10 @@ from rosmini.viz import style
 from rosmini.viz.embed import MESHCAT, embed
 from rosmini.viz.rounding import degrees, fixed, snap
 from rosmini.viz.view import SVG_MIME, View, ViewError
-from rosmini.viz.world import colour_of
+from rosmini.viz.world_pictures import colour_of
 
 from .drawing import draw
-from .scene import ROBOT, Camera, Scene3D, obstacle_node
+from .scene3d import ROBOT, Camera, Scene3D, obstacle_node
 
 if TYPE_CHECKING:
     from rosmini.sim.simulator import Simulator
@@ -83,7 +83,7 @@ class MeshcatView(View):
 
     @property
     def html(self) -> str:
-        """The viewer: in the book's form or the live form, as `rosmini.viz.form.book_form()` says."""
+        """The viewer: in the book's form or the live form, as `rosmini.viz.book_form.book_form()` says."""
         return self._html(None)
 
     @property
@@ -138,7 +138,7 @@ def camera_for(
 
 
 def free_sight(world: World, pose: Pose, distance: float) -> tuple[float, float]:
-    """From which azimuth and elevation [deg] a robot is seen: from ahead at an angle, or from where nothing stands between."""
+    """The azimuth and elevation [deg] to see a robot from: ahead at an angle, or where nothing stands between."""
     x, y, heading = (float(part) for part in snap(np.array(pose)))
     ahead = float(snap(math.degrees(heading), 1.0))
     for aside in (-38.0, 38.0, -142.0, 142.0):
@@ -170,8 +170,8 @@ def replay_3d(
 ) -> MeshcatView:  # fmt: skip
     """A recorded run to play: the robot on its way, its wheels turning, its trail and where odometry saw it.
 
-    The camera follows the robot, or stands still if the focus is the world. `scans` shows what the laser saw, from where the robot
-    was at the stamp of the scan: one of a laser that sweeps is bent while the robot turns.
+    The camera follows the robot, or stands still if the focus is the world. `scans` shows what the laser saw from the
+    robot's pose at the stamp of the scan: that of a sweeping laser is distorted while the robot turns.
     """
     world, model, truth = recording.world, recording.model, recording.truth
     start: Pose = tuple(truth[0].tolist())
@@ -204,7 +204,8 @@ def replay_3d(
     )
     alt = (
         f"A player with {model.title or model.name} in {_title(world)}, in three dimensions: it drives {driven}. "
-        f"Lines on the ground show its way and, {off} m off at its end, the way that odometry believes in.{_beside(recording)}"
+        f"Lines on the ground show its way and, {off} m off at its end, the way that odometry believes in."
+        f"{_beside(recording)}"
     )
     view = MeshcatView(
         scene, label=label, text=text, alt=alt, title=title, height=height,
@@ -236,18 +237,19 @@ def simulation_3d(
     scan = simulator.last_scan()
     return robot_3d(
         world, simulator.model, simulator.truth(), None if scan is None else np.asarray(scan.ranges, dtype=float),
-        scan_from=simulator.scan_pose, others=others, focus=focus, distance=distance, azimuth=azimuth, elevation=elevation, title=title, height=height,
+        scan_from=simulator.scan_pose, others=others, focus=focus, distance=distance, azimuth=azimuth,
+        elevation=elevation, title=title, height=height,
     )  # fmt: skip
 
 
 def robot_3d(
     world: World, model: RobotModel, pose: Pose, ranges: Floats | None = None, *, scan_from: Pose | None = None,
-    others: Iterable[tuple[str, RobotModel, Pose]] = (), focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None, elevation: float | None = None,
-    title: str | None = None, height: int = HEIGHT,
+    others: Iterable[tuple[str, RobotModel, Pose]] = (), focus: Focus = "robot", distance: float | None = None,
+    azimuth: float | None = None, elevation: float | None = None, title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
     """A robot in a world at a pose, with what its laser saw: ranges (beams,) [m], not finite where nothing was hit.
 
-    It saw that from `scan_from`; by default from where the robot is. `others` are more robots: name, model and pose of each.
+    It saw that from `scan_from`, by default the pose of the robot. `others` are more robots: name, model and pose.
 
     Raises:
         ViewError: the focus or the distance is impossible, or there is a wrong number of ranges.
@@ -319,7 +321,7 @@ def _sampled(times: Floats, known: Floats, poses: Floats) -> Floats:
 
 
 def _tracks(model: RobotModel, truth: Floats, node: str, *, wheels: bool) -> list[tuple[str, str, Floats]]:
-    """How a robot and, where it has some, its wheels move: they roll without slipping on the way that it really took."""
+    """How a robot and its wheels, if it has some, move: the wheels roll without slipping along the true way."""
     place = np.column_stack([truth[:, :2], np.zeros(len(truth))])
     steps, turns = np.diff(truth[:, :2], axis=0), np.diff(truth[:, 2])
     towards = truth[:-1, 2] + turns / 2

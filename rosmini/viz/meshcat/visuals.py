@@ -31,10 +31,10 @@ def transform(pose: Pose) -> Floats:
 def surfaces(
     link: Link, place: Floats, *, collisions: bool = False, without: Iterable[str] = ()
 ) -> list[Surface]:
-    """What there is to see of a link at `place` (4, 4) in the world, in its own frame: one surface for each colour. Raises `MeshError`.
+    """What there is to see of a link at `place` (4, 4) in the world, in its own frame: one surface for each colour.
 
-    The material of a visual comes before the colours of a mesh file, as in Gazebo; surfaces of a file in one of the colours `without` are left out. So
-    are planes that are the ground: a scene has a ground of its own.
+    The material of a visual comes before the colours of a mesh file, as in Gazebo. Left out are surfaces of a file in
+    one of the colours `without`, and planes that are the ground: a scene has its own. Raises `MeshError`.
     """
     found: dict[str, list[Surface]] = {}
     left_out = frozenset(without)
@@ -119,9 +119,9 @@ def _upright(outline: Floats, height: float) -> Surface:
 
 
 def is_plain(model: Model) -> bool:
-    """Tell whether a model looks as it is solid, upright and of a colour: such things are drawn as those of other worlds are.
+    """Whether a model looks as solid as it is, upright and of one colour, and so is drawn as in other worlds.
 
-    So is what has no visuals: Gazebo would show nothing at all.
+    True also without visuals, where Gazebo would show nothing at all.
     """
     visuals = [(link, visual) for link in model.link for visual in link.visual]
     if not visuals:

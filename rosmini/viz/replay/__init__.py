@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
+from rosmini.viz.replay.canvas_data import scene_data
 from rosmini.viz.replay.player import ReplayView, replay
-from rosmini.viz.replay.scene import scene_data
 
 __all__ = ["ReplayView", "replay", "scene_data"]

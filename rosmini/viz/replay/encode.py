@@ -1,11 +1,11 @@
 """A recorded run as a few ten kilobytes of text, the same on every machine, for the player in a page.
 
 Numbers become whole ones (millimetres, tenths of a milliradian, milliseconds), then differences from one to the next,
-then bytes, most of them one a number, then base64. A run of a minute with a scan of 360 beams five times a second takes
-about 170 kB so. It could be compressed further, but another zlib writes other bytes, and nbval compares HTML to the byte.
+then bytes, mostly one for each number, then base64. A run of a minute with five scans of 360 beams a second takes about
+170 kB. It could be compressed further, but another zlib writes other bytes, and nbval compares HTML to the byte.
 
-The player draws a scan from where the robot was at its stamp. That of a laser that sweeps is bent there while the robot turns, as the message is; the picture
-of a recording, `show`, draws each beam from where it was measured.
+The player draws a scan from the robot's pose at its stamp, so that of a sweeping laser is distorted while the robot
+turns, as the message is. The still picture of a recording draws each beam from where it was measured.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.sim.recording import Recording
-from rosmini.viz.replay.scene import robot_data, scene_data, shapes_of
+from rosmini.viz.replay.canvas_data import robot_data, scene_data, shapes_of
 from rosmini.viz.rounding import snap
-from rosmini.viz.world import colour_of
+from rosmini.viz.world_pictures import colour_of
 
 LENGTH = 1e-3
 """[m], also [m/s]"""
@@ -44,14 +44,14 @@ def replay_data(recording: Recording) -> dict[str, Any]:
     |---|---|
     | `start`, `duration` | [ms] |
     | `truth`, `odom` | as many x [mm], then y [mm], then headings [0.1 mrad], at even times from start to end |
-    | `commands` | times [ms], then linear [mm/s], then angular velocities [0.1 mrad/s]: those that differ from the one before |
+    | `commands` | times [ms], then linear [mm/s], then angular velocities [0.1 mrad/s], whenever these change |
     | `scan_times` | [ms] |
     | `scans` | ranges [mm], scan by scan; 0 where a beam hit nothing, -1 where it hit what was too near |
     | `things` | of each thing that moved its name, its shapes in its own frame, and its `track`, as `truth` |
     | `others` | of each other robot its name, colour and numbers, and its `track`; `name` is the first one's |
 
-    All but the first two are packed. Both tracks are in the frame `map`: odometry is laid so that it starts with the robot's true pose. Poses are
-    sampled anew, at even times; between them the player goes in straight lines.
+    All but the first two are packed. Both tracks are in the frame `map`: odometry starts at the robot's true pose.
+    Poses are resampled at even times; between them the player goes in straight lines.
     """
     start, duration = float(recording.times[0]), recording.duration
     samples = 1 + min(int(np.ceil(duration * RATE)), MOST_POSES)

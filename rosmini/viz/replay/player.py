@@ -6,7 +6,7 @@ from functools import cached_property
 
 from rosmini.sim.recording import Recording
 from rosmini.viz.embed import embed
-from rosmini.viz.recording import RunScene, recording_picture
+from rosmini.viz.recording_pictures import RunScene, recording_picture
 from rosmini.viz.replay.encode import replay_data
 from rosmini.viz.rounding import fixed
 from rosmini.viz.view import SVG_MIME, Picture, View, ViewError
@@ -17,7 +17,7 @@ HEIGHT = 320
 
 
 class ReplayView(View):
-    """The player. As text it says how the run went, and as an image it is the picture of `rosmini.viz.recording_picture`."""
+    """The player. As text it says how the run went; as an image it is the picture that `recording_picture` draws."""
 
     def __init__(self, recording: Recording, *, title: str | None = None) -> None:
         self.recording = recording
@@ -33,8 +33,8 @@ class ReplayView(View):
         """The run in two sentences."""
         run = self.recording
         return (
-            f"Player of a run of {run.model.name} in the world {run.world.name}, {fixed(run.duration, 1)} seconds long. "
-            f"The robot drives {fixed(run.distance, 2)} m; at the end its odometry is off by "
+            f"Player of a run of {run.model.name} in the world {run.world.name}, {fixed(run.duration, 1)} seconds "
+            f"long. The robot drives {fixed(run.distance, 2)} m; at the end its odometry is off by "
             f"{fixed(float(run.drift().position[-1]), 2)} m.{_beside(run)}"
         )
 
@@ -53,7 +53,7 @@ class ReplayView(View):
 
     @cached_property
     def html(self) -> str:
-        """The player: of the book, or self-contained, as `rosmini.viz.form.book_form` says."""
+        """The player: of the book, or self-contained, as `rosmini.viz.book_form.book_form` says."""
         return embed(
             SCRIPTS,
             "rosminiReplay.mount",
@@ -93,7 +93,7 @@ def replay(recording: Recording, *, title: str | None = None) -> ReplayView:
     """
     if not isinstance(recording, Recording):
         raise ViewError(
-            f"replay shows a Recording, not a {type(recording).__name__}: record a run with rosmini.sim.Recorder, and give "
-            "what its recording() returns"
+            f"replay shows a Recording, not a {type(recording).__name__}: record a run with rosmini.sim.Recorder, and "
+            "give what its recording() returns"
         )
     return ReplayView(recording, title=title)

@@ -4,6 +4,6 @@ from __future__ import annotations
 
 from rosmini.viz.rqt.console import LogTable, rqt_console
 from rosmini.viz.rqt.graph import rqt_graph
-from rosmini.viz.rqt.state import GraphState
+from rosmini.viz.rqt.graph_state import GraphState
 
 __all__ = ["GraphState", "LogTable", "rqt_console", "rqt_graph"]

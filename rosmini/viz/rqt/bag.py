@@ -123,7 +123,7 @@ def _rows(bag: Bag, topics: Collection[str] | None, gap: float) -> tuple[list[Ro
 
 
 def gaps(times: Sequence[float], factor: float, least: float = 0.0) -> tuple[tuple[float, float], ...]:
-    """The times between messages that are longer than `factor` times what is usual and than `least` [s]; none for fewer than four messages.
+    """The gaps longer than `factor` times the usual and than `least` [s]; none for fewer than four messages.
 
     Usual is what three of four periods do not exceed: of messages in bursts, the time from burst to burst.
     """

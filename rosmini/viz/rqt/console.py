@@ -1,4 +1,4 @@
-"""`rqt_console`: log messages as a table, with the filters of the tool of that name (http://wiki.ros.org/rqt_console)."""
+"""`rqt_console`: log messages as a table, with the filters of the real tool (http://wiki.ros.org/rqt_console)."""
 
 from __future__ import annotations
 
@@ -251,7 +251,8 @@ def _messages(source: object) -> list[Any]:
         if all(getattr(message, "_type", None) == "rosgraph_msgs/Log" for message in found):
             return found
     raise ViewError(
-        f"{type(source).__name__} has no log messages: give what graph.console() returned, or messages of the type rosgraph_msgs/Log"
+        f"{type(source).__name__} has no log messages: give what graph.console() returned, or messages of the type "
+        "rosgraph_msgs/Log"
     )
 
 

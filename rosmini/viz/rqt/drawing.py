@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from rosmini.viz import style
+from rosmini.viz.graph_drawing import LINE_HEIGHT, MARGIN, arrow, box, drawing, ellipse, rule, text
+from rosmini.viz.graph_drawing import name as label_of
 from rosmini.viz.layout import Edge, Layout, Rect, Route, Vertex, layered
-from rosmini.viz.layout.model import Direction, Point
+from rosmini.viz.layout.model import Direction
 from rosmini.viz.metrics import text_width
 from rosmini.viz.rqt.selection import Selection
-from rosmini.viz.svg import bezier, document, element, escape, number
+from rosmini.viz.svg import document, element, escape
 
-MARGIN = 12.0
-LINE_HEIGHT = 15.0
-ARROW_LENGTH, ARROW_HALF = 8.5, 3.6
 COLOURS = [
     "ink", "muted", "line", "node-fill", "node-line", "topic-fill", "topic-line",
     "group-fill", "group-line", "label", "bad-fill", "bad-line",
@@ -29,9 +28,7 @@ def draw(selection: Selection, *, namespaces: int, direction: Direction, title: 
     parts += [_edge(layout.edges[edge.name], edge, labels) for edge in sorted(edges, key=lambda e: e.name)]
     parts += [_vertex(vertex, layout, selection) for vertex in sorted(vertices, key=lambda v: v.name)]
     parts += [_group_name(path, rect) for path, rect in groups]
-    moved = element("g", "".join(parts), transform=f"translate({number(MARGIN)},{number(MARGIN)})")
-    width, height = layout.width + 2 * MARGIN, layout.height + 2 * MARGIN
-    return document(moved, width=width, height=height, title=title, alt=alt, css=_css(), colours=COLOURS)
+    return drawing(parts, layout, title=title, alt=alt, css=_css(), colours=COLOURS)
 
 
 def _graph(selection: Selection, namespaces: int) -> tuple[list[Vertex], list[Edge], dict[str, str]]:
@@ -77,77 +74,37 @@ def _namespaces(name: str) -> list[str]:
 def _vertex(vertex: Vertex, layout: Layout, selection: Selection) -> str:
     rect = layout.vertices[vertex.name]
     name = vertex.name[2:]
-    x, y = rect.centre
     if vertex.shape == "ellipse":
         bad = name in selection.unreachable
-        shape = element("ellipse", cx=x, cy=y, rx=rect.width / 2, ry=rect.height / 2, **_paint(bad))
+        shape = ellipse(rect, "bad" if bad else "node")
         kind, tip = ("node rm-bad", f"{name} does not answer") if bad else ("node", f"node {name}")
         if name in selection.bundles:
             tip = f"{tip}: {', '.join(selection.bundles[name])}"
     else:
         members = selection.groups.get(name) or selection.bundles.get(name, ())
-        paint = {"fill": style.LIGHT["topic-fill"], "stroke": style.LIGHT["topic-line"]}
-        shape = "".join(_box(rect, shift, paint) for shift in ((4.0, 0.0) if members else (0.0,)))
+        shape = "".join(box(rect, "topic", 4.0, shift) for shift in ((4.0, 0.0) if members else (0.0,)))
         kind = "topic"
         tip = f"topic {name}" + (f" [{selection.types[name]}]" if name in selection.types else "")
         if members:
             tip = f"{name}: {', '.join(members)}"
-    label = element("text", escape(name), x=x, y=y + 4.5, **_text(style.TEXT_SIZE, "ink"))
-    return element("g", element("title", escape(tip)) + shape + label, class_=f"rm-{kind}")
-
-
-def _paint(bad: bool) -> dict[str, str]:
-    kind = "bad" if bad else "node"
-    return {"fill": style.LIGHT[f"{kind}-fill"], "stroke": style.LIGHT[f"{kind}-line"]}
-
-
-def _text(size: float, colour: str) -> dict[str, str | float]:
-    return {"font_size": size, "text_anchor": "middle", "fill": style.LIGHT[colour]}
-
-
-def _box(rect: Rect, shift: float, paint: dict[str, str]) -> str:
-    return element(
-        "rect", x=rect.x + shift, y=rect.y - shift, width=rect.width, height=rect.height, rx=4.0, **paint
-    )
+    return element("g", element("title", escape(tip)) + shape + label_of(name, rect), class_=f"rm-{kind}")
 
 
 def _edge(route: Route, edge: Edge, labels: dict[str, str]) -> str:
-    points, arrow = with_arrow(route.points)
-    line = element("path", d=bezier(points), fill="none", stroke=style.LIGHT["line"])
-    head = element("path", d=arrow, fill=style.LIGHT["line"])
     source, target = edge.source[2:], edge.target[2:]
     topic = labels.get(edge.name)
     tip = f"{source} -> {topic} -> {target}" if topic else f"{source} -> {target}"
     label = ""
     if topic and route.label:
         x, _ = route.label.centre
-        label = element(
-            "text", escape(topic), x=x, y=route.label.bottom - 3, **_text(style.LABEL_SIZE, "label")
-        )
-    return element("g", element("title", escape(tip)) + line + head + label, class_="rm-edge")
-
-
-def with_arrow(points: tuple[Point, ...]) -> tuple[tuple[Point, ...], str]:
-    """The curve, cut off where its arrow head begins, and the head's outline."""
-    tip, before = points[-1], points[-2]
-    dx, dy = tip[0] - before[0], tip[1] - before[1]
-    length = (dx * dx + dy * dy) ** 0.5
-    if length < 0.05:
-        dx, dy = tip[0] - points[0][0], tip[1] - points[0][1]
-        length = (dx * dx + dy * dy) ** 0.5 or 1.0
-    ux, uy = dx / length, dy / length
-    base = (tip[0] - ux * ARROW_LENGTH, tip[1] - uy * ARROW_LENGTH)
-    left = (base[0] - uy * ARROW_HALF, base[1] + ux * ARROW_HALF)
-    right = (base[0] + uy * ARROW_HALF, base[1] - ux * ARROW_HALF)
-    outline = "M" + "L".join(f"{number(x)},{number(y)}" for x, y in (tip, left, right)) + "Z"
-    neck = (tip[0] - ux * (ARROW_LENGTH - 1.5), tip[1] - uy * (ARROW_LENGTH - 1.5))
-    return (*points[:-1], neck), outline
+        label = text(topic, x, route.label.bottom - 3, size=style.LABEL_SIZE, colour="label")
+    return element("g", element("title", escape(tip)) + arrow(route) + label, class_="rm-edge")
 
 
 def _group(path: tuple[str, ...], rect: Rect) -> str:
-    paint = {"fill": style.LIGHT["group-fill"], "stroke": style.LIGHT["group-line"]}
-    box = element("rect", x=rect.x, y=rect.y, width=rect.width, height=rect.height, rx=8.0, **paint)
-    return element("g", element("title", escape(f"namespace {path[-1]}")) + box, class_="rm-group")
+    return element(
+        "g", element("title", escape(f"namespace {path[-1]}")) + box(rect, "group", 8.0), class_="rm-group"
+    )
 
 
 def _group_name(path: tuple[str, ...], rect: Rect) -> str:
@@ -170,15 +127,11 @@ def _group_name(path: tuple[str, ...], rect: Rect) -> str:
 def _nothing(title: str, alt: str) -> str:
     message = "(no node to show)"
     width = text_width(message, style.TEXT_SIZE) + 6 * MARGIN
-    label = element("text", message, x=width / 2, y=34.0, class_="rm-none", **_text(style.TEXT_SIZE, "muted"))
+    label = text(message, width / 2, 34.0, colour="muted", kind="rm-none")
     return document(label, width=width, height=60.0, title=title, alt=alt, css=_css(), colours=COLOURS)
 
 
 def _css() -> str:
-    def rule(selector: str, **properties: str) -> str:
-        body = ";".join(f"{name}:{style.variable(value)}" for name, value in properties.items())
-        return f".rosmini-svg {selector}{{{body}}}"
-
     return (
         rule(".rm-node ellipse", fill="node-fill", stroke="node-line")
         + rule(".rm-bad ellipse", fill="bad-fill", stroke="bad-line").replace("}", ";stroke-dasharray:5 3}")

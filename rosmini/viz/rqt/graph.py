@@ -7,8 +7,8 @@ from collections.abc import Collection
 from rosmini.viz.layout import Direction
 from rosmini.viz.rqt.condensing import condensed
 from rosmini.viz.rqt.drawing import draw
+from rosmini.viz.rqt.graph_state import graph_state
 from rosmini.viz.rqt.selection import Group, Hide, Mode, select
-from rosmini.viz.rqt.state import graph_state
 from rosmini.viz.rqt.wording import alt_text, text_form
 from rosmini.viz.view import Picture
 

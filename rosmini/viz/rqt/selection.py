@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal, get_args
 
 from rosmini.errors import nearest
-from rosmini.viz.rqt.state import Connection, GraphState
+from rosmini.viz.rqt.graph_state import Connection, GraphState
 from rosmini.viz.view import ViewError
 
 Mode = Literal["nodes_only", "nodes_topics_all", "nodes_topics_active"]
@@ -45,8 +45,8 @@ TF_TOPICS = ("/tf", "/tf_static")
 class Selection:
     """What is shown.
 
-    `groups` maps a topic that stands for several, as rqt_graph groups them, to those; `bundles` does so for the nodes and
-    topics that a large graph is drawn with. `hidden` counts what switches hid.
+    `groups` maps a topic that stands for several, as rqt_graph groups them, to those; `bundles` does so for the nodes
+    and topics of a large graph. `hidden` counts what switches hid.
     """
 
     mode: Mode

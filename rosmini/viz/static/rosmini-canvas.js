@@ -1,7 +1,7 @@
 /* Drawing a robot's world on a canvas: what the replay player and the teleoperation pad share.
 
    A plain script that sets `globalThis.rosminiCanvas`; no framework, nothing fetched. Metres and radians, x to the
-   right, y up, angles counter-clockwise; a pose is [x, y, theta]. `scene` is what `rosmini.viz.replay.scene` makes.
+   right, y up, angles counter-clockwise; a pose is [x, y, theta]. `scene` is what `rosmini.viz.replay.scene_data` makes.
 
      fit(canvas, bounds, {maxHeight, margin})  a view: sizes the canvas (crisp on HiDPI), reads the theme, and maps
                                                metres to pixels. Make a new one when `watch` says so.

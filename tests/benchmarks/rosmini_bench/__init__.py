@@ -1,7 +1,7 @@
-"""`rosmini bench`: measure rosmini, and beside it, in the same run, real ROS and another simulator where they are installed.
+"""`rosmini bench`: measure rosmini, and in the same run real ROS and another simulator where installed.
 
-Each figure is the median of several rounds in which rosmini and its peer take turns, so that a machine that slows down slows both.
-Nothing is judged: a figure depends on the machine, the ratio much less.
+Each figure is the median of several rounds in which rosmini and its peer take turns, so that a machine that slows down
+slows both. Nothing is judged: a figure depends on the machine, the ratio much less.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class Measure:
     peer_name: str = "rospy"
     more_is_better: bool = True
     once: bool = False
-    """Measured once only: what it gives does not depend on how busy the machine is, or much less than on its argument."""
+    """Measured only once: the result depends on the argument, and little or not at all on the machine's load."""
 
     def run(self, rounds: int) -> Figure:
         """Measure ``rounds`` times, taking turns."""
@@ -95,7 +95,8 @@ def table(figures: Iterable[Figure]) -> str:
         )
     widths = [max(len(row[column]) for row in rows) for column in range(5)]
     return "\n".join(
-        f"{row[0]:<{widths[0]}}  {row[1]:>{widths[1]}}  {row[2]:>{widths[2]}} {row[3]:<{widths[3]}}  {row[4]:>{widths[4]}}".rstrip()
+        f"{row[0]:<{widths[0]}}  {row[1]:>{widths[1]}}  {row[2]:>{widths[2]}} {row[3]:<{widths[3]}}  "
+        f"{row[4]:>{widths[4]}}".rstrip()
         for row in rows
     )
 

@@ -1,4 +1,4 @@
-"""The peer of ``rosmini bench`` for actions, run by the system's Python with real rospy: ``actionlib_node.py ROLE goals COUNT``.
+"""The action peer of ``rosmini bench``, with real rospy in the system's Python: ``actionlib_node.py ROLE goals COUNT``.
 
 The talker is the action server. The listener is the client: it measures, and prints the figure as its last line.
 """

@@ -159,7 +159,9 @@ def measures(folder: Path, peer: Peer | None, scale: float) -> Iterator[Measure]
             yield Measure(
                 f"bag: {what} {name}",
                 "messages/s",
-                lambda function=function, path=path, kind=kind, count=count: function(path, kind, count),  # type: ignore[misc]
+                lambda function=function, path=path, kind=kind, count=count: (  # type: ignore[misc]
+                    function(path, kind, count)
+                ),
                 theirs(what, kind, count),
                 "rosbag",
             )

@@ -144,7 +144,10 @@ def import_seconds(python: str, module: str) -> float:
 
 def _check(found: int, expected: int) -> None:
     if found != expected:
-        msg = f"the benchmark's subscriber found {found}, not {expected}: messages were lost or changed, so there is no figure"
+        msg = (
+            f"the benchmark's subscriber found {found}, not {expected}: messages were lost or changed, so there is no "
+            "figure"
+        )
         raise RosminiError(msg)
 
 

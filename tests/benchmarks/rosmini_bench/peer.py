@@ -70,7 +70,10 @@ class Rospy:
         raise RosminiError(msg)
 
     def _answers(self, port: int) -> bool:
-        """Wait until the Master answers; False if roscore ends first (somebody else took the port) or takes too long."""
+        """Wait until the Master answers.
+
+        False if roscore ends first (somebody else took the port) or takes too long.
+        """
         deadline = time.monotonic() + START_S
         while time.monotonic() < deadline and self._core.poll() is None:
             with socket.socket() as probe:
@@ -80,7 +83,10 @@ class Rospy:
         return False
 
     def measure(self, function: str, *arguments: int, node: Path = NODE) -> float:
-        """Run ``function`` of the script ``node`` in a listening and a talking process; return the listener's figure."""
+        """Run ``function`` of the script ``node`` in a listening and a talking process.
+
+        Return the listener's figure.
+        """
         words = [function, *(str(argument) for argument in arguments)]
         listener = self._start(node, "listener", words)
         talker = self._start(node, "talker", words)

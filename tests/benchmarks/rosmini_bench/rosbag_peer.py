@@ -1,4 +1,4 @@
-"""The peer of ``rosmini bench`` for bags, run by the system's Python with real rosbag: ``rosbag_peer.py WHAT PATH KIND COUNT``."""
+"""The bag peer of ``rosmini bench``, with real rosbag: ``rosbag_peer.py WHAT PATH KIND COUNT``."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The peer of ``rosmini bench``, run by the system's Python with real rospy: ``rospy_node.py ROLE FUNCTION COUNT``.
 
-The listener measures and prints the figure as its last line. A throughput counts from just before the first publish call, whose time
-the first message carries, to the last callback.
+The listener measures and prints the figure as its last line. A throughput counts from just before the first publish
+call, whose time the first message carries, to the last callback.
 """
 
 from __future__ import annotations

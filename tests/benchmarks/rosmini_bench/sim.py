@@ -1,4 +1,4 @@
-"""What is measured of the simulator: how much faster than real time it is, beside ir-sim and MuJoCo, how fast rays are cast, and what it is right about."""
+"""Measures the simulator: real-time factors beside ir-sim and MuJoCo, raycasting, and physical correctness."""
 
 from __future__ import annotations
 
@@ -29,7 +29,10 @@ Cast = Callable[[World, float, float], NDArray[np.float64]]
 
 
 def scans(cast: Cast, count: int) -> float:
-    """Return the scans a second of 360 rays up to 3.5 m among 100 segments and 10 discs; some are compared with a loop over all pairs."""
+    """Return the scans a second of 360 rays up to 3.5 m among 100 segments and 10 discs.
+
+    Some are compared with a loop over all pairs.
+    """
     world = sim_room.crowded_room()
     x, y, _ = sim_room.START
     for place in (x - 0.5, x, x + 0.5):

@@ -1,7 +1,7 @@
 """What a simulated run has to look like.
 
-The subscribers take out of their messages what is checked here (`READERS`), while the clock runs; the checks follow when it has stopped. A run that fails
-one of them has no figure.
+The subscribers take out of their messages what is checked here (`READERS`), while the clock runs; the checks follow
+when it has stopped. A run that fails one of them has no figure.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def _read_scan(message: Any) -> Row:
 
 
 def transforms(message: Any) -> list[tuple[str, Row]]:
-    """What a subscriber reads of a message on /tf: the prefix of each transform's frame, which is the robot's name, and a row."""
+    """What a subscriber reads of a message on /tf: each frame's prefix, which is the robot's name, and a row."""
     rows = []
     for transform in message.transforms:
         header, child = transform.header, transform.child_frame_id
@@ -99,13 +99,16 @@ READERS: Mapping[str, tuple[str, Callable[[Any], Row] | None]] = MappingProxyTyp
         "base_pose_ground_truth": ("nav_msgs/Odometry", _read_odometry),
     }
 )
-"""For each topic of a robot its type, and what a subscriber reads of a message; for `transforms` of all robots in one, None."""
+"""For each topic of a robot its type, and what a subscriber reads of a message.
+
+For `transforms` of all robots in one, None.
+"""
 
 
 def check_run(
     heard: Mapping[str, Heard], world: World, model: RobotModel, seconds: float, way: float
 ) -> None:
-    """Raise `RosminiError` unless the messages, by the names of robots, are those of robots that were told to go `way` metres in `seconds`."""
+    """Raise `RosminiError` unless the messages, by robot, are those of robots sent `way` metres in `seconds`."""
     rates = {"scan": model.laser.rate, "imu": model.unit.rate}
     tracks = {}
     for name, rows in heard.items():
@@ -159,7 +162,10 @@ def check_frames(heard: Heard, model: RobotModel, name: str) -> None:
 
 
 def check_odometry(heard: Heard, truth: Floats, model: RobotModel) -> None:
-    """Odometry is off by no more than its wheels and its gyroscope explain; the transform says the same, and the joints belong to it."""
+    """Odometry is off by no more than its wheels and its gyroscope explain.
+
+    The transform says the same, and the joints belong to it.
+    """
     expect([row[:4] for row in heard["odom"]] == [row[:4] for row in heard["tf"]], "odom and tf do not agree")
     odom = poses(heard["odom"])
     believed, really = (compose(inverse(_pose(track[0])), track) for track in (odom, truth))
@@ -182,7 +188,10 @@ def check_odometry(heard: Heard, truth: Floats, model: RobotModel) -> None:
 
 
 def check_scans(heard: Heard, truth: Floats, others: list[Floats], world: World, model: RobotModel) -> None:
-    """Each range is the exact one at the time of its beam plus noise, and the noise is as large as it says. `others` are where the other robots were."""
+    """Each range is the exact one at the time of its beam plus noise, and the noise is as large as it says.
+
+    `others` are where the other robots were.
+    """
     lidar = model.laser
     stamps = [row[0] for row in heard["base_pose_ground_truth"]]
     residuals = []
@@ -239,7 +248,7 @@ def check_imu(heard: Heard, truth: Floats, model: RobotModel) -> None:
 
 
 def gyroscope_error(model: RobotModel, turned: float, seconds: float) -> float:
-    """By how much the integral of a gyroscope may be off [rad] after a turn [rad] that took so long: its scale, its zero and its noise."""
+    """The largest error of an integrated gyroscope [rad] after a turn [rad] in `seconds`: scale, zero and noise."""
     unit = model.unit
     walk = unit.gyro_noise * math.sqrt(seconds / unit.rate)
     return SIGMAS * (unit.gyro_scale * turned + walk) + 1.2 * unit.gyro_step * seconds + 0.005

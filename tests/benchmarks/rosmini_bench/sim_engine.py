@@ -1,4 +1,4 @@
-"""What the engine costs without a graph around it: no messages, only poses and scans, as the other simulators are measured."""
+"""The cost of the engine without a graph: only poses and scans, as the other simulators are measured."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def make_engine(
 
 
 def engine_factor(seconds: float, count: int) -> float:
-    """Return how many seconds the engine simulates in a second of processor time: poses a hundred times, a scan of each robot five times a second."""
+    """Return simulated seconds a second of processor time: 100 poses and 5 scans of each robot a second."""
     engine, names = make_engine(count)
     lidar, noise = BURGER.laser, rng("lidar")
     tracks: dict[str, list[Pose]] = {name: [] for name in names}
@@ -71,9 +71,10 @@ def engine_factor(seconds: float, count: int) -> float:
 
 
 def crowd_factor(seconds: float, count: int) -> float:
-    """Return the same of so many robots that are in one another's way: their circles are twice as large as there is room for, and they push.
+    """Return the same for `robots` that are in one another's way and push: their circles have half the space.
 
-    Poses are asked for a hundred times a second; there are no scans. Raises `RosminiError` if nobody touches anything, or somebody leaves the room.
+    Poses are asked for a hundred times a second; there are no scans. Raises `RosminiError` if nobody touches anything,
+    or somebody leaves the room.
     """
     engine, names = make_engine(count)
     begin, touching, number = 0.0, 0, 0

@@ -1,4 +1,4 @@
-"""How what the simulator costs grows with robots, beams and walls, what a robot takes in memory, and what an hour leaves behind."""
+"""How the cost of the simulator grows with robots, beams and walls, memory for a robot, and leaks in an hour."""
 
 from __future__ import annotations
 
@@ -52,7 +52,10 @@ def step_cost(count: int, seconds: float) -> float:
 
 
 def scan_cost(beams: int, walls: int, times: int) -> float:
-    """Return the microseconds of a scan of so many beams, up to 3.5 m, among so many wall segments; always as many to a square metre."""
+    """Return the microseconds of a scan of so many beams, up to 3.5 m, among so many wall segments.
+
+    Always as many to a square metre.
+    """
     rng = np.random.default_rng(walls)
     side = math.sqrt(walls)
     middles, turns = rng.uniform(-side / 2, side / 2, (walls, 2)), rng.uniform(0, math.pi, walls)

@@ -1,7 +1,7 @@
 """MuJoCo (https://mujoco.org) as a peer: a process of its own that simulates the same robots in the same room.
 
-Each robot is a cylinder on two sliding joints and a hinge, whose speeds are set at each of the hundred steps a second as a planar move would; its
-rays are cast by `mj_multiRay` five times a second. No messages are made.
+Each robot is a cylinder on two sliding joints and a hinge, whose speeds are set at each of the hundred steps a second
+as a planar move would; its rays are cast by `mj_multiRay` five times a second. No messages are made.
 """
 
 from __future__ import annotations
@@ -57,7 +57,8 @@ def model_text(count: int) -> str:
     ]
     robots = [
         f'<body pos="{x} {y} 0.1"><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 1 0"/>'
-        f'<joint type="hinge" axis="0 0 1"/><geom type="cylinder" size="{BURGER.body_radius} 0.09" mass="{BURGER.mass}"/></body>'
+        f'<joint type="hinge" axis="0 0 1"/><geom type="cylinder" size="{BURGER.body_radius} 0.09" '
+        f'mass="{BURGER.mass}"/></body>'
         for x, y, _ in sim_room.starts(count)
     ]
     return (

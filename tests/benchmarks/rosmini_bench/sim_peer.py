@@ -1,6 +1,7 @@
-"""ir-sim (https://github.com/hanruihua/ir-sim) as a peer: a process of its own that simulates the same robots in the same room.
+"""ir-sim (https://github.com/hanruihua/ir-sim) as a peer process that simulates the same robots in the same room.
 
-It is used as its own examples use it: ten steps a second, no window, and after each step a look at the scan and at the state.
+It is used as its own examples use it: ten steps a second, no window, and after each step a look at the scan and at the
+state.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ class Peer:
         self._module = module
 
     def real_time_factor(self, seconds: float, count: int = 1) -> float:
-        """Return how many seconds it simulates in a second of processor time, over `seconds` of them, with so many robots."""
+        """Return simulated seconds a second of processor time, over `seconds`, with this many robots."""
         command = [sys.executable, "-m", self._module, str(seconds), str(count)]
         try:
             done = subprocess.run(

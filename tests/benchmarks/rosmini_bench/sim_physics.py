@@ -1,4 +1,4 @@
-"""The simulator's physics and sensors beside closed forms and stated distributions: not how fast they are, but by how much they are off.
+"""The errors of the simulator's physics and sensors against closed forms and stated distributions.
 
 Each function returns an error. One that is larger than it may be raises, so that there is no figure.
 """
@@ -43,7 +43,7 @@ def _alone(world: World | None = None) -> Engine:
 
 
 def arc_error() -> float:
-    """By how much [m] a robot that goes on with 0.2 m/s and 0.5 rad/s for a minute misses the circle (x, y) = v/w (sin wt, 1 - cos wt)."""
+    """The distance [m] of a robot at 0.2 m/s and 0.5 rad/s after a minute from (x, y) = v/w (sin wt, 1 - cos wt)."""
     engine = _alone()
     engine.command("burger", 0.2, 0.5)
     engine.advance(1.0)  # it has its speed after 0.24 s
@@ -73,7 +73,8 @@ def braking_error() -> float:
 def collision_error(restitution: float, drag: float = 0.0) -> float:
     """By how much [m/s] the speeds of two equal discs after a head-on blow differ from u (1 - e) / 2 and u (1 + e) / 2.
 
-    With `drag` they rub on the ground, and it is compared where they come to rest [m]: each s = u^2 / (2 mu g) from where they met.
+    With `drag` they rub on the ground, and it is compared where they come to rest [m]: each s = u^2 / (2 mu g) from
+    where they met.
     """
     radius, speed, gap = 0.1, 1.0, 0.05
     one = math.sqrt(restitution)  # of two things the product counts
@@ -113,7 +114,10 @@ def slip_error() -> float:
 
 
 def lidar_error(places: int = 5) -> float:
-    """By how much [m] ranges without noise differ from a loop over all walls and pillars; but for rays that just pass a corner."""
+    """By how much [m] ranges without noise differ from a loop over all walls and pillars.
+
+    But for rays that just pass a corner.
+    """
     world = sim_room.room()
     engine = Engine(world, rng, noise=0.0)
     engine.add("burger", BURGER, sim_room.START)
@@ -141,9 +145,10 @@ def lidar_error(places: int = 5) -> float:
 
 
 def likelihood(sample: Sequence[float] | Floats) -> float:
-    """How likely a sample of the normal distribution (0, 1) fits it no better than this one: the test of Kolmogorov and Smirnov.
+    """The p-value of a sample of the normal distribution (0, 1): the test of Kolmogorov and Smirnov.
 
-    By Kolmogorov's series with Stephens' correction for the number of values (Journal of the Royal Statistical Society B 32, 1970).
+    By Kolmogorov's series with Stephens' correction for the number of values (Journal of the Royal Statistical Society
+    B 32, 1970).
     """
     ordered = np.sort(np.asarray(sample, dtype=float))
     n = len(ordered)
@@ -165,7 +170,7 @@ def _likely(sample: Floats, what: str) -> float:
 
 
 def lidar_noise(scans: int = 30) -> float:
-    """How likely the errors of a Burger's ranges are normal with the stated deviation: p of the test of Kolmogorov and Smirnov."""
+    """The p-value of a Burger's range errors for the stated deviation: the test of Kolmogorov and Smirnov."""
     engine = Engine(sim_room.room(), rng)
     engine.add("burger", BURGER, sim_room.START)
     lidar, noise = BURGER.laser, rng("lidar")

@@ -64,7 +64,10 @@ def crowded_room() -> World:
 
 @cache
 def middles() -> tuple[tuple[float, float], ...]:
-    """Where circles can be in the room that no robot leaves: none reaches what stands there, or another one. The first is that of `START`."""
+    """Where circles can be in the room that no robot leaves: none reaches what stands there, or another one.
+
+    The first is that of `START`.
+    """
     world = room()
     lines = np.arange(-SIZE / 2 + CLEAR, SIZE / 2 - CLEAR, 0.05)
     grid = np.stack(np.meshgrid(lines, lines), axis=-1).reshape(-1, 1, 2)

@@ -1,4 +1,4 @@
-"""Robots that are driven in a graph, with every topic heard at its real rate: what the simulator's figures are measured on."""
+"""Robots driven in a graph with every topic heard at its real rate: the basis of the simulator's figures."""
 
 from __future__ import annotations
 
@@ -104,8 +104,8 @@ def _reader(read: Callable[[Any], Row], keep: Callable[[Row], None]) -> Callable
 def real_time_factor(seconds: float, count: int = 1) -> float:
     """Return how many seconds are simulated in a second of processor time.
 
-    One node drives; one holds a subscriber on each topic of each robot, and reads every message. After each `PIECE` the clock stops, and
-    what was read is checked.
+    One node drives; one holds a subscriber on each topic of each robot, and reads every message. After each `PIECE` the
+    clock stops, and what was read is checked.
     """
     spent = 0.0
     with Graph() as graph:

@@ -1,4 +1,7 @@
-"""What the benchmark runs with the real tf2: the same tree, the same questions. Run by the system's Python; prints microseconds a lookup."""
+"""What the benchmark runs with the real tf2: the same tree, the same questions.
+
+Run by the system's Python; prints microseconds a lookup.
+"""
 
 from __future__ import annotations
 

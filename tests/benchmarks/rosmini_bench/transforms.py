@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError
-from rosmini.tf import FrameTree
+from rosmini.tf import BufferCore
 from rosmini.tf.rigid import from_rpy
+from rosmini.time import Time
 
 from . import Measure
 from .tf_node import FRAMES, SAMPLES, START_NS, STEP_NS, parent, questions
@@ -25,24 +26,26 @@ class Full:
     """A full tree, which is made when it is first asked."""
 
     def __init__(self) -> None:
-        self._tree: FrameTree | None = None
+        self._buffer: BufferCore | None = None
 
-    def tree(self) -> FrameTree:
+    def buffer(self) -> BufferCore:
         """Return it: each frame stands 1 m ahead of its parent, at all times."""
-        if self._tree is None:
-            tree = self._tree = FrameTree()
+        if self._buffer is None:
+            self._buffer = BufferCore()
+            tree = self._buffer.tree
             step = from_rpy((1.0, 0.0, 0.0), 0.0, 0.0, 0.0)
             names = [f"f{number}" for number in range(FRAMES)]
             for sample in range(SAMPLES):
                 for number in range(1, FRAMES):
                     tree.set(names[parent(number)], names[number], step, START_NS + sample * STEP_NS, "bench")
-        return self._tree
+        return self._buffer
 
     def lookup_us(self, count: int) -> float:
-        """Return the microseconds that a lookup takes, at times between two samples."""
-        tree, asked = self.tree(), questions(count)
+        """Return the microseconds of a lookup between two samples: the same call as that of the real tf2."""
+        buffer = self.buffer()
+        asked = [(target, source, Time.from_nsec(when)) for target, source, when in questions(count)]
         begin = time.perf_counter()
-        total = sum(tree.lookup(*one).transform[0] for one in asked)
+        total = sum(buffer.lookup_transform_core(*one).transform.translation.x for one in asked)
         seconds = time.perf_counter() - begin
         check(total, count)
         return seconds / count * 1e6

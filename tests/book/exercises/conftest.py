@@ -29,7 +29,7 @@ def figure_numbers(chapter: str) -> list[int]:
 
 
 def assert_figures_are_numbered(chapter: str, makers: tuple[str, ...]) -> None:
-    """The figures of a chapter have the numbers 1, 2, 3...; so many of them as there are calls of their `makers` in its cells."""
+    """The figures of a chapter are numbered 1, 2, 3...; there are as many as calls of their `makers` in its cells."""
     cells = notebooks.read(NOTEBOOKS / f"{chapter}.ipynb").cells
     calls = sum(cell.source.count(word) for cell in cells if cell.cell_type == "code" for word in makers)
     numbers = figure_numbers(chapter)

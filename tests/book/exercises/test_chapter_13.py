@@ -1,4 +1,4 @@
-"""Chapter 13: the scripts that it lists print what the page shows; its figures are numbered; what it says of the tools is true."""
+"""Chapter 13: its scripts print what the page shows, its figures are numbered, and it is right about the tools."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chapter 17: its figures are numbered, its program starts from a terminal as the page says, and its exercises ask for that program."""
+"""Chapter 17: its figures are numbered, and its program starts from a terminal as the page and exercises say."""
 
 from __future__ import annotations
 

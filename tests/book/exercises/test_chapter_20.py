@@ -72,7 +72,7 @@ def test_a_robot_is_dragged_in_the_view_and_only_gps_notices(prose, tmp_path):
             f'position( pose [-3 0 0 0] localization "{kind}" )', encoding="utf-8"
         )
         with Graph() as graph:
-            stage = rosrun("stage_ros", "stageros", tmp_path / "one.world", graph=graph)
+            stage = rosrun("stage_ros", "stageros", tmp_path / "one.world", graph=graph).instance()
             stage.view().drag("robot_0", (1.0, -2.0))
             reckoning = stage.robot().base.reckoning
             assert stage.truth()[:2] == pytest.approx((1.0, -2.0))
@@ -86,7 +86,7 @@ def test_the_solution_believes_what_stage_comes_to(chapter, tmp_path, w):
     text = 'position( pose [1 2 0 90] localization "odom" odom_error [0.2 0 0 0.2] )'
     (tmp_path / "mole.world").write_text(text, encoding="utf-8")
     with Graph(seed=3) as graph:
-        base = rosrun("stage_ros", "stageros", tmp_path / "mole.world", graph=graph).robot().base
+        base = rosrun("stage_ros", "stageros", tmp_path / "mole.world", graph=graph).instance().robot().base
         e_x, _, e_a = base.reckoning.errors
         base.go((0.3, 0.0, w))
         base.reckoning.advance(2.0)
@@ -100,7 +100,7 @@ def test_the_solution_slides_to_the_north_whatever_it_looks_at(chapter, tmp_path
     exec(solutions.solutions(chapter)["20.3"], found)
     (tmp_path / "omni.world").write_text('position( pose [0 0 0 30] drive "omni" )', encoding="utf-8")
     with Graph() as graph:
-        stage = rosrun("stage_ros", "stageros", tmp_path / "omni.world", graph=graph)
+        stage = rosrun("stage_ros", "stageros", tmp_path / "omni.world", graph=graph).instance()
         command = found["world_velocity"](0.0, 0.4, math.radians(30))
         stage.robot().base.command(command.linear.x, command.angular.z, command.linear.y)
         graph.run(0.1)

@@ -7,9 +7,10 @@ import re
 import pytest
 
 from rosmini.book import notebooks
+from rosmini.cli.gz import TOOL
 from rosmini.markup import parse_file
 from rosmini.packages import PackageIndex
-from rosmini.sim.gazebo import gz, plugin_class
+from rosmini.sim.gazebo import plugin_class
 
 from .conftest import NOTEBOOKS, figure_numbers, prose_of
 
@@ -47,7 +48,7 @@ def test_the_verbs_of_gz_exist_as_they_are_written(prose):
         _, verb, *words = line.split()
         if words[-1].startswith("-") and verb == "sdf":
             words.append("FILE")
-        gz.parser(verb).parse_args([re.sub(r"^NAME$|^FILE$", "x", word) for word in words])
+        TOOL.find(verb).parser().parse([re.sub(r"^NAME$|^FILE$", "x", word) for word in words])
 
 
 def test_the_services_of_the_boxes_exist(prose, code):
@@ -57,7 +58,7 @@ def test_the_services_of_the_boxes_exist(prose, code):
     from rosmini import Graph, rosrun
 
     with Graph() as graph:
-        rosrun("gazebo_ros", "gzserver", graph=graph)
+        rosrun("gazebo_ros", "gzserver", graph=graph).instance()
         there = {name.rsplit("/", 1)[-1] for name, _ in graph.master.getSystemState("/x")[2][2]}
     assert len(named) > 8
     assert named <= there

@@ -1,4 +1,4 @@
-"""Chapter 40: the script that it lists prints what the page shows; its figures are numbered; its boxes name what there is."""
+"""Chapter 40: its script prints what the page shows, its figures are numbered, and its boxes name what exists."""
 
 from __future__ import annotations
 

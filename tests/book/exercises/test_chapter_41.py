@@ -1,4 +1,4 @@
-"""Chapter 41: the script that it lists prints what the page shows; its figures are numbered; its words about the pad hold."""
+"""Chapter 41: its script prints what the page shows, its figures are numbered, and it is right about the pad."""
 
 from __future__ import annotations
 

@@ -262,7 +262,8 @@ BOMB = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n" + "".join(
         ("a: &a [*a]", "this value contains itself"),
         ("a: &a {b: 1}\nc: &c {<<: [*a, *a]}", "has no field 'image'"),
         ("[" * 3000, "this is not YAML"),
-        ("image: !!python/object/apply:os.system [echo]", "map.yaml:1: this is not YAML: could not determine a constructor"),
+        ("image: !!python/object/apply:os.system [echo]",
+         "map.yaml:1: this is not YAML: could not determine a constructor"),
         ("resolution: 2001-13-45", "this is not YAML: month"),
         (f"resolution: {'1' * 5000}", "map.yaml:1: this is not YAML: a number of too many digits"),
         (f"resolution: {'1:' * 5000}1", "a number of too many digits"),
@@ -308,8 +309,10 @@ def test_what_is_no_number_and_no_name_is_told_with_its_line(write, field, value
 @pytest.mark.parametrize(
     "data",
     [
-        b"P5 100000 100000 255\n", b"P5 99999999999999999999 1 255\n", b"P5 -5 10 255\n", b"P5 10 10 0\n", b"P5 10 10 99999999\n", b"P5 10 10 255\n",
-        b"P2 3 3 255\n1 2 x", b"P5", b"", b"\x89PNG\r\n\x1a\n", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x7f\xff\xff\xff\x7f\xff\xff\xff\x08\0\0\0\0",
+        b"P5 100000 100000 255\n", b"P5 99999999999999999999 1 255\n", b"P5 -5 10 255\n", b"P5 10 10 0\n",
+        b"P5 10 10 99999999\n", b"P5 10 10 255\n",
+        b"P2 3 3 255\n1 2 x", b"P5", b"", b"\x89PNG\r\n\x1a\n",
+        b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x7f\xff\xff\xff\x7f\xff\xff\xff\x08\0\0\0\0",
         b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n", b"GIF89a", b"BM", b"II*\0",
     ],
 )  # fmt: skip

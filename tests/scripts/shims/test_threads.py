@@ -31,7 +31,8 @@ def test_threads_run_and_are_joined(run):
         print(threads[0].is_alive())
         go.set()
         for t in threads: t.join()
-        print([t.is_alive() for t in threads], threading.active_count(), threading.current_thread() is threading.main_thread())
+        is_main = threading.current_thread() is threading.main_thread()
+        print([t.is_alive() for t in threads], threading.active_count(), is_main)
         print(threading.current_thread().name, threads[0].daemon, threads[0].getName() == threads[0].name)
         """
     )

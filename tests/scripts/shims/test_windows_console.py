@@ -1,4 +1,4 @@
-"""Keyboard scripts in a console of Windows, with a console that is none: no ``termios``, and a ``msvcrt`` with keys in it."""
+"""Keyboard scripts in a simulated Windows console: no ``termios``, and a ``msvcrt`` with keys in it."""
 
 from __future__ import annotations
 

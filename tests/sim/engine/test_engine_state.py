@@ -81,19 +81,6 @@ def test_the_same_happens_from_a_state_on(seconds, seed):
     assert picture(other) == later
 
 
-def test_to_take_a_state_changes_nothing_where_nothing_touches():
-    looked, other = make(), make()
-    for engine in (looked, other):
-        engine.remove("one")
-        engine.take_away("ball")
-        engine.command("two", -0.2, 0.1)
-        engine.advance(1.3)
-    looked.state()
-    for engine in (looked, other):
-        engine.advance(2.0)
-    assert picture(looked) == picture(other)
-
-
 def test_robots_and_things_that_came_and_went_since_go_and_come_back():
     engine = make()
     drive(engine, 5, 1.0)
@@ -115,14 +102,14 @@ def test_robots_and_things_that_came_and_went_since_go_and_come_back():
 
 def test_errors_and_settings_come_back_too():
     engine = make()
-    engine.gravity, engine.step = 3.7, 0.002
+    engine.tune(gravity=3.7)
     state = engine.state()
     wheels = [engine.robots["one"].wheels.left for _ in range(1)]
     engine.advance(5.0)  # the slips of five seconds are drawn
-    engine.gravity, engine.step = 9.8, 0.01
+    engine.tune(gravity=9.8)
     drawn = engine.robots["one"].wheels.left
     engine.restore(state)
-    assert (engine.gravity, engine.step) == (3.7, 0.002)
+    assert engine.surface.gravity == 3.7
     assert [engine.robots["one"].wheels.left] == wheels
     engine.advance(5.0)
     assert engine.robots["one"].wheels.left == drawn

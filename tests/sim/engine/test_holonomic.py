@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from rosmini.errors import RosminiError
 from rosmini.sim.engine import Engine
-from rosmini.sim.engine.drive import glide, limited_phases, ramps
+from rosmini.sim.engine.free_motion import glide, limited_phases, ramps
 from rosmini.sim.models import BURGER, WAFFLE, ModelError, RobotModel
 from rosmini.sim.world import Box, Obstacle, World
 

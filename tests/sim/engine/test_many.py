@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rosmini.geometry import polygons
-from rosmini.sim.engine import Engine, RobotGone, physics
-from rosmini.sim.engine import crowd as crowd_of_robots
+from rosmini.sim.engine import Engine, RobotGone
+from rosmini.sim.engine.scene import Near
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.world import Box, Cylinder, Obstacle, World, WorldError
 
@@ -181,17 +181,14 @@ def test_a_robot_is_removed_while_it_moves_and_pushes_and_is_pushed():
 
 
 def test_looks_at_what_is_near_grow_with_the_robots_and_not_with_their_pairs(monkeypatch):
-    counted: list[str] = []
-    original, together = physics.Contacts.around, crowd_of_robots.Crowd.look
+    counted: list[int] = []
+    original = Near.clearances
 
-    def look(self, contacts, robots, lookers, safe):
+    def look(self, lookers, view):
         counted.extend(lookers)
-        together(self, contacts, robots, lookers, safe)
+        return original(self, lookers, view)
 
-    monkeypatch.setattr(
-        physics.Contacts, "around", lambda self, name: counted.append(name) or original(self, name)
-    )
-    monkeypatch.setattr(crowd_of_robots.Crowd, "look", look)
+    monkeypatch.setattr(Near, "clearances", look)
 
     def looks(count: int) -> int:
         """What so many robots take that go in circles, 1 m apart from one another."""
@@ -246,7 +243,7 @@ def test_equal_discs_that_collide_aslant_part_at_a_right_angle():
         for name, x, y in (("a", 0.0, 0.0), ("b", 0.5, 0.1))
     )
     engine = Engine(World("table", things), generator)
-    engine.friction = 0.0
+    engine.tune(friction=0.0)
     engine.put("a", (0.0, 0.0, 0.0), (0.4, 0.0, 0.0))
     engine.advance(2.0)
     u, v = (np.array(engine.velocity(name)[:2]) for name in "ab")
@@ -260,7 +257,7 @@ def test_a_thing_slides_v_squared_by_two_mu_g_far():
     for drag, gravity in ((0.5, 9.80665), (0.2, 9.80665), (0.5, 1.62)):
         thing = Obstacle("puck", Cylinder(0.05), mass=0.2, drag=drag)
         engine = Engine(World("ice", (thing,)), generator)
-        engine.gravity = gravity
+        engine.tune(gravity=gravity)
         engine.put("puck", (0.0, 0.0, 0.0), (0.6, 0.0, 0.0))
         engine.advance(5.0)
         assert engine.pose("puck")[0] == pytest.approx(0.6**2 / 2 / drag / gravity, abs=2e-3)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rosmini.sim.engine.drive import unicycle
+from rosmini.sim.engine.free_motion import unicycle
 from rosmini.sim.engine.odometry import Odometry, RealWheels, dead_reckoning, ticks
 from rosmini.sim.models import BURGER, WheelErrors
 

@@ -216,3 +216,51 @@ def test_what_is_remembered_stays_short():
         engine.advance(0.02 * (i + 1))
     (legs,) = engine.trails.state().values()
     assert len(legs) < 60
+
+
+@pytest.mark.parametrize("turn", [0.0, 2.8, -2.8, 40.0])
+@pytest.mark.parametrize("increment", [1.0, -1.0, 0.01])
+def test_with_and_without_numba_a_laser_sees_the_same(turn, increment, monkeypatch):
+    pytest.importorskip("numba")
+    crate = Obstacle("crate", Box(0.2, 0.3), (0.0, 1.0, 0.0), mass=0.2)
+    walker = Obstacle("walker", Cylinder(0.2), (1.0, 1.0, 0.0), motion=Walk(((1.0, 1.0), (-1.0, 1.0)), 1.4))
+    quick = replace(BURGER, max_angular=math.inf, wheel_acceleration=math.inf)
+    fan = replace(LASER, angle_min=-1.0 * increment, angle_max=2.0 * increment)
+    seen = []
+    for backend in ("numpy", "numba"):
+        monkeypatch.setenv("ROSMINI_RAYCAST", backend)
+        engine = engine_of(replace(ROOM, obstacles=(crate, walker)))
+        engine.add("r", quick, (-0.5, 0.2, 0.3))
+        for name, x in (("stands", 0.4), ("goes", -1.2)):
+            engine.add(name, BURGER, (x, -0.8, 0.0))
+        engine.command("goes", 0.2, 0.5)
+        engine.command("r", 0.1, turn)
+        engine.advance(0.73)
+        engine.command("r", -0.2, turn / 2)
+        noise = np.random.default_rng(0).standard_normal(360) * 0.01
+        for name in ("r", "stands"):
+            for when in (0.85, 1.3):
+                engine.advance(when)
+                seen.append(engine.sweep(name, 0.2 / 360, noise, fan))
+    half = len(seen) // 2
+    for one, other in zip(seen[:half], seen[half:], strict=True):
+        for mine, theirs in zip(one, other, strict=True):
+            np.testing.assert_allclose(mine, theirs, rtol=0, atol=1e-9)
+
+
+def test_each_of_several_that_move_sees_the_one_that_stands():
+    seen = {}
+    for order in (("a", "c", "b"), ("b", "c", "a")):
+        engine = engine_of()
+        for name in order:
+            engine.add(
+                name, BURGER, {"a": (-1.0, 0.0, 0.0), "b": (0.0, 0.9, 0.0), "c": (0.7, 0.0, 0.0)}[name]
+            )
+        for name in ("a", "b"):
+            engine.command(name, 0.1, 0.4)
+        engine.advance(1.0)
+        for name in order:
+            ranges, _ = engine.sweep(name, 0.2 / 360)
+            seen.setdefault(name, []).append(ranges)
+    for one, other in seen.values():
+        np.testing.assert_allclose(one, other, atol=1e-9)

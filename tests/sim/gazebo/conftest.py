@@ -15,7 +15,8 @@ from rosmini.sim.gazebo import GazeboServer
 DIFF_DRIVE = """
 <gazebo><plugin name="drive" filename="libgazebo_ros_diff_drive.so">
   <commandTopic>cmd_vel</commandTopic><odometryTopic>odom</odometryTopic><odometryFrame>odom</odometryFrame>
-  <robotBaseFrame>base_footprint</robotBaseFrame><odometrySource>world</odometrySource><legacyMode>false</legacyMode><publishWheelJointState>true</publishWheelJointState>
+  <robotBaseFrame>base_footprint</robotBaseFrame><odometrySource>world</odometrySource>
+    <legacyMode>false</legacyMode><publishWheelJointState>true</publishWheelJointState>
   <wheelSeparation>0.3</wheelSeparation><wheelDiameter>0.1</wheelDiameter><wheelAcceleration>1.0</wheelAcceleration>
   <updateRate>20</updateRate><leftJoint>left_wheel</leftJoint><rightJoint>right_wheel</rightJoint>
 </plugin></gazebo>
@@ -25,7 +26,8 @@ LASER = """
   <update_rate>10</update_rate>
   <ray><scan><horizontal><samples>181</samples><resolution>1</resolution><min_angle>-1.5707963267948966</min_angle>
   <max_angle>1.5707963267948966</max_angle></horizontal></scan><range><min>0.1</min><max>8.0</max></range></ray>
-  <plugin name="laser" filename="libgazebo_ros_laser.so"><topicName>scan</topicName><frameName>laser</frameName></plugin>
+  <plugin name="laser" filename="libgazebo_ros_laser.so"><topicName>scan</topicName><frameName>laser</frameName>
+    </plugin>
 </sensor></gazebo>
 """
 
@@ -33,18 +35,21 @@ LASER = """
 def urdf(extensions: str = DIFF_DRIVE + LASER, axle: float = 0.0) -> str:
     """A box on two wheels, with a laser 0.2 m above the ground; its axle is `axle` metres ahead of its origin."""
     wheel = """
-    <link name="{side}"><inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial>
+    <link name="{side}"><inertial><mass value="0.1"/>
+      <inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial>
       <collision><geometry><cylinder radius="0.05" length="0.02"/></geometry></collision></link>
     <joint name="{side}_wheel" type="continuous"><parent link="base_footprint"/><child link="{side}"/>
       <origin xyz="{axle} {y} 0.05" rpy="-1.5707963267948966 0 0"/><axis xyz="0 0 1"/></joint>"""
     return f"""<?xml version="1.0"?>
     <robot name="box_on_wheels">
       <link name="base_footprint"/>
-      <link name="base_link"><inertial><mass value="2.0"/><inertia ixx="0.01" iyy="0.01" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial>
+      <link name="base_link"><inertial><mass value="2.0"/>
+        <inertia ixx="0.01" iyy="0.01" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial>
         <collision><origin xyz="0 0 0.1"/><geometry><box size="0.3 0.26 0.1"/></geometry></collision></link>
       <joint name="base_joint" type="fixed"><parent link="base_footprint"/><child link="base_link"/></joint>
       <link name="laser"/>
-      <joint name="laser_joint" type="fixed"><parent link="base_link"/><child link="laser"/><origin xyz="0 0 0.2"/></joint>
+      <joint name="laser_joint" type="fixed"><parent link="base_link"/>
+        <child link="laser"/><origin xyz="0 0 0.2"/></joint>
       {wheel.format(side="left", y=0.15, axle=axle)}
       {wheel.format(side="right", y=-0.15, axle=axle)}
       {extensions}
@@ -58,7 +63,8 @@ def box(
     inertia = mass * size * size / 6
     return f"""<?xml version="1.0"?><sdf version="1.6"><model name="{name}"><static>{int(static)}</static>
       <link name="link"><pose>0 0 {size / 2} 0 0 0</pose>
-        <inertial><mass>{mass}</mass><inertia><ixx>{inertia}</ixx><iyy>{inertia}</iyy><izz>{inertia}</izz></inertia></inertial>
+        <inertial><mass>{mass}</mass><inertia><ixx>{inertia}</ixx><iyy>{inertia}</iyy><izz>{inertia}</izz>
+          </inertia></inertial>
         <collision name="collision"><geometry><box><size>{size} {size} {size}</size></box></geometry></collision>
       </link>{extra}</model></sdf>"""
 

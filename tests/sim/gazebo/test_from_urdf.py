@@ -45,7 +45,8 @@ def test_a_fixed_joint_can_be_kept() -> None:
 
 
 def test_masses_that_are_lumped_obey_the_theorem_of_parallel_axes() -> None:
-    link = """<link name="{}"><inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>"""
+    link = """<link name="{}"><inertial><mass value="1"/>
+      <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>"""
     text = f"""<robot name="r">{link.format("a")}{link.format("b")}
       <joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin xyz="2 0 0"/></joint></robot>"""
     inertial = converted(text).model.links[0].inertial

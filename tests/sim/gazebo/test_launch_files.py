@@ -1,4 +1,7 @@
-"""The launch files say what is there, and the keyboard teleoperation does what its keys say. Real roslaunch reads them in `tests/interop`."""
+"""The launch files say what is there, and the keyboard teleoperation does what its keys say.
+
+Real roslaunch reads them in `tests/interop`.
+"""
 
 from __future__ import annotations
 

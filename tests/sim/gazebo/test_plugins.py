@@ -60,7 +60,10 @@ def test_a_wall_stops_what_is_pushed(bench: Start) -> None:
 
 
 def world_with(plugin: str) -> str:
-    return f'<sdf version="1.6"><world name="w"><include><uri>model://ground_plane</uri></include>{plugin}</world></sdf>'
+    return (
+        '<sdf version="1.6"><world name="w"><include><uri>model://ground_plane</uri>'
+        f"</include>{plugin}</world></sdf>"
+    )
 
 
 def load(text: str) -> Any:
@@ -70,7 +73,10 @@ def load(text: str) -> Any:
 
 
 def test_crates_come_into_the_world(bench: Start) -> None:
-    text = '<plugin name="crates" filename="libspawner.so"><count>3</count><period>1.0</period><from>0 0</from><to>2 0</to></plugin>'
+    text = (
+        '<plugin name="crates" filename="libspawner.so"><count>3</count><period>1.0</period>'
+        "<from>0 0</from><to>2 0</to></plugin>"
+    )
     there = bench(world=load(world_with(text)))
     there.graph.run(1.5)
     assert [name for name in there.server.world.models if name.startswith("crate")] == ["crate_1"]

@@ -1,4 +1,4 @@
-"""gzserver, gzclient and gazebo: arguments, worlds, time, and a client that knows the server by Gazebo's topics only."""
+"""gzserver, gzclient and gazebo: arguments, worlds, time, and a client that uses Gazebo's topics only."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from rosmini import Graph
+from rosmini.cli.gz import Gz
 from rosmini.errors import ParameterError, ROSException, ScriptError
 from rosmini.msgs import message_class
 from rosmini.scripts import rosrun
@@ -24,9 +25,11 @@ WORLD = """<sdf version="1.6"><world name="yard">
   <physics type="ode"><max_step_size>0.002</max_step_size><real_time_update_rate>500</real_time_update_rate></physics>
   <gravity>0 0 -1.6</gravity>
   <include><uri>model://ground_plane</uri></include>
-  <model name="wall"><static>1</static><pose>3 0 0 0 0 0</pose><link name="link"><collision name="c"><pose>0 0 0.5 0 0 0</pose>
+  <model name="wall"><static>1</static><pose>3 0 0 0 0 0</pose><link name="link"><collision name="c">
+    <pose>0 0 0.5 0 0 0</pose>
     <geometry><box><size>0.2 4 1</size></box></geometry></collision></link></model>
-  <model name="crate"><pose>1 1 0.2 0 0 0.5</pose><link name="link"><inertial><mass>1.5</mass></inertial><collision name="c">
+  <model name="crate"><pose>1 1 0.2 0 0 0.5</pose><link name="link"><inertial><mass>1.5</mass></inertial>
+    <collision name="c">
     <geometry><box><size>0.4 0.4 0.4</size></box></geometry></collision></link></model>
 </world></sdf>"""
 
@@ -38,7 +41,7 @@ def test_a_world_file_is_loaded(bench: Start, tmp_path: Path) -> None:
     world = there.server.world
     assert world.name == "yard"
     assert list(world.models) == ["ground_plane", "wall", "crate"]
-    assert (world.physics.time_step, world.physics.max_update_rate, world.engine.gravity) == (
+    assert (world.physics.time_step, world.physics.max_update_rate, world.engine.surface.gravity) == (
         0.002,
         500.0,
         1.6,
@@ -70,8 +73,8 @@ def test_what_is_wrong_with_a_world_or_a_model_is_one_warning(
     (warning,) = said
     head, first, second = warning.splitlines()
     assert head == "the world 'yard' is not whole:"
-    assert first.startswith(f"{path}:10: this model is left out: there is no model 'none'")
-    assert second == f"{path}:7: a mass is more than 0 kg, not 0: taken for 1 kg"
+    assert first.startswith(f"{path}:12: this model is left out: there is no model 'none'")
+    assert second == f"{path}:8: a mass is more than 0 kg, not 0: taken for 1 kg"
     xml = "<sdf version='1.6'><model name='m'><link name='l'><inertial><mass>0</mass></inertial></link></model></sdf>"
     done = there.call("spawn_sdf_model", "gazebo_msgs/SpawnModel", model_xml=xml, model_name="m")
     assert done.success
@@ -105,7 +108,7 @@ def test_worlds_are_looked_for_as_gzserver_does(
 
 
 def test_the_empty_world_is_the_default(graph: Graph) -> None:
-    server = rosrun("gazebo_ros", "gzserver", graph=graph)
+    server = rosrun("gazebo_ros", "gzserver", graph=graph).instance()
     assert server.node.name == "/gazebo"
     assert list(server.world.models) == ["ground_plane"]
 
@@ -194,7 +197,7 @@ def test_a_state_is_saved_and_all_goes_on_from_it_as_it_did(bench: Start) -> Non
     there.drive("/cmd_vel", 0.3, 0.1)
     there.graph.run(2.05)  # between two scans: none is on its way
     world = there.server.world
-    state = pickle.loads(pickle.dumps(world.save()))
+    state = pickle.loads(pickle.dumps(there.server.save()))
 
     def goes_on() -> tuple[object, ...]:
         del scans[:]
@@ -202,7 +205,7 @@ def test_a_state_is_saved_and_all_goes_on_from_it_as_it_did(bench: Start) -> Non
         return there.pose("robot"), there.pose("crate"), world.now, [tuple(scan.ranges) for scan in scans]
 
     first = goes_on()
-    world.restore(state)
+    there.server.restore(state)
     assert goes_on() == first
 
 
@@ -211,7 +214,7 @@ def test_from_python_without_services(bench: Start) -> None:
     model = there.server.spawn(urdf(), "robot", (1.0, 2.0, 0.5), namespace="r")
     assert model.links == ("base_footprint", "left", "right")
     assert there.pose("robot") == pytest.approx((1.0, 2.0, 0.5))
-    assert there.server.gz.run("model", "-m", "robot", "-p")[0].startswith("1.000000 2.000000")
+    assert str(Gz(there.graph).run("model", "-m", "robot", "-p")).startswith("1.000000 2.000000")
     there.server.delete("robot")
     with pytest.raises(GazeboError, match="there is no model 'robot'"):
         there.pose("robot")
@@ -221,14 +224,15 @@ def test_from_python_without_services(bench: Start) -> None:
 
 
 def test_a_client_knows_what_the_server_tells(graph: Graph) -> None:
-    server = rosrun("gazebo_ros", "gzserver", "room", graph=graph)
-    client = rosrun("gazebo_ros", "gzclient", graph=graph)
+    server = rosrun("gazebo_ros", "gzserver", "room", graph=graph).instance()
+    client = rosrun("gazebo_ros", "gzclient", graph=graph).instance()
     assert client.node.name == "/gazebo_gui"
     assert set(client.models) == set(server.world.models)
     assert server.master.info("/gazebo/room/pose/info").subscribers == ("gzclient /gazebo_gui",)
     there = Bench.__new__(Bench)
     there.graph, there.server, there.node = graph, server, graph.node("tester")
     there.spawn(urdf(), "robot")
+    graph.run(0.0)
     assert "robot" in client.models
     there.drive("/cmd_vel", 0.2)
     graph.run(2.0)
@@ -236,6 +240,7 @@ def test_a_client_knows_what_the_server_tells(graph: Graph) -> None:
     assert client.statistics is not None
     assert client.statistics.iterations > 1500
     there.call("delete_model", "gazebo_msgs/DeleteModel", model_name="robot")
+    graph.run(0.0)
     assert "robot" not in client.models
 
 
@@ -271,7 +276,7 @@ def test_a_client_without_a_server_says_so(graph: Graph) -> None:
 
 
 def test_gazebo_is_both(graph: Graph) -> None:
-    both = rosrun("gazebo_ros", "gazebo", "room", graph=graph)
+    both = rosrun("gazebo_ros", "gazebo", "room", graph=graph).instance()
     assert both.node.name == "/gazebo"
     assert both.gui.node.name == "/gazebo_gui"
     both.node.shutdown("enough")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from rosmini import Graph
-from rosmini.sim.gazebo import GazeboError, Master, TransportNode
+from rosmini.graph.master import Master
+from rosmini.sim.gazebo import GazeboError, GazeboMaster, TransportNode
 from rosmini.sim.gazebo.msgs import Time, WorldStatistics, quaternion
 from rosmini.sim.gazebo.server import GazeboServer
 
@@ -14,20 +15,25 @@ def stats(seconds: float) -> WorldStatistics:
     return WorldStatistics(Time.of(seconds), Time(), Time.of(seconds), False, round(seconds * 1000), 2)
 
 
-def test_the_order_of_publisher_and_subscriber_does_not_matter() -> None:
-    master = Master()
+@pytest.fixture
+def master(graph: Graph) -> GazeboMaster:
+    return GazeboMaster(graph, "http://localhost:11345", "/gazebo", "default")
+
+
+def test_the_order_of_publisher_and_subscriber_does_not_matter(graph: Graph, master: GazeboMaster) -> None:
     server, client = TransportNode(master, "server"), TransportNode(master, "client")
     early: list[WorldStatistics] = []
     late: list[WorldStatistics] = []
     client.subscribe("~/world_stats", early.append)
     publisher = server.advertise("~/world_stats", WorldStatistics)
     client.subscribe("/gazebo/default/world_stats", late.append)
+    graph.run(0.0)
     publisher.publish(stats(1.5))
+    graph.run(0.0)
     assert early == late == [stats(1.5)]
 
 
-def test_the_master_tells_who_publishes_and_who_hears() -> None:
-    master = Master()
+def test_the_master_tells_who_publishes_and_who_hears(master: GazeboMaster) -> None:
     server, client = TransportNode(master, "server"), TransportNode(master, "client")
     server.advertise("~/world_stats", WorldStatistics)
     client.subscribe("~/world_stats", print)
@@ -41,19 +47,27 @@ def test_the_master_tells_who_publishes_and_who_hears() -> None:
         master.info("/gazebo/default/world_stat")
 
 
-def test_what_is_published_does_not_go_through_the_master() -> None:
-    master = Master()
+def test_it_is_a_master_as_ros_has_one_and_knows_nothing_of_ross(graph: Graph, master: GazeboMaster) -> None:
+    server = TransportNode(master, "server")
+    server.advertise("~/world_stats", WorldStatistics)
+    assert isinstance(master, Master)
+    assert master.getSystemState("/me")[2] == [[["/gazebo/default/world_stats", ["127.0.0.1:49152"]]], [], []]
+    assert master.lookupNode("/me", "/rosout")[0] == -1
+    assert "/gazebo/default/world_stats" not in dict(graph.master.getTopicTypes("/me")[2])
+
+
+def test_what_is_published_does_not_go_through_the_master(graph: Graph, master: GazeboMaster) -> None:
     server, client = TransportNode(master, "server"), TransportNode(master, "client")
     heard: list[WorldStatistics] = []
     publisher = server.advertise("~/world_stats", WorldStatistics)
     client.subscribe("~/world_stats", heard.append)
     master.__dict__.clear()  # a Master that is gone
     publisher.publish(stats(2.0))
+    graph.run(0.0)
     assert len(heard) == 1
 
 
-def test_who_left_hears_no_more() -> None:
-    master = Master()
+def test_who_left_hears_no_more(graph: Graph, master: GazeboMaster) -> None:
     server, client = TransportNode(master, "server"), TransportNode(master, "client")
     heard: list[WorldStatistics] = []
     publisher = server.advertise("~/world_stats", WorldStatistics)
@@ -62,19 +76,38 @@ def test_who_left_hears_no_more() -> None:
     client.close()
     assert not publisher.heard
     publisher.publish(stats(2.0))
+    graph.run(0.0)
     assert not heard
     server.close()
     assert master.topics() == {}
 
 
-def test_types_have_to_agree() -> None:
-    master = Master()
+def test_a_publisher_that_comes_back_is_heard_again(graph: Graph, master: GazeboMaster) -> None:
+    server, client = TransportNode(master, "server"), TransportNode(master, "client")
+    heard: list[Time] = []
+    client.subscribe("~/time", heard.append)
+    for second in range(2):
+        publisher = server.advertise("~/time", Time)
+        graph.run(0.0)
+        publisher.publish(Time(second))
+        publisher.close()
+        graph.run(0.0)
+    assert heard == [Time(0), Time(1)]
+
+
+def test_types_have_to_agree(master: GazeboMaster) -> None:
     node = TransportNode(master, "a")
     publisher = node.advertise("~/time", Time)
     with pytest.raises(GazeboError, match=r"is a topic of gazebo\.msgs\.Time"):
-        publisher.publish(stats(0.0))
+        publisher.publish(stats(0.0))  # type: ignore[arg-type]
     with pytest.raises(GazeboError, match=r"a publishes /gazebo/default/time as gazebo\.msgs\.Time"):
         TransportNode(master, "b").advertise("~/time", WorldStatistics)
+
+
+def test_names_of_worlds_and_models_make_names_of_topics(graph: Graph) -> None:
+    node = TransportNode(GazeboMaster(graph, "http://localhost:11345", "/gazebo", "my world"), "server")
+    node.advertise("~/a robot/arm::link/scan", Time)
+    assert list(node.master.topics()) == ["/gazebo/my_world/a_robot/arm/link/scan"]
 
 
 def test_messages_print_as_gz_prints_them() -> None:

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from assets.generate.worlds.sdf_writer import to_sdf
 from rosmini.sim.sdf import SdfError, converted, load, to_obstacles, to_world
-from rosmini.sim.sdf.colours import HOUSE
-from rosmini.sim.sdf.writer import to_sdf
+from rosmini.sim.sdf.material_colours import HOUSE
 from rosmini.sim.world import Box, Compound, Cylinder, Door, Obstacle, Polygon, Sphere, Walk, World
 from rosmini.viz.style import LIGHT
 
@@ -57,8 +57,8 @@ def test_what_stands_upright_is_as_it_is():
 
 def test_poses_of_model_link_and_collision_add_up():
     text = (
-        "<model name='m'><static>1</static><pose>1 0 0 0 0 1.5707963267948966</pose><link name='l'><pose>1 0 0 0 0 0</pose>"
-        f"{geometry(BOX, '1 0 0.5 0 0 0.5')}</link></model>"
+        "<model name='m'><static>1</static><pose>1 0 0 0 0 1.5707963267948966</pose><link name='l'><pose>1 0 0 0 0 "
+        f"0</pose>{geometry(BOX, '1 0 0.5 0 0 0.5')}</link></model>"
     )
     (box,) = obstacles(text)
     assert box.pose == pytest.approx((1, 2, math.pi / 2 + 0.5))
@@ -109,8 +109,14 @@ def test_what_is_tilted_is_noted_and_what_lies_on_a_side_of_it_is_exact():
 
 def test_a_static_model_is_an_obstacle_for_each_part_with_colours_of_its_visuals():
     collisions = geometry(BOX, "0 0 1 0 0 0", "top") + geometry(BOX, "3 0 0.25 0 0 0", "foot")
-    visual = f"<visual name='top'><geometry>{BOX}</geometry><material><diffuse>0 0.447 0.698 1</diffuse></material></visual>"
-    foot = f"<visual name='foot'><geometry>{BOX}</geometry><material><diffuse>0.2 0.4 0.6 1</diffuse></material></visual>"
+    visual = (
+        f"<visual name='top'><geometry>{BOX}</geometry><material><diffuse>0 0.447 0.698 1</diffuse>"
+        "</material></visual>"
+    )
+    foot = (
+        f"<visual name='foot'><geometry>{BOX}</geometry><material><diffuse>0.2 0.4 0.6 1</diffuse>"
+        "</material></visual>"
+    )
     found = obstacles(model(collisions + visual + foot, name="table"))
     assert [(each.name, each.bottom, each.colour) for each in found] == [
         ("table::top", 0.75, "blue"),
@@ -204,8 +210,8 @@ def test_a_model_without_anything_solid_is_left_out():
 
 def door(joint, plugin):
     more = (
-        f"<joint name='h' type='{joint}'><pose>-1 0 0 0 0 0</pose><parent>world</parent><child>l</child><axis><xyz>0 1 0</xyz></axis></joint>"
-        f"<plugin name='d' filename='librosmini_door.so'>{plugin}</plugin>"
+        f"<joint name='h' type='{joint}'><pose>-1 0 0 0 0 0</pose><parent>world</parent><child>l</child><axis><xyz>0 "
+        f"1 0</xyz></axis></joint><plugin name='d' filename='librosmini_door.so'>{plugin}</plugin>"
     )
     return model(geometry(BOX), pose="0 0 0.25 0 0 0", static=False, more=more)
 
@@ -229,7 +235,10 @@ def actor(times, *, loop=True):
     points = "".join(
         f"<waypoint><time>{t}</time><pose>{x} {y} 1 0 0 0</pose></waypoint>" for t, x, y in times
     )
-    return f"<actor name='a'><script><loop>{str(loop).lower()}</loop><trajectory id='0' type='w'>{points}</trajectory></script></actor>"
+    return (
+        f"<actor name='a'><script><loop>{str(loop).lower()}</loop>"
+        f"<trajectory id='0' type='w'>{points}</trajectory></script></actor>"
+    )
 
 
 def test_actors_walk():
@@ -349,7 +358,8 @@ def test_thin_walls_are_written_as_boxes():
 
 def test_a_world_of_100_000_sides_is_read_in_reasonable_time():
     many = "".join(
-        f"<model name='m{i}'><static>1</static><pose>{i % 160 * 2} {i // 160 * 2} 0.25 0 0 {i}</pose><link name='l'>{geometry(BOX)}</link></model>\n"
+        f"<model name='m{i}'><static>1</static><pose>{i % 160 * 2} {i // 160 * 2} 0.25 0 0 {i}</pose><link "
+        f"name='l'>{geometry(BOX)}</link></model>\n"
         for i in range(25_000)
     )
     begin = time.process_time()

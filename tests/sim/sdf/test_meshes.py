@@ -94,12 +94,16 @@ def dae(
     count = len(triangles) * 3
     order = " ".join(f"{i} 0" for i in range(count))
     vcount = f"<vcount>{'3 ' * len(triangles)}</vcount>" if kind == "polylist" else ""
-    return f"""<?xml version="1.0"?><COLLADA version="1.4.1"><asset><unit meter="{unit}"/><up_axis>{up}</up_axis></asset>
-    <library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="{count * 3}">{numbers}</float_array></source>
+    return f"""<?xml version="1.0"?><COLLADA version="1.4.1"><asset><unit meter="{unit}"/>
+      <up_axis>{up}</up_axis></asset>
+    <library_geometries><geometry id="g"><mesh><source id="p">
+      <float_array id="a" count="{count * 3}">{numbers}</float_array></source>
     <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-    <{kind} count="{len(triangles)}"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="NORMAL" source="#p" offset="1"/>{vcount}<p>{order}</p></{kind}>
+    <{kind} count="{len(triangles)}"><input semantic="VERTEX" source="#v" offset="0"/>
+      <input semantic="NORMAL" source="#p" offset="1"/>{vcount}<p>{order}</p></{kind}>
     </mesh></geometry></library_geometries>
-    <library_visual_scenes><visual_scene id="s"><node name="n">{node}<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+    <library_visual_scenes><visual_scene id="s"><node name="n">{node}<instance_geometry url="#g"/></node>
+      </visual_scene></library_visual_scenes>
     </COLLADA>""".encode()
 
 
@@ -168,8 +172,10 @@ def test_a_broken_mesh_is_an_error_that_names_the_file(tmp_path, name, data, par
 
 def world_of(mesh, *, static=True, pose="0 0 0 0 0 0", scale="1 1 1"):
     return load(
-        f"<sdf version='1.7'><world name='w'><model name='m'><static>{str(static).lower()}</static><pose>{pose}</pose><link name='l'>"
-        f"<collision name='c'><geometry><mesh><uri>file://{mesh}</uri><scale>{scale}</scale></mesh></geometry></collision></link></model></world></sdf>"
+        "<sdf version='1.7'><world name='w'><model "
+        f"name='m'><static>{str(static).lower()}</static><pose>{pose}</pose><link name='l'><collision "
+        f"name='c'><geometry><mesh><uri>file://{mesh}</uri><scale>{scale}</scale></mesh></geometry>"
+        "</collision></link></model></world></sdf>"
     ).worlds[0]
 
 

@@ -84,7 +84,8 @@ def test_a_world_is_read_with_all_its_parts():
                   <ray><scan/></ray><plugin name='q' filename='libq.so'/></sensor>
               </link>
               <link name='wheel'><pose>0 0.3 0 0 0 0</pose></link>
-              <joint name='axle' type='revolute'><parent>base</parent><child>wheel</child><axis><xyz>0 1 0</xyz></axis></joint>
+              <joint name='axle' type='revolute'><parent>base</parent><child>wheel</child><axis><xyz>0 1 0</xyz>
+                </axis></joint>
               <plugin name='drive' filename='libdrive.so'/>
             </model>
             <actor name='man'><script><loop>false</loop><delay_start>2</delay_start><trajectory id='0' type='walk'>
@@ -142,7 +143,8 @@ def test_poses_are_resolved_through_the_frames_they_name():
               <collision name='c'><pose relative_to='base'>0 0 0.2 0 0 0</pose>BOX</collision></link>
             <link name='hand'><pose relative_to='neck'>0 0 0.1 0 0 0</pose></link>
             <joint name='neck' type='fixed'><pose>0 0.1 0 0 0 0</pose><parent>base</parent><child>head</child></joint>
-            <model name='inner'><pose relative_to='head'>0 0 0.5 0 0 0</pose><link name='l'><pose>0 0 0.25 0 0 0</pose></link></model>
+            <model name='inner'><pose relative_to='head'>0 0 0.5 0 0 0</pose><link name='l'>
+              <pose>0 0 0.25 0 0 0</pose></link></model>
             <link name='cap'><pose relative_to='inner::l'>0 0 1 0 0 0</pose></link>
             """.replace("BOX", BOX)
         )
@@ -171,7 +173,8 @@ def test_angles_may_be_degrees_or_a_quaternion():
 def test_the_state_of_a_saved_world_counts_more_than_where_its_models_began():
     (made,) = load(
         world(
-            "<model name='a'><link name='l'/></model><state world_name='w'><model name='a'><pose>1 2 0 0 0 1</pose></model></state>"
+            "<model name='a'><link name='l'/></model><state world_name='w'><model name='a'>"
+            "<pose>1 2 0 0 0 1</pose></model></state>"
         )
     ).worlds
     assert made.models[0].pose == (1, 2, 0, 0, 0, 1)
@@ -202,7 +205,8 @@ def test_models_are_included_from_the_model_path(brick):
     (made,) = load(
         world(
             "<include><uri>model://brick</uri></include>"
-            "<include><uri>model://brick</uri><name>second</name><pose>1 0 0 0 0 0</pose><static>1</static><plugin name='p' filename='libp.so'/></include>"
+            "<include><uri>model://brick</uri><name>second</name><pose>1 0 0 0 0 0</pose><static>1</static>"
+            "<plugin name='p' filename='libp.so'/></include>"
         )
     ).worlds
     first, second = made.models
@@ -255,8 +259,10 @@ def test_packages_may_bring_models(tmp_path, monkeypatch, brick, separator):
     package = tmp_path / "ws" / "bricks"
     package.mkdir(parents=True)
     (package / "package.xml").write_text(
-        "<package><name>bricks</name><version>0.1.0</version><description>d</description><maintainer email='a@b.invalid'>m</maintainer>"
-        "<license>l</license><export><gazebo_ros gazebo_model_path='${prefix}/no:${prefix}/../../models'/></export></package>",
+        "<package><name>bricks</name><version>0.1.0</version><description>d</description>"
+        "<maintainer email='a@b.invalid'>m</maintainer>"
+        "<license>l</license><export><gazebo_ros gazebo_model_path='${prefix}/no:${prefix}/../../models'/>"
+        "</export></package>",
         encoding="utf-8",
     )
     monkeypatch.delenv("GAZEBO_MODEL_PATH")
@@ -281,7 +287,8 @@ def test_a_model_that_includes_itself_is_an_error(brick):
 def test_what_is_left_out_is_noted_with_its_line():
     found = load(
         world(
-            "<light name='lamp' type='point'/>\n<mode1 name='x'/>\n<mine:own/>\n<model name='m'><static>1</static><link name='l'>"
+            "<light name='lamp' type='point'/>\n<mode1 name='x'/>\n<mine:own/>\n<model name='m'>"
+            "<static>1</static><link name='l'>"
             "<collision name='c'><geometry><heightmap/></geometry></collision></link></model>"
         )
     )
@@ -302,16 +309,22 @@ MISSING = "<geometry><mesh><uri>{}</uri></mesh></geometry>"
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        (world("<include><uri>model://grund_plane</uri></include>"), "this model is left out: there is no model 'grund_plane'; did you mean ground_plane?"),
-        (world("<include><uri>model://ground_plane/none</uri></include>"), "this model is left out: 'model://ground_plane/none' is not there"),
+        (world("<include><uri>model://grund_plane</uri></include>"),
+         "this model is left out: there is no model 'grund_plane'; did you mean ground_plane?"),
+        (world("<include><uri>model://ground_plane/none</uri></include>"),
+         "this model is left out: 'model://ground_plane/none' is not there"),
         (world("<include><uri>https://fuel.example/x</uri></include>"), "rosmini fetches nothing"),
         (world("<include><uri>package://no_robot/model.sdf</uri></include>"), "there is no package 'no_robot'"),
         (world(f"<include><uri>model://{'x' * 5000}</uri></include>"), "there is no model 'xxx"),
         (world(f"<include><uri>file://{'x' * 5000}</uri></include>"), "is not there"),
-        (model(f"<link name='l'><visual name='v'>{MISSING.format('model://none/m.dae')}</visual></link>"), "this mesh is left out: there is no model 'none'"),
-        (model(f"<link name='l'><collision name='c'>{MISSING.format('file://no.dae')}</collision></link>"), "this mesh is left out: 'file://no.dae' is not there"),
-        (model("<link name='l'><inertial><mass>0</mass></inertial></link>"), "a mass is more than 0 kg, not 0: taken for 1 kg"),
-        (model("<link name='l'><inertial><inertia><ixx>-1</ixx></inertia></inertial></link>"), "ixx is more than 0 kg m2, not -1: all are taken for 1 kg m2"),
+        (model(f"<link name='l'><visual name='v'>{MISSING.format('model://none/m.dae')}</visual></link>"),
+         "this mesh is left out: there is no model 'none'"),
+        (model(f"<link name='l'><collision name='c'>{MISSING.format('file://no.dae')}</collision></link>"),
+         "this mesh is left out: 'file://no.dae' is not there"),
+        (model("<link name='l'><inertial><mass>0</mass></inertial></link>"),
+         "a mass is more than 0 kg, not 0: taken for 1 kg"),
+        (model("<link name='l'><inertial><inertia><ixx>-1</ixx></inertia></inertial></link>"),
+         "ixx is more than 0 kg m2, not -1: all are taken for 1 kg m2"),
     ],
 )  # fmt: skip
 def test_what_is_not_there_or_cannot_be_is_left_out_or_replaced_with_a_warning(text, said):
@@ -328,9 +341,14 @@ def test_what_is_not_there_or_cannot_be_is_left_out_or_replaced_with_a_warning(t
 def test_the_rest_of_a_world_stands_and_all_that_is_wrong_is_told_at_once(tmp_path):
     """In the style of TurtleBot3's public worlds."""
     for name, text in {
-        "autorace/course": "<static>true</static><link name='l'><collision name='c'><geometry><plane><normal>0 0 1</normal><size>4 4</size></plane></geometry></collision></link>",
-        "autorace/bar": f"<pose frame=''>0 0 0 0 0 0</pose><link name='bar'><collision name='c'><pose frame=''>-2 1 0.3 0 1.57 0</pose>{BOX}</collision></link><static>1</static>",
-        "house": f"<link name='Wall_1'><self_collide>0</self_collide><pose frame=''>0 3 0 0 0 -1.5708</pose><kinematic>0</kinematic><collision name='w'><laser_retro>0</laser_retro><max_contacts>10</max_contacts>{BOX}<surface><bounce/><friction><ode/><torsional><ode/></torsional></friction><contact><ode/></contact></surface></collision></link>",
+        "autorace/course": "<static>true</static><link name='l'><collision name='c'><geometry><plane>"
+            "<normal>0 0 1</normal><size>4 4</size></plane></geometry></collision></link>",
+        "autorace/bar": "<pose frame=''>0 0 0 0 0 0</pose><link name='bar'><collision name='c'>"
+            f"<pose frame=''>-2 1 0.3 0 1.57 0</pose>{BOX}</collision></link><static>1</static>",
+        "house": "<link name='Wall_1'><self_collide>0</self_collide><pose frame=''>0 3 0 0 0 -1.5708</pose>"
+            "<kinematic>0</kinematic><collision name='w'><laser_retro>0</laser_retro>"
+                f"<max_contacts>10</max_contacts>{BOX}<surface><bounce/><friction><ode/><torsional><ode/>"
+                    "</torsional></friction><contact><ode/></contact></surface></collision></link>",
     }.items():  # fmt: skip
         folder = tmp_path / name
         folder.mkdir(parents=True)
@@ -344,17 +362,22 @@ def test_the_rest_of_a_world_stands_and_all_that_is_wrong_is_told_at_once(tmp_pa
         )
     text = world(
         """<include><uri>model://sun</uri></include><include><uri>model://ground_plane</uri></include>
-<include><uri>model://autorace/course</uri><pose> 0 0 0 0 0 -1.54</pose></include><include><uri>model://autorace/bar</uri></include>
+<include><uri>model://autorace/course</uri><pose> 0 0 0 0 0 -1.54</pose></include><include>
+  <uri>model://autorace/bar</uri></include>
 <include><uri>model://autorace/tunnel_wall</uri></include>
 <model name='turtlebot3_house'><static>1</static><include><uri>model://house</uri></include></model>
 <model name='obstacle_1'><pose>2 2 0.25 0 0 0</pose><link name='link'><inertial><mass>0</mass></inertial>
 <collision name='c'><geometry><cylinder><radius>0.12</radius><length>0.5</length></cylinder></geometry></collision>
-<visual name='v'><geometry><mesh><uri>model://house/meshes/none.dae</uri></mesh></geometry></visual></link><plugin name='push_animate' filename='libobstacle_1.so'/></model>
-<population name='can_population'><model name='can'><include><uri>model://coke_can</uri></include></model><model_count>1000000000</model_count></population>
+<visual name='v'><geometry><mesh><uri>model://house/meshes/none.dae</uri></mesh></geometry></visual></link>
+  <plugin name='push_animate' filename='libobstacle_1.so'/></model>
+<population name='can_population'><model name='can'><include><uri>model://coke_can</uri></include></model>
+  <model_count>1000000000</model_count></population>
 <light name='l' type='point'/><scene><shadows>false</shadows></scene>
 <gui fullscreen='0'><camera name='user_camera'><pose frame=''>0 0 9 0 1.5 0</pose></camera></gui>
-<physics type='ode'><real_time_update_rate>1000.0</real_time_update_rate><ode><solver><type>quick</type></solver></ode></physics>
-<state world_name='default'><sim_time>1 0</sim_time><model name='obstacle_1'><pose>3 3 0.25 0 0 0</pose></model></state>"""
+<physics type='ode'><real_time_update_rate>1000.0</real_time_update_rate><ode><solver><type>quick</type>
+  </solver></ode></physics>
+<state world_name='default'><sim_time>1 0</sim_time><model name='obstacle_1'><pose>3 3 0.25 0 0 0</pose></model>
+  </state>"""
     )
     found = load(text, models=[tmp_path])
     (made,) = found.worlds
@@ -367,7 +390,7 @@ def test_the_rest_of_a_world_stands_and_all_that_is_wrong_is_told_at_once(tmp_pa
     ]
     assert made.models[-1].pose[:2] == (3, 3)
     assert [(each.line, each.text.partition(":")[0]) for each in made.warnings] == [
-        (5, "this model is left out"), (7, "a mass is more than 0 kg, not 0"), (9, "this mesh is left out"),
+        (6, "this model is left out"), (8, "a mass is more than 0 kg, not 0"), (10, "this mesh is left out"),
     ]  # fmt: skip
 
 
@@ -417,9 +440,11 @@ def test_an_address_of_a_file_is_a_path_as_this_system_has_them(tmp_path, monkey
         ("<urdf/>", 1, "begins with <sdf"),
         ("<sdf><world name='w'/></sdf>", 1, "version"),
         (world("<model/>"), 3, 'name="..." is missing in <model>'),
-        (world("<model name='a'><link name='l'/></model>\n<model name='a'><link name='l'/></model>"), 4, "another model 'a' in line 3"),
+        (world("<model name='a'><link name='l'/></model>\n<model name='a'><link name='l'/></model>"),
+         4, "another model 'a' in line 3"),
         (world("<physics type='ode'>\n<max_step_size>0</max_step_size></physics>"), 4, "more than 0 s"),
-        (world("<physics type='ode'><real_time_factor>-1</real_time_factor></physics>"), 3, "real_time_factor is 0 or more"),
+        (world("<physics type='ode'><real_time_factor>-1</real_time_factor></physics>"),
+         3, "real_time_factor is 0 or more"),
         (world("<gravity>0 0</gravity>"), 3, "3 numbers, not 2"),
         (world("<include/>"), 3, "no <uri>"),
         (world("<include><uri></uri></include>"), 3, "is empty"),
@@ -427,23 +452,36 @@ def test_an_address_of_a_file_is_a_path_as_this_system_has_them(tmp_path, monkey
         (model("<pose>0 0 0 0 0</pose><link name='l'/>"), 3, "6 numbers, not 5"),
         (model("<link name='l'><pose>0 0 nan 0 0 0</pose></link>"), 3, "not finite"),
         (model("<link name='l'><pose>0 0 a 0 0 0</pose></link>"), 3, "'a' .* is not a number"),
-        (model("<link name='l'><pose relative_to='bse'>0 0 0 0 0 0</pose></link><link name='base'/>"), 3, "did you mean base"),
-        (model("<link name='a'><pose relative_to='b'/></link>\n<link name='b'><pose relative_to='a'/></link>"), 4, "circle: a -> b -> a"),
+        (model("<link name='l'><pose relative_to='bse'>0 0 0 0 0 0</pose></link><link name='base'/>"),
+         3, "did you mean base"),
+        (model("<link name='a'><pose relative_to='b'/></link>\n<link name='b'><pose relative_to='a'/></link>"),
+         4, "circle: a -> b -> a"),
         (model("<link name='l'/><link name='l'/>"), 3, "another link 'l'"),
         (model("<link name='l'><collision name='c'/></link>"), 3, "no <geometry>"),
-        (model("<link name='l'><collision name='c'><geometry><boxx/></geometry></collision></link>"), 3, "did you mean box"),
-        (model("<link name='l'><collision name='c'><geometry><box><size>1 0 1</size></box></geometry></collision></link>"), 3, "more than 0"),
-        (model("<link name='l'><collision name='c'><geometry><sphere/></geometry></collision></link>"), 3, "no <radius>"),
-        (model("<link name='l'><collision name='c'><geometry><sphere><radius>-1</radius></sphere></geometry></collision></link>"), 3, "more than 0 m"),
-        (model("<link name='l'><visual name='c'><geometry><polyline><point>0 0</point><point>1 1</point></polyline></geometry></visual></link>"), 3, "3 points"),
-        (model(f"<link name='l'><visual name='c'>{BOX}<material><diffuse>2 0 0 1</diffuse></material></visual></link>"), 3, "between 0 and 1"),
-        (model(f"<link name='l'><collision name='c'>{BOX}<surface><bounce><restitution_coefficient>2</restitution_coefficient></bounce></surface></collision></link>"), 3, "between 0 and 1"),
+        (model("<link name='l'><collision name='c'><geometry><boxx/></geometry></collision></link>"),
+         3, "did you mean box"),
+        (model("<link name='l'><collision name='c'><geometry><box><size>1 0 1</size></box></geometry>"
+            "</collision></link>"), 3, "more than 0"),
+        (model("<link name='l'><collision name='c'><geometry><sphere/></geometry></collision></link>"),
+         3, "no <radius>"),
+        (model("<link name='l'><collision name='c'><geometry><sphere><radius>-1</radius></sphere></geometry>"
+            "</collision></link>"), 3, "more than 0 m"),
+        (model("<link name='l'><visual name='c'><geometry><polyline><point>0 0</point><point>1 1</point>"
+            "</polyline></geometry></visual></link>"), 3, "3 points"),
+        (model(f"<link name='l'><visual name='c'>{BOX}<material><diffuse>2 0 0 1</diffuse></material></visual></link>"),
+         3, "between 0 and 1"),
+        (model(f"<link name='l'><collision name='c'>{BOX}<surface><bounce>"
+            "<restitution_coefficient>2</restitution_coefficient></bounce></surface></collision>"
+                "</link>"), 3, "between 0 and 1"),
         (model("<link name='l'><sensor name='s'/></link>"), 3, "type"),
-        (model("<link name='l'><sensor name='s' type='ray'><update_rate>-1</update_rate></sensor></link>"), 3, "0 .always. or more"),
-        (model("<link name='l'/><joint name='j' type='fixed'><parent>k</parent><child>l</child></joint>"), 3, "no frame 'k'"),
+        (model("<link name='l'><sensor name='s' type='ray'><update_rate>-1</update_rate></sensor></link>"),
+         3, "0 .always. or more"),
+        (model("<link name='l'/><joint name='j' type='fixed'><parent>k</parent><child>l</child></joint>"),
+         3, "no frame 'k'"),
         (model("<link name='l'/><plugin name='p'/>"), 3, "filename"),
         (model("<static>perhaps</static><link name='l'/>"), 3, "true or false"),
-        (world("<actor name='a'><script><trajectory id='0' type='w'><waypoint><time>-1</time></waypoint></trajectory></script></actor>"), 3, "0 s or more"),
+        (world("<actor name='a'><script><trajectory id='0' type='w'><waypoint><time>-1</time></waypoint>"
+            "</trajectory></script></actor>"), 3, "0 s or more"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_said_with_its_line(text, line, part):

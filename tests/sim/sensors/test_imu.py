@@ -29,7 +29,7 @@ def test_accelerations_are_the_second_derivative_of_the_way():
     x, y, v0, w0, dv, dw, h = -0.032, 0.01, 0.1, 0.7, 0.4, -0.9, 1e-4
 
     def place(t: float) -> np.ndarray:
-        from rosmini.sim.engine.drive import unicycle
+        from rosmini.sim.engine.free_motion import unicycle
 
         px, py, th = unicycle((0.0, 0.0, 0.0), v0, w0, dv, dw, t)
         return np.array([px + math.cos(th) * x - math.sin(th) * y, py + math.sin(th) * x + math.cos(th) * y])

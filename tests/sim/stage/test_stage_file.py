@@ -19,9 +19,9 @@ from rosmini.geometry.polygons import inside
 from rosmini.packages import PackageIndex
 from rosmini.sim.shapes import Box, Compound, Polygon
 from rosmini.sim.stage import StageError, load
-from rosmini.sim.stage.colours import colour
 from rosmini.sim.stage.parse import parse
 from rosmini.sim.stage.tokens import tokens
+from rosmini.sim.stage.x11_colours import colour
 
 PATH = Path("a.world")
 WORLDS = sorted((PackageIndex().path("stage_ros") / "world").glob("*.world"))
@@ -53,7 +53,8 @@ def test_words_have_their_lines():
     found = [
         (word.kind, word.text, word.place.line) for word in tokens('a 1 # ( "\n\nb[3] "x y"\r\n( -.5 ]', PATH)
     ]
-    assert found == [("word", "a", 1), ("number", "1", 1), ("word", "b[3]", 3), ("string", "x y", 3), ("(", "(", 4), ("number", "-.5", 4), ("]", "]", 4)]  # fmt: skip
+    assert found == [("word", "a", 1), ("number", "1", 1), ("word", "b[3]", 3), ("string", "x y", 3), ("(", "(", 4),
+        ("number", "-.5", 4), ("]", "]", 4)]  # fmt: skip
 
 
 NAMES = st.text("abcdef_-.", min_size=1, max_size=6).map(lambda rest: "n" + rest)
@@ -61,8 +62,10 @@ NUMBERS = st.floats(-1e6, 1e6).map(lambda number: float(f"{number:.6f}"))
 STRINGS = st.text(st.characters(exclude_characters='"\n\r', exclude_categories=["Cs", "Cc"]), max_size=8)
 VALUES = st.one_of(NUMBERS, STRINGS, st.lists(st.one_of(NUMBERS, STRINGS), max_size=4))
 ENTITIES = st.recursive(
-    st.fixed_dictionaries({"kind": NAMES, "properties": st.dictionaries(NAMES, VALUES, max_size=3), "children": st.just([])}),
-    lambda inner: st.fixed_dictionaries({"kind": NAMES, "properties": st.dictionaries(NAMES, VALUES, max_size=3), "children": st.lists(inner, max_size=3)}),
+    st.fixed_dictionaries({"kind": NAMES, "properties": st.dictionaries(NAMES, VALUES, max_size=3),
+        "children": st.just([])}),
+    lambda inner: st.fixed_dictionaries({"kind": NAMES, "properties": st.dictionaries(NAMES, VALUES, max_size=3),
+        "children": st.lists(inner, max_size=3)}),
     max_leaves=8,
 )  # fmt: skip
 GAPS = st.sampled_from([" ", "\n", ' # a remark ( [ "\n', "\t\r\n  "])
@@ -84,7 +87,8 @@ def as_data(entity):
     properties = {
         name: list(p.values) if p.bracketed else p.values[0] for name, p in entity.properties.items()
     }
-    return {"kind": entity.kind, "properties": properties, "children": [as_data(child) for child in entity.children]}  # fmt: skip
+    return {"kind": entity.kind, "properties": properties,
+        "children": [as_data(child) for child in entity.children]}  # fmt: skip
 
 
 @given(ENTITIES, GAPS)
@@ -207,7 +211,8 @@ def test_the_defaults_are_those_of_stage(world):
     assert base.name == "position:0"
     assert (stage.interval, stage.speedup, stage.paused, stage.quit_time) == (0.1, 1.0, False, 0.0)
     (thing,) = stage.world.obstacles
-    assert (thing.name, thing.shape, thing.height, thing.bottom, thing.mass) == ("model:0", Box(0.4, 0.4), 1.0, 0.0, None)  # fmt: skip
+    assert (thing.name, thing.shape, thing.height, thing.bottom, thing.mass) == ("model:0", Box(0.4, 0.4), 1.0, 0.0,
+        None)  # fmt: skip
     assert thing.colour == "#ff0000"
 
 
@@ -253,7 +258,10 @@ def test_children_stand_on_their_parents(world):
 
 
 def test_blocks_are_stretched_to_the_size_whatever_they_are_in(world):
-    corner = "points 6 point[0] [10 10] point[1] [30 10] point[2] [30 20] point[3] [20 20] point[4] [20 30] point[5] [10 30]"
+    corner = (
+        "points 6 point[0] [10 10] point[1] [30 10] point[2] [30 20] point[3] [20 20] point[4] [20 30] "
+        "point[5] [10 30]"
+    )
     (thing,) = world(f"model( size [2 4 1] block( {corner} z [0 3] ) )").world.obstacles
     assert isinstance(thing.shape, Polygon)
     assert thing.shape.corners == ((-1, -2), (1, -2), (1, 0), (0, 0), (0, 2), (-1, 2))
@@ -264,7 +272,10 @@ def test_blocks_are_stretched_to_the_size_whatever_they_are_in(world):
 
 
 def test_what_can_be_pushed(world):
-    two = "block( points 4 point[0] [0 0] point[1] [1 0] point[2] [1 1] point[3] [0 1] z [0 1] ) block( points 3 point[0] [1 0] point[1] [2 0] point[2] [1 1] z [0 2] )"
+    two = (
+        "block( points 4 point[0] [0 0] point[1] [1 0] point[2] [1 1] point[3] [0 1] z [0 1] ) block( "
+        "points 3 point[0] [1 0] point[1] [2 0] point[2] [1 1] z [0 2] )"
+    )
     stage = world(
         f"""define crate model ( gripper_return 1 mass 3 pose [1 2 0 90] size [0.2 0.1 0.4] )
         crate( name "plain" ) crate( name "two" {two} ) crate( name "heap" model( size [0.1 0.1 0.1] ) )"""
@@ -289,7 +300,8 @@ def test_a_robot_may_start_on_what_nothing_bumps_into(world):
 
 
 def test_what_nothing_notices_is_left_out_and_told(world):
-    stage = world('model( name "ghost" obstacle_return 0 ranger_return -1 )\nmodel( name "glass" ranger_return -1 )\nfiducial( )' )  # fmt: skip
+    stage = world('model( name "ghost" obstacle_return 0 ranger_return -1 )\nmodel( name "glass" ranger_return -1 '
+                  ')\nfiducial( )' )  # fmt: skip
     assert [each.name for each in stage.world.obstacles] == ["glass"]
     assert [re.search(r":(\d+: .*)", note)[1] for note in stage.notes] == [
         "3: a fiducial is not simulated and is left out",
@@ -386,7 +398,8 @@ def test_stage_3_lasers_and_rings_of_sonars(world):
 
 def test_cameras(world):
     stage = world(
-        "position( size [1 1 0.5] camera( range [0.3 9] resolution [64 48] fov [60 40] pantilt [30 -10] pose [0.1 0 0 90] ) )"
+        "position( size [1 1 0.5] camera( range [0.3 9] resolution [64 48] fov [60 40] pantilt [30 -10] pose [0.1 0 0 "
+        "90] ) )"
     )
     (camera,) = stage.robots[0].cameras
     assert (camera.width, camera.height, camera.near, camera.far) == (64, 48, 0.3, 9)
@@ -396,7 +409,10 @@ def test_cameras(world):
 
 
 def test_bounds_and_odometry(world):
-    text = 'drive "car" wheelbase 0.6 localization "odom" localization_origin [1 1 0 90] odom_error [0.1 0.2 0 0.3] velocity_bounds [-0.5 2 0 0 0 0 -45 45]'
+    text = (
+        'drive "car" wheelbase 0.6 localization "odom" localization_origin [1 1 0 90] odom_error [0.1 0.2 '
+        "0 0.3] velocity_bounds [-0.5 2 0 0 0 0 -45 45]"
+    )
     (base,) = world(f"position( {text} )").robots
     assert (base.drive, base.wheelbase, base.localization) == ("car", 0.6, "odom")
     assert base.localization_origin == pytest.approx((1, 1, math.pi / 2))
@@ -441,7 +457,8 @@ def test_bounds_and_odometry(world):
         ("model( block( points 2 point[0] [0 0] point[1] [1 0] ) )", "a block needs 3 points or more, not 2"),
         ("model( block( points 3 point[0] [0 0] point[1] [1 0] ) )", "a block of 3 points has no point[2]"),
         ("model( block( points 3 point[0] [0 0] point[1] [1 0] point[2] [2 0] ) )", "enclose nothing"),
-        ("model( block( points 4 point[0] [0 0] point[1] [2 2] point[2] [2 0] point[3] [0 1] ) )", "the sides of a block meet"),
+        ("model( block( points 4 point[0] [0 0] point[1] [2 2] point[2] [2 0] point[3] [0 1] ) )",
+         "the sides of a block meet"),
         ("model( gripper_return 1 mass 0 )", "its mass has to be more than 0 kg"),
         ('model( bitmap "nothing.png" )', 'there is no bitmap "nothing.png" in'),
         ('model( bitmap "text.png" )', "cannot be read: this is no image"),
@@ -479,7 +496,8 @@ def test_colours_are_those_of_x11():
         "light goldenrod",
     ]
     assert [colour(name) for name in names] == [
-        "#ff0000", "#4c4c4c", "#ffffff", "#00008b", "#2f4f4f", "#00ff00", "#a020f0", "#bebebe", "#b03060", "#cd0000", "#00008b", "#eedd82",
+        "#ff0000", "#4c4c4c", "#ffffff", "#00008b", "#2f4f4f", "#00ff00", "#a020f0", "#bebebe", "#b03060", "#cd0000",
+        "#00008b", "#eedd82",
     ]  # fmt: skip
     assert colour("no colour") is colour("gray101") is None
     if table.exists():
@@ -554,7 +572,7 @@ def test_a_bitmap_of_too_many_pixels_is_refused_by_its_header(tmp_path):
 
 
 def test_robots_have_a_number_and_a_world_to_stand_in(tmp_path, monkeypatch):
-    monkeypatch.setattr("rosmini.sim.stage.file.MOST_ROBOTS", 2)
+    monkeypatch.setattr("rosmini.sim.stage.world_file.MOST_ROBOTS", 2)
     path = tmp_path / "a.world"
     path.write_text("position()\nposition()\nposition()", encoding="utf-8")
     with pytest.raises(StageError, match=r"a.world:3: there are more than 2 robots"):

@@ -146,7 +146,8 @@ def test_several_sensors_of_a_kind_are_numbered(bench):
     ours.graph.run(0.25)
     assert ours.heard["base_scan_1"][0].header.frame_id == "base_laser_link_1"
     frames = {(t.header.frame_id, t.child_frame_id) for t in ours.heard["tf"][0].transforms}
-    assert frames == {("odom", "base_footprint"), ("base_footprint", "base_link"), ("base_link", "base_laser_link_0"), ("base_link", "base_laser_link_1")}  # fmt: skip
+    assert frames == {("odom", "base_footprint"), ("base_footprint", "base_link"), ("base_link", "base_laser_link_0"),
+        ("base_link", "base_laser_link_1")}  # fmt: skip
 
 
 # ---- time ----
@@ -173,12 +174,21 @@ def test_pause_and_speed(bench):
     ours.listen("clock")
     ours.graph.run(1.01)
     assert len(ours.heard["clock"]) == 40
-    ours.stage.speedup = 1.0
+    ours.stage.speed = 1.0
     ours.graph.run(1.0)
     assert len(ours.heard["clock"]) == 50
     ours.stage.pause()
     ours.graph.run(1.0)
     assert len(ours.heard["clock"]) == 50
+
+
+@pytest.mark.parametrize(("interval", "ticks"), [(100, 10), (50, 10), (200, 10)])
+def test_without_a_window_it_takes_ten_steps_a_second_whatever_the_speedup(bench, interval, ticks):
+    ours = bench(f"speedup 4\ninterval_sim {interval}\n" + ROBOT % "", "-g")
+    ours.listen("clock")
+    ours.graph.run(1.01)
+    assert len(ours.heard["clock"]) == ticks
+    assert ours.stage.now == pytest.approx(1.01 * interval / 100)
 
 
 def test_a_world_that_is_paused_in_stages_window_runs_where_there_is_none(bench):
@@ -252,9 +262,10 @@ def test_a_differential_base_goes_along_an_arc(bench):
     twist = ours.heard["odom"][-1].twist.twist
     assert (twist.linear.x, twist.linear.y, twist.angular.z) == (0.5, 0.0, 0.5)
     truth = ours.heard["base_pose_ground_truth"][-1].twist.twist
-    heading = math.pi / 2 + 0.5 * 1.85  # in the middle of the last step
+    heading = math.pi / 2 + 0.5 * 1.95  # in the middle of the last step
     chord = 0.5 * math.sin(0.025) / 0.025
-    assert (truth.linear.x, truth.linear.y) == pytest.approx((chord * math.cos(heading), chord * math.sin(heading)), abs=1e-9)  # fmt: skip
+    assert (truth.linear.x, truth.linear.y) == pytest.approx((chord * math.cos(heading), chord * math.sin(heading)),
+        abs=1e-9)  # fmt: skip
 
 
 def test_an_omnidirectional_base_goes_anywhere(bench):
@@ -405,7 +416,10 @@ def test_noise_has_the_distribution_that_the_file_says(bench):
 
 @pytest.mark.parametrize(("z", "seen"), [(-0.1, True), (0.0, False)])
 def test_robots_see_one_another_if_their_lasers_are_low(bench, z: float, seen: bool):
-    robot = f"position( size [0.4 0.4 0.25] ranger( sensor( range [0 30] fov 0 samples 1 ) pose [0 0 {z} 0] ) pose [%d 0 0 0] )\n"
+    robot = (
+        f"position( size [0.4 0.4 0.25] ranger( sensor( range [0 30] fov 0 samples 1 ) pose [0 0 {z} 0] ) "
+        "pose [%d 0 0 0] )\n"
+    )
     ours = bench(robot % 0 + robot % 3)
     ours.listen("/robot_0/base_scan", "/robot_1/base_scan")
     ours.graph.run(0.15)
@@ -589,7 +603,8 @@ def test_names_that_cannot_be_namespaces_are_told(bench, second: str, words: str
         bench(f'position( name "a" )\nposition( name "{second}" pose [2 0 0 0] )', "-u")
 
 
-@pytest.mark.parametrize(("arguments", "words"), [((), "needs one world file, not 0"), (("a", "b"), "not 2"), (("-x", "a"), "knows no option -x")])  # fmt: skip
+@pytest.mark.parametrize(("arguments", "words"), [((), "needs one world file, not 0"), (("a", "b"), "not 2"),
+    (("-x", "a"), "knows no option -x")])  # fmt: skip
 def test_wrong_arguments_are_answered_with_the_usage(graph: Graph, arguments, words: str):
     with pytest.raises(ScriptError, match=words) as caught:
         Stageros(graph.node("stageros"), *arguments)

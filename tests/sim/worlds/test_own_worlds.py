@@ -9,21 +9,14 @@ import numpy as np
 import pytest
 
 from rosmini.geometry import polygons
-from rosmini.navigation.map_server import load_map
 from rosmini.sim.sdf import SdfError, load
 from rosmini.sim.shapes import ROUND, outline_at
 from rosmini.sim.world import Door, Walk
-from rosmini.sim.worlds import floor, kind_of, names, source, title, to_map, world
-from rosmini.sim.worlds.__main__ import texts
+from rosmini.sim.worlds import kind_of, names, source, title, to_map, world
 
 FILES = [name for name in names() if (path := source(name)) is not None and path.suffix == ".world"]
 WIDTH = 0.34
 """Of a robot, with a little room to each side: a Waffle is 0.306 m wide [m]."""
-
-
-@pytest.mark.parametrize("path", texts(), ids=lambda path: path.name)
-def test_the_files_are_as_they_are_written(path):
-    assert path.read_text(encoding="utf-8") == texts()[path]
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -88,7 +81,9 @@ def test_what_a_file_is_hangs_on_what_stands_in_it(tmp_path):
     )
     assert kind_of(tmp_path / "b.world") == "stage"
     (tmp_path / "c").write_text(
-        source("floor").read_text(encoding="utf-8").replace("floor.png", str(floor.maps_dir() / "floor.png")),
+        source("floor")
+        .read_text(encoding="utf-8")
+        .replace("floor.png", str(source("floor").with_name("floor.png"))),
         encoding="utf-8",
     )
     assert kind_of(tmp_path / "c") == "map"
@@ -182,10 +177,3 @@ def test_the_house_is_free_where_the_launch_files_put_robots():
     assert house.blocked((-1.3, 3.6, 0.0), 0.2, 0.3) is None, "there is room under the table"
     assert house.blocked((-1.3, 3.6, 0.0), 0.2, 0.8) is not None, "but not for all"
     assert sum(each.movable for each in house.obstacles) == 4
-
-
-@pytest.mark.parametrize("name", ["house", "office"])
-def test_the_maps_are_those_of_the_worlds(name):
-    grid, stored = to_map(world(name)), load_map(floor.maps_dir() / f"{name}.yaml")
-    assert (grid.occupancy == stored.occupancy).all()
-    assert stored.origin == pytest.approx(grid.origin)

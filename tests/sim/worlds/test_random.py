@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from assets.generate.worlds.sdf_writer import to_sdf
 from rosmini.sim.sdf import load, to_world
-from rosmini.sim.sdf.writer import to_sdf
 from rosmini.sim.world import Walk, World, WorldError
 from rosmini.sim.worlds import random_world, to_map
 

@@ -18,7 +18,9 @@ def graph():
 
 
 def test_tf2s_static_transform_publisher(graph, capsys):
-    rosrun("tf2_ros", "static_transform_publisher", *TIP, "base", "laser", "__name:=tip", graph=graph)
+    rosrun(
+        "tf2_ros", "static_transform_publisher", *TIP, "base", "laser", "__name:=tip", graph=graph
+    ).instance()
     assert "Spinning until killed publishing base to laser" in capsys.readouterr().out
     graph.run(1)
     buffer = TransformListener(graph.node("late")).buffer
@@ -48,12 +50,12 @@ def test_tfs_static_transform_publisher(graph):
         "base",
         "100",
         graph=graph,
-    )
+    ).instance()
     graph.run(2.05)
     edge = buffer.tree.edges["base"]
-    assert edge.newest.transform == (1, 0, 0, 0, 0, 0, 1)
-    assert edge.stamps[1] - edge.stamps[0] == 100_000_000
-    ahead = edge.stamps[-1] / 1e9 - graph.now().to_sec()
+    assert buffer.tree.lookup("map", "base").transform == (1, 0, 0, 0, 0, 0, 1)
+    assert edge.span_ns == (len(edge) - 1) * 100_000_000
+    ahead = edge.newest_ns / 1e9 - graph.now().to_sec()
     assert 0 < ahead <= 0.1  # stamped one period ahead
 
 
@@ -71,12 +73,12 @@ def test_tfs_static_transform_publisher(graph):
 )
 def test_wrong_arguments_show_the_usage(graph, package, arguments, text):
     with pytest.raises(ScriptError, match="Usage: static_transform_publisher x y z") as info:
-        rosrun(package, "static_transform_publisher", *arguments, graph=graph)
+        rosrun(package, "static_transform_publisher", *arguments, graph=graph).instance()
     assert text in str(info.value)
 
 
 def test_tf_echo(graph, capsys):
-    rosrun("tf", "static_transform_publisher", *TIP, "base", "laser", "50", graph=graph)
+    rosrun("tf", "static_transform_publisher", *TIP, "base", "laser", "50", graph=graph).instance()
     rosrun(
         "tf2_ros",
         "static_transform_publisher",
@@ -90,8 +92,8 @@ def test_tf_echo(graph, capsys):
         "base",
         "__name:=s",
         graph=graph,
-    )
-    rosrun("tf", "tf_echo", "map", "laser", "2", graph=graph)
+    ).instance()
+    rosrun("tf", "tf_echo", "map", "laser", "2", graph=graph).instance()
     graph.run(1.01)
     out = capsys.readouterr().out
     assert out.count("At time ") == 3
@@ -105,21 +107,25 @@ def test_tf_echo(graph, capsys):
 
 
 def test_tf_echo_of_what_is_not_there(graph, capsys):
-    rosrun("tf2_ros", "static_transform_publisher", *TIP, "map", "base", graph=graph)
-    rosrun("tf", "tf_echo", "map", "nope", graph=graph)
+    rosrun("tf2_ros", "static_transform_publisher", *TIP, "map", "base", graph=graph).instance()
+    rosrun("tf", "tf_echo", "map", "nope", graph=graph).instance()
     out = capsys.readouterr().out
     assert 'Exception thrown:"nope" passed to lookupTransform argument source_frame does not exist.' in out
     assert out.endswith("The current list of frames is:\nFrame base exists with parent map.\n\n")
     with pytest.raises(ScriptError, match="does not take the arguments"):
-        rosrun("tf", "tf_echo", "map", graph=graph)
+        rosrun("tf", "tf_echo", "map", graph=graph).instance()
     with pytest.raises(ScriptError, match="'often' is no rate"):
-        rosrun("tf", "tf_echo", "map", "base", "often", graph=graph)
+        rosrun("tf", "tf_echo", "map", "base", "often", graph=graph).instance()
 
 
 def test_tf_monitor(graph, capsys):
-    rosrun("tf", "static_transform_publisher", *TIP, "map", "base", "100", "__name:=a", graph=graph)
-    rosrun("tf2_ros", "static_transform_publisher", *TIP, "base", "laser", "__name:=b", graph=graph)
-    monitor = rosrun("tf", "tf_monitor", graph=graph)
+    rosrun(
+        "tf", "static_transform_publisher", *TIP, "map", "base", "100", "__name:=a", graph=graph
+    ).instance()
+    rosrun(
+        "tf2_ros", "static_transform_publisher", *TIP, "base", "laser", "__name:=b", graph=graph
+    ).instance()
+    monitor = rosrun("tf", "tf_monitor", graph=graph).instance()
     graph.run(2.05)
     capsys.readouterr()
     monitor.report()
@@ -131,19 +137,21 @@ def test_tf_monitor(graph, capsys):
         "Node: /a 10 Hz, Average Delay: -0.1 Max Delay: 0\n"
         "Node: /b(static) 1e+08 Hz, Average Delay: 0 Max Delay: 0\n"
     )
-    rosrun("tf", "tf_monitor", "map", "laser", "__name:=m", graph=graph)
+    rosrun("tf", "tf_monitor", "map", "laser", "__name:=m", graph=graph).instance()
     graph.run(1.5)
     assert (
         "RESULTS: for map to laser\nChain is: map -> base -> laser\nNet delay     avg = -0.1"
         in capsys.readouterr().out
     )
     with pytest.raises(ScriptError, match="two frames make a chain"):
-        rosrun("tf", "tf_monitor", "map", "__name:=n", graph=graph)
+        rosrun("tf", "tf_monitor", "map", "__name:=n", graph=graph).instance()
 
 
 def test_view_frames(graph, capsys, tmp_path):
-    rosrun("tf", "static_transform_publisher", *TIP, "map", "base", "100", "__name:=a", graph=graph)
-    viewed = rosrun("tf", "view_frames", str(tmp_path), graph=graph)
+    rosrun(
+        "tf", "static_transform_publisher", *TIP, "map", "base", "100", "__name:=a", graph=graph
+    ).instance()
+    viewed = rosrun("tf", "view_frames", str(tmp_path), graph=graph).instance()
     assert capsys.readouterr().out == (
         "Listening to /tf for 5.0 seconds\nDone Listening\nframes.gv and frames.svg generated\n"
     )

@@ -6,8 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.urdf.meshes import MeshError, collada, read
-from rosmini.urdf.meshes.surface import box, join, lathe, polygon, prism, rod, rounded
+from assets.generate.meshes import collada_writer
+from assets.generate.meshes.turtlebot3 import rounded
+from rosmini.urdf.meshes import MeshError, read
+from rosmini.urdf.meshes.surface import box, join, lathe, polygon, prism, rod
 
 CUBE = join(box((1, 2, 3), (2, 4, 6)), "#ff8000", "cube")
 
@@ -49,7 +51,7 @@ def test_moving_keeps_what_is_outside_outside():
 def test_collada_is_read_back(tmp_path):
     wheel = join([lathe([(0, 0), (0.5, 0), (0.5, 1), (0, 1)], 16)], "#336699", "wheel")
     path = tmp_path / "a.dae"
-    path.write_text(collada.write([CUBE, wheel]), encoding="utf-8")
+    path.write_text(collada_writer.write([CUBE, wheel]), encoding="utf-8")
     one, two = read(path)
     assert one.colour == (1.0, 0.502, 0.0, 1.0)
     assert volume([one]) == pytest.approx(48, rel=1e-3)
@@ -60,7 +62,8 @@ def test_collada_is_read_back(tmp_path):
 
 
 DAE = """<COLLADA><asset><unit meter="0.01"/><up_axis>Y_UP</up_axis></asset>
-<library_effects><effect id="e"><profile_COMMON><technique><lambert><diffuse><color>0 1 0 1</color></diffuse></lambert></technique></profile_COMMON></effect></library_effects>
+<library_effects><effect id="e"><profile_COMMON><technique><lambert>
+<diffuse><color>0 1 0 1</color></diffuse></lambert></technique></profile_COMMON></effect></library_effects>
 <library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
 <library_geometries><geometry id="g"><mesh>
 <source id="p"><float_array>0 0 0 100 0 0 100 100 0 0 100 0</float_array></source>
@@ -69,7 +72,8 @@ DAE = """<COLLADA><asset><unit meter="0.01"/><up_axis>Y_UP</up_axis></asset>
 </mesh></geometry></library_geometries>
 <library_visual_scenes><visual_scene id="vs"><node><translate>0 0 50</translate><rotate>0 0 1 90</rotate><node>
 <matrix>2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1</matrix>
-<instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="s" target="#m"/></technique_common></bind_material></instance_geometry>
+<instance_geometry url="#g"><bind_material><technique_common>
+<instance_material symbol="s" target="#m"/></technique_common></bind_material></instance_geometry>
 </node></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#vs"/></scene></COLLADA>"""
 
 
@@ -139,7 +143,7 @@ def test_a_scene_that_fans_out_ends(tmp_path):
         ("a.stl", b"x" * 34, "this is no STL"),
         ("a.stl", b"x" * 84, "this is no STL: it tells of"),
         ("a.stl", b"\0" * 80 + b"\xff" * 4, "it tells of 4294967295 triangles"),
-        ("a.stl", b"\0" * 80 + struct.pack("<I", 2) + bytes(50), "it tells of 2 triangles, which would be 184 bytes, not 134"),
+        ("a.stl", b"\0" * 80 + struct.pack("<I", 2) + bytes(50), "2 triangles, which would be 184 bytes, not 134"),
         ("a.stl", b"solid\nvertex 1 2\n", "a corner has three numbers"),
         ("a.stl", b"solid\nvertex 1 2 3\n", "1 corners are no triangles"),
         ("a.stl", b"solid\n" + 3 * b"vertex 1 2 nan\n", "a corner is not finite"),

@@ -1,4 +1,4 @@
-"""Scenes in three dimensions: the commands that the viewer is sent, the drawing of the same scene, texts, and no server."""
+"""Scenes in three dimensions: the viewer's commands, the drawing of the same scene, texts, and no server."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, style
 from rosmini.viz.meshcat import Camera, Recorder, Scene3D, replay_3d, robot_3d, world_3d
+from rosmini.viz.meshcat.command_recorder import meshcat
 from rosmini.viz.meshcat.drawing import HEIGHT, WIDTH, draw
-from rosmini.viz.meshcat.order import painting_order
-from rosmini.viz.meshcat.recorder import meshcat
-from rosmini.viz.meshcat.scene import keyframes, planar, ribbon
+from rosmini.viz.meshcat.scene3d import keyframes, planar, ribbon
+from rosmini.viz.meshcat.solid_order import painting_order
 from rosmini.viz.meshcat.solids import Ball, Prism, Rod, triangulate
 from rosmini.viz.meshcat.view import camera_for
 
@@ -207,8 +207,10 @@ def test_bytes_are_the_same_in_processes_that_hash_differently_and_nothing_is_st
         "links = [os.readlink(f'/proc/self/fd/{fd}') for fd in os.listdir('/proc/self/fd')"
         " if os.path.exists(f'/proc/self/fd/{fd}')] if os.path.isdir('/proc/self/fd') else []\n"
         "tasks = os.listdir('/proc/self/task') if os.path.isdir('/proc/self/task') else [1]\n"
-        "children = pathlib.Path(f'/proc/self/task/{os.getpid()}/children').read_text() if os.path.isdir('/proc') else ''\n"
-        "print(hashlib.sha256(html.encode()).hexdigest(), threading.active_count(), len([s for s in links if 'socket' in s]), repr(children))\n"
+        "path = pathlib.Path(f'/proc/self/task/{os.getpid()}/children')\n"
+        "children = path.read_text() if path.parent.is_dir() else ''\n"
+        "sockets = [s for s in links if 'socket' in s]\n"
+        "print(hashlib.sha256(html.encode()).hexdigest(), threading.active_count(), len(sockets), repr(children))\n"
     )
     results = []
     for seed in ("1", "2"):
@@ -218,7 +220,8 @@ def test_bytes_are_the_same_in_processes_that_hash_differently_and_nothing_is_st
             "OPENBLAS_NUM_THREADS": "1",
             "PATH": "",
         }
-        done = run_process([sys.executable, "-W", "error", "-c", code], check=True, cwd=ROOT, env=environment)  # fmt: skip
+        command = [sys.executable, "-W", "error", "-c", code]
+        done = run_process(command, check=True, cwd=ROOT, env=environment)
         assert done.stderr == ""
         results.append(done.stdout.split())
     assert results[0] == results[1]
@@ -397,7 +400,13 @@ def test_a_simulator_shows_itself_as_it_is_now():
 def test_shapes_and_colours_of_all_kinds_stand_where_they_are():
     things = World("things", [
         Obstacle("ball", Sphere(0.2), (1.0, 2.0, 0.0), colour="#123456", bottom=0.5),
-        Obstacle("pair", Compound(((Box(0.2, 0.2), (0, 0, 0)), (Cylinder(0.1), (0.5, 0, 0)))), (0.0, 0.0, 0.0), 0.4, bottom=0.1),
+        Obstacle(
+            "pair",
+            Compound(((Box(0.2, 0.2), (0, 0, 0)), (Cylinder(0.1), (0.5, 0, 0)))),
+            (0.0, 0.0, 0.0),
+            0.4,
+            bottom=0.1,
+        ),
     ])  # fmt: skip
     view = world_3d(things)
     ball = next(part for part in view.scene.parts if part.node == "obstacles/ball")

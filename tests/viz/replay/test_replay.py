@@ -109,6 +109,14 @@ def test_a_robot_that_has_its_speed_at_once_can_be_drawn():
     assert json.loads(json.dumps(scene, allow_nan=False)) == scene
 
 
+def test_a_laser_says_how_it_looks_where_it_is_no_plain_one():
+    lidar = replace(BURGER.laser, mount=(0.1, 0.05, 0.2), angle_min=-1.0, angle_max=1.0, beams=5, yaw=0.25)
+    found = scene_data(World("field"), replace(BURGER, lidar=replace(lidar, range_max=math.inf)))["robot"][
+        "lidar"
+    ]
+    assert found == {"x": 0.1, "y": 0.05, "beams": 5, "min": 0.12, "max": 1e6, "start": -0.75, "step": 0.5}
+
+
 def test_the_scene_does_not_hang_on_the_last_bit():
     def scene(nudge):
         poses = [(0.0005 + nudge, -1.0 - nudge, 0.0), (-0.0005 - nudge, 0.1235 - nudge, math.pi / 2 + nudge)]

@@ -95,7 +95,7 @@ def test_a_real_robots_bag():
     from rosmini.bag import Player
     from rosmini.graph import Graph
     from rosmini.viz import scan_picture
-    from rosmini.viz.track import track_picture
+    from rosmini.viz.track_pictures import track_picture
 
     text = rqt_bag(REAL).text
     assert text.startswith("rqt_bag: 2418 messages of 3 topics in 5.4 s")

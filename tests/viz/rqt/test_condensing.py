@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from rosmini.viz import rqt_graph
 from rosmini.viz.rqt.condensing import LIMIT, condensed
+from rosmini.viz.rqt.graph_state import graph_state
 from rosmini.viz.rqt.selection import Selection, select
-from rosmini.viz.rqt.state import graph_state
 
 MODES = ("nodes_only", "nodes_topics_active", "nodes_topics_all")
 

@@ -106,6 +106,9 @@ def test_the_real_master_is_a_source():
         def shutdown(self, caller_api, reason):
             pass
 
+        def registrations_changed(self):
+            pass
+
     master = Master("http://localhost:11311/", Silent())
     master.registerPublisher("/talker", "/chatter", "std_msgs/String", "http://localhost:1/")
     master.registerSubscriber("/listener", "/chatter", "*", "http://localhost:2/")

@@ -1,10 +1,12 @@
-"""What scripts import from ``genpy``: times, the base of messages, its errors (http://docs.ros.org/en/noetic/api/genpy/html/)."""
+"""What scripts import from ``genpy``: times, messages, errors (http://docs.ros.org/en/noetic/api/genpy/html/)."""
 
 from __future__ import annotations
 
-from . import dynamic, message, rostime
+from rosmini import time as rostime
+from rosmini.time import Duration, Time, TVal
+
+from . import dynamic, message
 from .message import DeserializationError, Message, MessageException, SerializationError
-from .rostime import Duration, Time, TVal
 
 __all__ = [
     "DeserializationError",

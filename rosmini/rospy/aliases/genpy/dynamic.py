@@ -13,8 +13,9 @@ __all__ = ["generate_dynamic"]
 def generate_dynamic(core_type: str, msg_cat: str) -> dict[str, Any]:
     """Return the classes of a type and of all that it holds, by their names, from a full text as in ``_full_text``.
 
-    The text is that of the type ``core_type``, followed by those of nested types, each under a line of 80 ``=`` and a line ``MSG: package/Type``.
-    Raises ``DefinitionError`` for a text that is wrong, ``UnknownType`` or ``UnknownPackage`` for a nested type that is missing.
+    The text is that of the type ``core_type``, followed by those of nested types, each under a line of 80 ``=`` and a
+    line ``MSG: package/Type``. Raises ``DefinitionError`` for a text that is wrong, ``UnknownType`` or
+    ``UnknownPackage`` for a nested type that is missing.
     """
     source = RecordedSource(core_type, msg_cat)
     made = Registry(source)

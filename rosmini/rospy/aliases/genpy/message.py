@@ -43,12 +43,12 @@ class MessageArgumentsError(RosminiError, ValueError):
 
 
 def get_message_class(message_type: str, reload_on_error: bool = False) -> Any:  # noqa: ARG001 - genpy's signature
-    """Return the class of a message type such as "std_msgs/String", or None if there is none. Raises ``ValueError`` for a bad name."""
+    """Return the class of a type such as "std_msgs/String", or None. Raises ``ValueError`` for a bad name."""
     return TIMES.get(message_type) or _class_or_none(message_class, message_type)
 
 
 def get_service_class(service_type: str, reload_on_error: bool = False) -> Any:  # noqa: ARG001 - genpy's signature
-    """Return the class of a service type such as "std_srvs/SetBool", or None if there is none. Raises ``ValueError`` for a bad name."""
+    """Return the class of a service type such as "std_srvs/SetBool", or None. Raises ``ValueError`` for a bad name."""
     return _class_or_none(service_class, service_type)
 
 
@@ -64,10 +64,10 @@ def _class_or_none(find: Any, name: str) -> Any:
 
 
 def check_type(field_name: str, field_type: str, field_val: Any) -> None:
-    """Raise ``SerializationError`` unless a value can stand in a field of a type such as "uint8", "string[]" or "geometry_msgs/Point".
+    """Raise ``SerializationError`` unless a field of a type ("uint8", "geometry_msgs/Point") can hold a value.
 
-    What can be written passes: here also text that is not ASCII, numpy's numbers and arrays, and a bool as a number. Raises ``DefinitionError``,
-    ``UnknownType`` or ``UnknownPackage`` for what is no type.
+    What can be written passes: here also text that is not ASCII, numpy's numbers and arrays, and a bool as a number.
+    Raises ``DefinitionError``, ``UnknownType`` or ``UnknownPackage`` for what is no type.
     """
     (field,) = parse_message(f"{field_type} value", "genpy/check_type").fields
     check_field(field, field_name, field_val, None if field.builtin else message_class(field.base))
@@ -89,15 +89,17 @@ def get_printable_message_args(msg: Message, buff: Any = None, prefix: str = "")
 
 
 def fill_message_args(msg: Message, msg_args: Any, keys: dict[str, Any] | None = None) -> None:
-    """Fill a message from plain values: a list of all its fields in order, or a dictionary of some, alone or in a list; nested alike.
+    """Fill a message from plain values: a list of all fields or a dictionary of some, alone or in a list; nested alike.
 
     Args:
         msg: the message.
-        msg_args: the values. A time is a list or dictionary of ``secs`` and ``nsecs``, or a whole number of nanoseconds; None in a
-            dictionary is an empty text, and None instead of all is an empty list.
-        keys: what may stand as a text where a time or a message belongs (``{"now": Time}``; ``rostopic`` gives "auto" for a header).
+        msg_args: the values. A time is a list or dictionary of ``secs`` and ``nsecs``, or a whole number of
+            nanoseconds; None in a dictionary is an empty text, and None instead of all is an empty list.
+        keys: what may stand as a text where a time or a message belongs (``{"now": Time}``; ``rostopic`` gives "auto"
+            for a header).
 
-    Raises ``MessageException`` for an unknown field or key and for a wrong number of values, ``ValueError`` for what is neither list nor dictionary.
+    Raises ``MessageException`` for an unknown field or key and for a wrong number of values, ``ValueError`` for what
+    is neither list nor dictionary.
 
     """
     if msg_args is None:
@@ -129,7 +131,7 @@ def _fill(target: Any, values: Any, keys: dict[str, Any], prefix: str) -> None:
             _fill_field(target, name, value, keys, prefix)
     else:
         raise MessageArgumentsError(
-            f"{_what(target, prefix)}: give a list of its fields ({', '.join(names)}) or a dictionary, not {shown(values)}"
+            f"{_what(target, prefix)}: give a list of its fields ({', '.join(names)}) or a dict, not {shown(values)}"
         )
 
 

@@ -1,6 +1,7 @@
 """What scripts import as ``message_filters``: http://wiki.ros.org/message_filters.
 
-Names and signatures are those of message_filters 1.15; the clock and the log are those of the script's node. The work is done in
+Names and signatures are those of message_filters 1.15; the clock and the log are those of the script's node. The work
+is done in
 :mod:`rosmini.message_filters`.
 """
 
@@ -16,7 +17,7 @@ __all__ = ["ApproximateTimeSynchronizer", "Cache", "SimpleFilter", "Subscriber",
 
 
 class Subscriber(SimpleFilter):
-    """The messages of a topic as they come; the arguments are those of ``rospy.Subscriber``, whose attributes this has, too."""
+    """The messages of a topic; takes the arguments of ``rospy.Subscriber``, whose attributes this has too."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__()
@@ -60,4 +61,4 @@ class TimeSynchronizer(_OfScript, core.TimeSynchronizer):
 
 
 class ApproximateTimeSynchronizer(_OfScript, core.ApproximateTimeSynchronizer):
-    """Gives out messages with stamps near one another: see :class:`rosmini.message_filters.ApproximateTimeSynchronizer`."""
+    """Passes on messages with similar stamps: see :class:`rosmini.message_filters.ApproximateTimeSynchronizer`."""

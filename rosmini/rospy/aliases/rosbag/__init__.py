@@ -1,10 +1,17 @@
-"""What scripts import from ``rosbag`` (http://wiki.ros.org/rosbag/Code%20API)."""
+"""What scripts import as ``rosbag``, and ``rosbag.bag`` (http://wiki.ros.org/rosbag/Code%20API).
+
+The messages have rospy's types: tuples and bytes, no arrays.
+"""
 
 from __future__ import annotations
 
-from . import bag
-from .bag import (
-    Bag,
+import sys
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from rosmini import bag as _bag
+from rosmini.bag import (
+    BagMessage,
+    BagMessageWithConnectionHeader,
     Compression,
     ROSBagEncryptException,
     ROSBagEncryptNotSupportedException,
@@ -12,14 +19,40 @@ from .bag import (
     ROSBagFormatException,
     ROSBagUnindexedException,
 )
+from rosmini.bag.writer import CHUNK_THRESHOLD
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping
 
 __all__ = [
     "Bag",
+    "BagMessage",
+    "BagMessageWithConnectionHeader",
     "Compression",
     "ROSBagEncryptException",
     "ROSBagEncryptNotSupportedException",
     "ROSBagException",
     "ROSBagFormatException",
     "ROSBagUnindexedException",
-    "bag",
 ]
+
+bag = sys.modules[__name__]
+
+
+class Bag(_bag.Bag):
+    """`rosmini.bag.Bag` with rosbag's own arguments."""
+
+    def __init__(
+        self,
+        f: str | os.PathLike[str] | BinaryIO,
+        mode: str = "r",
+        compression: str = Compression.NONE,
+        chunk_threshold: int = CHUNK_THRESHOLD,
+        allow_unindexed: bool = False,
+        options: Mapping[str, Any] | None = None,
+        skip_index: bool = False,
+    ) -> None:
+        super().__init__(
+            f, mode, compression, chunk_threshold, allow_unindexed, options, skip_index, numpy=False
+        )

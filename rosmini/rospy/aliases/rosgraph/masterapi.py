@@ -6,7 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from rosmini.errors import RosminiError
-from rosmini.graph import default_graph
+from rosmini.graph import running_graph
+from rosmini.graph.master_port import METHODS
 from rosmini.names import resolve_for
 
 __all__ = [
@@ -41,28 +42,24 @@ Failure = MasterFailure
 class Master:
     """The Master, asked in the name of ``caller_id``.
 
-    Methods are those of the Master API (http://wiki.ros.org/ROS/Master_API), such as ``getSystemState()``; they return the value of the answer.
-    Raises ``MasterError`` when the Master refuses, ``MasterFailure`` when it fails.
+    Methods are those of the Master API (http://wiki.ros.org/ROS/Master_API), such as ``getSystemState()``; they return
+    the value of the answer. Raises ``MasterError`` when the Master refuses, ``MasterFailure`` when it fails.
     """
 
     def __init__(self, caller_id: str, master_uri: str | None = None) -> None:
         self.caller_id = resolve_for(caller_id, "/").rstrip("/") or "/"
-        self.master_uri = master_uri or default_graph().master_uri
+        self.master_uri = master_uri or running_graph().master_uri
 
     def is_online(self) -> bool:
         """Tell whether there is a Master: always, in a process that has its own."""
         return True
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
-        method: Callable[..., Any] | None = (
-            None if name.startswith("_") else getattr(default_graph().master, name, None)
-        )
-        if method is None:
+        if name not in METHODS:
             raise AttributeError(f"the Master has no method {name}", name=name, obj=self)
-        asked = method
 
         def call(*args: Any) -> Any:
-            code, status, value = asked(self.caller_id, *args)
+            code, status, value = running_graph().ask_as(self.caller_id).call(name, *args)
             if code == 1:
                 return value
             raise (MasterError if code == -1 else MasterFailure)(status)

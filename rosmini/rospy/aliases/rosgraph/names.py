@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from rosmini.errors import IllegalName
-from rosmini.graph import default_graph
+from rosmini.graph import running_graph
 from rosmini.names import (
     Remappings,
     is_global,
@@ -54,13 +54,13 @@ is_legal_remap = is_remapping
 
 
 def resolve_name(name: str, namespace_: str, remappings: dict[str, str] | None = None) -> str:
-    """Return the global name that ``name`` means for the node ``namespace_``; ``remappings`` are between global names."""
+    """Return the global name of ``name`` for the node ``namespace_``; ``remappings`` are between global names."""
     resolved = resolve_for(name, namespace_)
     return (remappings or {}).get(resolved, resolved)
 
 
 def load_mappings(argv: Sequence[str]) -> dict[str, str]:
-    """Return the remappings among the arguments, without private parameters; one with two ``:=`` is named on standard error and left out."""
+    """Return the remappings among the arguments, without private parameters; reports two ``:=`` on stderr."""
     kept = []
     for argument in filter(is_remapping, argv):
         if argument.count(REMAP) > 1:
@@ -92,11 +92,11 @@ def make_caller_id(name: str) -> str:
 
 def anonymous_name(id: str) -> str:
     """Return ``id`` with numbers that make it unique: the same on each run in simulated time."""
-    return default_graph().anonymous_name(id)
+    return running_graph().anonymous_name(id)
 
 
 def script_resolve_name(script_name: str, name: str | None) -> str:
-    """Return the global name that ``name`` means for a script that is no node; an empty one means the namespace. Remappings do not count."""
+    """Return the global name of ``name`` for a script without a node or remappings; empty: the namespace."""
     if not name:
         return get_ros_namespace()
     if is_private(name):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosmini.graph import default_graph
+from rosmini.graph import running_graph
 
 __all__ = [
     "DEFAULT_MASTER_PORT",
@@ -27,6 +27,6 @@ DEFAULT_MASTER_PORT = 11311
 DEFAULT_MASTER_URI = f"http://localhost:{DEFAULT_MASTER_PORT}/"
 
 
-def get_master_uri(env: Any = None, argv: Any = None) -> str:  # noqa: ARG001 - rosgraph's signature; there is one Master here
+def get_master_uri(env: Any = None, argv: Any = None) -> str:  # noqa: ARG001 - rosgraph's signature
     """Return the URI of this process's Master."""
-    return default_graph().master_uri
+    return running_graph().master_uri

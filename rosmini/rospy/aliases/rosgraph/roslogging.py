@@ -1,4 +1,4 @@
-"""``rosgraph.roslogging``: Python's log records as rospy shows them on a terminal (http://wiki.ros.org/rospy/Overview/Logging)."""
+"""``rosgraph.roslogging``: log records as rospy prints them (http://wiki.ros.org/rospy/Overview/Logging)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class LoggingException(RosminiError):
 
 
 class RosStreamHandler(logging.Handler):
-    """Writes records up to INFO to ``stdout`` and others to ``stderr``, in the form that the environment variable ROSCONSOLE_FORMAT says.
+    """Writes records up to INFO to ``stdout`` and others to ``stderr``, in the form that ROSCONSOLE_FORMAT gives.
 
     The time is the graph's. Colours are used on a terminal, unless ``colorize`` is false.
     """
@@ -77,7 +77,7 @@ def __getattr__(name: str) -> Any:
     """Name the way out for what sets up log files for a whole process."""
     if name in ("configure_logging", "renew_latest_logdir"):
         raise AttributeError(
-            f"module 'rosgraph.roslogging' has no {name!r} in rosmini: set ROS_LOG_DIR to have log files of nodes, or call "
+            f"module 'rosgraph.roslogging' has no {name!r} in rosmini: set ROS_LOG_DIR for log files of nodes, or call "
             "logging.basicConfig(filename=...)"
         )
     raise AttributeError(f"module 'rosgraph.roslogging' has no attribute {name!r}")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from . import message, names, packages
+from rosmini.rospy.aliases.genpy import message
+
+from . import names, packages
 
 __all__ = ["is_interactive", "load_manifest", "message", "names", "packages", "set_interactive"]
 

@@ -59,7 +59,7 @@ def get_pkg_dir(
 
 
 def get_dir_pkg(d: str) -> tuple[str | None, str | None]:
-    """Return the folder of the package in which a folder or file lies, and its name; (None, None) outside of packages."""
+    """Return the folder and name of the package that a path lies in; (None, None) outside of packages."""
     place = Path(d).resolve()
     for folder in (place, *place.parents):
         if (folder / PACKAGE_FILE).exists() or (folder / MANIFEST_FILE).exists():
@@ -68,7 +68,7 @@ def get_dir_pkg(d: str) -> tuple[str | None, str | None]:
 
 
 def get_pkg_subdir(package: str, subdir: str, required: bool = True, env: Any = None) -> str | None:
-    """Return a folder in a package, and make it if it is ``required`` and missing. Raises ``InvalidROSPkgException``."""
+    """Return a folder in a package, and make it if ``required`` and missing. Raises ``InvalidROSPkgException``."""
     home = get_pkg_dir(package, required, ros_package_path=(env or {}).get("ROS_PACKAGE_PATH"))
     if home is None:
         return None
@@ -84,7 +84,7 @@ def get_pkg_subdir(package: str, subdir: str, required: bool = True, env: Any = 
 
 
 def resource_file(package: str, subdir: str, resource_name: str) -> str:
-    """Return the path that a file has in a folder of a package, whether it is there or not. Raises ``InvalidROSPkgException``."""
+    """Return the path of a file in a folder of a package, existing or not. Raises ``InvalidROSPkgException``."""
     folder = get_pkg_subdir(package, subdir, required=False)
     if folder is None:
         raise InvalidROSPkgException(f"there is no package {package}")
@@ -94,7 +94,7 @@ def resource_file(package: str, subdir: str, resource_name: str) -> str:
 def find_resource(
     pkg: str, resource_name: str, filter_fn: Callable[[str], bool] | None = None, rospack: Any = None
 ) -> list[str]:
-    """Return the paths of all files of this name in a package that pass ``filter_fn(path)``. Raises ``InvalidROSPkgException``."""
+    """Return the paths of a package's files of this name that pass ``filter_fn``. Raises ``InvalidROSPkgException``."""
     home = str(get_pkg_dir(pkg)) if rospack is None else rospack.get_path(pkg)
     found = []
     for folder, inner, files in os.walk(home):

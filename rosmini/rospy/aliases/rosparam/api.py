@@ -35,7 +35,7 @@ NAME = "rosparam"
 def load_file(
     filename: str | None, default_namespace: str | None = None, verbose: bool = False
 ) -> list[tuple[Any, str]]:
-    """Return (parameters, namespace) of each document in a YAML file; ``-`` is standard input. Raises ``RosParamException``."""
+    """Return (parameters, namespace) for each document of a YAML file; ``-`` is stdin. Raises ``RosParamException``."""
     if not filename or filename == "-":
         _say(verbose, "reading parameters from stdin")
         return load_str(sys.stdin.read(), filename, default_namespace, verbose)
@@ -48,7 +48,7 @@ def load_file(
 def load_str(
     str: str, filename: str | None, default_namespace: str | None = None, verbose: bool = False
 ) -> list[tuple[Any, str]]:
-    """Return (parameters, namespace) of each document in a YAML text; errors call it ``filename``. Raises ``RosParamException``."""
+    """Return (parameters, namespace) of each document. Raises ``RosParamException`` that names ``filename``."""
     return _pairs(documents.load_str(str, filename or "", default_namespace or get_ros_namespace()), verbose)
 
 

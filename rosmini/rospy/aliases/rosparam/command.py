@@ -38,7 +38,8 @@ class _Parser(argparse.ArgumentParser):
 def yamlmain(argv: Sequence[str] | None = None) -> None:
     """Do what rosparam does with these arguments (``sys.argv`` if None), the program's name first.
 
-    Errors are printed on standard error. Raises ``SystemExit``: with 0 after printing the usage, 1 for what cannot be done, 2 for wrong arguments.
+    Errors are printed on standard error. Raises ``SystemExit``: with 0 after printing the usage, 1 for what cannot be
+    done, 2 for wrong arguments.
     """
     given = list(sys.argv if argv is None else argv)[1:]
     if not given or given[0] not in VERBS:

@@ -1,9 +1,12 @@
-"""The module that scripts import as ``tf2_ros`` (http://wiki.ros.org/tf2_ros): buffer, listener and broadcasters of the script's node."""
+"""The module ``tf2_ros`` (http://wiki.ros.org/tf2_ros): buffer, listener and broadcasters of the script's node."""
 
 from __future__ import annotations
 
-from typing import Any
+import sys
+from typing import TYPE_CHECKING, Any
 
+from rosmini import tf
+from rosmini.rospy.session import any_node, require_node
 from rosmini.tf.buffer import BufferCore
 from rosmini.tf.errors import (
     ConnectivityException,
@@ -14,16 +17,7 @@ from rosmini.tf.errors import (
     TransformException,
 )
 
-from . import (
-    buffer,
-    buffer_client,
-    buffer_interface,
-    buffer_server,
-    static_transform_broadcaster,
-    transform_broadcaster,
-    transform_listener,
-)
-from .buffer import Buffer
+from . import buffer_client, buffer_interface, buffer_server
 from .buffer_client import BufferClient
 from .buffer_interface import (
     BufferInterface,
@@ -35,9 +29,10 @@ from .buffer_interface import (
     convert,
 )
 from .buffer_server import BufferServer
-from .static_transform_broadcaster import StaticTransformBroadcaster
-from .transform_broadcaster import TransformBroadcaster
-from .transform_listener import TransformListener
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+    from rosmini.time import Duration
 
 __all__ = [
     "Buffer",
@@ -59,15 +54,13 @@ __all__ = [
     "TransformListener",
     "TransformRegistration",
     "TypeException",
-    "buffer",
     "buffer_client",
     "buffer_interface",
     "buffer_server",
     "convert",
-    "static_transform_broadcaster",
-    "transform_broadcaster",
-    "transform_listener",
 ]
+
+buffer = static_transform_broadcaster = transform_broadcaster = transform_listener = sys.modules[__name__]
 
 _TYPES = {
     "Header": "std_msgs/Header",
@@ -76,6 +69,51 @@ _TYPES = {
     "TFMessage": "tf2_msgs/TFMessage",
     "TransformStamped": "geometry_msgs/TransformStamped",
 }
+
+
+class Buffer(tf.Buffer, BufferInterface):
+    """The script's buffer; a :class:`TransformListener` fills it. What waits needs ``rospy.init_node`` first."""
+
+    transform = BufferInterface.transform
+    transform_full = BufferInterface.transform_full
+
+    def __init__(self, cache_time: float | Duration | None = None, debug: bool = True) -> None:
+        del debug  # the service ~tf2_frames, which nobody asks here
+        BufferInterface.__init__(self)
+        tf.Buffer.__init__(self, None, cache_time)
+
+    @property
+    def node(self) -> Node:
+        """The script's node."""
+        return any_node()
+
+
+class TransformBroadcaster(tf.TransformBroadcaster):
+    """Sends transforms that change. Raises ``ROSInitException`` before ``init_node``."""
+
+    def __init__(self) -> None:
+        super().__init__(require_node("tf2_ros.TransformBroadcaster"))
+
+
+class StaticTransformBroadcaster(tf.StaticTransformBroadcaster):
+    """Sends transforms that never change. Raises ``ROSInitException`` before ``init_node``."""
+
+    def __init__(self) -> None:
+        super().__init__(require_node("tf2_ros.StaticTransformBroadcaster"))
+
+
+class TransformListener(tf.TransformListener):
+    """Fills a buffer with what the script's node hears. Raises ``ROSInitException`` before ``init_node``."""
+
+    def __init__(
+        self,
+        buffer: tf.Buffer,
+        queue_size: int | None = None,
+        buff_size: int = 65536,
+        tcp_nodelay: bool = False,
+    ) -> None:
+        del buff_size, tcp_nodelay
+        super().__init__(require_node("tf2_ros.TransformListener"), buffer, queue_size)
 
 
 def __getattr__(name: str) -> Any:

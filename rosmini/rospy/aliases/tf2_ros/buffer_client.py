@@ -21,7 +21,8 @@ __all__ = ["BufferClient"]
 class BufferClient(BufferInterface):
     """Asks the buffer server at the action ``ns``, and holds no transform itself.
 
-    ``timeout_padding`` (2 s) is how long an answer may take beyond the time-out of a lookup. Raises ``ROSInitException`` before ``init_node``.
+    ``timeout_padding`` (2 s) is how long an answer may take beyond the time-out of a lookup. Raises
+    ``ROSInitException`` before ``init_node``.
     """
 
     def __init__(self, ns: str, check_frequency: Any = None, timeout_padding: Duration | None = None) -> None:

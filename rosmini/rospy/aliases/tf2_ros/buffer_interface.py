@@ -1,4 +1,4 @@
-"""``tf2_ros.buffer_interface``: what buffers and clients of buffers have in common, and the conversions between types."""
+"""``tf2_ros.buffer_interface``: what buffers and their clients share, and the conversions between types."""
 
 # ruff: noqa: ARG002 - what derived classes are given stands in the base
 
@@ -46,7 +46,7 @@ class NotImplementedException(RosminiError):
 
 
 class BufferInterface:
-    """Where transforms can be looked up: in a buffer of one's own, or in another node's. Derive from it to look elsewhere."""
+    """Where transforms are looked up: in one's own buffer, or in another node's. Derive from it to look elsewhere."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
@@ -54,7 +54,7 @@ class BufferInterface:
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Any = AT_ONCE, new_type: Any = None
     ) -> Any:
-        """Return a stamped thing in another frame, at the time that its header names; as a ``new_type``, if one is given.
+        """Return a stamped thing in another frame, at the time in its header; as a ``new_type`` if given.
 
         Raises ``TypeException`` for a type that nobody has registered, else as ``lookup_transform`` does.
         """
@@ -146,7 +146,7 @@ class _Registration:
 
 
 class TransformRegistration(_Registration):
-    """How things of a type are moved to another frame: ``callback(thing, transform)``. The stamped messages of geometry, and clouds, are known."""
+    """How things of a type are moved to another frame: ``callback(thing, transform)``; geometry and clouds."""
 
     def print_me(self) -> None:
         """Print what was added."""
@@ -192,7 +192,7 @@ class ConvertRegistration(_Registration):
 
 
 def convert(a: Any, b_type: Any) -> Any:
-    """Return ``a`` as a ``b_type``: at once where that is registered, a copy if it is one, else by way of a message. Raises ``TypeException``."""
+    """Return ``a`` as a ``b_type``: as registered, a copy, or via a message. Raises ``TypeException``."""
     registered = ConvertRegistration()
     try:
         return registered.get_convert((type(a), b_type))(a)

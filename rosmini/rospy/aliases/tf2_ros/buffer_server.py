@@ -1,7 +1,7 @@
 """``tf2_ros.buffer_server``: lets other nodes look transforms up in a buffer (http://wiki.ros.org/tf2_ros).
 
-The server of C++'s ``tf2_ros``, which has none in Python: an action server of ``tf2_msgs/LookupTransformAction``. Goals may wait for a transform;
-a lookup that fails succeeds as an action, and its result names the error.
+The server of C++'s ``tf2_ros``, which has none in Python: an action server of ``tf2_msgs/LookupTransformAction``.
+Goals may wait for a transform; a lookup that fails succeeds as an action, and its result names the error.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ ERRORS: dict[int, type[TransformException]] = {
 class BufferServer:
     """Answers lookups of other nodes from ``buffer``, at the action ``ns``.
 
-    A goal that cannot be answered yet is looked at every ``check_period``, until its time-out. Raises ``ROSInitException`` before ``init_node``.
+    A goal that cannot be answered yet is looked at every ``check_period``, until its time-out. Raises
+    ``ROSInitException`` before ``init_node``.
     """
 
     def __init__(

@@ -1,7 +1,14 @@
-"""The module that scripts import as ``tf2_sensor_msgs``: point clouds in another frame, by a given transform."""
+"""``tf2_sensor_msgs``, and its module of the same name: point clouds in another frame, by a given transform."""
 
 from __future__ import annotations
 
-from .tf2_sensor_msgs import create_cloud, do_transform_cloud, read_points
+import sys
+
+from rosmini.rospy.aliases.point_cloud2 import create_cloud, read_points
+from rosmini.tf.messages import moved
+
+do_transform_cloud = moved
 
 __all__ = ["create_cloud", "do_transform_cloud", "read_points"]
+
+tf2_sensor_msgs = sys.modules[__name__]

@@ -1,4 +1,4 @@
-"""Two plugins as one writes them: a model plugin that pushes its model along, and a world plugin that lets things come into the world."""
+"""Two example plugins: a model plugin that pushes its model, and a world plugin that spawns things."""
 
 from __future__ import annotations
 

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 from rosmini.markup import Element
 from rosmini.sim.gazebo.model import Model
+from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import ModelPlugin
-from rosmini.sim.gazebo.tags import Tags, tag
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +32,7 @@ class ModelPush(ModelPlugin, filename="libmodel_push.so"):
     """Gives its model a velocity, again and again; what is in the way stops it."""
 
     def load(self, model: Model, sdf: Element) -> None:
-        """Begin to push. Raises `MarkupError` for what is no velocity."""
+        """Start pushing. Raises `MarkupError` for what is no velocity."""
         self.model = model
         tags = PushTags.read(sdf, self.world.node.logwarn)
         self.ahead, self.aside, self.turn = sdf.floats(tags.velocity, 3, "velocity")
@@ -40,7 +40,7 @@ class ModelPush(ModelPlugin, filename="libmodel_push.so"):
         self.every(tags.rate, self.push)
 
     def push(self, now: float) -> None:
-        """Give it its velocity."""
+        """Set its velocity."""
         if now <= self.end:
             heading = self.model.flat[2]
             c, s = math.cos(heading), math.sin(heading)

@@ -1,4 +1,4 @@
-"""`libspawner.so`: lets crates come into the world, one after another.
+"""`libspawner.so`: spawns crates, one after another.
 
 <plugin name="crates" filename="libspawner.so">
   <count>3</count>
@@ -14,9 +14,9 @@ from dataclasses import dataclass
 
 from rosmini.errors import RosminiError
 from rosmini.markup import Element
+from rosmini.sim.gazebo.model import GazeboWorld
+from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import WorldPlugin
-from rosmini.sim.gazebo.tags import Tags, tag
-from rosmini.sim.gazebo.world import GazeboWorld
 from rosmini.sim.sdf import SdfCollision, SdfGeometry, SdfInertial, SdfLink, SdfModel, SdfVisual
 
 
@@ -33,7 +33,7 @@ class SpawnerTags(Tags):
 
 
 class Spawner(WorldPlugin, filename="libspawner.so"):
-    """Lets crates come into the world along a line; a place that is taken is left out, with a warning."""
+    """Spawns crates along a line; an occupied place is skipped, with a warning."""
 
     def load(self, world: GazeboWorld, sdf: Element) -> None:
         """Begin. Raises `MarkupError` for what are no places."""
@@ -43,7 +43,7 @@ class Spawner(WorldPlugin, filename="libspawner.so"):
         self.every(1 / tags.period, self.bring)
 
     def bring(self, _: float) -> None:
-        """Let the next one come."""
+        """Spawn the next one."""
         count = self.tags.count
         if self.made < count:
             part = self.made / max(1, count - 1)

@@ -1,12 +1,15 @@
-"""The plugins of gazebo_ros_pkgs by their libraries' names, with their tags and defaults (http://classic.gazebosim.org/tutorials?tut=ros_gzplugins)."""
+"""The plugins of gazebo_ros_pkgs by their libraries' names, with their tags and defaults.
+
+http://classic.gazebosim.org/tutorials?tut=ros_gzplugins
+"""
 
 from __future__ import annotations
 
 from .cameras import BumperPlugin, CameraPlugin, DepthCameraPlugin
-from .drives import DiffDrive, PlanarMove
+from .drives import DiffDrive, PlanarMove, SkidSteerDrive
 from .imus import ImuModelPlugin, ImuSensorPlugin
-from .sensors import LaserPlugin
-from .states import GroundTruthPlugin, JointStatePublisher
+from .joints_and_truth import GroundTruthPlugin, JointStatePublisher
+from .lasers import LaserPlugin
 
 __all__ = [
     "BumperPlugin",
@@ -19,4 +22,5 @@ __all__ = [
     "JointStatePublisher",
     "LaserPlugin",
     "PlanarMove",
+    "SkidSteerDrive",
 ]

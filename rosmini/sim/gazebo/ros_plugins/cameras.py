@@ -1,4 +1,7 @@
-"""What sees and what feels: libgazebo_ros_camera.so, libgazebo_ros_openni_kinect.so, libgazebo_ros_depth_camera.so, libgazebo_ros_bumper.so."""
+"""Cameras and bumpers.
+
+libgazebo_ros_camera.so, libgazebo_ros_openni_kinect.so, libgazebo_ros_depth_camera.so and libgazebo_ros_bumper.so.
+"""
 
 from __future__ import annotations
 
@@ -9,20 +12,20 @@ from rosmini.markup import Element
 from rosmini.sim.devices import Bumper, CameraDevice
 from rosmini.sim.gazebo.errors import GazeboError
 from rosmini.sim.gazebo.model import Sensor
+from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import SensorPlugin
-from rosmini.sim.gazebo.tags import Tags, tag
 from rosmini.sim.models import CameraModel
+from rosmini.sim.sdf.parts import number
 
 from .drives import rate_of
-from .names import RosNames
-from .sensors import number
+from .ros_names import RosNames
 
 CAMERA_RATE = 30.0
-"""Of a camera for which neither the sensor nor the plugin says a rate [Hz]; Gazebo's takes images as fast as it can draw."""
+"""Of a camera without a rate in its sensor or plugin [Hz]; Gazebo takes images as fast as it can draw."""
 
 LENS = (
-    "distortionK1", "distortionK2", "distortionK3", "distortionT1", "distortionT2", "CxPrime", "Cx", "Cy", "focalLength", "autoDistortion",
-    "borderCrop", "triggerTopicName", "viewportName",
+    "distortionK1", "distortionK2", "distortionK3", "distortionT1", "distortionT2", "CxPrime", "Cx", "Cy",
+    "focalLength", "autoDistortion", "borderCrop", "triggerTopicName", "viewportName",
 )  # fmt: skip
 """Tags about lenses that distort: those of rosmini do not."""
 
@@ -45,7 +48,7 @@ class CameraPlugin(SensorPlugin, filename=("libgazebo_ros_camera.so", "libgazebo
     """Publishes a camera sensor's images and numbers."""
 
     def load(self, sensor: Sensor, sdf: Element) -> None:
-        """Open its topics. Raises `MarkupError` for what is no camera."""
+        """Advertise its topics. Raises `MarkupError` for what is no camera."""
         tags = CameraTags.read(sdf, self.world.node.logwarn)
         names = RosNames(sensor.model, sdf)
         self.open(
@@ -93,7 +96,7 @@ class DepthCameraPlugin(
     """Publishes a depth camera's images, depths and points."""
 
     def load(self, sensor: Sensor, sdf: Element) -> None:
-        """Open its topics. Raises `MarkupError` for what is no camera."""
+        """Advertise its topics. Raises `MarkupError` for what is no camera."""
         tags = DepthCameraTags.read(sdf, self.world.node.logwarn)
         names = RosNames(sensor.model, sdf)
         self.open(
@@ -144,7 +147,7 @@ def camera_of(sensor: Sensor, rate: float, far: float | None = None) -> CameraMo
     )
 
 
-# ---- what feels ----
+# ---- bumpers ----
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,11 +166,11 @@ class BumperPlugin(SensorPlugin, filename="libgazebo_ros_bumper.so"):
     """Publishes what a contact sensor's model touches as `gazebo_msgs/ContactsState`."""
 
     def load(self, sensor: Sensor, sdf: Element) -> None:
-        """Open its topic. Raises `MarkupError` for what is no contact sensor."""
+        """Advertise its topic. Raises `MarkupError` for what is no contact sensor."""
         tags = BumperTags.read(sdf, self.world.node.logwarn)
         if sensor.type != "contact":
             raise sensor.element.error(
-                f"the sensor {sensor.name!r} is of type {sensor.type!r}: libgazebo_ros_bumper.so is for one of type 'contact'"
+                f"the sensor {sensor.name!r} is of type {sensor.type!r}: libgazebo_ros_bumper.so needs type 'contact'"
             )
         names = RosNames(sensor.model, sdf)
         collision = sensor.element.word("contact/collision", f"{sensor.link}_collision")

@@ -1,4 +1,4 @@
-"""What drives a model: libgazebo_ros_diff_drive.so and libgazebo_ros_planar_move.so."""
+"""Drives: libgazebo_ros_diff_drive.so, libgazebo_ros_skid_steer_drive.so and libgazebo_ros_planar_move.so."""
 
 from __future__ import annotations
 
@@ -10,15 +10,16 @@ from typing import Any, ClassVar
 from rosmini.markup import Element
 from rosmini.msgs import message_class
 from rosmini.sim import devices
-from rosmini.sim.devices import DifferentialDrive, JointStates, one_of, order
+from rosmini.sim.devices import DifferentialDrive, JointStates, OdometryTransforms, one_of
 from rosmini.sim.gazebo.body import Body
 from rosmini.sim.gazebo.model import Model
 from rosmini.sim.gazebo.msgs import quaternion
+from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import ModelPlugin
-from rosmini.sim.gazebo.tags import Tags, tag
 from rosmini.sim.host import Device, Host, Stamp
+from rosmini.sim.messages import UNMEASURED
 
-from .names import RosNames
+from .ros_names import RosNames
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,9 +28,9 @@ class DiffDriveTags(Tags):
 
     ignored: ClassVar[tuple[str, ...]] = ("wheelTorque",)
 
-    command_topic: str = tag("commandTopic", "cmd_vel", "where commands come in")
+    command_topic: str = tag("commandTopic", "cmd_vel", "the topic of commands")
     odometry_topic: str = tag("odometryTopic", "odom", "where the odometry is published")
-    odometry_frame: str = tag("odometryFrame", "odom", "the frame it is told in")
+    odometry_frame: str = tag("odometryFrame", "odom", "the frame of its messages")
     base_frame: str = tag("robotBaseFrame", "base_footprint", "the robot's own frame")
     odometry_source: str = tag(
         "odometrySource", "world", "encoder: what the wheels' turns tell; world: the truth"
@@ -60,11 +61,9 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
 
     @classmethod
     def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
-        """Put the model on its wheels."""
+        """Set up the wheels."""
         tags = DiffDriveTags.read(sdf, complain)
-        for name, value in (("wheelSeparation", tags.separation), ("wheelDiameter", tags.diameter)):
-            if value <= 0:
-                raise sdf.need(name).error(f"<{name}> is more than 0 m, not {value:g}")
+        _check_wheels(sdf, tags.separation, tags.diameter)
         one_of("odometrySource", tags.odometry_source, ("encoder", "world"))
         body.put_on_wheels(tags.left, tags.right, tags.separation, tags.diameter / 2)
         exchanged = body.wheels == (tags.right, tags.left)
@@ -79,7 +78,7 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
         body.rate = rate_of(tags.rate)
 
     def load(self, model: Model, sdf: Element) -> None:
-        """Open its topics."""
+        """Advertise its topics."""
         tags = DiffDriveTags.read(sdf, lambda _: None)
         names = RosNames(model, sdf)
         host = self.world.host
@@ -113,10 +112,78 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
             )
 
 
+@dataclass(frozen=True, kw_only=True)
+class SkidSteerTags(Tags):
+    """The tags of libgazebo_ros_skid_steer_drive.so."""
+
+    ignored: ClassVar[tuple[str, ...]] = ("torque",)
+
+    command_topic: str = tag("commandTopic", "cmd_vel", "the topic of commands")
+    odometry_topic: str = tag("odometryTopic", "odom", "where the odometry is published")
+    odometry_frame: str = tag("odometryFrame", "odom", "the frame of its messages")
+    base_frame: str = tag("robotBaseFrame", "base_footprint", "the robot's own frame")
+    broadcast_tf: bool = tag("broadcastTF", False, "publish the transform between the two frames")
+    separation: float = tag("wheelSeparation", 0.4, "how far left and right wheels are apart", unit="m")
+    diameter: float = tag("wheelDiameter", 0.15, "of the wheels", unit="m")
+    rate: float = tag("updateRate", 100.0, "how often it publishes", unit="Hz")
+    left_front: str = tag("leftFrontJoint", "left_front_joint", "the joint of a wheel")
+    right_front: str = tag("rightFrontJoint", "right_front_joint", "the joint of a wheel")
+    left_rear: str = tag("leftRearJoint", "left_rear_joint", "the joint of a wheel")
+    right_rear: str = tag("rightRearJoint", "right_rear_joint", "the joint of a wheel")
+    covariance_x: float = tag("covariance_x", 1e-4, "of the odometry", unit="m2")
+    covariance_y: float = tag("covariance_y", 1e-4, "of the odometry", unit="m2")
+    covariance_yaw: float = tag("covariance_yaw", 0.01, "of the odometry", unit="rad2")
+
+
+class SkidSteerDrive(ModelPlugin, filename="libgazebo_ros_skid_steer_drive.so"):
+    """Four driven wheels, as of a Husky: the two on a side turn alike.
+
+    It moves as if it stood on two wheels `wheelSeparation` apart in the middle of the four: how much real wheels skid
+    in a turn is not simulated. Its odometry is the truth.
+    """
+
+    needs_robot = True
+
+    @classmethod
+    def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
+        """Set up the wheels."""
+        tags = SkidSteerTags.read(sdf, complain)
+        _check_wheels(sdf, tags.separation, tags.diameter)
+        rear = (tags.left_rear, tags.right_rear)
+        body.put_on_wheels(tags.left_front, tags.right_front, tags.separation, tags.diameter / 2, rear)
+        body.rate = rate_of(tags.rate)
+
+    def load(self, model: Model, sdf: Element) -> None:
+        """Advertise its topics."""
+        tags = SkidSteerTags.read(sdf, lambda _: None)
+        names = RosNames(model, sdf)
+        self.add(
+            DifferentialDrive(
+                self.world.host,
+                model.name,
+                cmd_vel=names.topic(tags.command_topic),
+                odom=names.topic(tags.odometry_topic),
+                odom_frame=names.frame(tags.odometry_frame),
+                base_frame=names.frame(tags.base_frame),
+                tf="/tf" if tags.broadcast_tf else None,
+                rate=rate_of(tags.rate),
+                source="world",
+                covariance=(tags.covariance_x, tags.covariance_y, *(UNMEASURED,) * 3, tags.covariance_yaw),
+                name=f"{self.name}/drive",
+            )
+        )
+
+
+def _check_wheels(sdf: Element, separation: float, diameter: float) -> None:
+    for name, value in (("wheelSeparation", separation), ("wheelDiameter", diameter)):
+        if value <= 0:
+            raise sdf.need(name).error(f"<{name}> is more than 0 m, not {value:g}")
+
+
 class WheelTransforms(Device):
     """The transforms from a drive's base to its wheels, on /tf: `<publishWheelTF>`."""
 
-    order = order("transforms")
+    order = OdometryTransforms.order
     always = False
 
     def __init__(self, host: Host, name: str, rate: float, model: Model, names: RosNames) -> None:
@@ -125,7 +192,7 @@ class WheelTransforms(Device):
         self._message: Any = message_class("tf2_msgs/TFMessage")()
         self._links: list[str] = []
         for joint in model.sdf.joints:
-            if model.body is not None and model.body.wheels and joint.name in model.body.wheels:
+            if model.body is not None and joint.name in model.body.sides:
                 told = message_class("geometry_msgs/TransformStamped")()
                 told.header.frame_id, told.child_frame_id = (
                     names.frame(joint.parent),
@@ -136,7 +203,7 @@ class WheelTransforms(Device):
         self._publisher = host.node.publisher("/tf", type(self._message), queue_size=100)
 
     def wanted(self) -> bool:
-        """Tell whether anybody listens."""
+        """Return whether anybody listens."""
         return self._publisher.num_connections() > 0
 
     def due(self, stamp: Stamp, _: int, /) -> None:
@@ -157,9 +224,9 @@ class WheelTransforms(Device):
 class PlanarMoveTags(Tags):
     """The tags of libgazebo_ros_planar_move.so."""
 
-    command_topic: str = tag("commandTopic", "cmd_vel", "where commands come in")
+    command_topic: str = tag("commandTopic", "cmd_vel", "the topic of commands")
     odometry_topic: str = tag("odometryTopic", "odom", "where the odometry is published")
-    odometry_frame: str = tag("odometryFrame", "odom", "the frame it is told in")
+    odometry_frame: str = tag("odometryFrame", "odom", "the frame of its messages")
     base_frame: str = tag("robotBaseFrame", "base_footprint", "the robot's own frame")
     rate: float = tag("odometryRate", 20.0, "how often it publishes", unit="Hz")
     timeout: float = tag("cmdTimeout", -1.0, "how long a command holds; below 0: until the next", unit="s")
@@ -177,7 +244,7 @@ class PlanarMove(ModelPlugin, filename="libgazebo_ros_planar_move.so"):
         body.rate = rate_of(PlanarMoveTags.read(sdf, complain).rate)
 
     def load(self, model: Model, sdf: Element) -> None:
-        """Open its topics."""
+        """Advertise its topics."""
         tags = PlanarMoveTags.read(sdf, lambda _: None)
         names = RosNames(model, sdf)
         self.device = self.add(

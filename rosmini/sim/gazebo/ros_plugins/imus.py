@@ -1,22 +1,26 @@
-"""Inertial measurement units: libgazebo_ros_imu.so, a plugin of a model, and libgazebo_ros_imu_sensor.so, a plugin of a sensor of type imu.
+"""IMUs: libgazebo_ros_imu.so, a plugin of a model, and libgazebo_ros_imu_sensor.so, a plugin of a sensor.
 
 The two differ in Gazebo, and so they do here (gazebo_ros_imu.cpp and gazebo_ros_imu_sensor.cpp of gazebo_plugins 2.9):
 
-- The model's plugin differentiates the velocity of its link: the acceleration at the origin of the link, *without gravity*, so that it shows 0 at rest, against
-  REP 145. A link that hangs on a fixed joint has become part of another one, and it is that one's origin. `<xyzOffset>` is read and never used, and an `<imu>`
-  with noise, which TurtleBot3's own files have in the tag, is not read at all.
-- The sensor's plugin tells what the sensor shows: where the sensor sits, in its own axes, *with gravity*, and with the noise of its `<imu>`.
+- The model's plugin differentiates the velocity of its link: the acceleration at the link's origin, *without
+  gravity*: it shows 0 at rest, against REP 145. A link on a fixed joint has become part of another one, and it is
+  that one's origin. `<xyzOffset>` is read and never used, and an `<imu>` with noise, as in TurtleBot3's own files, is
+  not read at all.
+- The sensor's plugin publishes what the sensor shows: at its own place, in its own axes, *with gravity*, and with the
+  noise of its `<imu>`. It adds `<gaussianNoise>` to the four numbers of the orientation too, which is no rotation
+  then.
 
-Both tell the heading of the world, count `<gaussianNoise>` for rates and accelerations alike, state its square as all covariances (0 without noise), and put
-`<rpyOffset>` before the orientation.
+Both give the heading in the world, count `<gaussianNoise>` for rates and accelerations alike, state its square as all
+covariances (0 without noise), and put `<rpyOffset>` before the orientation.
 
-What differs from there: the model's plugin turns accelerations from the world's axes by the heading instead of back by it, a slip that shows them in the
-wrong direction unless the robot looks along x; here they are in the link's own axes, turned by `<rpyOffset>`. The sensor's adds `<gaussianNoise>` to the four numbers of
-the orientation too; here the orientation is exact. And accelerations are those of the moment, and no differences from one message to the next.
+One difference: the model's plugin turns accelerations from the world's axes by the heading instead of back by it, which
+shows them in the wrong direction unless the robot looks along x; here they are in the link's own axes, turned by
+`<rpyOffset>`. Another: accelerations are those of the moment, not differences from one message to the next.
 """
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -26,18 +30,17 @@ from rosmini.markup import Element
 from rosmini.msgs import service_class
 from rosmini.sim.devices import ImuDevice
 from rosmini.sim.gazebo.model import Model, Sensor
+from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import ModelPlugin, SensorPlugin
-from rosmini.sim.gazebo.tags import Tags, tag
-from rosmini.sim.host import Stamp
 from rosmini.sim.messages import diagonal
 from rosmini.sim.models import ImuModel
 from rosmini.sim.sdf import ORIGIN, Pose6
+from rosmini.sim.sdf.parts import number
 from rosmini.tf import rigid
 from rosmini.tf.rigid import IDENTITY, Rigid
 
 from .drives import rate_of
-from .names import RosNames
-from .sensors import number
+from .ros_names import RosNames
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +52,7 @@ class ImuTags(Tags):
     topic: str = tag("topicName", "/default_imu", "where it is published")
     service: str = tag("serviceName", "/default_imu", "a service that calibrates it, which it never needs")
     body: str = tag("bodyName", meaning="the link that it sits on")
-    frame: str = tag("frameName", "", "the frame that it is told in; without it the link's")
+    frame: str = tag("frameName", "", "the frame of its messages; without it the link's")
     noise: float = tag("gaussianNoise", 0.0, "standard deviation of rates and accelerations")
     rate: float = tag("updateRate", 0.0, "how often; 0: in each step", unit="Hz")
     rpy: str = tag("rpyOffset", "0 0 0", "how it is turned on the link", unit="rad")
@@ -62,7 +65,7 @@ class ImuSensorTags(Tags):
     ignored: ClassVar[tuple[str, ...]] = ("bodyName", "xyzOffset")
 
     topic: str = tag("topicName", "imu_data", "where it is published")
-    frame: str = tag("frameName", "", "the frame that it is told in; without it the link's")
+    frame: str = tag("frameName", "", "the frame of its messages; without it the link's")
     noise: float = tag(
         "gaussianNoise", 0.0, "standard deviation of rates and accelerations, on top of the sensor's"
     )
@@ -83,6 +86,7 @@ class GazeboImu(ImuDevice):
         offset: a rotation that comes before the orientation.
         axes: how the axes of what it measures are turned against those of its place.
         deviation: that of `<gaussianNoise>`, whose square the covariances are.
+        noisy_orientation: add such noise to the four numbers of the orientation too.
         feels_gravity: whether accelerations hold it.
         from_start: count the orientation from where it started, and not in the world.
         options: those of `ImuDevice`.
@@ -98,6 +102,7 @@ class GazeboImu(ImuDevice):
         offset: Rigid,
         axes: Rigid = IDENTITY,
         deviation: float,
+        noisy_orientation: bool = False,
         feels_gravity: bool,
         from_start: bool = False,
         **options: Any,
@@ -106,34 +111,49 @@ class GazeboImu(ImuDevice):
         unit = replace(
             unit, mount=place[:3], gravity=0.0
         )  # gravity is added as the world has it at the moment
+        self._variance = (deviation * world.noise) ** 2
         super().__init__(world.host, model.name, unit, noise=world.noise, **options)
         self._world = world
+        self._rng = world.host.rng(f"{self.name}/orientation")
+        self._orientation_deviation = deviation * world.noise if noisy_orientation else 0.0
         self._feels_gravity = feels_gravity
         self._place = turned(place[3:])
         self._back = rigid.inverse(rigid.compose(self._place, axes))
         start = rigid.from_yaw(0.0, 0.0, self.robot.start[2]) if from_start else IDENTITY
         reference = rigid.compose(start, self._place) if from_start else IDENTITY
         self._before = rigid.compose(offset, rigid.inverse(reference))
-        covariance = diagonal(((deviation * world.noise) ** 2,) * 3)
-        message = self._told.message
+
+    def describe(self, message: Any) -> None:
+        """Fill in the covariances."""
+        covariance = diagonal((self._variance,) * 3)
         message.orientation_covariance = covariance
         message.angular_velocity_covariance = covariance
         message.linear_acceleration_covariance = covariance
 
-    def due(self, stamp: Stamp, number: int, /) -> None:
-        """Tell what the sample of this number shows."""
-        told = self._told
-        told.stamp(*stamp)
-        message = told.fill(self._imu, number, self.robot, 0.0)
-        gyro, accel, to = message.angular_velocity, message.linear_acceleration, message.orientation
+    def sample(self, number: int) -> tuple[float, ...]:
+        """Return the orientation as a quaternion, the angular velocity and the acceleration."""
+        *_, gx, gy, gz, ax, ay, az = super().sample(number)
         if self._feels_gravity:
-            accel.z -= self._world.physics.gravity[2]
+            az -= self._world.physics.gravity[2]
+        gyro, accel = (gx, gy, gz), (ax, ay, az)
         if self._back != IDENTITY:
-            for each in (gyro, accel):
-                each.x, each.y, each.z = rigid.compose(self._back, rigid.rigid((each.x, each.y, each.z)))[:3]
+            gyro, accel = (rigid.compose(self._back, rigid.rigid(each))[:3] for each in (gyro, accel))
         heading = rigid.from_yaw(0.0, 0.0, self.robot.pose[2])
-        *_, to.x, to.y, to.z, to.w = rigid.compose(rigid.compose(self._before, heading), self._place)
-        self._publisher.publish(message)
+        orientation = rigid.compose(rigid.compose(self._before, heading), self._place)[3:]
+        if self._orientation_deviation:
+            errors = (self._orientation_deviation * self._rng.standard_normal(4)).tolist()
+            orientation = tuple(part + error for part, error in zip(orientation, errors, strict=True))
+        return (*orientation, *gyro, *accel)
+
+    def state(self) -> Any:
+        """Return the state of the noise, too."""
+        return super().state(), copy.deepcopy(self._rng)
+
+    def restore(self, state: Any) -> None:
+        """Restore the noise to come."""
+        own, rng = state
+        super().restore(own)
+        self._rng = copy.deepcopy(rng)
 
 
 def turned(rpy: Sequence[float]) -> Rigid:
@@ -147,7 +167,7 @@ class ImuModelPlugin(ModelPlugin, filename="libgazebo_ros_imu.so"):
     needs_robot = True
 
     def load(self, model: Model, sdf: Element) -> None:
-        """Open its topic and its service. Raises `MarkupError` and `UnknownEntity`."""
+        """Advertise its topic and service. Raises `MarkupError` and `UnknownEntity`."""
         tags = ImuTags.read(sdf, self.world.node.logwarn)
         names = RosNames(model, sdf)
         host, inside = model.frames.get(tags.body, (tags.body, ORIGIN))
@@ -176,12 +196,13 @@ class ImuSensorPlugin(SensorPlugin, filename="libgazebo_ros_imu_sensor.so"):
     """Publishes a sensor of type imu as `sensor_msgs/Imu`, with gravity."""
 
     def load(self, sensor: Sensor, sdf: Element) -> None:
-        """Open its topic. Raises `MarkupError`."""
+        """Advertise its topic. Raises `MarkupError`."""
         tags = ImuSensorTags.read(sdf, self.world.node.logwarn)
         names = RosNames(sensor.model, sdf)
         if tags.from_start:
             self.world.node.logwarn(
-                f"{sdf.path}:{sdf.line}: <initialOrientationAsReference> set to true, this behavior is deprecated as it does not comply with REP 145."
+                f"{sdf.path}:{sdf.line}: <initialOrientationAsReference> set to true, this behavior is deprecated as "
+                "it does not comply with REP 145."
             )
         rate = rate_of(tags.rate, self.world.physics.time_step)
         own = sensor.element.find("imu")
@@ -205,6 +226,7 @@ class ImuSensorPlugin(SensorPlugin, filename="libgazebo_ros_imu_sensor.so"):
                 unit,
                 offset=turned(sdf.floats(tags.rpy, 3, "rpyOffset")),
                 deviation=tags.noise,
+                noisy_orientation=True,
                 feels_gravity=True,
                 from_start=tags.from_start,
                 topic=names.topic(tags.topic),

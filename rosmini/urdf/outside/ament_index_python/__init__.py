@@ -1,5 +1,5 @@
-"""Where xacro asks for packages: PyPI's xacro resolves ``$(find NAME)`` through a module of this name, which is a part of ROS 2.
+"""Where xacro looks for packages: PyPI's xacro resolves ``$(find NAME)`` through a ROS 2 module of this name.
 
-With this one, the command ``xacro`` and ``import xacro`` find ROS 1 packages by themselves, as `rosmini.packages` does. Where ROS 2 is set up, its own
-stands before it on the path.
+With this one, the command ``xacro`` and ``import xacro`` find ROS 1 packages as `rosmini.packages` does. Where ROS 2 is
+set up, its own module comes first on the path.
 """

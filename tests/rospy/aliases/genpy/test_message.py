@@ -31,7 +31,8 @@ def test_a_whole_number_is_nanoseconds():
         (Header(), [{"stamp": 1.5}], ValueError, "field stamp, a Time: give a list"),
         (Header(), "xy", ValueError, "a list of its fields"),
         (PoseWithCovariance(), [{"covariance": [0] * 35}], MessageException, "35 != 36"),
-        (PoseWithCovariance(), [{"pose": {"position": [1]}}], MessageException, r"field pose.position, a geometry_msgs/Point"),
+        (PoseWithCovariance(), [{"pose": {"position": [1]}}], MessageException,
+         r"field pose.position, a geometry_msgs/Point"),
     ],
 )  # fmt: skip
 def test_what_does_not_fit(message, values, error, text):

@@ -9,7 +9,10 @@ import pytest
 from rosmini.errors import UnknownPackage
 from rosmini.rospy.aliases.roslib import packages
 
-MANIFEST = "<package><name>mine</name><version>1.0.0</version><description>.</description><maintainer email='a@b.c'>a</maintainer><license>x</license></package>"
+MANIFEST = (
+    "<package><name>mine</name><version>1.0.0</version><description>.</description>"
+    "<maintainer email='a@b.c'>a</maintainer><license>x</license></package>"
+)
 
 
 @pytest.fixture

@@ -73,8 +73,10 @@ facts["can"] = [
     client.can_transform_full("base", rospy.Time(1002), "base", rospy.Time(1000), "map"),
 ]
 before = rospy.get_time()
-facts["in vain"] = [ask(client.lookup_transform, "map", "nobody", rospy.Time(), second), round(rospy.get_time() - before, 1)]
-facts["waited for"] = [ask(client.lookup_transform, "map", "arm", rospy.Time(), rospy.Duration(9)), rospy.get_time() < 1006]
+answer = ask(client.lookup_transform, "map", "nobody", rospy.Time(), second)
+facts["in vain"] = [answer, round(rospy.get_time() - before, 1)]
+answer = ask(client.lookup_transform, "map", "arm", rospy.Time(), rospy.Duration(9))
+facts["waited for"] = [answer, rospy.get_time() < 1006]
 point = PointStamped()
 point.header.frame_id = "base"
 facts["moved"] = client.transform(point, "map").point.x
@@ -146,7 +148,10 @@ except tf2_ros.TimeoutException as error:
 
 def test_what_one_script_registers_no_other_one_finds():
     register = "import tf2_ros\ntf2_ros.TransformRegistration().add(int, print)\nprint('added')"
-    find = "import tf2_ros\ntry:\n    tf2_ros.TransformRegistration().get(int)\nexcept tf2_ros.TypeException as error:\n    print(error)"
+    find = (
+        "import tf2_ros\ntry:\n    tf2_ros.TransformRegistration().get(int)\n"
+        "except tf2_ros.TypeException as error:\n    print(error)"
+    )
     _, out, _ = run(register, find)
     assert (
         out

@@ -186,9 +186,12 @@ def test_a_laser_of_one_ray_looks_ahead_whatever_its_fan_is(bench: Start) -> Non
 
 
 IMU = """<gazebo><plugin name="imu" filename="libgazebo_ros_imu.so"><bodyName>laser</bodyName><topicName>imu</topicName>
-  <serviceName>imu_service</serviceName><updateRate>50</updateRate><gaussianNoise>{noise}</gaussianNoise>{more}</plugin></gazebo>"""
-IMU_SENSOR = """<gazebo reference="laser"><sensor type="imu" name="imu"><pose>{pose}</pose>{own}<plugin name="imu" filename="libgazebo_ros_imu_sensor.so">
-  <topicName>imu</topicName><updateRateHZ>50</updateRateHZ><gaussianNoise>0</gaussianNoise>{more}</plugin></sensor></gazebo>"""
+  <serviceName>imu_service</serviceName><updateRate>50</updateRate>
+    <gaussianNoise>{noise}</gaussianNoise>{more}</plugin></gazebo>"""
+IMU_SENSOR = """<gazebo reference="laser"><sensor type="imu" name="imu">
+  <pose>{pose}</pose>{own}<plugin name="imu" filename="libgazebo_ros_imu_sensor.so">
+  <topicName>imu</topicName><updateRateHZ>50</updateRateHZ><gaussianNoise>0</gaussianNoise>{more}</plugin>
+    </sensor></gazebo>"""
 
 
 def imu(noise: float = 0.0, more: str = "") -> str:
@@ -233,7 +236,10 @@ def test_the_models_unit_tells_turning_and_heading_and_knows_no_gravity(bench: S
 
 
 def test_the_models_unit_ignores_what_gazebos_ignores(bench: Start) -> None:
-    ignored = "<xyzOffset>0.5 0 0</xyzOffset><imu><noise><type>gaussian</type><rate><stddev>1</stddev></rate><accel><stddev>1</stddev></accel></noise></imu>"
+    ignored = (
+        "<xyzOffset>0.5 0 0</xyzOffset><imu><noise><type>gaussian</type><rate><stddev>1</stddev></rate>"
+        "<accel><stddev>1</stddev></accel></noise></imu>"
+    )
     message = measured(bench(), imu(more=ignored))
     assert vector(message.angular_velocity) == pytest.approx((0, 0, 0.5))
     assert vector(message.linear_acceleration) == pytest.approx((0, 0.1, 0), abs=1e-6)
@@ -271,7 +277,7 @@ def test_the_sensors_unit_feels_the_gravity_of_its_world_and_where_it_sits(bench
     assert vector(message.linear_acceleration) == pytest.approx((-0.2 * 0.25, 0.1, 9.8), abs=1e-6)
     assert yaw(message) == pytest.approx(there.pose("r")[2], abs=0.02)
     physics = there.server.world.physics
-    there.server.set_physics(replace(physics, gravity=(0.0, 0.0, -1.6)))
+    there.server.set_physics(replace(physics, gravity_z=-1.6))
     heard = there.hear("/imu", "sensor_msgs/Imu")
     there.graph.run(0.1)
     assert heard[-1].linear_acceleration.z == pytest.approx(1.6)
@@ -294,6 +300,16 @@ def test_the_sensors_unit_counts_the_heading_in_the_world_unless_told_otherwise(
     assert yaw(message) == pytest.approx(first)
 
 
+def test_the_sensors_noise_is_on_its_orientation_too(bench: Start) -> None:
+    there = bench()
+    there.spawn(imu_sensor("<gaussianNoise>0.01</gaussianNoise>"), "r")
+    heard = there.hear("/imu", "sensor_msgs/Imu")
+    there.graph.run(5.0)
+    turns = np.array([[getattr(each.orientation, part) for part in "xyzw"] for each in heard])
+    assert turns.mean(axis=0) == pytest.approx([0, 0, 0, 1], abs=0.01)
+    assert turns.std(axis=0) == pytest.approx([0.01] * 4, rel=0.4)
+
+
 def test_the_sensors_offset_turns_the_orientation_only(bench: Start) -> None:
     message = measured(bench(), imu_sensor("<rpyOffset>0 0 0.5</rpyOffset>"), heading=0.0, v=0.2, w=0.0)
     assert yaw(message) == pytest.approx(0.5)
@@ -311,7 +327,8 @@ def test_the_sensors_own_noise_counts(bench: Start) -> None:
 
 
 CAMERA = """<gazebo reference="laser"><sensor type="{type}" name="cam"><update_rate>5</update_rate><camera>
-  <horizontal_fov>1.0</horizontal_fov><image><width>32</width><height>24</height></image><clip><near>0.05</near><far>20</far></clip>
+  <horizontal_fov>1.0</horizontal_fov><image><width>32</width><height>24</height></image><clip><near>0.05</near>
+    <far>20</far></clip>
   </camera><plugin name="c" filename="{plugin}"><cameraName>cam</cameraName><frameName>optical</frameName>
   <imageTopicName>rgb/image_raw</imageTopicName><cameraInfoTopicName>rgb/camera_info</cameraInfoTopicName>
   <depthImageTopicName>depth/image_raw</depthImageTopicName></plugin></sensor></gazebo>"""
@@ -349,7 +366,8 @@ def test_a_depth_camera_measures(bench: Start) -> None:
 
 BUMPER = """<gazebo reference="base_footprint"><sensor type="contact" name="bumper"><update_rate>20</update_rate>
   <contact><collision>base_footprint_fixed_joint_lump__base_link_collision</collision></contact>
-  <plugin name="b" filename="libgazebo_ros_bumper.so"><bumperTopicName>bumper</bumperTopicName></plugin></sensor></gazebo>"""
+  <plugin name="b" filename="libgazebo_ros_bumper.so"><bumperTopicName>bumper</bumperTopicName></plugin>
+    </sensor></gazebo>"""
 
 
 def test_a_bumper_feels_a_wall(bench: Start) -> None:
@@ -367,9 +385,11 @@ def test_a_bumper_feels_a_wall(bench: Start) -> None:
     assert state.contact_positions[0].x == pytest.approx(0.4, abs=0.01)
 
 
-STATES = """<gazebo><plugin name="j" filename="libgazebo_ros_joint_state_publisher.so"><jointName>left_wheel, right_wheel</jointName>
+STATES = """<gazebo><plugin name="j" filename="libgazebo_ros_joint_state_publisher.so">
+  <jointName>left_wheel, right_wheel</jointName>
   <updateRate>10</updateRate></plugin>
-  <plugin name="p" filename="libgazebo_ros_p3d.so"><bodyName>laser</bodyName><topicName>truth</topicName><frameName>map</frameName>
+  <plugin name="p" filename="libgazebo_ros_p3d.so"><bodyName>laser</bodyName><topicName>truth</topicName>
+    <frameName>map</frameName>
   <updateRate>10</updateRate></plugin></gazebo>"""
 
 
@@ -397,8 +417,8 @@ def test_unknown_plugins_and_tags_are_warned_of_with_the_nearest(
     assert there.spawn(urdf(text), "r").success
     said = "".join(capsys.readouterr())
     assert (
-        "Failed to load plugin libgazebo_ros_dif_drive.so: there is no plugin of this name in rosmini; did you mean libgazebo_ros_diff_drive.so?"
-        in said
+        "Failed to load plugin libgazebo_ros_dif_drive.so: there is no plugin of this name in rosmini; did you mean "
+        "libgazebo_ros_diff_drive.so?" in said
     )
     assert "did you mean libgazebo_ros_diff_drive.so?" in said
     assert "<topicname> means nothing to the plugin; did you mean topicName?" in said
@@ -407,12 +427,15 @@ def test_unknown_plugins_and_tags_are_warned_of_with_the_nearest(
 def test_of_a_plugin_that_gazebo_has_it_is_told_what_it_would_have_done(
     bench: Start, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    text = '<gazebo><plugin name="control" filename="libgazebo_ros_control.so"><robotNamespace>/r</robotNamespace></plugin></gazebo>'
+    text = (
+        '<gazebo><plugin name="control" filename="libgazebo_ros_control.so">'
+        "<robotNamespace>/r</robotNamespace></plugin></gazebo>"
+    )
     assert bench().spawn(urdf(text), "r").success
     said = "".join(capsys.readouterr())
     assert (
-        "Failed to load plugin libgazebo_ros_control.so: there is no plugin of this name in rosmini; it lets joints be moved from ROS"
-        in said
+        "Failed to load plugin libgazebo_ros_control.so: there is no plugin of this name in rosmini; it lets joints "
+        "be moved from ROS" in said
     )
     assert "the model 'r' goes on without a plugin: Failed to load" in said
     assert not {name for name in ABSENT if f"lib{name}.so" in plugin_filenames()}
@@ -479,3 +502,65 @@ def test_another_robot_changes_nobodys_noise(bench: Start) -> None:
             return [scan.ranges[90] for scan in scans]
 
     assert heard(more=True) == heard(more=False)
+
+
+HUSKY_WHEEL = """
+<link name="{name}"><inertial><mass value="2"/>
+  <inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial>
+  <collision><geometry><cylinder radius="0.165" length="0.11"/></geometry></collision></link>
+<joint name="{name}_joint" type="continuous"><parent link="base_link"/><child link="{name}"/>
+  <origin xyz="{x} {y} 0.165" rpy="-1.5707963267948966 0 0"/><axis xyz="0 0 1"/></joint>"""
+
+
+def husky(extra: str = "") -> str:
+    """A box on four wheels, as a Husky has them; the middle of the wheels is 0.1 m ahead of its origin."""
+    wheels = "".join(
+        HUSKY_WHEEL.format(name=f"{end}_{side}", x=0.1 + x, y=y)
+        for end, x in (("front", 0.256), ("rear", -0.256))
+        for side, y in (("left", 0.2854), ("right", -0.2854))
+    )
+    joints = "".join(
+        f"<{side}{end.title()}Joint>{end}_{side}_joint</{side}{end.title()}Joint>"
+        for side in ("left", "right")
+        for end in ("front", "rear")
+    )
+    return f"""<robot name="husky"><link name="base_link"><inertial><mass value="33"/>
+      <inertia ixx="0.6" iyy="1.5" izz="1.6" ixy="0" ixz="0" iyz="0"/></inertial>
+      <collision><origin xyz="0.1 0 0.3"/><geometry><box size="0.98 0.57 0.25"/></geometry></collision></link>{wheels}
+      <gazebo><plugin name="skid_steer" filename="libgazebo_ros_skid_steer_drive.so">{joints}
+        <wheelSeparation>0.5708</wheelSeparation><wheelDiameter>0.33</wheelDiameter><updateRate>50</updateRate>
+        <robotBaseFrame>base_link</robotBaseFrame>{extra}</plugin></gazebo></robot>"""
+
+
+def test_four_wheels_drive_and_turn_alike_on_each_side(bench: Start) -> None:
+    there = bench()
+    there.spawn(husky("<broadcastTF>true</broadcastTF>"), "husky")
+    odometry = there.hear("/odom", "nav_msgs/Odometry")
+    transforms = there.hear("/tf", "tf2_msgs/TFMessage")
+    there.drive("/cmd_vel", 0.5)
+    there.graph.run(1.01)
+    assert there.pose("husky") == pytest.approx((0.5, 0.0, 0.0), abs=0.03)
+    model = there.server.world.model("husky")
+    turns = {joint: model.joint(joint)[0] for joint in model.joints}
+    assert list(turns.values()) == pytest.approx([there.pose("husky")[0] / 0.165] * 4, rel=1e-6)
+    assert odometry[-1].pose.pose.position.x == pytest.approx(there.pose("husky")[0] + 0.1, abs=0.02)
+    assert odometry[-1].pose.covariance[[0, 7, 35]] == pytest.approx([1e-4, 1e-4, 0.01])
+    assert transforms[-1].transforms[0].child_frame_id == "base_link"
+    there.drive("/cmd_vel", 0.0, 1.0)
+    before = there.pose("husky")
+    there.graph.run(1.0)
+    x, y, heading = there.pose("husky")
+    assert heading == pytest.approx(1.0, abs=0.03)
+    # it turns about the middle of its four wheels
+    assert (x + 0.1 * math.cos(heading), y + 0.1 * math.sin(heading)) == pytest.approx(
+        (before[0] + 0.1, before[1]), abs=1e-6
+    )
+    for joint in model.joints:
+        sign = -1 if "left" in joint else 1
+        assert model.joint(joint)[1] == pytest.approx(sign * 0.2854 / 0.165, rel=1e-3)
+
+
+def test_four_wheels_need_their_joints(bench: Start) -> None:
+    answer = bench().spawn(husky().replace("rear_left_joint</left", "rear_lft_joint</left"), "husky")
+    assert not answer.success
+    assert "has no joint 'rear_lft_joint'; did you mean rear_left_joint" in answer.status_message

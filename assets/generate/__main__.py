@@ -1,0 +1,36 @@
+"""`python -m assets.generate`: make the committed worlds, maps, meshes and pictures again, in this checkout."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from . import pictures, worlds
+from .meshes import turtlebot3
+
+CHECKOUT = Path(__file__).resolve().parents[2]
+
+
+def texts() -> dict[str, str]:
+    """Every file that is compared byte by byte, by its path in a checkout."""
+    made = {f"assets/ros/{path}": text for path, text in worlds.sdf_texts().items()}
+    for name, text in turtlebot3.files().items():
+        made[f"assets/ros/turtlebot3_description/meshes/{name}"] = text
+    made["book/static/talker_listener.svg"] = pictures.talker_and_listener() + "\n"
+    return made
+
+
+def main(checkout: Path = CHECKOUT) -> None:
+    """Write all files into `checkout` and print which."""
+    for path, text in texts().items():
+        file = checkout / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8", newline="\n")
+        print(file)
+    maps = checkout / "assets/ros/rosmini_sim/maps"
+    maps.mkdir(parents=True, exist_ok=True)
+    for file in worlds.write_maps(maps):
+        print(file)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""The meshes in `assets/ros/turtlebot3_description/meshes`."""

@@ -1,0 +1,280 @@
+"""Verbs of the command line: each is a function that returns a result, with two front ends, the terminal and Python.
+
+    TOOL = Tool("rosdemo", "say hello")
+
+    @TOOL.verb("greet somebody", parser=greet_parser)
+    def hello(given: Namespace, call: Call) -> Greeting: ...
+
+`rosmini rosdemo hello Ada` prints the result and exits with its status; ``TOOL.run("hello", "Ada", graph=graph)``
+returns it, and ``TOOL.on(graph)("hello", "Ada")`` prints it in a notebook.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NoReturn, Protocol
+
+from rosmini.errors import RosminiError, UsageError, nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rosmini.graph import Graph
+
+SETTLE_S = 0.1
+"""How long the nodes after a `+` run before the verb acts [s]."""
+
+
+class VerbError(RosminiError):
+    """A verb could not do what it was asked to; ``status`` is the exit status."""
+
+    def __init__(self, message: str, status: int = 1) -> None:
+        super().__init__(message)
+        self.status = status
+
+
+@dataclass(frozen=True, kw_only=True)
+class Result:
+    """What a verb found or did. Its text is what the tool prints; ``complaints`` are what went wrong in parts."""
+
+    complaints: tuple[str, ...] = ()
+    status: int = 0
+    """The exit status."""
+
+    def __str__(self) -> str:
+        return ""
+
+    def _repr_pretty_(self, printer: Any, _cycle: bool) -> None:
+        """Be shown by IPython as in a terminal."""
+        printer.text("\n".join(filter(None, (str(self), *self.complaints))))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lines(Result):
+    """A result whose data are the lines that are printed."""
+
+    lines: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines)
+
+
+@dataclass(frozen=True)
+class Call:
+    """What a verb is given beside its options: the graph on which it acts; ``say`` prints what it prints as it goes."""
+
+    graph: Graph
+    say: Callable[[str], object] = print
+
+
+class Parser(Protocol):
+    """The options of a verb."""
+
+    def parse(self, words: Sequence[str], /) -> Any:
+        """Return what was given. Raises ``UsageError`` or another error that says what is wrong."""
+
+    def format_help(self) -> str:
+        """Return the help text."""
+
+
+class ArgumentParser(argparse.ArgumentParser):
+    """argparse's, which raises ``UsageError`` and leaves `--help` to the tool."""
+
+    def __init__(self, prog: str, description: str, **options: Any) -> None:
+        super().__init__(prog=prog, description=description, add_help=False, **options)
+
+    def parse(self, words: Sequence[str], /) -> argparse.Namespace:
+        """Return what was given. Raises ``UsageError``."""
+        return self.parse_args(list(words))
+
+    def error(self, message: str) -> NoReturn:
+        """Raise ``UsageError``."""
+        raise UsageError(f"{self.prog}: {message}. {self.format_usage().strip()}")
+
+
+@dataclass(frozen=True)
+class Verb:
+    """One verb: its summary, its options, and the function that acts."""
+
+    name: str
+    summary: str
+    parser: Callable[[], Parser]
+    act: Callable[[Any, Call], Result]
+    needs_graph: bool = False
+    in_terminal: Callable[[Sequence[str]], int] | None = None
+    """What a terminal does instead: for verbs that run nodes there until Ctrl-C."""
+
+
+@dataclass(frozen=True)
+class Tool:
+    """A tool and the table of its verbs.
+
+    ``usage_status`` is the exit status for a command line that makes no sense; ``elsewhere`` are verbs of ROS's tool
+    that are not here; ``example`` is what to write after a `+` for the nodes on which a verb can act.
+    """
+
+    name: str
+    summary: str
+    usage_status: int = 2
+    elsewhere: tuple[str, ...] = ()
+    example: str = "rosmini_sim/simulator"
+    verbs: dict[str, Verb] = field(default_factory=dict)
+
+    def verb(
+        self,
+        summary: str,
+        *,
+        parser: Callable[[], Parser],
+        name: str | None = None,
+        needs_graph: bool = False,
+        in_terminal: Callable[[Sequence[str]], int] | None = None,
+    ) -> Callable[[Callable[[Any, Call], Result]], Callable[[Any, Call], Result]]:
+        """Add the decorated function, under its own name if none is given."""
+
+        def add(act: Callable[[Any, Call], Result]) -> Callable[[Any, Call], Result]:
+            known = name or act.__name__
+            self.verbs[known] = Verb(known, summary, parser, act, needs_graph, in_terminal)
+            return act
+
+        return add
+
+    def find(self, name: str) -> Verb:
+        """Return a verb. Raises ``UsageError`` if there is none of this name, with the nearest."""
+        if name in self.verbs:
+            return self.verbs[name]
+        if name in self.elsewhere:
+            raise UsageError(f"`{self.name} {name}` is a command of the original tool, which rosmini has not")
+        hint = nearest(name, self.verbs) or f"there are: {', '.join(self.verbs)}"
+        raise UsageError(f"Unknown command: '{name}'\n{self.name}: there is no command {name!r}; {hint}")
+
+    def help(self) -> str:
+        """Return the list of verbs."""
+        width = max(map(len, self.verbs))
+        listed = "\n".join(f"   {verb.name:<{width}}   {verb.summary}" for verb in self.verbs.values())
+        return (
+            f"usage: rosmini {self.name} <verb> [options] [args]\n\n{self.summary}\n\n"
+            f"verbs:\n{listed}\n\n`rosmini {self.name} <verb> -h` says more about one."
+        )
+
+    # -- in Python -----------------------------------------------------------------------------------------------
+
+    def run(self, *words: object, graph: Graph | None = None, say: Callable[[str], object] = print) -> Result:
+        """Do what the words say, on ``graph`` (the default graph if not given), and return the result.
+
+        Raises ``UsageError`` for words that make no sense, and what the verb raises.
+        """
+        from rosmini.graph import running_graph
+
+        text = [os.fspath(word) if isinstance(word, os.PathLike) else str(word) for word in words]
+        asked = self._help_for(text)
+        if asked is not None:
+            return Lines(lines=(asked,))
+        verb = self.find(text[0])
+        given = verb.parser().parse(text[1:])
+        return verb.act(given, Call(running_graph() if graph is None else graph, say))
+
+    def on(self, graph: Graph | None = None) -> Prompt:
+        """Return what does verbs on ``graph`` in a notebook."""
+        return Prompt(self, graph)
+
+    def _help_for(self, words: Sequence[str]) -> str | None:
+        helps = {"-h", "--help", "help"}
+        if not words or (words[0] in helps and len(words) == 1):
+            return self.help()
+        if words[0] in helps:
+            return self.find(words[1]).parser().format_help()
+        if {"-h", "--help"} & set(words[1:]):
+            return self.find(words[0]).parser().format_help()
+        return None
+
+    # -- in a terminal -------------------------------------------------------------------------------------------
+
+    def add_parser(self, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
+        """Add the tool to the parser of `rosmini`: no word of it is an option for that one."""
+        parser = subparsers.add_parser(self.name, help=self.summary, add_help=False, prefix_chars="\0")
+        parser.add_argument("words", nargs="*")
+        return parser
+
+    def main(self, args: argparse.Namespace) -> int:
+        """Do what the words say, print it, and return the exit status."""
+        words: list[str] = args.words
+        own, nodes = _before_plus(words)
+        try:
+            asked = self._help_for(own)
+            if asked is not None:
+                print(asked)
+                if words and not nodes and words[0] in ("-h", "--help"):
+                    raise SystemExit(0)  # as argparse ends after a help text
+                return 0
+            verb = self.find(own[0])
+            if verb.in_terminal is not None:
+                verb.parser()
+                return verb.in_terminal(words[1:])
+            result = self._in_terminal(verb, own[1:], nodes)
+        except VerbError as error:
+            print(error, file=sys.stderr)
+            return error.status
+        except UsageError as error:
+            print(error, file=sys.stderr)
+            return self.usage_status
+        text = str(result)
+        if text:
+            print(text)
+        for complaint in result.complaints:
+            print(complaint, file=sys.stderr)
+        return result.status
+
+    def _in_terminal(self, verb: Verb, own: Sequence[str], nodes: Sequence[str]) -> Result:
+        from rosmini.graph import Graph
+
+        given = verb.parser().parse(own)
+        if verb.needs_graph and not nodes:
+            raise RosminiError(
+                f"{self.name} {verb.name} acts on a graph, and none is running in this process: name it after a +, "
+                f"for example `rosmini {' '.join((self.name, verb.name, *own))} + {self.example}`"
+            )
+        with Graph() as graph:
+            if nodes:
+                _start(nodes, graph)
+            return verb.act(given, Call(graph))
+
+
+@dataclass(frozen=True)
+class Prompt:
+    """A tool and the graph on which it acts (None: the default graph). Called with words, it prints the result."""
+
+    tool: Tool
+    graph: Graph | None = None
+
+    def __call__(self, *words: object) -> None:
+        """Do what the words say, and print it. Raises as `Tool.run` does."""
+        result = self.run(*words)
+        for line in filter(None, (str(result), *result.complaints)):
+            print(line)
+
+    def run(self, *words: object) -> Result:
+        """Do what the words say, and return the result. Raises as `Tool.run` does."""
+        return self.tool.run(*words, graph=self.graph)
+
+
+def _before_plus(words: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Split words at the first `+`: the tool's, and those of the nodes that it acts on."""
+    if "+" not in words:
+        return list(words), []
+    at = words.index("+")
+    return list(words[:at]), list(words[at + 1 :])
+
+
+def _start(nodes: Sequence[str], graph: Graph) -> None:
+    """Start what stands after a `+`, and let it settle."""
+    from rosmini.scripts import rosrun
+
+    while nodes:
+        words, nodes = _before_plus(nodes)
+        package, _, executable = words[0].partition("/")
+        rosrun(package, executable, *words[1:], graph=graph).instance()
+    graph.run(SETTLE_S)

@@ -1,0 +1,235 @@
+"""How anything asks the Master: through one port, which may take time, may fail and may park the caller's lane.
+
+In process the :class:`~rosmini.graph.master.Master` is the port itself and answers at once. A Master elsewhere is
+another :class:`MasterPort`. Nodes and tools do not call a port themselves: each has a :class:`MasterProxy`, which keeps
+its calls in order and tries again where ROS does.
+"""
+
+from __future__ import annotations
+
+import threading
+from abc import ABC, abstractmethod
+from collections import deque
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING, Any, Protocol
+
+from rosmini.errors import MasterUnreachable, ROSException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from .lanes import Waiter
+    from .scheduler import Scheduler
+    from .transport import Triple
+
+METHODS = frozenset(
+    [
+        "registerService",
+        "unregisterService",
+        "registerSubscriber",
+        "unregisterSubscriber",
+        "registerPublisher",
+        "unregisterPublisher",
+        "lookupNode",
+        "getPublishedTopics",
+        "getTopicTypes",
+        "getSystemState",
+        "getUri",
+        "getPid",
+        "shutdown",
+        "lookupService",
+        "setParam",
+        "getParam",
+        "hasParam",
+        "deleteParam",
+        "searchParam",
+        "getParamNames",
+        "subscribeParam",
+        "unsubscribeParam",
+    ]
+)
+"""The Master API and the Parameter Server API (http://wiki.ros.org/ROS/Master_API)."""
+
+RETRY_NS = 200_000_000
+"""How long a node waits before it tries again to register, as rospy does."""
+
+LEAVE_NS = 2_000_000_000
+"""How long a node that ends keeps trying to unregister at a Master that does not answer."""
+
+
+class MasterPort(ABC):
+    """A way to the Master. ``port.lookupNode(caller_id, name)`` is ``port.call("lookupNode", caller_id, name)``."""
+
+    uri: str
+    """The Master's address."""
+    is_local = False
+    """True for a Master in this process: it answers at once, in any thread, and its notifier tells of every change."""
+
+    @abstractmethod
+    def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
+        """Return the Master's answer: [code, status, value]. May park the calling lane.
+
+        Raises ``MasterUnreachable`` when there is no answer; the call may have had its effect all the same.
+        """
+
+    def __getattr__(self, name: str) -> Callable[..., Triple]:
+        if name not in METHODS:
+            raise AttributeError(f"the Master has no method {name}", name=name, obj=self)
+        return partial(self.call, name)
+
+
+class MasterHost(Protocol):
+    """What a proxy needs of its graph."""
+
+    scheduler: Scheduler
+
+    @property
+    def master(self) -> MasterPort:
+        """The port to the Master of this moment."""
+
+
+class MasterProxy:
+    """The Master as one caller sees it.
+
+    Its calls reach the Master one after another, in the order in which they were made. ``caller_id`` is the node's or
+    the tool's name. ``is_over`` says that a registration need not be tried again.
+    """
+
+    def __init__(self, host: MasterHost, caller_id: str, is_over: Callable[[], bool] = lambda: False) -> None:
+        self._host = host
+        self._caller_id = caller_id
+        self._is_over = is_over
+        self._lock = threading.Lock()
+        self._busy = False
+        self._queue: deque[Waiter] = deque()
+        self._leave_by: int | None = None
+
+    def call(self, method: str, *arguments: Any) -> Triple:
+        """Return the Master's answer: [code, status, value]. Raises ``MasterUnreachable``."""
+        port = self._host.master
+        if port.is_local:
+            answer: Triple = getattr(port, method)(self._caller_id, *arguments)
+            return answer
+        with self._turn():
+            return port.call(method, self._caller_id, *arguments)
+
+    def ask(self, method: str, *arguments: Any) -> Any:
+        """Return the value of the Master's answer.
+
+        Raises ``ROSException`` with its status for any code but 1, and ``MasterUnreachable``.
+        """
+        return self._value(method, self.call(method, *arguments))
+
+    def _value(self, method: str, answer: Triple) -> Any:
+        code, status, value = answer
+        if code != 1:
+            raise ROSException(f"the Master refused {method} of node {self._caller_id}: {status}")
+        return value
+
+    def find(self, method: str, *arguments: Any) -> Any:
+        """Return the value of the Master's answer, or None if the code is not 1. Raises ``MasterUnreachable``."""
+        code, _, value = self.call(method, *arguments)
+        return value if code == 1 else None
+
+    def insist(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Triple:
+        """Do as :meth:`call`, but keep trying while the Master does not answer and the caller goes on.
+
+        ``warn`` once.
+        """
+        port = self._host.master
+        if port.is_local:
+            answer: Triple = getattr(port, method)(self._caller_id, *arguments)
+            return answer
+        with self._turn():
+            while True:
+                try:
+                    return self._host.master.call(method, self._caller_id, *arguments)
+                except MasterUnreachable as error:
+                    if self._is_over():
+                        raise
+                    warn(f"{error} ({method}). Trying again until it answers.")
+                    warn = _silent
+                    self._pause()
+
+    def register(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Any:
+        """Do as :meth:`ask`, but keep trying as :meth:`insist` does."""
+        return self._value(method, self.insist(method, *arguments, warn=warn))
+
+    def unregister(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> None:
+        """Take a registration back; after some vain attempts only ``warn``.
+
+        What the Master has forgotten is no error.
+        """
+        port = self._host.master
+        if port.is_local:
+            getattr(port, method)(self._caller_id, *arguments)
+            return
+        scheduler = self._host.scheduler
+        with self._turn():
+            while True:
+                try:
+                    self._host.master.call(method, self._caller_id, *arguments)
+                except MasterUnreachable as error:
+                    if self._leave_by is None:
+                        self._leave_by = scheduler.now_ns() + LEAVE_NS
+                    if scheduler.now_ns() >= self._leave_by:
+                        warn(f"{error} ({method}). The registration stays there.")
+                        return
+                    self._pause()
+                else:
+                    self._leave_by = None
+                    return
+
+    def who_publishes(self, topic: str) -> str:
+        """Return a clause that says who publishes a topic."""
+        try:
+            names = self._publishers(topic)
+        except MasterUnreachable:
+            return "the Master does not answer"
+        return f"{', '.join(names)} publishes it" if names else "nobody publishes it"
+
+    def publisher_at(self, topic: str, uri: str) -> str:
+        """Return the name of the node at ``uri`` that publishes a topic, or the URI if the Master does not know it."""
+        try:
+            names = [name for name in self._publishers(topic) if self.find("lookupNode", name) == uri]
+        except MasterUnreachable:
+            names = []
+        return names[0] if names else uri
+
+    def _publishers(self, topic: str) -> list[str]:
+        publishers: list[tuple[str, list[str]]] = self.ask("getSystemState")[0]
+        return next((names for name, names in publishers if name == topic), [])
+
+    def _pause(self) -> None:
+        scheduler = self._host.scheduler
+        scheduler.sleep_until(scheduler.now_ns() + RETRY_NS, "the Master")
+
+    @contextmanager
+    def _turn(self) -> Iterator[None]:
+        """Let this caller's calls that came before this one end first."""
+        with self._lock:
+            waiter = None
+            if self._busy:
+                waiter = self._host.scheduler.waiter("its turn at the Master")
+                self._queue.append(waiter)
+            self._busy = True
+        try:
+            if waiter is not None:
+                waiter.wait()
+            yield
+        finally:
+            self._pass_on(waiter)
+
+    def _pass_on(self, mine: Waiter | None) -> None:
+        with self._lock:
+            if mine is not None and mine in self._queue:  # it was asked to end before its turn came
+                self._queue.remove(mine)
+            elif self._queue:
+                self._queue.popleft().wake()
+            else:
+                self._busy = False
+
+
+def _silent(_text: str) -> None:
+    """Say nothing."""

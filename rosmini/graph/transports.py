@@ -1,0 +1,73 @@
+"""Several transports in one graph: each connection goes the first way that both of its ends offer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import TransportException, TransportInitError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from .scheduler import Scheduler
+    from .transport import Endpoint, Header, Receiver, ServiceLink, Transport, Triple
+
+
+class Transports:
+    """The ways in which nodes reach one another, the preferred one first.
+
+    A node has one address, which the last of them gives: the one that reaches farthest.
+    """
+
+    def __init__(self, scheduler: Scheduler, makers: Sequence[Callable[[Scheduler], Transport]]) -> None:
+        self.ways = [make(scheduler) for make in makers]
+
+    def attach(self, endpoint: Endpoint) -> str:
+        """Make a node reachable in every way; return the URI of its slave API."""
+        uri: str | None = None
+        for way in reversed(self.ways):
+            uri = way.attach(endpoint, uri)
+        if uri is None:
+            raise TransportException("a graph needs a transport")
+        return uri
+
+    def detach(self, uri: str) -> None:
+        """Make a node unreachable."""
+        for way in self.ways:
+            way.detach(uri)
+
+    def service_uri(self, uri: str) -> str:
+        """Return the URI under which the node with slave API ``uri`` serves its services."""
+        return self.ways[-1].service_uri(uri)
+
+    def offers(self, caller: str) -> list[list[Any]]:
+        """Return what the node at ``caller`` offers in ``requestTopic``."""
+        return [offer for way in self.ways if (offer := way.offer(caller)) is not None]
+
+    def topic_parameters(self, uri: str, offers: list[list[Any]]) -> list[Any] | None:
+        """Return what ``requestTopic`` of the node at ``uri`` answers: by the first of our ways that is offered."""
+        answers = (way.topic_parameters(uri, offer) for way in self.ways for offer in offers)
+        return next((answer for answer in answers if answer is not None), None)
+
+    def call(self, uri: str, method: str, *arguments: Any) -> Triple:
+        """Call a method of a node's slave API; may block. Raises ``TransportException`` when nobody answers."""
+        return self._way_to(uri).call(uri, method, *arguments)
+
+    def connect_topic(
+        self, caller: str, parameters: list[Any], header: Header, receiver: Receiver
+    ) -> tuple[Header, Callable[[], None]]:
+        """Open a topic connection in the way that was agreed on; see :class:`~rosmini.graph.transport.Transport`."""
+        for way in self.ways:
+            if parameters and parameters[0] == way.protocol:
+                return way.connect_topic(caller, parameters, header, receiver)
+        raise TransportInitError(f"the publisher answered with {parameters}, which was not offered")
+
+    def connect_service(
+        self, caller: str, service_uri: str, header: Header, service_class: Any
+    ) -> ServiceLink:
+        """Open a service connection; see :class:`~rosmini.graph.transport.Transport`."""
+        return self._way_to(service_uri).connect_service(caller, service_uri, header, service_class)
+
+    def _way_to(self, uri: str) -> Transport:
+        """Return the first way to a node; the last one tells best why there is none."""
+        return next((way for way in self.ways if way.reaches(uri)), self.ways[-1])

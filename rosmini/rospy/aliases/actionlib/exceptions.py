@@ -1,7 +1,0 @@
-"""``actionlib.exceptions``."""
-
-from __future__ import annotations
-
-from rosmini.actionlib.errors import ActionException
-
-__all__ = ["ActionException"]

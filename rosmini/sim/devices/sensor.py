@@ -1,0 +1,125 @@
+"""What all sensors share. A new sensor is one class in one file, see `Sensor`."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from rosmini.msgs import message_class
+from rosmini.msgs.template import template
+from rosmini.sim.host import Device, Host, Stamp
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+STAMP = ("header.stamp.secs", "header.stamp.nsecs")
+
+
+class Outlet:
+    """A topic of a device.
+
+    Its messages are all like `message`, as it is now, but for the stamp and the fields `varying`. A message without a
+    header has no stamp.
+    """
+
+    def __init__(
+        self, node: Node, topic: str, message: Any, varying: Sequence[str] = (), *, queue_size: int = 10
+    ) -> None:
+        self.publisher = node.publisher(topic, type(message), queue_size=queue_size)
+        self.heard = self.publisher.num_connections
+        """Returns how many listen."""
+        self._stamped = bool(message._has_header)
+        self.make = template(message, *(STAMP if self._stamped else ()), *varying)
+        """Makes a message from the seconds and nanoseconds of its stamp, and the values of the varying fields."""
+
+    def publish(self, stamp: Stamp, values: Sequence[Any] = ()) -> None:
+        """Publish a message with the values of the varying fields."""
+        self.publisher.publish_frozen(self.make(*stamp, *values) if self._stamped else self.make(*values))
+
+    def close(self) -> None:
+        """End the topic."""
+        self.publisher.unregister()
+
+
+class Sensor(Device):
+    """Something on a robot that measures, and publishes what it measures. Derive from it to make a new one.
+
+    The class declares the message, the topic, the rate, and its place among devices that are due at the same instant;
+    `describe` fills in what is the same in all messages, and `sample` returns what is not. A robot of the simulator
+    gets it by `simulator.robot().add(Odometer)`.
+
+    >>> class Odometer(Sensor):
+    ...     message_type = "std_msgs/Float64"
+    ...     default_topic = "odometer"
+    ...     default_rate = 2.0
+    ...     varying = ("data",)
+    ...
+    ...     def sample(self, number):
+    ...         return [abs(self.robot.left_way + self.robot.right_way) / 2]
+
+    Args:
+        host: the simulated world.
+        robot: the engine's name of the robot.
+        topic: where it is published; `default_topic` if not given.
+        frame: the frame of the header; `default_frame` if not given.
+        rate: samples a second [Hz]; `default_rate` if not given.
+        name: under which it is saved and draws its noise; robot/`label` if not given.
+
+    """
+
+    always = False
+    message_type: ClassVar[str]
+    default_topic: ClassVar[str]
+    default_rate: ClassVar[float]
+    default_frame: ClassVar[str] = ""
+    label: ClassVar[str] = ""
+    """What its name ends with; the default topic if empty."""
+    varying: ClassVar[tuple[str, ...]] = ()
+    """The fields that `sample` returns the values of."""
+    queue_size: ClassVar[int] = 10
+
+    def __init__(
+        self,
+        host: Host,
+        robot: str,
+        *,
+        topic: str | None = None,
+        frame: str | None = None,
+        rate: float | None = None,
+        name: str | None = None,
+    ) -> None:
+        super().__init__(
+            host, name or f"{robot}/{self.label or self.default_topic}", rate or self.default_rate
+        )
+        self.robot = host.engine.robot(robot)
+        message: Any = message_class(self.message_type)()
+        if message._has_header:
+            message.header.frame_id = self.default_frame if frame is None else frame
+        self.describe(message)
+        topic = self.default_topic if topic is None else topic
+        self.outlet = Outlet(host.node, topic, message, self.varying, queue_size=self.queue_size)
+
+    def describe(self, message: Any) -> None:
+        """Fill in what is the same in all messages. Called once, when the sensor is made."""
+
+    @abstractmethod
+    def sample(self, number: int) -> Sequence[Any] | None:
+        """Return the values of the `varying` fields in the sample of this number, counted from 1.
+
+        None for no sample.
+        """
+
+    def wanted(self) -> bool:
+        """Return whether anybody listens; if not, no sample is taken."""
+        return self.outlet.heard() > 0
+
+    def due(self, stamp: Stamp, number: int, /) -> None:
+        """Publish a sample."""
+        values = self.sample(number)
+        if values is not None:
+            self.outlet.publish(stamp, values)
+
+    def close(self) -> None:
+        """End the topic."""
+        self.outlet.close()

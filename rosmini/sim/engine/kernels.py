@@ -1,0 +1,483 @@
+"""The loops of contact: who is pushed out of what, what gives way, and how far it is to what is near.
+
+All bodies are convex outlines with a radius: see `rosmini.sim.engine.outlines`.
+
+Blows and pushes are sequential impulses (Catto, Iterative dynamics with temporal coherence, GDC 2005) that
+start from zero in each step, so nothing is remembered, a fixed number of rounds over the contacts in the
+order of the names of the bodies: what is far away changes nothing, not even the last bit.
+
+The functions here are plain Python, which is what runs without numba; `compiled` makes machine code of them,
+which does the same to the last bit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.machine_code import machine_code
+
+from .outlines import NONE, Contact, contact, contact_disc, facing, gap, height, nearest_side, parting
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+Scene = tuple[
+    Floats, Floats, Floats, Floats, Ints, Ints, Floats, Ints, Ints, Floats, Ints, Floats, Ints, Ints
+]
+"""Bodies and what is near them; see `rosmini.sim.engine.scene`, which makes it.
+
+Of n bodies the poses (n, 3) and properties (n, 13); the corners of their outlines in the body's frame and in the
+world, where each outline begins, which is the first outline of each body, and the radius of each outline; which fixed
+outlines are near each body (where its part of a list begins, and the list), their corners, where each begins, and
+the box around each with its radius; and in the same way which bodies are near each body.
+"""
+
+MASS, INERTIA, MIDDLE_X, MIDDLE_Y, GIRTH, KIND, X, Y, CENTRE_X, CENTRE_Y, RESTITUTION, HOLD, TURN_HOLD = (
+    range(13)
+)
+"""The properties of a body: the circle around it in its frame, where the middle of that is now, its centre of mass,
+and the largest force [N] and torque [N m] with which the ground holds it, or its wheels drive it."""
+
+ROBOT, CRATE, LEAF = 0.0, 1.0, 2.0
+"""Kinds of bodies: driven by wheels, pushed, moved by itself."""
+
+TOUCH = 1e-9
+"""A robot that reaches into something by less [m] only touches it."""
+
+SLACK = 2e-5
+"""So deep [m] a robot reaches into what it pushes: bodies that do not overlap do not push each other."""
+
+ROUNDS = 20
+"""So often at most a robot is pushed out of what it has driven into; a wedge between two walls takes the most."""
+
+QUICK, NEARLY = 4, 1e-6
+"""After so many rounds, robots that push one another may still overlap by so much [m]."""
+
+ITERATIONS = 30
+"""So often the impulses of all contacts are put right, one after the other."""
+
+APART = 1e-6
+"""What is no farther apart [m] may push."""
+
+PART = 0.2
+"""So much of an overlap that no blow explains is taken back in a step."""
+
+REST = 1e-4
+"""A movable obstacle that is slower [m/s, rad/s] stands."""
+
+
+# -- bodies ----------------------------------------------------------------------------------------------------------
+
+
+def give(
+    count: int, d0: float, d1: float, r0: float, r1: float, mass: float, inertia: float
+) -> tuple[float, float]:
+    """How far to move a body along the normal of a contact [m], and how far to turn it [rad], so that it just touches.
+
+    Each of the one or two points has a depth and a lever, the part of its place across the normal. The answer is what
+    forces k >= 0 at these points do, along = sum k / m and turn = sum k r / I, that make the overlap vanish.
+    """
+    if count == 2 and abs(r0 - r1) > 1e-9:
+        turn = (d0 - d1) / (r0 - r1)
+        along = d0 - turn * r0
+        k = (inertia * turn - mass * along * r1) / (r0 - r1)
+        spare = 1e-12 * mass * along
+        if -spare <= k <= mass * along + spare:
+            return along, turn
+    depth, lever = d0, r0
+    if count == 2 and (d1 > d0 or (d1 == d0 and r1 > r0)):
+        depth, lever = d1, r1
+    k = depth / (1 / mass + lever * lever / inertia)
+    return k / mass, k * lever / inertia
+
+
+def stand(i: int, scene: Scene) -> None:
+    """Put the corners of a body, and the middle of its circle, to where its pose is."""
+    poses, bodies, outline, corners, first, begin = scene[0], scene[1], scene[2], scene[3], scene[4], scene[5]
+    x, y, c, s = poses[i, 0], poses[i, 1], math.cos(poses[i, 2]), math.sin(poses[i, 2])
+    for k in range(first[begin[i]], first[begin[i + 1]]):
+        corners[k, 0] = x + c * outline[k, 0] - s * outline[k, 1]
+        corners[k, 1] = y + s * outline[k, 0] + c * outline[k, 1]
+    bodies[i, X] = x + c * bodies[i, MIDDLE_X] - s * bodies[i, MIDDLE_Y]
+    bodies[i, Y] = y + s * bodies[i, MIDDLE_X] + c * bodies[i, MIDDLE_Y]
+
+
+def beside(i: int, m: int, more: float, bodies: Floats, boxes: Floats) -> bool:
+    """Whether a fixed outline may be within `more` of a body's circle."""
+    x, y, r = bodies[i, X], bodies[i, Y], bodies[i, GIRTH] + more
+    return bool(boxes[m, 0] - r <= x <= boxes[m, 2] + r and boxes[m, 1] - r <= y <= boxes[m, 3] + r)
+
+
+def close(i: int, j: int, more: float, bodies: Floats) -> bool:
+    """Whether the circles of two bodies are within `more`."""
+    dx, dy = bodies[j, X] - bodies[i, X], bodies[j, Y] - bodies[i, Y]
+    r = bodies[i, GIRTH] + bodies[j, GIRTH] + more
+    return bool(dx * dx + dy * dy <= r * r)
+
+
+# -- robots make way -------------------------------------------------------------------------------------------------
+
+
+def shove(i: int, part: float, nx: float, ny: float, hit: Contact, slack: float, scene: Scene) -> None:
+    """Move a robot along a normal, and turn it, by so much of what brings it out of a contact."""
+    poses, bodies = scene[0], scene[1]
+    count, _, _, d0, x0, y0, d1, x1, y1 = hit
+    x, y = poses[i, 0], poses[i, 1]
+    r0, r1 = (x0 - x) * ny - (y0 - y) * nx, (x1 - x) * ny - (y1 - y) * nx
+    along, turn = give(count, d0 - slack, d1 - slack, r0, r1, bodies[i, MASS], bodies[i, INERTIA])
+    poses[i, 0] = x + part * along * nx
+    poses[i, 1] = y + part * along * ny
+    poses[i, 2] += part * turn
+    stand(i, scene)
+
+
+def push_out(i: int, nearly: float, fair: bool, scene: Scene) -> int:
+    """Resolve a robot's deepest overlap; return the other robot moved, or itself, or -1 if there was none.
+
+    Of two robots the one gives way whose wheels grip less, or, if both grip alike or it is to be fair, both by half.
+    """
+    _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
+    worst, who, slack, hit = TOUCH, i, 0.0, NONE
+    p = begin[i]
+    a0, a1, ra = first[p], first[p + 1], radius[p]
+    for k in range(near_at[i], near_at[i + 1]):
+        m = near[k]
+        if beside(i, m, 0.0, bodies, boxes):
+            found = contact(corners, a0, a1, ra, sides, starts[m], starts[m + 1], boxes[m, 4], worst)
+            if found[0] and max(found[3], found[6]) > worst:
+                worst, hit = max(found[3], found[6]), found
+    for k in range(mate_at[i], mate_at[i + 1]):
+        j = mates[k]
+        if close(i, j, 0.0, bodies):
+            play = 0.0 if bodies[j, KIND] == LEAF else SLACK
+            least = max(worst, nearly) if bodies[j, KIND] == ROBOT else worst
+            for q in range(begin[j], begin[j + 1]):
+                found = contact(corners, a0, a1, ra, corners, first[q], first[q + 1], radius[q], least + play)
+                if found[0] and max(found[3], found[6]) - play > least:
+                    worst = least = max(found[3], found[6]) - play
+                    who, slack, hit = j if bodies[j, KIND] == ROBOT else i, play, found
+    if not hit[0]:
+        return -1
+    mine = 1.0
+    if who != i:
+        own, other = bodies[i, MASS], bodies[who, MASS]
+        mine = 0.5 if fair or own == other else (1.0 if own < other else 0.0)
+    if mine > 0.0:
+        shove(i, mine, -hit[1], -hit[2], hit, slack, scene)
+    if mine < 1.0:
+        shove(who, 1.0 - mine, hit[1], hit[2], hit, slack, scene)
+    return who
+
+
+def make_way(queue: Ints, scene: Scene, moved: Ints) -> None:
+    """Resolve the overlaps of robots with things and one another; `moved` becomes 1 for each that was moved."""
+    poses = scene[0]
+    total = poses.shape[0]
+    for i in range(total):
+        stand(i, scene)
+    waiting, again = np.empty(total, np.int64), np.zeros(total, np.int64)
+    count = queue.shape[0]
+    for k in range(count):
+        waiting[k] = queue[k]
+    for number in range(ROUNDS):
+        for k in range(count):
+            i = waiting[k]
+            who = push_out(i, TOUCH if number < QUICK else NEARLY, 2 * number >= ROUNDS, scene)
+            if who >= 0:
+                again[i] = again[who] = moved[i] = moved[who] = 1
+        left = 0
+        for k in range(count):  # first who was looked at, then who was pushed by them
+            if again[waiting[k]]:
+                again[waiting[k]] = 0
+                waiting[left] = waiting[k]
+                left += 1
+        for i in range(total):
+            if again[i]:
+                again[i] = 0
+                waiting[left] = i
+                left += 1
+        count = left
+        if not count:
+            break
+
+
+# -- things are pushed -----------------------------------------------------------------------------------------------
+
+FIRST, SECOND, NX, NY, PX, PY, DEPTH, SPEED, BOUNCE, ALONG, ACROSS, PUSH, RUB = range(13)
+"""Of a contact: the bodies, the normal, the place, the depth, how fast it opens, how fast it is to open, the masses
+along and across the normal, and the impulses."""
+
+
+def arm(i: int, x: float, y: float, scene: Scene) -> tuple[float, float]:
+    """From a body's centre of mass to a place."""
+    poses, bodies = scene[0], scene[1]
+    c, s = math.cos(poses[i, 2]), math.sin(poses[i, 2])
+    cx, cy = bodies[i, CENTRE_X], bodies[i, CENTRE_Y]
+    return x - poses[i, 0] - c * cx + s * cy, y - poses[i, 1] - s * cx - c * cy
+
+
+def gather(scene: Scene, hits: Floats) -> int:
+    """Find all contacts, and return how many there are; the second body is -1 - m for the fixed outline m."""
+    _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
+    count = 0
+    for i in range(bodies.shape[0]):
+        if bodies[i, KIND] == LEAF:
+            continue
+        for p in range(begin[i], begin[i + 1]):
+            a0, a1, ra = first[p], first[p + 1], radius[p]
+            for k in range(near_at[i], near_at[i + 1]):
+                m = near[k]
+                if beside(i, m, APART, bodies, boxes):
+                    found = contact(corners, a0, a1, ra, sides, starts[m], starts[m + 1], boxes[m, 4], -APART)
+                    count = note(found, i, -1 - m, hits, count)
+            for k in range(mate_at[i], mate_at[i + 1]):
+                j = mates[k]
+                if (j > i or bodies[j, KIND] == LEAF) and close(i, j, APART, bodies):
+                    for q in range(begin[j], begin[j + 1]):
+                        found = contact(
+                            corners, a0, a1, ra, corners, first[q], first[q + 1], radius[q], -APART
+                        )
+                        count = note(found, i, j, hits, count)
+    return count
+
+
+def note(found: Contact, i: int, j: int, hits: Floats, count: int) -> int:
+    """Write down the points of a contact; return how many there are now."""
+    points, nx, ny, d0, x0, y0, d1, x1, y1 = found
+    for k in range(points):
+        hit = hits[count]
+        hit[FIRST], hit[SECOND], hit[NX], hit[NY] = i, j, nx, ny
+        if k == 0:
+            hit[PX], hit[PY], hit[DEPTH] = x0, y0, d0
+        else:
+            hit[PX], hit[PY], hit[DEPTH] = x1, y1, d1
+        count += 1
+    return count
+
+
+def lightness(i: int, rx: float, ry: float, nx: float, ny: float, bodies: Floats) -> float:
+    """By how much the velocity of a body's place changes along a direction for an impulse along that."""
+    if i < 0 or bodies[i, KIND] == LEAF:
+        return 0.0
+    lever = rx * ny - ry * nx
+    return float(1.0 / bodies[i, MASS] + lever * lever / bodies[i, INERTIA])
+
+
+def speed_at(i: int, rx: float, ry: float, nx: float, ny: float, motion: Floats) -> float:
+    """How fast a body's place moves along a direction."""
+    if i < 0:
+        return 0.0
+    return float((motion[i, 0] - motion[i, 2] * ry) * nx + (motion[i, 1] + motion[i, 2] * rx) * ny)
+
+
+def impel(i: int, rx: float, ry: float, px: float, py: float, bodies: Floats, motion: Floats) -> None:
+    """Let an impulse act at a body's place."""
+    if i >= 0 and bodies[i, KIND] != LEAF:
+        motion[i, 0] += px / bodies[i, MASS]
+        motion[i, 1] += py / bodies[i, MASS]
+        motion[i, 2] += (rx * py - ry * px) / bodies[i, INERTIA]
+
+
+def rebound(i: int, bodies: Floats) -> float:
+    """How much of its speed a thing has after a blow; what does not move leaves that to the other."""
+    return 1.0 if i < 0 or bodies[i, KIND] == LEAF else float(bodies[i, RESTITUTION])
+
+
+def strike(scene: Scene, motion: Floats, hits: Floats, arms: Floats, count: int) -> None:
+    """Learn of each contact what its impulses follow from."""
+    bodies = scene[1]
+    for n in range(count):
+        hit = hits[n]
+        i, j, nx, ny = int(hit[FIRST]), int(hit[SECOND]), hit[NX], hit[NY]
+        ax, ay = arm(i, hit[PX], hit[PY], scene)
+        bx, by = 0.0, 0.0
+        if j >= 0:
+            bx, by = arm(j, hit[PX], hit[PY], scene)
+        arms[n, 0], arms[n, 1], arms[n, 2], arms[n, 3] = ax, ay, bx, by
+        hit[ALONG] = 1.0 / (lightness(i, ax, ay, nx, ny, bodies) + lightness(j, bx, by, nx, ny, bodies))
+        hit[ACROSS] = 1.0 / (lightness(i, ax, ay, -ny, nx, bodies) + lightness(j, bx, by, -ny, nx, bodies))
+        hit[SPEED] = speed_at(j, bx, by, nx, ny, motion) - speed_at(i, ax, ay, nx, ny, motion)
+        hit[BOUNCE] = -min(hit[SPEED], 0.0) * rebound(i, bodies) * rebound(j, bodies)
+        hit[PUSH] = hit[RUB] = 0.0
+
+
+def press(n: int, friction: float, scene: Scene, motion: Floats, hits: Floats, arms: Floats) -> bool:
+    """Correct the impulses of one contact: no approach, friction within Coulomb's cone. Whether any changed."""
+    bodies, hit = scene[1], hits[n]
+    i, j, nx, ny = int(hit[FIRST]), int(hit[SECOND]), hit[NX], hit[NY]
+    ax, ay, bx, by = arms[n, 0], arms[n, 1], arms[n, 2], arms[n, 3]
+    opens = speed_at(j, bx, by, nx, ny, motion) - speed_at(i, ax, ay, nx, ny, motion)
+    push = max(0.0, hit[PUSH] + (hit[BOUNCE] - opens) * hit[ALONG])
+    more = push - hit[PUSH]
+    slides = speed_at(j, bx, by, -ny, nx, motion) - speed_at(i, ax, ay, -ny, nx, motion)
+    most = friction * push
+    rub = min(most, max(-most, hit[RUB] - slides * hit[ACROSS]))
+    aside = rub - hit[RUB]
+    if more == 0.0 and aside == 0.0:
+        return False
+    hit[PUSH], hit[RUB] = push, rub
+    px, py = more * nx - aside * ny, more * ny + aside * nx
+    impel(i, ax, ay, -px, -py, bodies, motion)
+    impel(j, bx, by, px, py, bodies, motion)
+    return True
+
+
+def hold(i: int, dt: float, bodies: Floats, motion: Floats, held: Floats) -> bool:
+    """Apply ground friction to a thing, or wheel drive to a robot, within its limit. Whether anything changed."""
+    mass, inertia = bodies[i, MASS], bodies[i, INERTIA]
+    x = held[i, 0] + (motion[i, 3] - motion[i, 0]) * mass
+    y = held[i, 1] + (motion[i, 4] - motion[i, 1]) * mass
+    turn = held[i, 2] + (motion[i, 5] - motion[i, 2]) * inertia
+    most, size = bodies[i, HOLD] * dt, math.sqrt(x * x + y * y)
+    if size > most:
+        x, y = x * most / size, y * most / size
+    most = bodies[i, TURN_HOLD] * dt
+    turn = min(most, max(-most, turn))
+    dx, dy, dw = x - held[i, 0], y - held[i, 1], turn - held[i, 2]
+    if dx == 0.0 and dy == 0.0 and dw == 0.0:
+        return False
+    held[i, 0], held[i, 1], held[i, 2] = x, y, turn
+    motion[i, 0] += dx / mass
+    motion[i, 1] += dy / mass
+    motion[i, 2] += dw / inertia
+    return True
+
+
+def slide(dt: float, friction: float, scene: Scene, motion: Floats, hits: Floats) -> int:
+    """Advance the poses and velocities of pushed and sliding things by a step; return the number of contacts.
+
+    `motion` (n, 6) is how fast the centre of mass of each body goes [m/s, m/s, rad/s], and how fast its wheels, or the
+    ground, want it to. Robots push with what they have; where they get to is not found here.
+    """
+    poses, bodies = scene[0], scene[1]
+    total = bodies.shape[0]
+    for i in range(total):
+        stand(i, scene)
+    count = gather(scene, hits)
+    before, held, arms = motion.copy(), np.zeros((total, 3)), np.empty((count, 4))
+    strike(scene, motion, hits, arms, count)
+    for _ in range(ITERATIONS):
+        changed = False
+        for n in range(count):
+            changed |= press(n, friction, scene, motion, hits, arms)
+        for i in range(total):
+            if bodies[i, KIND] != LEAF:
+                changed |= hold(i, dt, bodies, motion, held)
+        if not changed:
+            break
+    late, out = np.zeros(total), np.zeros((total, 2))
+    part(dt, bodies, hits, count, late, out)
+    for i in range(total):
+        if bodies[i, KIND] == CRATE:
+            go_on(i, dt, late[i], out, poses, bodies, before, motion)
+    return count
+
+
+def part(dt: float, bodies: Floats, hits: Floats, count: int, late: Floats, out: Floats) -> None:
+    """The time since each body's impact (-1: none), and how to undo overlaps that no impact explains."""
+    for i in range(bodies.shape[0]):
+        late[i] = -1.0
+    for n in range(count):
+        hit = hits[n]
+        i, j, deep = int(hit[FIRST]), int(hit[SECOND]), max(hit[DEPTH] - SLACK, 0.0)
+        since = 0.0
+        if hit[SPEED] < 0.0:
+            since = min(dt, -deep / hit[SPEED])
+            deep += since * hit[SPEED]
+        if hit[PUSH] > 0.0:
+            late[i] = max(late[i], since)
+            if j >= 0:
+                late[j] = max(late[j], since)
+        own = 1.0 / bodies[i, MASS] if bodies[i, KIND] == CRATE else 0.0
+        other = 1.0 / bodies[j, MASS] if j >= 0 and bodies[j, KIND] == CRATE else 0.0
+        if deep > 0.0 and own + other > 0.0:
+            back = PART * deep / (own + other)
+            out[i, 0] -= back * own * hit[NX]
+            out[i, 1] -= back * own * hit[NY]
+            if j >= 0:
+                out[j, 0] += back * other * hit[NX]
+                out[j, 1] += back * other * hit[NY]
+
+
+def go_on(
+    i: int, dt: float, late: float, out: Floats, poses: Floats, bodies: Floats, before: Floats, motion: Floats
+) -> None:
+    """Move a thing by its velocities before and after a step, with an impact `late` seconds before the step."""
+    vx, vy, w = motion[i, 0], motion[i, 1], motion[i, 2]
+    if abs(vx) <= REST and abs(vy) <= REST and abs(w) <= REST:
+        motion[i, 0] = motion[i, 1] = motion[i, 2] = 0.0
+        return
+    # what slides freely loses its speed evenly; what is pushed has its new speed at once
+    old, new = (0.5 * dt, 0.5 * dt) if late < 0.0 else (-late, dt + late)
+    x, y, theta = poses[i, 0], poses[i, 1], poses[i, 2]
+    cx, cy = bodies[i, CENTRE_X], bodies[i, CENTRE_Y]
+    c, s = math.cos(theta), math.sin(theta)
+    mx = x + c * cx - s * cy + old * before[i, 0] + new * vx + out[i, 0]
+    my = y + s * cx + c * cy + old * before[i, 1] + new * vy + out[i, 1]
+    theta += old * before[i, 2] + new * w
+    c, s = math.cos(theta), math.sin(theta)
+    poses[i, 0], poses[i, 1], poses[i, 2] = mx - c * cx + s * cy, my - s * cx - c * cy, theta
+
+
+# -- room ------------------------------------------------------------------------------------------------------------
+
+
+def clearances(lookers: Ints, view: float, scene: Scene, rooms: Floats) -> None:
+    """How far robots can move before touching anything, at most `view` [m]; movers share a gap by half."""
+    _, bodies, _, corners, first, begin, radius, near_at, near, sides, starts, boxes, mate_at, mates = scene
+    for i in range(bodies.shape[0]):
+        stand(i, scene)
+    for n in range(lookers.shape[0]):
+        i = lookers[n]
+        p = begin[i]
+        a0, a1, ra = first[p], first[p + 1], radius[p]
+        free = view
+        for k in range(near_at[i], near_at[i + 1]):
+            m = near[k]
+            if beside(i, m, free, bodies, boxes):
+                free = min(free, gap(corners, a0, a1, ra, sides, starts[m], starts[m + 1], boxes[m, 4]))
+        for k in range(mate_at[i], mate_at[i + 1]):
+            j = mates[k]
+            if close(i, j, view, bodies):
+                away = math.inf
+                for q in range(begin[j], begin[j + 1]):
+                    away = min(away, gap(corners, a0, a1, ra, corners, first[q], first[q + 1], radius[q]))
+                if bodies[j, KIND] != CRATE:
+                    away /= 2
+                    rooms[j] = min(rooms[j], away)
+                free = min(free, away)
+        rooms[i] = free
+
+
+@cache
+def compiled() -> dict[str, Callable[..., Any]]:
+    """`make_way`, `slide` and `clearances` as machine code. Raises `ImportError` without numba."""
+    import numba
+
+    pairs = (parting, facing, height, nearest_side, contact_disc, contact, gap)
+    pushes = (give, stand, beside, close, shove, push_out)
+    blows = (arm, note, gather, lightness, speed_at, impel, rebound, strike, press, hold, part, go_on)
+    number, table, ways, vector = numba.float64, numba.float64[:, ::1], numba.int64[::1], numba.float64[::1]
+    types: Any = numba.types
+    scene = types.Tuple(
+        (table, table, table, table, ways, ways, vector, ways, ways, table, ways, table, ways, ways)
+    )
+    signatures = (
+        (make_way, numba.void(ways, scene, ways)),
+        (slide, numba.int64(number, number, scene, table, table)),
+        (clearances, numba.void(ways, number, scene, vector)),
+    )
+    return {
+        function.__name__: machine_code(function, signature, (*pairs, *pushes, *blows))
+        for function, signature in signatures
+    }
+
+
+PLAIN: dict[str, Callable[..., Any]] = {each.__name__: each for each in (make_way, slide, clearances)}
+"""The same without numba."""

@@ -1,0 +1,36 @@
+"""Where a robot can be put."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from rosmini.geometry.poses import Pose
+from rosmini.sim.models import RobotModel
+from rosmini.sim.world import World, WorldError
+
+__all__ = ["free_pose"]
+
+
+def free_pose(
+    world: World,
+    model: RobotModel,
+    pose: Pose,
+    hindrance: Callable[[Pose], str | None],
+    taken: Callable[[Pose], str | None],
+) -> Pose:
+    """Return `pose` as floats if a robot of this model has room there.
+
+    `hindrance(pose)` is what stands there, in words, and `taken(pose)` the same of what can move. Raises `WorldError`,
+    which names the nearest free position, and for numbers that are not finite.
+    """
+    if not all(math.isfinite(part) for part in pose):
+        raise WorldError(f"a robot cannot be placed at {pose}: x, y and heading have to be finite numbers")
+    x, y, theta = map(float, pose)
+    found = hindrance(pose)
+    if found is not None:
+        free = world.free_place(pose, model.footprint, model.height, taken)
+        hint = "" if free is None else f". There is room at ({free[0]:.2f}, {free[1]:.2f})"
+        where = f"({x:.2f}, {y:.2f}) with heading {theta:.2f} in the world {world.name!r}"
+        raise WorldError(f"no robot can be placed at {where}: {found} is in its way{hint}")
+    return x, y, theta

@@ -1,0 +1,75 @@
+"""Everything in an engine that is not fixed: what the facade, the stepper and the sensors share."""
+
+from __future__ import annotations
+
+import math
+
+from rosmini.sim.shapes import Polygon
+from rosmini.sim.world import Obstacle, World
+
+from .bodies import Crate
+from .contacts import Contacts
+from .instant import Instant
+from .movers import Mover
+from .robot import Robot, Thing
+from .sights import Sights
+from .trails import Trails
+
+
+class Population:
+    """The robots, what moves by itself, what can be pushed, and where they were lately."""
+
+    def __init__(self) -> None:
+        self.instant = Instant()
+        self.robots: dict[str, Robot] = {}
+        self.movers: dict[str, Mover] = {}
+        self.contacts = Contacts(self.instant)
+        self.trails = Trails()
+        self.sights = Sights(World("void"))
+        self.changed = 0
+        """How often something came, went, or was put elsewhere."""
+
+    def embody(self, robot: Robot) -> None:
+        """Make the body of a robot."""
+        if isinstance(robot, Thing):
+            model = robot.model
+            mass = None if math.isinf(model.mass) else model.mass
+            obstacle = Obstacle(robot.name, Polygon(model.footprint), robot.start, model.height, mass=mass)
+            robot.body = crate = Crate(obstacle, self.instant, shown=False)
+            self.contacts.add_crate(crate)
+        else:
+            self.contacts.add_robot(robot)
+
+    def take_in(self, obstacle: Obstacle) -> None:
+        """Make the body of an obstacle."""
+        if obstacle.movable:
+            self.contacts.add_crate(Crate(obstacle, self.instant))
+        elif obstacle.motion is not None:
+            mover = self.movers[obstacle.name] = Mover(obstacle, obstacle.motion, self.instant)
+            self.contacts.add_mover(mover)
+            self.note(mover)
+        else:
+            self.contacts.ground.insert(obstacle)
+            self.sights.insert(obstacle)
+
+    @property
+    def now(self) -> float:
+        """The time [s] since the engine began."""
+        return self.instant.seconds
+
+    @property
+    def drivers(self) -> list[Robot]:
+        """The robots that have a drive."""
+        return [each for each in self.robots.values() if not isinstance(each, Thing)]
+
+    @property
+    def moving(self) -> list[Robot | Mover]:
+        """The robots that have a drive, and what moves by itself."""
+        return [*self.drivers, *self.movers.values()]
+
+    def note(self, each: Robot | Mover) -> None:
+        """Write into the trail of something on which way it goes on, if that is to be remembered."""
+        if not self.trails.span:
+            return
+        name = each.name if isinstance(each, Robot) else each.obstacle.name
+        self.trails.goes(name, *each.leg())

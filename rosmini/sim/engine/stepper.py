@@ -1,0 +1,361 @@
+"""How time goes on in an engine: one fixed grid of steps, which nobody's looking changes.
+
+Time is counted in whole nanoseconds since the engine began; step k goes from k * STEP_NS to (k + 1) *
+STEP_NS, always.
+
+*Free motion* needs no steps. A robot goes its way in closed form from the last change
+(`rosmini.sim.engine.robot`), whether it is looked at a thousand times meanwhile or never. Commands, slips and
+commands that get too old change the way at exactly their time.
+
+*Contact* is decided at the points of the grid. In a step, first things that slide, are struck or pushed go on
+(impulses, from their places at its begin), then robots that their wheels would take into something are
+brought out of it (at its end). Who is brought out of something leaves its way for that step and goes straight
+to where it gets; from the end of the step on it goes on its way from there. A step is computed once, when
+time first passes its begin, from what was so at its begin and from nothing else. Therefore:
+
+- where something is within a step lies on the straight line between its begin and its end, and is not stored;
+- a command within a step changes a robot that is kept from its way in this step at the end of the step;
+- what is put somewhere within a step is there at once and goes on evenly; it touches, rubs and is pushed from the
+  next step on;
+- friction and gravity that are changed within a step count from the next one on;
+- the solver remembers nothing from step to step, so a state is no more than places and velocities.
+
+*Who is looked at* is a matter of speed alone. Each robot, and each thing that moves by itself, has some room:
+so far it can move, and the others with it, before anything can touch; between two that move the gap is
+shared. Who has no room left is looked at, and `PLAN` steps at a time it is settled who may touch anything,
+and who is near to those. Looking at more robots than necessary changes nothing: who touches nothing stays on
+its way.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from rosmini.geometry.poses import Pose
+
+from .bodies import AT_REST, Body, Crate
+from .instant import SECOND, STEP, STEP_NS
+from .kernels import CENTRE_X, CENTRE_Y
+from .movers import Mover
+from .odometry import SLIP_PERIOD
+from .population import Population
+from .robot import Robot, Thing
+from .scene import Near
+from .wheel_drives import Spot
+
+PLAN = 10
+"""For so many steps it is settled who may touch anything."""
+
+HORIZON = PLAN * STEP
+"""The same [s]."""
+
+VIEW = 0.5
+"""So far [m] a robot looks around itself; what is farther away does not matter yet."""
+
+SAFE = 1e-4
+"""From so near [m] on, a robot is looked at step by step."""
+
+NEAR = 0.02
+"""What comes so near [m] to what may touch something, may be touched."""
+
+SLIP_NS = round(SLIP_PERIOD * SECOND)
+
+
+class Stepper:
+    """The time of one engine."""
+
+    def __init__(self, population: Population) -> None:
+        self._all = population
+        self._instant = population.instant
+        self.slips_ns = SLIP_NS
+        """When the wheels' slip changes next."""
+        self._change_ns: float | None = None
+        self._drivers: list[Robot] = []
+        self._group: Near | None = None
+        self._robots: list[tuple[int, Robot]] = []
+        self._movers: list[tuple[int, Mover]] = []
+        self._crates: list[tuple[int, Crate]] = []
+        self._disturbed = False
+        self._haste = 0.0
+        self._remembers = False
+        self.look_again()
+
+    # -- what happens when ---------------------------------------------------------------------------------------
+
+    def advance(self, until_ns: int) -> None:
+        """Let time go on until then; what is over stays as it is."""
+        instant = self._instant
+        if not self._remembers and self._all.trails.span:
+            self._remembers = True
+            for each in self._all.moving:
+                self._all.note(each)
+        while True:
+            tick_ns = self._tick * STEP_NS
+            if self._change_ns is None:
+                self._change_ns = min([self.slips_ns, *(robot.expires_ns for robot in self._drivers)])
+            if self._change_ns <= until_ns and self._change_ns <= tick_ns:
+                instant.ns = max(instant.ns, int(self._change_ns))
+                self._changes()
+            elif tick_ns < until_ns:
+                instant.ns = tick_ns
+                self._leave(self._tick)
+            else:
+                break
+        instant.ns = max(instant.ns, until_ns)
+
+    def _changes(self) -> None:
+        """Let happen what is due now."""
+        now = self._instant.ns
+        for robot in self._drivers:
+            if robot.expires_ns <= now:
+                robot.expires_ns = math.inf
+                robot.command(0.0, 0.0, 0.0)
+                self.commanded(robot)
+        if self.slips_ns <= now:
+            self.slips_ns += SLIP_NS
+            for robot in self._drivers:
+                robot.draw_slip()
+                self.commanded(robot)
+        self._change_ns = None
+
+    def commanded(self, robot: Robot) -> None:
+        """Learn that a robot was told something."""
+        self._change_ns = None
+        self._all.note(robot)
+        left = max(self._planned * STEP_NS - self._instant.ns, 0) / SECOND
+        if robot.haste > self._haste or robot.room_left(self._instant.ns) < robot.haste * left:
+            self._plan_next()
+
+    def look_again(self) -> None:
+        """Learn that something came, went, or was put elsewhere."""
+        self._drivers = self._all.drivers
+        self._change_ns = None
+        self._plan_next()
+
+    def _plan_next(self) -> None:
+        """Settle at the next point of the grid who may touch anything."""
+        self._planned = self._tick = -(-self._instant.ns // STEP_NS)
+
+    def forget(self) -> None:
+        """Forget who may touch what: everything may be elsewhere."""
+        self._group = None
+        for each in self._all.moving:
+            each.room = 0.0
+        self.look_again()
+
+    # -- who may touch anything ----------------------------------------------------------------------------------
+
+    def _leave(self, tick: int) -> None:
+        """Go on from a point of the grid."""
+        if tick >= self._planned:
+            self._plan(tick)
+        if self._group is None:
+            self._tick = self._planned
+        else:
+            self._step(self._group)
+            self._tick = tick + 1
+
+    def _plan(self, tick: int) -> None:
+        """Settle who may touch anything from now on, and until when."""
+        now, drivers, movers = self._instant.ns, self._drivers, list(self._all.movers.values())
+        self._keep_apart()
+        looked: set[Robot] = set()
+        while short := [r for r in drivers if r not in looked and r.room_left(now) < r.haste * HORIZON]:
+            # and who will be short soon, to look seldom and at many at once
+            short += [r for r in drivers if r not in looked and r.room_left(now) < 3 * r.haste * HORIZON]
+            looked.update(short)
+            self._look(list(dict.fromkeys(short)))
+        for mover in movers:
+            if mover.room_left(now) < mover.haste * HORIZON:
+                self._look_around(mover)
+        bodies = self._all.contacts.bodies
+        active = [bodies[r.name] for r in drivers if r.touching or r.room_left(now) < r.haste * HORIZON]
+        active += [
+            bodies[m.obstacle.name] for m in movers if m.waiting or m.room_left(now) < m.haste * HORIZON
+        ]
+        active += [bodies[c.obstacle.name] for c in self._all.contacts.crates if c.sliding]
+        moving = self._all.moving
+        self._haste = max((each.haste for each in moving), default=0.0)
+        self._disturbed = False
+        if active:
+            self._gather(active)
+            self._planned = tick + PLAN
+        else:
+            self._group = None
+            steps = (each.room_left(now) / (each.haste * STEP) for each in moving if each.haste > 0)
+            self._planned = tick + max(int(min(steps, default=1e9)), PLAN)
+
+    def _gather(self, active: list[Body]) -> None:
+        """Make tables of who may touch anything, and of who is near to them."""
+        contacts = self._all.contacts
+        speeds = [math.hypot(*c.velocity[:2]) + c.reach * abs(c.velocity[2]) for c in contacts.crates]
+        farthest = max([self._haste, *speeds]) * HORIZON
+        margin = farthest + NEAR / 2
+        members = dict.fromkeys(active)
+        fresh = active
+        while fresh:
+            fresh = [body for body in contacts.around(fresh, 2 * margin) if body not in members]
+            members.update(dict.fromkeys(fresh))
+        group = self._group = contacts.scene(members, margin)
+        self._robots, self._movers, self._crates = [], [], []
+        for i, body in enumerate(group.bodies):
+            if isinstance(body.owner, Robot):
+                self._robots.append((i, body.owner))
+            elif isinstance(body.owner, Mover):
+                self._movers.append((i, body.owner))
+            elif isinstance(body.owner, Crate) and body.owner.obstacle.movable:
+                self._crates.append((i, body.owner))
+
+    def _keep_apart(self) -> None:
+        """Let those look again who went in steps, and nobody else come nearer to them than circles around them."""
+        if self._group is None:
+            return
+        now, members = self._instant.ns, self._group.bodies
+        inside = {body.name for body in members}
+        outside: list[tuple[Robot | Mover, float]] = [
+            (each, each.model.reach) for each in self._drivers if each.name not in inside
+        ]
+        outside += [(each, each.reach) for name, each in self._all.movers.items() if name not in inside]
+        if outside:
+            mine = np.array([(*body.owner.pose[:2], body.reach) for body in members])
+            table = np.array([(*each.pose[:2], reach) for each, reach in outside])
+            apart = np.hypot(table[:, :1] - mine[:, 0], table[:, 1:2] - mine[:, 1]) - (
+                table[:, 2:] + mine[:, 2]
+            )
+            for (each, _), gap in zip(outside, apart.min(axis=1).tolist(), strict=True):
+                if gap - SAFE < each.room_left(now):
+                    each.room, each.room_ns = max(gap - SAFE, 0.0), now
+
+    def _look(self, robots: list[Robot]) -> None:
+        """Measure how far robots can move without touching anything; of a gap to another that moves each has half."""
+        now, contacts = self._instant.ns, self._all.contacts
+        lookers = [contacts.bodies[robot.name] for robot in robots]
+        scene = contacts.scene(dict.fromkeys([*lookers, *contacts.around(lookers, VIEW)]), VIEW)
+        index = [scene.index[body.name] for body in lookers]
+        rooms = scene.clearances(index, VIEW)
+        fresh = set(index)
+        for i, body in enumerate(scene.bodies):
+            owner, room = body.owner, rooms[i] - SAFE
+            if isinstance(owner, (Robot, Mover)) and (i in fresh or room < owner.room_left(now)):
+                owner.room, owner.room_ns = room, now
+
+    def _look_around(self, mover: Mover) -> None:
+        """Measure how far a mover can go without coming near anything, by bounding circles."""
+        now, contacts = self._instant.ns, self._all.contacts
+        own = contacts.bodies[mover.obstacle.name]
+        x, y, _ = mover.pose
+        room = VIEW
+        for body in contacts.near(x, y, mover.reach + VIEW):
+            if body is own:
+                continue
+            px, py, _ = body.owner.pose
+            gap = math.hypot(px - x, py - y) - body.reach - mover.reach
+            if isinstance(body.owner, (Robot, Mover)):
+                gap /= 2
+                if gap < body.owner.room_left(now):
+                    body.owner.room, body.owner.room_ns = max(gap, 0.0), now
+            room = min(room, gap)
+        mover.room, mover.room_ns = room - SAFE, now
+
+    # -- a step --------------------------------------------------------------------------------------------------
+
+    def _step(self, group: Near) -> None:
+        """Let those go on for a step that may touch something."""
+        now = self._instant.ns
+        for _, mover in self._movers:
+            self._let_go(mover)
+        sliding = any(crate.sliding for _, crate in self._crates)
+        restless = self._disturbed or sliding or bool(self._movers)
+        watched = [
+            i
+            for i, robot in self._robots
+            if restless or robot.touching or robot.room_left(now) < robot.haste * STEP
+        ]
+        if not watched and not sliding:
+            return
+        end_ns = now + STEP_NS
+        ahead = [robot.at(end_ns) for _, robot in self._robots]
+        if self._crates:
+            self._slide(group, ahead, end_ns)
+        for (i, _), spot in zip(self._robots, ahead, strict=True):
+            group.poses[i] = spot.pose
+        for i, mover in self._movers:
+            group.poses[i] = mover.obstacle.at(mover.clock + (0.0 if mover.waiting else STEP))
+        moved = set(group.make_way(watched))
+        self._disturbed = bool(moved)
+        for (i, robot), spot in zip(self._robots, ahead, strict=True):
+            if i in moved:
+                x, y, theta = group.poses[i].tolist()
+                if self._remembers:
+                    self._all.trails.carried(robot.name, now / SECOND, robot.pose)
+                robot.carried(now, end_ns, spot, (x, y, theta))
+            elif robot.touching:
+                robot.freed()
+                self._all.note(robot)
+
+    def _let_go(self, mover: Mover) -> None:
+        """Let a mover go on unless something that can give way is in its path."""
+        contacts, name, clock = self._all.contacts, mover.obstacle.name, mover.clock
+        places = [mover.obstacle.at(clock + STEP)]
+        if mover.ahead:
+            places.append(mover.obstacle.at(clock + STEP + mover.ahead))
+        mover.wait(waiting=any(contacts.stuck(name, place) for place in places))
+        self._all.note(mover)
+
+    def _slide(self, group: Near, ahead: list[Spot], end_ns: int) -> None:
+        """Let things slide, be struck and be pushed for a step."""
+        contacts = self._all.contacts
+        motion = np.zeros((len(group.bodies), 6))
+        for i, body in enumerate(group.bodies):
+            group.poses[i] = body.owner.pose
+        for (i, robot), spot in zip(self._robots, ahead, strict=True):
+            (x, y, theta), (u, v, turned) = robot.pose, spot.pose
+            motion[i] = (*robot.world_velocity(), (u - x) / STEP, (v - y) / STEP, (turned - theta) / STEP)
+        for i, crate in self._crates:
+            if crate.sliding:
+                (vx, vy, w), (dx, dy) = crate.velocity, self._lever(group, i)
+                motion[i, :3] = (vx - w * dy, vy + w * dx, w)
+        contacts.forces = (end_ns, group.slide(STEP, motion))
+        for i, crate in self._crates:
+            vx, vy, w = motion[i, :3].tolist()
+            if crate.sliding or (vx, vy, w) != AT_REST:
+                dx, dy = self._lever(group, i)
+                x, y, theta = group.poses[i].tolist()
+                self._carry(crate, end_ns, (x, y, theta), (vx + w * dy, vy - w * dx, w))
+
+    @staticmethod
+    def _lever(group: Near, i: int) -> tuple[float, float]:
+        """From the origin of a body to its centre of mass."""
+        theta, (x, y) = float(group.poses[i, 2]), group.scene[1][i, [CENTRE_X, CENTRE_Y]].tolist()
+        c, s = math.cos(theta), math.sin(theta)
+        return c * x - s * y, s * x + c * y
+
+    def _carry(self, crate: Crate, end_ns: int, end: Pose, velocity: tuple[float, float, float]) -> None:
+        everything, now, name = self._all, self._instant.ns, crate.obstacle.name
+        if self._remembers:
+            everything.trails.carried(name, now / SECOND, crate.pose)
+            everything.trails.carried(name, end_ns / SECOND, end)
+        crate.carry(now, end_ns, end, velocity)
+        everything.contacts.settle(crate)
+        thing = everything.robots.get(name)
+        if isinstance(thing, Thing):
+            thing.follow(end, velocity, end_ns)
+
+    # -- looking ahead -------------------------------------------------------------------------------------------
+
+    def peek(self, robot: Robot, when_ns: int) -> Pose:
+        """Where a robot will be then, if nothing can be in its way; else where it is."""
+        now = self._instant.ns
+        if when_ns <= now or (self._change_ns is not None and when_ns > self._change_ns):
+            return robot.pose
+        return robot.at(when_ns).pose if robot.room_left(when_ns) >= 0 else robot.pose
+
+    def lift(self, bodies: Iterable[Body]) -> None:
+        """Learn that something came, or was put, near to these."""
+        for body in bodies:
+            if isinstance(body.owner, (Robot, Mover)):
+                body.owner.room = 0.0
+        self.look_again()

@@ -1,0 +1,281 @@
+"""Drives: how the wheels of a robot take it along, from a state and targets to a way in closed form."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from typing import NamedTuple
+
+from rosmini.geometry.poses import Pose
+from rosmini.sim.models import RobotModel
+
+from .free_motion import (
+    ROUNDING,
+    Speeds,
+    body_velocity,
+    glide,
+    limited,
+    limited_phases,
+    phases,
+    ramps,
+    rim_speeds,
+    unicycle,
+)
+from .odometry import RealWheels
+
+WheelState = tuple[float, ...]
+"""What changes as its wheels turn."""
+
+Numbers = tuple[float, ...]
+
+
+class Spot(NamedTuple):
+    """Where a robot is on its way: its pose, its wheels, and how fast their speeds change."""
+
+    pose: Pose
+    state: WheelState
+    rates: Numbers
+
+
+class Way:
+    """The motion of a robot from a pose and a state of its wheels to its targets, and on: phases with steady rates."""
+
+    def __init__(
+        self, robot: Drive, pose: Pose, state: WheelState, targets: Numbers, rolling: Numbers
+    ) -> None:
+        self.pose, self.state, self.targets, self.rolling = pose, state, targets, rolling
+        self._robot = robot
+        (self._end, rates), *self._later = robot.phases(state, targets)
+        self._phases = [(0.0, Spot(pose, state, rates))]
+
+    def at(self, dt: float) -> Spot:
+        """Where it leads to in so many seconds."""
+        while dt >= self._end:
+            begin, (pose, state, rates) = self._phases[-1]
+            pose, state = self._robot.after(pose, state, rates, self._end - begin, self.rolling)
+            (length, rates), *self._later = self._later
+            state = self._robot.settled(state, self.targets)
+            self._phases.append((self._end, Spot(pose, state, rates)))
+            self._end += length
+        begin, spot = self._phases[-1]
+        if dt < begin:
+            begin, spot = next(each for each in reversed(self._phases) if dt >= each[0])
+        if dt == begin:
+            return spot
+        pose, state, rates = spot
+        pose, state = self._robot.after(pose, state, rates, dt - begin, self.rolling)
+        return Spot(pose, state, rates)
+
+    def plain(self) -> tuple[Pose, WheelState, Numbers, Numbers]:
+        """All that it follows from."""
+        return (self.pose, self.state, self.targets, self.rolling)
+
+
+class Drive(ABC):
+    """How the wheels of a robot take it along: pure functions of its model."""
+
+    def __init__(self, model: RobotModel) -> None:
+        self.model = model
+
+    still: WheelState
+    """The state of wheels that have not turned yet."""
+    targets: Numbers
+    """What it is told at first: to stand."""
+
+    @abstractmethod
+    def phases(self, state: WheelState, targets: Numbers) -> list[tuple[float, Numbers]]:
+        """How speeds reach their targets: the length of each phase [s], the last one infinite, and the rates in it."""
+
+    @abstractmethod
+    def after(
+        self, pose: Pose, state: WheelState, rates: Numbers, dt: float, rolling: Numbers
+    ) -> tuple[Pose, WheelState]:
+        """Where `dt` seconds with these rates lead to."""
+
+    @abstractmethod
+    def settled(self, state: WheelState, targets: Numbers) -> WheelState:
+        """The state with speeds that have reached their targets, but for the last digits, equal to them."""
+
+    @abstractmethod
+    def told(self, state: WheelState, velocity: Speeds) -> tuple[WheelState, Numbers]:
+        """The state and targets after a command (ahead, left, around): speeds without a limit are reached at once."""
+
+    @abstractmethod
+    def launched(self, velocity: Speeds, rolling: Numbers) -> WheelState:
+        """The state of wheels that roll with a velocity."""
+
+    @abstractmethod
+    def rolling(self, wheels: RealWheels) -> Numbers:
+        """How the real wheels take it along."""
+
+    @abstractmethod
+    def velocity(self, state: Numbers, rolling: Numbers) -> Speeds:
+        """The true velocity (ahead, left, around) for these wheel speeds, or the acceleration for their rates."""
+
+    @abstractmethod
+    def haste(self, state: WheelState, targets: Numbers, rolling: Numbers) -> float:
+        """How fast any of its corners can go on the way from these speeds to their targets [m/s]."""
+
+    def _speed(self, velocity: Speeds) -> float:
+        return math.hypot(velocity[0], velocity[1]) + self.model.reach * abs(velocity[2])
+
+
+class TwoWheels(Drive):
+    """Two wheels: speeds of the left and right rim [m/s], as on paper, and how far they have gone [m]."""
+
+    still = (0.0, 0.0, 0.0, 0.0)
+    targets = (0.0, 0.0)
+
+    def phases(self, state: WheelState, targets: Numbers) -> list[tuple[float, Numbers]]:
+        """See `Drive.phases`."""
+        (left, right, _, _), (left_target, right_target), model = state, targets, self.model
+        if left == left_target and right == right_target:
+            return [(math.inf, (0.0, 0.0))]
+        if model.own_limits:
+            limits = (model.linear_acceleration, model.angular_acceleration, model.wheel_acceleration)
+            b = model.wheel_separation
+            found = limited_phases(left, right, left_target, right_target, b, limits, math.inf)
+        else:
+            found = phases(left, right, left_target, right_target, model.wheel_acceleration, math.inf)
+        return [(h, (al, ar)) for h, al, ar in found]
+
+    def after(
+        self, pose: Pose, state: WheelState, rates: Numbers, dt: float, rolling: Numbers
+    ) -> tuple[Pose, WheelState]:
+        """See `Drive.after`."""
+        left, right, left_way, right_way = state
+        al, ar = rates
+        kl, kr, b = rolling
+        v, w = (left * kl + right * kr) / 2, (right * kr - left * kl) / b
+        if al or ar:
+            pose = unicycle(pose, v, w, (al * kl + ar * kr) / 2, (ar * kr - al * kl) / b, dt)
+            u_left, u_right = left + al * dt, right + ar * dt
+            return pose, (
+                u_left,
+                u_right,
+                left_way + (left + u_left) / 2 * dt,
+                right_way + (right + u_right) / 2 * dt,
+            )
+        if left == right == 0.0:
+            return pose, state
+        # the way of `geometry.poses.arc`, in as few operations as can be: a robot does this most of the time
+        x, y, theta = pose
+        half = w * dt / 2
+        chord = v * dt * (math.sin(half) / half if half else 1.0)
+        towards = theta + half
+        return (
+            (x + chord * math.cos(towards), y + chord * math.sin(towards), theta + w * dt),
+            (left, right, left_way + left * dt, right_way + right * dt),
+        )
+
+    def settled(self, state: WheelState, targets: Numbers) -> WheelState:
+        """See `Drive.settled`."""
+        return (*_settled(state[:2], targets), *state[2:])
+
+    def told(self, state: WheelState, velocity: Speeds) -> tuple[WheelState, Numbers]:
+        """See `Drive.told`."""
+        model, b = self.model, self.model.wheel_separation
+        v, w = limited(velocity[0], velocity[2], model.max_linear, model.max_angular)
+        targets = rim_speeds(v, w, b)
+        if math.isinf(model.wheel_acceleration):
+            free_v, free_w = math.isinf(model.linear_acceleration), math.isinf(model.angular_acceleration)
+            if free_v and free_w:
+                state = (*targets, *state[2:])
+            elif free_v or free_w:
+                old_v, old_w = body_velocity(state[0], state[1], b)
+                state = (*rim_speeds(v if free_v else old_v, w if free_w else old_w, b), *state[2:])
+        return state, targets
+
+    def launched(self, velocity: Speeds, rolling: Numbers) -> WheelState:
+        """See `Drive.launched`; of a velocity to the side a robot on two wheels takes none."""
+        left, right = rim_speeds(velocity[0], velocity[2], rolling[2])
+        return (left / rolling[0], right / rolling[1])
+
+    def rolling(self, wheels: RealWheels) -> Numbers:
+        """Metres on the ground per metre of each rim, and how far the wheels are apart [m]."""
+        return (wheels.left, wheels.right, wheels.separation)
+
+    def velocity(self, state: Numbers, rolling: Numbers) -> Speeds:
+        """See `Drive.velocity`."""
+        left, right = state[0] * rolling[0], state[1] * rolling[1]
+        return ((left + right) / 2, 0.0, (right - left) / rolling[2])
+
+    def haste(self, state: WheelState, targets: Numbers, rolling: Numbers) -> float:
+        """See `Drive.haste`."""
+        lefts, rights = {state[0], targets[0]}, {state[1], targets[1]}
+        return max(self._speed(self.velocity((a, b), rolling)) for a in lefts for b in rights)
+
+
+class AnySide(Drive):
+    """What goes to any side: speeds ahead, to the left and around, as on paper, and where it believes to be by them."""
+
+    still = (0.0,) * 6
+    targets = (0.0, 0.0, 0.0)
+
+    def phases(self, state: WheelState, targets: Numbers) -> list[tuple[float, Numbers]]:
+        """See `Drive.phases`."""
+        speeds = state[:3]
+        if speeds == targets:
+            return [(math.inf, (0.0, 0.0, 0.0))]
+        model = self.model
+        limits = (model.linear_acceleration, model.linear_acceleration, model.angular_acceleration)
+        return list(ramps(three(speeds), three(targets), limits, math.inf))
+
+    def after(
+        self, pose: Pose, state: WheelState, rates: Numbers, dt: float, rolling: Numbers
+    ) -> tuple[Pose, WheelState]:
+        """See `Drive.after`."""
+        speeds = three(state)
+        if speeds == rates == (0.0, 0.0, 0.0):
+            return pose, state
+        changes = three(rates)
+        v, vy, w = (speed + rate * dt for speed, rate in zip(speeds, changes, strict=True))
+        believed = glide(three(state[3:]), speeds, changes, dt)
+        real = glide(pose, self.velocity(speeds, rolling), self.velocity(changes, rolling), dt)
+        return real, (v, vy, w, *believed)
+
+    def settled(self, state: WheelState, targets: Numbers) -> WheelState:
+        """See `Drive.settled`."""
+        return (*_settled(state[:3], targets), *state[3:])
+
+    def told(self, state: WheelState, velocity: Speeds) -> tuple[WheelState, Numbers]:
+        """See `Drive.told`."""
+        model = self.model
+        v, w = limited(velocity[0], velocity[2], model.max_linear, model.max_angular)
+        aside = model.max_linear if model.max_lateral is None else model.max_lateral
+        targets = (v, max(-aside, min(aside, velocity[1])), w)
+        limits = (model.linear_acceleration, model.linear_acceleration, model.angular_acceleration)
+        speeds = tuple(
+            target if math.isinf(limit) else speed
+            for speed, target, limit in zip(state[:3], targets, limits, strict=True)
+        )
+        return (*speeds, *state[3:]), targets
+
+    def launched(self, velocity: Speeds, rolling: Numbers) -> WheelState:
+        """See `Drive.launched`."""
+        return tuple(speed / factor for speed, factor in zip(velocity, rolling, strict=True))
+
+    def rolling(self, wheels: RealWheels) -> Numbers:
+        """By how much it goes farther ahead and to the side, and turns more, than its wheels tell."""
+        return (wheels.left, wheels.right, self.model.wheel_separation / wheels.separation)
+
+    def velocity(self, state: Numbers, rolling: Numbers) -> Speeds:
+        """See `Drive.velocity`."""
+        return (state[0] * rolling[0], state[1] * rolling[1], state[2] * rolling[2])
+
+    def haste(self, state: WheelState, targets: Numbers, rolling: Numbers) -> float:
+        """See `Drive.haste`."""
+        v, vy, w = (max(abs(a), abs(b)) for a, b in zip(state[:3], targets, strict=True))
+        return self._speed(self.velocity((v, vy, w), rolling))
+
+
+def _settled(speeds: Numbers, targets: Numbers) -> Numbers:
+    return tuple(
+        target if abs(speed - target) < ROUNDING else speed
+        for speed, target in zip(speeds, targets, strict=True)
+    )
+
+
+def three(numbers: Numbers) -> tuple[float, float, float]:
+    """The first three numbers."""
+    return (numbers[0], numbers[1], numbers[2])

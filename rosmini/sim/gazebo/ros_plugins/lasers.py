@@ -1,0 +1,93 @@
+"""Lasers: libgazebo_ros_laser.so, libgazebo_ros_gpu_laser.so and libgazebo_ros_ray_sensor.so."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from rosmini.markup import Element
+from rosmini.sim.devices import Laser
+from rosmini.sim.gazebo.errors import GazeboError
+from rosmini.sim.gazebo.model import Sensor
+from rosmini.sim.gazebo.plugin_tags import Tags, tag
+from rosmini.sim.gazebo.plugins import SensorPlugin
+from rosmini.sim.models import LidarModel
+from rosmini.sim.sdf.parts import number
+from rosmini.sim.sdf.poses import upright
+
+from .drives import rate_of
+from .ros_names import RosNames
+
+
+@dataclass(frozen=True, kw_only=True)
+class LaserTags(Tags):
+    """The tags of libgazebo_ros_laser.so."""
+
+    ignored: ClassVar[tuple[str, ...]] = ("gaussianNoise", "hokuyoMinIntensity", "updateRate")
+
+    topic: str = tag("topicName", "/world", "where the scans are published")
+    frame: str = tag("frameName", "/world", "the frame of their messages")
+
+
+class LaserPlugin(
+    SensorPlugin,
+    filename=("libgazebo_ros_laser.so", "libgazebo_ros_gpu_laser.so", "libgazebo_ros_ray_sensor.so"),
+):
+    """Publishes a ray sensor's scans as `sensor_msgs/LaserScan`."""
+
+    def load(self, sensor: Sensor, sdf: Element) -> None:
+        """Advertise its topic. Raises `MarkupError` for what is no ray sensor."""
+        tags = LaserTags.read(sdf, self.world.node.logwarn)
+        names = RosNames(sensor.model, sdf)
+        self.device = self.add(
+            Laser(
+                self.world.host,
+                sensor.model.name,
+                lidar_of(sensor),
+                topic=names.topic(tags.topic),
+                frame=names.frame(tags.frame),
+                noise=self.world.noise,
+                name=sensor.device_name,
+            )
+        )
+
+
+def lidar_of(sensor: Sensor) -> LidarModel:
+    """The laser that a sensor's `<ray>` describes, with its noise. Raises `MarkupError` and `GazeboError`."""
+    ray = sensor.element.find("ray") or sensor.element.find("lidar")
+    if ray is None:
+        raise sensor.element.error(
+            f"the sensor {sensor.name!r} is of type {sensor.type!r} and has no <ray>: it is no laser"
+        )
+    mount = sensor.mount
+    if not upright(mount, 1e-3):
+        raise GazeboError(
+            f"the laser {sensor.device_name!r} is tilted (roll {mount[3]:.3f}, pitch {mount[4]:.3f}): only level "
+            "ones are simulated"
+        )
+    horizontal = ray.need("scan").need("horizontal")
+    samples = int(number(horizontal, "samples", 640)) * max(1, int(number(horizontal, "resolution", 1)))
+    vertical = int(number(ray, "scan/vertical/samples", 1))
+    if vertical > 1:
+        raise horizontal.error(
+            f"a laser of {vertical} layers is not simulated; <vertical> has one sample here"
+        )
+    first, last = number(horizontal, "min_angle", 0.0), number(horizontal, "max_angle", 0.0)
+    if samples == 1:  # whatever its fan is, one ray looks ahead, as in Gazebo
+        first = last = 0.0
+    noise = ray.find("noise")
+    gaussian = noise is not None and noise.word("type", "gaussian").startswith("gaussian")
+    return LidarModel(
+        name=sensor.name,
+        mount=mount[:3],
+        beams=samples,
+        rate=rate_of(sensor.sdf.update_rate, sensor.model.world.physics.time_step),
+        range_min=number(ray, "range/min", 0.0),
+        range_max=number(ray, "range/max", math.inf),
+        noise=number(ray, "noise/stddev", 0.0) if gaussian else 0.0,
+        frame=sensor.link,
+        angle_min=first,
+        angle_max=last,
+        yaw=mount[5],
+    )

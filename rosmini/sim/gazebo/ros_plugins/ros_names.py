@@ -1,0 +1,44 @@
+"""Namespaces, topics and frames of the plugins of gazebo_ros."""
+
+from __future__ import annotations
+
+from rosmini.graph import Node
+from rosmini.markup import Element
+from rosmini.names import check_name
+from rosmini.sim.gazebo.model import Model
+
+
+class RosNames:
+    """How a plugin of a model names topics and frames.
+
+    Topics are in the namespace that the model was spawned with, else in the plugin's `<robotNamespace>`. Frames begin
+    with the parameter `tf_prefix`, searched from that namespace upwards, else with the namespace itself
+    (http://wiki.ros.org/geometry/CoordinateFrameConventions).
+    """
+
+    def __init__(self, model: Model, sdf: Element, *, default: str = "") -> None:
+        self.namespace = (model.namespace or sdf.word("robotNamespace", default)).strip().strip("/")
+        self.prefix = tf_prefix(model.world.node, self.namespace)
+
+    def topic(self, name: str) -> str:
+        """The whole name of a topic or a service; one that begins with a slash stays as it is. Raises `IllegalName`."""
+        name = name.strip()
+        if not name.startswith("/"):
+            name = f"/{self.namespace}/{name}" if self.namespace else f"/{name}"
+        return check_name(name, "topic")
+
+    def frame(self, name: str) -> str:
+        """The whole name of a frame; one that begins with a slash has no prefix."""
+        name = name.strip()
+        if name.startswith("/") or not self.prefix:
+            return name.lstrip("/")
+        return f"{self.prefix}/{name}"
+
+
+def tf_prefix(node: Node, namespace: str) -> str:
+    """The prefix of frames for what is in a namespace."""
+    found = node.graph.ask_as(f"/{namespace}").find("searchParam", "tf_prefix")
+    value = None if found is None else node.get_param(found, None)
+    if isinstance(value, str) and value.strip("/"):
+        return value.strip("/")
+    return namespace

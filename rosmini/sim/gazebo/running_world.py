@@ -1,0 +1,461 @@
+"""The running world: models that come, go and are moved, and plugins.
+
+Services, Gazebo's own topics, plugins, `gz` and notebooks all act on this object, which acts on the engine and its
+host.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import ExitStack
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any
+
+from rosmini.errors import RosminiError
+from rosmini.geometry.poses import compose
+from rosmini.graph import Node
+from rosmini.markup import Element
+from rosmini.sim.dragging import check_room
+from rosmini.sim.engine import Engine
+from rosmini.sim.host import Host
+from rosmini.sim.sdf import (
+    ORIGIN,
+    Pose6,
+    SdfLink,
+    SdfModel,
+    SdfPlugin,
+    SdfWorld,
+    converted,
+    placed_links,
+    to_obstacles,
+)
+from rosmini.sim.sdf.poses import compose as compose6
+from rosmini.sim.world import Obstacle, World
+
+from .body import Body, is_still, lowest, obstacles_at, plugins_of
+from .errors import GazeboError, SpawnError, UnknownPlugin
+from .model import STILL, GazeboWorld, Model, Sensor, Velocity
+from .physics_properties import PhysicsProperties
+from .plugins import ModelPlugin, Plugin, SensorPlugin, WorldPlugin, plugin_class
+from .wrenches import Wrenches, WrenchState
+
+
+@dataclass(frozen=True)
+class ModelState:
+    """A model, and what the engine does not know of it."""
+
+    sdf: SdfModel
+    start: Pose6
+    namespace: str
+    frames: dict[str, tuple[str, Pose6]]
+    obstacles: tuple[str, ...]
+    fixed: Pose6 | None
+    """Where it is if nothing can push it."""
+
+    @classmethod
+    def of(cls, model: Model) -> ModelState:
+        """The state of a model now."""
+        return cls(model.sdf, model.start, model.namespace, dict(model.frames), model.obstacles, model.fixed)
+
+    def came_as(self, model: Model) -> bool:
+        """Return whether a model was spawned in the same way as this one."""
+        return all(
+            alike(getattr(self, name), getattr(model, name))
+            for name in ("namespace", "start", "frames", "sdf")
+        )
+
+
+@dataclass(frozen=True)
+class WorldState:
+    """What a Gazebo world adds to the state of its host."""
+
+    models: dict[str, ModelState]
+    physics: PhysicsProperties
+    forces: tuple[WrenchState, ...]
+
+
+class RunningWorld(GazeboWorld):
+    """A world with models in it, in a node.
+
+    Args:
+        node: the started node; its topics are those of the models.
+        source: an SDF world, or one of rosmini's.
+        paused: whether time stands still initially.
+        noise: scales the noise of all sensors; 0: none.
+
+    """
+
+    def __init__(
+        self, node: Node, source: World | SdfWorld, *, paused: bool = False, noise: float = 1.0
+    ) -> None:
+        self.node = node
+        self.noise = noise
+        self.models = {}
+        self.plugins: list[Plugin] = []
+        """Those of the world itself."""
+        self.model_plugins: dict[str, list[Plugin]] = {}
+        """By the name of the model that they, or its sensors, belong to."""
+        self.on_change: list[Callable[[str, Model], object]] = []
+        """Called with "insert", "delete" or "move", and the model."""
+        self.wrenches = Wrenches(self)
+        """The forces that act on things."""
+        if isinstance(source, SdfWorld):
+            self.name = source.name
+            still = [model for model in source.models if is_still(model)]
+            flat, notes = converted(replace(source, models=tuple(still)))
+            if source.warnings:
+                wrong = map(str, source.warnings)
+                node.logwarn("\n".join([f"the world {source.name!r} is not whole:", *wrong]))
+            for note in notes:
+                node.loginfo(str(note))
+            rate = source.physics.real_time_update_rate
+            self.physics = PhysicsProperties(source.physics.max_step_size, rate, *source.gravity)
+        else:
+            self.name, flat, self.physics = source.name, source, PhysicsProperties()
+        self.flat = flat
+        self.engine = Engine(flat, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=noise)
+        self.host = Host(node, self.engine, from_zero=True, paused=paused, speed=self.physics.speed)
+        if isinstance(source, SdfWorld):
+            self._bring_all(source, still)
+        else:
+            for obstacle in flat.obstacles:
+                self._note_obstacle(obstacle)
+        self.set_physics(self.physics)
+
+    def _bring_all(self, source: SdfWorld, still: list[SdfModel]) -> None:
+        for model in source.models:
+            if any(model is each for each in still):
+                self._note_fixed(model)
+            else:
+                try:
+                    self._bring(replace(model, pose=ORIGIN), model.name, model.pose, check=False)
+                except SpawnError as error:
+                    self.node.logerr(f"{model.path}:{model.line}: {error}. The world goes on without it")
+        for actor in source.actors:
+            self._note_obstacle(next(each for each in self.flat.obstacles if each.name == actor.name))
+        for tag in source.plugins:
+            self.load_plugin(tag)
+
+    def _note_fixed(self, model: SdfModel) -> None:
+        own = tuple(
+            each.name
+            for each in self.flat.obstacles
+            if each.name == model.name or each.name.startswith(f"{model.name}::")
+        )
+        moving = any(each.motion is not None for each in self.flat.obstacles if each.name in own)
+        self.models[model.name] = Model(
+            self,
+            model.name,
+            replace(model, pose=ORIGIN),
+            model.pose,
+            obstacles=own,
+            fixed=None if moving else model.pose,
+        )
+
+    def _note_obstacle(self, obstacle: Obstacle) -> None:
+        """Make an obstacle of rosmini's own world a model of one link."""
+        x, y, yaw = obstacle.pose
+        pose = (x, y, 0.0, 0.0, 0.0, yaw)
+        sdf = SdfModel(obstacle.name, static=obstacle.fixed, links=(SdfLink("link"),))
+        self.models[obstacle.name] = Model(
+            self, obstacle.name, sdf, pose, obstacles=(obstacle.name,), fixed=pose if obstacle.fixed else None
+        )
+
+    # -- time ----------------------------------------------------------------------------------------------------
+
+    def step(self, count: int = 1) -> None:
+        """Take so many steps of the physics, and pause. Raises `GazeboError` for less than one."""
+        if count < 1:
+            raise GazeboError(f"a world is stepped once or more often, not {count} times")
+        self.host.pause()
+        self.host.step(count * self.physics.time_step)
+
+    def reset_models(self) -> None:
+        """Put every model back to where it was spawned; time goes on."""
+        self.host.reset()
+        for model in self.models.values():
+            if model.fixed is not None and model.fixed != model.start:
+                self.move(model, model.start)
+        for plugin in self._all_plugins():
+            plugin.reset()
+        self.host.tell_time()
+
+    def set_physics(self, physics: PhysicsProperties) -> None:
+        """Change how the world is stepped."""
+        self.host.catch_up()
+        self.physics = physics
+        self.host.speed = physics.speed
+        self.engine.tune(gravity=max(0.0, -physics.gravity[2]))
+
+    # -- saving --------------------------------------------------------------------------------------------------
+
+    def state(self) -> WorldState:
+        """What the world has beside the engine and its devices."""
+        models = {name: ModelState.of(model) for name, model in self.models.items()}
+        return WorldState(models, self.physics, self.wrenches.state())
+
+    def remove_new(self, state: WorldState) -> None:
+        """Delete the models that were not there, or were others; the physics becomes that of the state."""
+        for name, model in list(self.models.items()):
+            if name not in state.models or not state.models[name].came_as(model):
+                self.delete(name)
+        self.set_physics(state.physics)
+
+    def bring_back(self, state: WorldState) -> None:
+        """Give the models that a restored engine has again their plugins, and their forces."""
+        for name, old in state.models.items():
+            if name not in self.models:
+                self._bring(
+                    old.sdf, name, old.start, old.namespace, old.frames, check=False, there=old.obstacles
+                )
+                self._tell("insert", self.models[name])
+            self.models[name].obstacles, self.models[name].fixed = old.obstacles, old.fixed
+        self.models = {name: self.models[name] for name in state.models}
+        self.wrenches.restore(state.forces)
+
+    # -- models --------------------------------------------------------------------------------------------------
+
+    def spawn(
+        self,
+        sdf: SdfModel,
+        name: str = "",
+        pose: Pose6 | None = None,
+        *,
+        namespace: str = "",
+        frames: Mapping[str, tuple[str, Pose6]] | None = None,
+    ) -> Model:
+        """See `GazeboWorld.spawn`."""
+        called = name or sdf.name
+        where = sdf.pose if pose is None else compose6(pose, sdf.pose)
+        self.host.catch_up()
+        model = self._bring(
+            replace(sdf, name=called, pose=ORIGIN), called, where, namespace, frames, check=True
+        )
+        self._tell("insert", model)
+        return model
+
+    def _bring(
+        self,
+        sdf: SdfModel,
+        name: str,
+        pose: Pose6,
+        namespace: str = "",
+        frames: Mapping[str, tuple[str, Pose6]] | None = None,
+        *,
+        check: bool,
+        there: tuple[str, ...] | None = None,
+    ) -> Model:
+        """Insert a model; `there` names its obstacles if the engine has it already."""
+        self._check_new(name, pose)
+        if check and not sdf.static:
+            above = lowest(sdf, pose)
+            pose = (pose[0], pose[1], 0.0 - above if above is not None else pose[2], *pose[3:])
+        model = Model(self, name, sdf, pose, namespace, frames or {})
+        found = self._plugin_classes(plugins_of(sdf), f"the model {name!r}", ModelPlugin)
+        body = Body(sdf)
+        for cls, tag in found:
+            if issubclass(cls, ModelPlugin):
+                cls.prepare(body, tag.element, self.node.logwarn)
+        sensors = [
+            Sensor(model, each, link) for link, there, _ in placed_links(sdf) for each in there.sensors
+        ]
+        is_robot = body.drive or sensors or any(getattr(cls, "needs_robot", False) for cls, _ in found)
+        if there is not None:
+            model.body, model.obstacles = body if is_robot else None, there
+        elif is_robot:
+            self._add_robot(model, body)
+        else:
+            self._add_things(model)
+        self.models[name] = model
+        try:
+            self._load(model, found, sensors)
+        except Exception as error:  # whatever a plugin of somebody's raises
+            self._take(model)
+            why = (
+                error
+                if isinstance(error, RosminiError)
+                else f"a plugin raised {type(error).__name__}: {error}"
+            )
+            raise SpawnError(f"the model {name!r} cannot come into the world: {why}") from error
+        return model
+
+    def _check_new(self, name: str, pose: Pose6) -> None:
+        if not name:
+            raise SpawnError("a model needs a name")
+        if name in self.models:
+            raise SpawnError(
+                f"there is a model {name!r} already; delete it first, or give this one another name"
+            )
+        if not all(math.isfinite(part) for part in pose):
+            raise SpawnError(
+                f"the model {name!r} cannot come to {pose}: all numbers of a pose have to be finite"
+            )
+
+    def _add_robot(self, model: Model, body: Body) -> None:
+        x, y, _, _, _, yaw = model.start
+        try:
+            model.body = body
+            self.engine.add(model.name, body.robot_model(), compose((x, y, yaw), body.axle))
+        except RosminiError as error:
+            raise SpawnError(f"the model {model.name!r} cannot come into the world: {error}") from error
+        for note in body.notes:
+            self.node.logwarn(note)
+
+    def _add_things(self, model: Model) -> None:
+        obstacles = to_obstacles(model.sdf, model.start)
+        if not obstacles and model.sdf.links:
+            self.node.loginfo(f"the model {model.name!r} has nothing solid: nothing will run against it")
+        try:
+            model.obstacles = self._insert_all(obstacles)
+        except RosminiError as error:
+            raise SpawnError(f"the model {model.name!r} cannot come into the world: {error}") from error
+        if not any(obstacle.movable or obstacle.motion for obstacle in obstacles):
+            model.fixed = model.start
+
+    def _load(self, model: Model, found: list[tuple[type[Plugin], SdfPlugin]], sensors: list[Sensor]) -> None:
+        plugins = self.model_plugins[model.name] = []
+        for sensor in sensors:
+            model.sensors.append(sensor)
+            of_sensor = self._plugin_classes(
+                sensor.sdf.plugins, f"the sensor {sensor.device_name!r}", SensorPlugin
+            )
+            for cls, tag in of_sensor:
+                plugin = cls(self, f"{sensor.device_name}/{tag.name or tag.filename}")
+                plugins.append(plugin)
+                if isinstance(plugin, SensorPlugin):
+                    plugin.load(sensor, tag.element)
+        for cls, tag in found:
+            plugin = cls(self, f"{model.name}/{tag.name or tag.filename}")
+            plugins.append(plugin)
+            if isinstance(plugin, ModelPlugin):
+                plugin.load(model, tag.element)
+
+    def delete(self, name: str) -> None:
+        """See `GazeboWorld.delete`."""
+        model = self.model(name)
+        self._take(model)
+        self._tell("delete", model)
+
+    def _take(self, model: Model) -> None:
+        """Remove a model; what its plugins raise then is reported, and it goes all the same."""
+        self.host.catch_up()
+        with ExitStack() as ends:
+            ends.callback(self._forget, model)
+            for plugin in self.model_plugins.pop(model.name, ()):
+                ends.callback(self.node.guarded, plugin.close, what=f"the end of {plugin.name}")
+
+    def _forget(self, model: Model) -> None:
+        if model.body is not None:
+            self.engine.remove(model.name)
+        for obstacle in model.obstacles:
+            self.engine.take_away(obstacle)
+        del self.models[model.name]
+
+    def move(self, model: Model, pose: Pose6, velocity: Velocity = STILL) -> None:
+        """See `GazeboWorld.move`."""
+        if not all(math.isfinite(part) for part in (*pose, *velocity)):
+            what = f"put to {pose} with the velocity {velocity}"
+            raise GazeboError(f"the model {model.name!r} cannot be {what}: all numbers have to be finite")
+        self.host.catch_up()
+        if model.fixed is not None:
+            self._move_fixed(model, pose)
+        else:
+            at = (pose[0], pose[1], pose[5])
+            if model.body is not None:
+                self.engine.put(model.name, compose(at, model.body.axle), velocity)
+            else:
+                if at != model.flat:
+                    here = {each.name: each for each in self.engine.obstacles()}
+                    check_room(self.engine, here[model.obstacles[0]], at)
+                self.engine.put(model.obstacles[0], at, velocity)
+        self._tell("move", model)
+
+    def _move_fixed(self, model: Model, pose: Pose6) -> None:
+        """Move a fixed model; it stays where it was if there is no room."""
+        old = tuple(each for each in self.engine.world.obstacles if each.name in model.obstacles)
+        found = obstacles_at(pose, replace(model.sdf, name=model.name), old)
+        for name in model.obstacles:
+            self.engine.take_away(name)
+        try:
+            model.obstacles = self._insert_all(found)
+        except RosminiError:
+            self._insert_all(old)
+            raise
+        model.fixed = pose
+
+    def _insert_all(self, obstacles: Iterable[Obstacle]) -> tuple[str, ...]:
+        """Insert obstacles, all or none; return their names."""
+        added: list[str] = []
+        try:
+            for obstacle in obstacles:
+                if obstacle.movable:
+                    check_room(self.engine, obstacle, obstacle.pose)
+                self.engine.insert(obstacle)
+                added.append(obstacle.name)
+        except RosminiError:
+            for name in added:
+                self.engine.take_away(name)
+            raise
+        return tuple(added)
+
+    def _tell(self, what: str, model: Model) -> None:
+        for callback in self.on_change:
+            callback(what, model)
+
+    # -- plugins -------------------------------------------------------------------------------------------------
+
+    def _plugin_classes(
+        self, tags: Iterable[SdfPlugin], whose: str, kind: type[Plugin]
+    ) -> list[tuple[type[Plugin], SdfPlugin]]:
+        """Return the classes of plugins, with a warning for unknown ones and those of another kind."""
+        found = []
+        for tag in tags:
+            try:
+                cls = plugin_class(tag.filename)
+            except UnknownPlugin as error:
+                self.node.logwarn(f"{tag.element.path}:{tag.line}: {whose} goes on without a plugin: {error}")
+                continue
+            if not issubclass(cls, kind):
+                self.node.logwarn(
+                    f"{tag.element.path}:{tag.line}: {tag.filename!r} is a {cls.kind} plugin, but stands in {whose}, "
+                    f"which takes {kind.kind} plugins: left out"
+                )
+                continue
+            found.append((cls, tag))
+        return found
+
+    def load_plugin(self, tag: SdfPlugin | str) -> WorldPlugin | None:
+        """Load a plugin of the world, by its tag or file name; return None, with a warning, if there is none."""
+        if isinstance(tag, str):
+            tag = SdfPlugin(tag, tag, Element("plugin", {"filename": tag}))
+        for cls, each in self._plugin_classes([tag], f"the world {self.name!r}", WorldPlugin):
+            plugin = cls(self, f"{self.name}/{each.name or each.filename}")
+            if isinstance(plugin, WorldPlugin):
+                self.plugins.append(plugin)
+                plugin.load(self, each.element)
+                return plugin
+        return None
+
+    def _all_plugins(self) -> list[Plugin]:
+        return [*self.plugins, *(plugin for plugins in self.model_plugins.values() for plugin in plugins)]
+
+    def close(self) -> None:
+        """End all plugins, and stop time."""
+        with ExitStack() as ends:
+            ends.callback(self.host.end)
+            for plugin in self._all_plugins():
+                ends.callback(self.node.guarded, plugin.close, what=f"the end of {plugin.name}")
+
+
+def alike(a: Any, b: Any) -> bool:
+    """Return whether two descriptions are the same; markup elements are equal only to themselves."""
+    if type(a) is not type(b):
+        return False
+    if is_dataclass(a):
+        return a is b or all(alike(getattr(a, each.name), getattr(b, each.name)) for each in fields(a))
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(alike(value, b[key]) for key, value in a.items())
+    if isinstance(a, (list, tuple)):
+        return len(a) == len(b) and all(map(alike, a, b))
+    return bool(a == b)

@@ -1,0 +1,228 @@
+"""A camera: the image, and the depths, of a world that is flat but for how high its things are.
+
+It has no distortion. A point at (X, Y, Z) in its optical frame (X to the right, Y down, Z ahead: REP 103) is seen at
+
+    u = fx X / Z + cx,   v = fy Y / Z + cy,   fx = fy = width / (2 tan(horizontal_fov / 2)),
+
+where whole numbers are the middles of pixels. cx = (width + 1) / 2 and cy = (height + 1) / 2 are what gazebo_ros's
+camera plugin writes into `sensor_msgs/CameraInfo`; here the image is drawn by them too, so that what the message says
+is exact.
+
+The camera sits where its model says on a robot, turned by `yaw` to the left and then by `pitch` down. A pixel is what
+its middle shows. The light and the ground are those of `rosmini.sim.sensors.shading`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.errors import RosminiError
+from rosmini.geometry.poses import Pose
+from rosmini.sim.models import CameraModel
+from rosmini.sim.shapes import Part
+from rosmini.sim.world import World
+
+from . import raster, shading
+from .raster import GROUND, Eye, Lens
+from .scene import Scene
+
+__all__ = ["CameraError", "CameraInfo", "Eye", "camera_info", "capture", "depth", "eye_of", "render"]
+
+Floats = NDArray[np.float64]
+Image = NDArray[np.uint8]
+Depths = NDArray[np.float32]
+Ints = NDArray[np.int64]
+
+View = Scene | World | Iterable[Part]
+"""What there is to see; a `Scene` that is kept is quickest."""
+
+
+class CameraError(RosminiError, ValueError):
+    """There is no such place to look from."""
+
+
+@dataclass(frozen=True)
+class CameraInfo:
+    """The numbers of a `sensor_msgs/CameraInfo`, row by row as the message holds them."""
+
+    width: int
+    height: int
+    K: tuple[float, ...]
+    """(9,)"""
+    P: tuple[float, ...]
+    """(12,)"""
+    distortion_model: str = "plumb_bob"
+    D: tuple[float, ...] = (0.0,) * 5
+    R: tuple[float, ...] = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+
+
+def lens_of(camera: CameraModel) -> Lens:
+    """How a camera projects."""
+    f = camera.focal_length
+    cx, cy = (camera.width + 1) / 2, (camera.height + 1) / 2
+    return Lens(camera.width, camera.height, f, f, cx, cy, camera.near, camera.far)
+
+
+def camera_info(camera: CameraModel, baseline: float = 0.0) -> CameraInfo:
+    """What a camera's `camera_info` says.
+
+    `baseline` [m] is how far it sits to the right of a first camera (Gazebo's `hackBaseline`).
+    """
+    lens = lens_of(camera)
+    k = (lens.fx, 0.0, lens.cx, 0.0, lens.fy, lens.cy, 0.0, 0.0, 1.0)
+    p = (lens.fx, 0.0, lens.cx, -lens.fx * baseline, 0.0, lens.fy, lens.cy, 0.0, 0.0, 0.0, 1.0, 0.0)
+    return CameraInfo(camera.width, camera.height, k, p)
+
+
+def eye_of(camera: CameraModel, pose: Pose, height: float = 0.0, roll: float = 0.0) -> Eye:
+    """Where the camera of a robot at `pose` is, and where it looks.
+
+    `height` is that of the robot's base_footprint above the ground [m]; `roll` turns the camera about where it looks,
+    to the right [rad].
+
+    Raises:
+        CameraError: the pose is not finite.
+
+    """
+    x, y, theta = (float(v) for v in pose)
+    if not all(map(math.isfinite, (x, y, theta, height, roll))):
+        raise CameraError(
+            f"a camera cannot look from ({x}, {y}, {theta}), {height} m up: that has to be finite"
+        )
+    mx, my, mz = camera.mount
+    c, s = math.cos(theta), math.sin(theta)
+    position = np.array([x + c * mx - s * my, y + s * mx + c * my, height + mz])
+    return Eye(position, axes_of(theta + camera.yaw, camera.pitch, roll), lens_of(camera))
+
+
+def axes_of(yaw: float, pitch: float, roll: float = 0.0) -> Floats:
+    """Return right, down and ahead of a camera as rows (3, 3), turned by roll, pitch and yaw [rad] (REP 103)."""
+    (cy, sy), (cp, sp), (cr, sr) = ((math.cos(a), math.sin(a)) for a in (yaw, pitch, roll))
+    ahead = np.array([cy * cp, sy * cp, -sp])
+    left = np.array([cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr])
+    up = np.array([cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr])
+    return np.array([-left, -up, ahead])
+
+
+def capture(
+    camera: CameraModel | Eye,
+    pose: Pose,
+    view: View,
+    *,
+    noise: Floats | None = None,
+    depth_far: float | None = None,
+) -> tuple[Image, Depths]:
+    """The image (h, w, 3), red, green, blue, and the depths (h, w) [m] that a camera sees; both from one look.
+
+    Args:
+        camera: which camera; or an eye anywhere, and then `pose` is not asked for.
+        pose: where the robot is that carries it.
+        view: what there is to see.
+        noise: (h, w), what to add to each pixel's brightness, of 1 from black to white: `camera_noise` draws it.
+        depth_far: the farthest that is measured [m]; the camera's own if not given.
+
+    Depths are along the camera's axis (REP 118). Where nothing is seen within reach they are inf (REP 117); what is
+    nearer than the camera's `near` is not seen at all, neither in the image nor in the depths, as in Gazebo.
+
+    Raises:
+        CameraError: the pose is not finite.
+
+    """
+    eye = camera if isinstance(camera, Eye) else eye_of(camera, pose)
+    scene = _scene(view)
+    inverse, shown = look(eye, scene)
+    if depth_far is None and isinstance(camera, CameraModel):
+        depth_far = camera.depth_far
+    return _image(eye, scene, inverse, shown, noise), _depths(inverse, eye, depth_far)
+
+
+def render(
+    camera: CameraModel | Eye,
+    pose: Pose,
+    view: View,
+    *,
+    noise: Floats | None = None,
+) -> Image:
+    """The image (h, w, 3) alone; see `capture`."""
+    return capture(camera, pose, view, noise=noise)[0]
+
+
+def depth(camera: CameraModel | Eye, pose: Pose, view: View, *, far: float | None = None) -> Depths:
+    """The depths (h, w) [m] alone; see `capture`."""
+    eye = camera if isinstance(camera, Eye) else eye_of(camera, pose)
+    if far is None and isinstance(camera, CameraModel):
+        far = camera.depth_far
+    inverse, _ = look(eye, _scene(view))
+    return _depths(inverse, eye, far)
+
+
+def camera_noise(camera: CameraModel, rng: np.random.Generator, scale: float = 1.0) -> Floats | None:
+    """The noise (h, w) of one image; None if the camera has none."""
+    deviation = camera.noise * scale
+    if not deviation:
+        return None
+    drawn = rng.standard_normal((camera.height, camera.width), dtype=np.float32)
+    return (drawn * np.float32(deviation)).astype(np.float64)
+
+
+def look(eye: Eye, scene: Scene) -> tuple[Floats, Ints]:
+    """What each pixel shows: the inverse of its depth (h, w) [1/m], 0 for the sky; and the number (h, w) of what it is.
+
+    Faces, cylinders and balls are numbered in this order; -1 is the ground or the sky.
+    """
+    lens, rays = eye.lens, eye.rays()
+    inverse = _ground(eye, rays)
+    shown = np.full((lens.height, lens.width), GROUND, dtype=np.int64)
+    faces, rods, balls = scene.faces, scene.rods, scene.balls
+    towards = np.einsum("ij,ij->i", scene.normals, eye.position - faces[:, 0])
+    corners = eye.seen(faces.reshape(-1, 3)).reshape(-1, 4, 3)
+    plan = raster.plan(corners, (towards > 0) | scene.thin, lens)
+    rod_low = np.column_stack([rods[:, 0] - rods[:, 2], rods[:, 1] - rods[:, 2], rods[:, 3]])
+    rod_high = np.column_stack([rods[:, 0] + rods[:, 2], rods[:, 1] + rods[:, 2], rods[:, 4]])
+    radius = balls[:, 3:]
+    rod_boxes = raster.boxes_around(rod_low, rod_high, eye)
+    ball_boxes = raster.boxes_around(balls[:, :3] - radius, balls[:, :3] + radius, eye)
+    second, third = len(faces), len(faces) + len(rods)
+    raster.draw(plan, lens, inverse, shown)
+    raster.draw_rods(second, rods, rod_boxes, eye.position, rays, lens, inverse, shown)
+    raster.draw_balls(third, balls, ball_boxes, eye.position, rays, lens, inverse, shown)
+    return inverse, shown
+
+
+def _image(eye: Eye, scene: Scene, inverse: Floats, shown: Ints, noise: Floats | None) -> Image:
+    planes = shading.coloured(eye, scene, inverse, shown)
+    if noise is not None:
+        planes += np.asarray(noise, dtype=np.float32)
+    planes *= 255.0
+    np.clip(planes, 0.0, 255.0, out=planes)
+    planes += 0.5
+    return np.ascontiguousarray(planes.astype(np.uint8).transpose(1, 2, 0))
+
+
+def _ground(eye: Eye, rays: Floats) -> Floats:
+    """The inverse depth (h, w) of the ground, 0 where it is not seen."""
+    lens, height = eye.lens, float(eye.position[2])
+    if height <= 0:
+        return np.zeros((lens.height, lens.width))
+    a, b, c = (-rays[2] / height).tolist()
+    u, v = np.arange(lens.width, dtype=np.float64), np.arange(lens.height, dtype=np.float64)
+    inverse: Floats = (a + c * v)[:, None] + b * u
+    inverse[(inverse < 1e-9) | (inverse > 1 / lens.near)] = 0.0
+    return inverse
+
+
+def _depths(inverse: Floats, eye: Eye, far: float | None) -> Depths:
+    far = eye.lens.far if far is None else min(far, eye.lens.far)
+    depths = np.full(inverse.shape, np.inf, dtype=np.float32)
+    return np.divide(1.0, inverse, out=depths, where=inverse * far >= 1.0 - 1e-12, casting="same_kind")
+
+
+def _scene(view: View) -> Scene:
+    if isinstance(view, Scene):
+        return view
+    return Scene.of_world(view) if isinstance(view, World) else Scene.of(view)

@@ -1,0 +1,313 @@
+"""A Stage world file as a world with robots: `load`.
+
+What is read: include, define, units, `resolution`, `interval_sim`, `speedup`, `paused`, `quit_time`, `window`, and
+the models `model`, `position`, `ranger`, `laser` (of Stage 3) and `camera` with blocks, bitmaps and boundaries.
+Models with `gripper_return 1` can be pushed. What is left out is told in `StageWorld.notes`, with file and line; what
+is wrong is a `StageError`, which names them too.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.files import exists, is_file
+from rosmini.geometry.polygons import sides_of
+from rosmini.packages import PackageIndex
+from rosmini.sim.shapes import Compound
+from rosmini.sim.world import Obstacle, World, WorldError
+
+from .blocks import Block
+from .errors import Place, StageError
+from .parse import Entity, Parsed, parse_file
+from .robots import BASE, StageRobot, robot
+from .solids import Solid, filled, placed, solid
+from .things import UNUSED, Maker, Thing
+from .tokens import expanded
+from .values import Reader, Units, units_of
+
+SCHEME = "package://"
+DEFAULT_RESOLUTION = 0.02
+DEFAULT_INTERVAL = 0.1
+"""How long a step of the simulation is [s]."""
+
+MOST_ROBOTS = 1000
+
+WORLD = ("name", "resolution", "interval_sim", "speedup", "paused", "quit_time", "unit_length", "unit_angle")
+IGNORED = (
+    "interval_real",
+    "show_clock",
+    "show_clock_interval",
+    "threads",
+    "gui_disable",
+    "gui_interval",
+    "test",
+)
+KNOWN = {
+    "model": (),
+    "position": (*BASE, "drive", "localization", "localization_origin", "odom_error", "velocity_bounds"),
+    "ranger": ("samples", "fov", "range"),
+    "laser": ("range_min", "range_max", "samples", "fov"),
+    "camera": ("resolution", "range", "fov", "pantilt"),
+}
+
+
+@dataclass(frozen=True)
+class StageWindow:
+    """How Stage's window is to look at the world."""
+
+    size: tuple[float, float] = (400.0, 300.0)
+    """[px]"""
+    center: tuple[float, float] = (0.0, 0.0)
+    """What is in its middle [m]."""
+    scale: float = 1.0
+    """Pixels of a metre."""
+
+
+@dataclass(frozen=True)
+class StageWorld:
+    """A world file: the world without its robots, the robots, and how time goes on."""
+
+    name: str
+    path: Path
+    world: World
+    robots: tuple[StageRobot, ...]
+    interval: float
+    """How long a step is [s]; all topics are published once a step."""
+    speedup: float
+    """Seconds of the world in one second."""
+    paused: bool
+    """Whether time stands at first in Stage's window; stageros here has none, and runs."""
+    quit_time: float
+    """When it all ends [s]; 0: never."""
+    resolution: float
+    """Of Stage's raytracing [m]. Here rays are exact."""
+    window: StageWindow
+    notes: tuple[str, ...]
+    """What is left out, or not as one would think, each with file and line."""
+
+
+def load(path: str | os.PathLike[str]) -> StageWorld:
+    """Read a Stage world file: a path or a `package://` address. Raises `StageError`, with file and line."""
+    text = os.fspath(path)
+    file = Path(PackageIndex().resolve(text)) if text.startswith(SCHEME) else expanded(text)
+    if not is_file(file):
+        raise StageError(Place(file, 1), "there is no such file" if not exists(file) else "this is no file")
+    return _World(parse_file(file)).make()
+
+
+class _World:
+    """Puts a world together."""
+
+    def __init__(self, parsed: Parsed) -> None:
+        self.parsed = parsed
+        self.units = units_of(parsed.root)
+        for place, what in parsed.notes:
+            self.units.note(place, what)
+        self.names: Counter[str] = Counter()
+        self.walls: list[tuple[Thing, NDArray[np.float64]]] = []
+        self.obstacles: list[Obstacle] = []
+        self.robots: list[StageRobot] = []
+
+    def make(self) -> StageWorld:
+        parsed, units = self.parsed, self.units
+        reader = Reader(parsed.root, units)
+        name = reader.text("name", parsed.path.stem)
+        interval = reader.number("interval_sim", DEFAULT_INTERVAL * 1e3, above=0.0) / 1e3
+        speedup = self._speedup(reader)
+        things = Maker(parsed, units).things()
+        for thing in things:
+            self._take(thing)
+        for thing in things:
+            for each in thing.family():
+                each.reader.done((*UNUSED, *KNOWN[each.kind]))
+        resolution = reader.length("resolution", DEFAULT_RESOLUTION)
+        if resolution <= 0:
+            raise StageError(
+                reader.place("resolution"), f"resolution is {resolution:g}; it has to be more than 0"
+            )
+        made = StageWorld(
+            name=name,
+            path=parsed.path,
+            world=self._with_starts(self._world(name)),
+            robots=tuple(self.robots),
+            interval=interval,
+            speedup=speedup,
+            paused=self._paused(reader),
+            quit_time=reader.number("quit_time", 0.0, minimum=0.0),
+            resolution=resolution,
+            window=_window(parsed.root, units),
+            notes=(),
+        )
+        reader.done((*WORLD, *IGNORED))
+        object.__setattr__(made, "notes", units.notes)
+        return made
+
+    def _speedup(self, reader: Reader) -> float:
+        speedup = reader.number("speedup", 1.0)
+        if speedup <= 0:
+            what = "a speedup of 0 or less is as fast as can be in Stage's window; here it is 1"
+            self.units.note(reader.place("speedup"), what)
+            return 1.0
+        if speedup != 1:
+            what = (
+                f"speedup: {speedup:g} s of this world, and of /clock, pass in one second of the graph, as in Stage's "
+                "window; a graph in simulated time is no faster by it, for it goes as fast as it can"
+            )
+            self.units.note(reader.place("speedup"), what)
+        return speedup
+
+    def _paused(self, reader: Reader) -> bool:
+        paused = reader.flag("paused", default=False)
+        if paused:
+            what = (
+                "paused lets time stand in Stage's window, until somebody presses p there; without a window it changes "
+                "nothing, and here neither"
+            )
+            self.units.note(reader.place("paused"), what)
+        return paused
+
+    def _take(self, thing: Thing) -> None:
+        """Take a model of the top into the world."""
+        if thing.kind == "position":
+            if len(self.robots) == MOST_ROBOTS:
+                raise StageError(thing.place, f"there are more than {MOST_ROBOTS} robots in this world")
+            self.robots.append(robot(thing, len(self.robots), self.units))
+            return
+        for each in thing.family():
+            if each.kind == "position":
+                what = f"the position {each.name} is on the model {thing.name}, which does not move"
+                raise StageError(each.place, f"{what}; give it a place of its own")
+            if each.kind in ("ranger", "laser", "camera"):
+                self.units.note(each.place, "{} is on no position: stageros does not find it", each.name)
+        bodies = [each for each in thing.family() if each.body is not None]
+        if thing.pushable:
+            self._push(thing, bodies)
+            return
+        for each in bodies:
+            self._stand(each)
+
+    def _stand(self, thing: Thing) -> None:
+        """A fixed thing."""
+        body = thing.body
+        if body is None or not self._there(thing):
+            return
+        blocks = body.blocks
+        if body.traced and solid(thing, blocks[0]).bottom <= 0 and not self.walls:
+            corners = [placed(thing, each) for each in blocks]
+            self.walls.append((thing, np.vstack([sides_of(loop) for loop in corners])))
+            blocks = ()
+        else:
+            blocks = self._filled(thing)
+        for each in (*blocks, *body.boundary):
+            self._obstacle(thing, each)
+
+    def _push(self, thing: Thing, bodies: list[Thing]) -> None:
+        """A thing that can be pushed, with all that is on it."""
+        blocks: list[tuple[Thing, Block]] = []
+        for each in bodies:
+            if each.body is not None and self._there(each):
+                blocks += [(each, one) for one in (*self._filled(each), *each.body.boundary)]
+        if not blocks:
+            return
+        mass = thing.mass
+        if mass <= 0:
+            raise StageError(
+                thing.reader.place("mass"),
+                f"{thing.name} can be pushed, so its mass has to be more than 0 kg",
+            )
+        solids = [solid(owner, each) for owner, each in blocks]
+        low, high = min(each.bottom for each in solids), max(each.top for each in solids)
+        if high <= 0:
+            self.units.note(thing.place, "{} is below the ground and is left out", thing.name)
+        elif len(solids) == 1:
+            self._add(thing, solids[0], mass)
+        else:
+            pose = (thing.at[0], thing.at[1], thing.at[3])
+            parts = Compound(tuple(each.seen_from(pose) for each in solids))
+            self._add(thing, Solid(parts, pose, low, high), mass)
+
+    def _there(self, thing: Thing) -> bool:
+        """Return whether anything bumps into the thing, and note what is not as the file says."""
+        if not thing.solid:
+            what = "nothing bumps into {} and nothing sees it: it is left out"
+            if thing.seen >= 0:
+                what = "nothing bumps into {}: it is left out here, so that no laser sees it either"
+            self.units.note(thing.place, what, thing.name)
+            return False
+        if thing.seen < 0:
+            what = "ranger_return changes nothing here: {} is seen by lasers"
+            self.units.note(thing.reader.place("ranger_return"), what, thing.name)
+        return True
+
+    def _filled(self, thing: Thing) -> tuple[Block, ...]:
+        """The blocks of a thing's body, without what is hollow in them."""
+        found, holes = filled(thing)
+        if holes:
+            what = (
+                f"of the bitmaps of a world one may have rooms in it; {holes} hollow parts of {{}} are filled"
+            )
+            self.units.note(thing.reader.place("bitmap"), what, thing.name)
+        return found
+
+    def _obstacle(self, thing: Thing, block: Block) -> None:
+        found = solid(thing, block)
+        if found.top <= 0:
+            self.units.note(thing.place, "{} is below the ground and is left out", thing.name)
+            return
+        self._add(thing, found)
+
+    def _add(self, thing: Thing, what: Solid, mass: float | None = None) -> None:
+        count = self.names[thing.name]
+        self.names[thing.name] += 1
+        name = thing.name if not count else f"{thing.name} ({count + 1})"
+        try:
+            found = Obstacle(
+                name,
+                what.shape,
+                what.pose,
+                height=what.top,
+                bottom=what.bottom,
+                colour=thing.colour,
+                mass=mass,
+            )
+        except WorldError as error:
+            raise StageError(thing.place, str(error)) from error
+        self.obstacles.append(found)
+
+    def _with_starts(self, world: World) -> World:
+        """The same world. Raises `StageError` if a robot starts outside of it."""
+        for each in self.robots:
+            outside = world.outside(each.pose)
+            if outside:
+                raise StageError(each.place, f"{each.name} cannot start there: {outside}")
+        return world
+
+    def _world(self, name: str) -> World:
+        starts = tuple(each.pose for each in self.robots) or ((0.0, 0.0, 0.0),)
+        title = f"The Stage world {name}"
+        if not self.walls:
+            return World(name, tuple(self.obstacles), starts=starts, title=title)
+        thing, walls = self.walls[0]
+        top = thing.at[2] + thing.size[2]
+        return World(
+            name, tuple(self.obstacles), walls=walls, wall_height=top, starts=starts, title=title, solid=True
+        )
+
+
+def _window(root: Entity, units: Units) -> StageWindow:
+    windows = [child for child in root.children if child.kind == "window"]
+    if not windows:
+        return StageWindow()
+    if len(windows) > 1:
+        units.note(windows[1].place, "a world has one window; the others are left out")
+    reader = Reader(windows[0], units)
+    size = reader.several("size", "ff", StageWindow.size)
+    center = reader.several("center", "ll", StageWindow.center)
+    scale = reader.number("scale", StageWindow.scale, above=0.0)
+    return StageWindow((size[0], size[1]), (center[0], center[1]), scale)

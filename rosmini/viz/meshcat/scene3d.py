@@ -1,0 +1,476 @@
+"""A scene in three dimensions, built through meshcat's own API and kept as commands.
+
+Frames are ROS's: x forward, y to the left, z up, metres (REP 103). The scene is moved so that what the camera looks at
+is in meshcat's origin, around which its controls turn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.sim.models import LidarModel, RobotModel
+from rosmini.sim.models import Part as SimplePart
+from rosmini.sim.sensors.scene import trapezia
+from rosmini.sim.shapes import Cylinder, Simple, Sphere, outline_at, simple_parts
+from rosmini.sim.world import Obstacle, Pose, World
+from rosmini.viz import style
+from rosmini.viz.rounding import snap
+
+from . import burger
+from .command_recorder import Recorder, meshcat
+from .links import link_parts, link_surfaces, turtlebot3
+from .solids import Ball, Facets, Part, Prism, Rod, Solid, mesh, rounded
+from .surfaces import LinkPart
+
+Floats = NDArray[np.float64]
+Colour = tuple[float, float, float]
+
+DESCRIBED = ("waffle", "waffle_pi")
+"""Models that are drawn from their URDF. The Burger has a drawing of its own, a tenth as large."""
+TINY = ("#181c20",)
+"""Colours left out of these drawings in a world: holes in plates, a quarter of the bytes and mere dots there."""
+SIDES = (("left", 1), ("right", -1))
+"""The wheels, and where they look."""
+ROBOT = "robots/robot"
+"""The path of the first robot."""
+WALL_THICKNESS = 0.03
+"""Of a wall that a map gives as a line [m]."""
+MANY_WALLS = 400
+"""Above this number, walls are sheets without a top: a traced map has thousands."""
+TRAIL_WIDTH = 0.016
+"""[m]"""
+HAIR = 0.012
+"""So far before what a laser without noise has hit its points are drawn [m]."""
+
+WALL, GREY, GROUND, GRID = "#c4ccd4", "#98a3ad", "#e8ecf0", "#b9c2ca"
+DARK_GROUND, DARK_GRID, DARK_WALL = "#2d353e", "#505c68", "#77828d"
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Where one looks from: around a point, as far as `distance` [m], from `azimuth` and `elevation` [deg].
+
+    At azimuth 0 the camera is on the side of x, at 90 on the side of y.
+    """
+
+    target: tuple[float, float, float]
+    distance: float
+    azimuth: float = -50.0
+    elevation: float = 32.0
+    field_of_view: float = 38.0
+    """From bottom to top [deg]."""
+
+    @property
+    def position(self) -> Floats:
+        """Where it is, in the world (3,)."""
+        azimuth, elevation = math.radians(self.azimuth), math.radians(self.elevation)
+        flat = self.distance * math.cos(elevation)
+        return np.array(
+            [
+                self.target[0] + flat * math.cos(azimuth),
+                self.target[1] + flat * math.sin(azimuth),
+                self.target[2] + self.distance * math.sin(elevation),
+            ]
+        )
+
+
+@dataclass(frozen=True)
+class Trail:
+    """A line on the ground."""
+
+    name: str
+    points: Floats
+    """(n, 2) [m]"""
+    colour: str
+
+
+@dataclass
+class Scene3D:
+    """Things in a world, each under a path of meshcat's tree; `visualizer` takes more through meshcat's API."""
+
+    camera: Camera
+    parts: list[Part] = field(default_factory=list)
+    surfaces: list[LinkPart] = field(default_factory=list)
+    """Of robots that are drawn from their description."""
+    trails: list[Trail] = field(default_factory=list)
+    scans: list[Floats] = field(default_factory=list)
+    """Points (n, 3) in the world that lasers saw."""
+    bounds: tuple[float, float, float, float] = (-1.0, -1.0, 1.0, 1.0)
+    """What the ground covers."""
+    duration: float = 0.0
+    """Of the animation [s]; 0: nothing moves."""
+    copies: list[tuple[str, str]] = field(default_factory=list)
+    """Paths of objects, each with the path of a copy: the viewer keeps one geometry for all."""
+
+    def __post_init__(self) -> None:
+        self._shared: dict[tuple[str, bytes, bytes], str] = {}
+        self.recorder = Recorder()
+        self.visualizer: Any = meshcat().Visualizer(window=self.recorder)
+        self.nodes: dict[str, Floats] = {"": np.eye(4)}
+        self._stage()
+
+    @property
+    def commands(self) -> list[bytes]:
+        """What meshcat's viewer has to be told, in this order."""
+        return self.recorder.commands
+
+    def _stage(self) -> None:
+        """Camera and lights; what meshcat shows by itself is hidden."""
+        scene, camera = self.visualizer, self.camera
+        for name in ("/Grid", "/Axes", "/Background"):
+            scene[name].set_property("visible", False)
+        lens = meshcat().geometry.PerspectiveCamera(fov=camera.field_of_view, near=0.02, far=200.0)
+        scene["/Cameras/default/rotated"].set_object(lens)
+        x, y, z = (camera.position - camera.target).tolist()
+        # meshcat turns its camera's frame by a quarter around x.
+        scene["/Cameras/default/rotated/<object>"].set_property("position", [x, z, -y])
+        reach = max(2.5, camera.distance)
+        spot = scene["/Lights/SpotLight/<object>"]
+        spot.set_property("position", [0.45 * reach, -0.75 * reach, 1.6 * reach])
+        for name, value in (("intensity", 0.5), ("penumbra", 0.5), ("angle", 0.75)):
+            spot.set_property(name, value)
+        self.recorder.set_property("/Lights/SpotLight/<object>", "castShadow", value=True)
+        scene["/Lights/SpotLight"].set_property("visible", True)
+        for name in ("PointLightNegativeX", "PointLightPositiveX"):
+            scene[f"/Lights/{name}/<object>"].set_property("intensity", 0.06)
+        scene["/Lights/AmbientLight/<object>"].set_property("intensity", 0.52)
+        scene["/Lights/FillLight/<object>"].set_property("intensity", 0.2)
+        shift = np.eye(4)
+        shift[:3, 3] = -np.array(camera.target)
+        scene.set_transform(rounded(shift))
+
+    def place(self, node: str, transform: Floats) -> None:
+        """Put a node at a transform (4, 4) seen from the node above it."""
+        self.nodes[node] = transform
+        self.visualizer[node].set_transform(rounded(transform))
+
+    def add(self, part: Part) -> None:
+        """Add a part to its node."""
+        self.parts.append(part)
+        geometry, path = meshcat().geometry, self.visualizer[f"{part.node}/{part.name}".removeprefix("/")]
+        material = geometry.MeshPhongMaterial(
+            color=int(part.colour[1:], 16),
+            shininess=20 + 60 * part.shine,
+            specular=int(90 * part.shine) * 0x010101,
+        )
+        flat = [solid for solid in part.solids if isinstance(solid, Prism | Facets)]
+        if flat:
+            path.set_object(geometry.TriangularMeshGeometry(*mesh(flat)), material)
+        for i, solid in enumerate(solid for solid in part.solids if not isinstance(solid, Prism | Facets)):
+            place = np.eye(4)
+            place[:3, 3] = solid.centre
+            if not isinstance(solid, Rod):
+                path[str(i)].set_object(geometry.Sphere(solid.radius), material)
+            else:
+                top = solid.radius if solid.top_radius is None else solid.top_radius
+                path[str(i)].set_object(
+                    geometry.Cylinder(solid.length, radiusTop=top, radiusBottom=solid.radius), material
+                )
+                if solid.axis == "z":
+                    place[:3, :3] = [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
+            path[str(i)].set_transform(rounded(place))
+
+    def add_surface(self, part: LinkPart, *, shared: bool = False) -> None:
+        """Add a surface to its node; a `shared` one that is there already is told of only as a copy of the other."""
+        self.surfaces.append(part)
+        path, vertices = f"{part.node}/{part.name}", rounded(part.surface.vertices)
+        if shared:
+            known = (part.colour, vertices.tobytes(), part.surface.faces.tobytes())
+            first = self._shared.setdefault(known, path)
+            if first != path:
+                self.copies.append((f"/meshcat/{first}", f"/meshcat/{path}"))
+                return
+        geometry = meshcat().geometry
+        material = geometry.MeshPhongMaterial(color=int(part.colour[1:], 16), shininess=26, specular=0x0E0E0E)
+        triangles = geometry.TriangularMeshGeometry(vertices, part.surface.faces)
+        self.visualizer[path].set_object(triangles, material)
+
+    def add_ground(self, bounds: tuple[float, float, float, float]) -> None:
+        """Add a floor that reaches half a metre further than `bounds`, with a line each metre."""
+        x0, y0, x1, y1 = self.bounds = (
+            math.floor(bounds[0] - 0.5), math.floor(bounds[1] - 0.5),
+            math.ceil(bounds[2] + 0.5), math.ceil(bounds[3] + 0.5),
+        )  # fmt: skip
+        geometry = meshcat().geometry
+        corners = np.array([(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)])
+        floor = geometry.TriangularMeshGeometry(corners, [(0, 1, 2), (0, 2, 3)])
+        self.visualizer["ground"].set_object(floor, _matt(GROUND))
+        # As lines the viewer would draw them one pixel wide, near and far.
+        width = 0.0022 * self.camera.distance
+        strips = [ribbon(np.array(line, dtype=float), width, 0.002) for line in grid(self.bounds)]
+        vertices = np.vstack([corners for corners, _ in strips])
+        faces = np.vstack([among + 4 * i for i, (_, among) in enumerate(strips)])
+        lines = geometry.TriangularMeshGeometry(vertices, faces)
+        self.visualizer["grid"].set_object(lines, geometry.MeshBasicMaterial(color=int(GRID[1:], 16)))
+
+    def add_world(self, world: World, *, bounds: tuple[float, float, float, float] | None = None) -> None:
+        """Add walls and obstacles, and ground under them or under `bounds`."""
+        self.add_ground(bounds or world.bounds)
+        if len(world.walls):
+            self._add_walls(world)
+        for obstacle in world.obstacles:
+            self.add_obstacle(obstacle)
+
+    def _add_walls(self, world: World) -> None:
+        if world.solid and len(world.walls) <= MANY_WALLS:
+            tops = trapezia(world.walls, world.wall_height)
+            self.add(Part("", "blocks", WALL, (Facets(tuple(tops)),)))
+        if len(world.walls) <= MANY_WALLS:
+            walls = tuple(Prism(_slab(*wall), 0.0, world.wall_height) for wall in world.walls)
+            self.add(Part("", "walls", WALL, walls))
+            return
+        ends = world.walls.reshape(-1, 2)
+        low, high = (np.column_stack([ends, np.full(len(ends), z)]) for z in (0.0, world.wall_height))
+        vertices = np.stack([low, high], axis=1).reshape(-1, 3)
+        first = 4 * np.arange(len(world.walls))[:, None]
+        faces = np.vstack([first + np.array(corners) for corners in ((0, 2, 3), (0, 3, 1))])
+        sheets = meshcat().geometry.TriangularMeshGeometry(rounded(vertices), faces)
+        self.visualizer["walls"].set_object(sheets, _matt(WALL))
+
+    def add_obstacle(self, obstacle: Obstacle) -> None:
+        """Add an obstacle where it is."""
+        node = obstacle_node(obstacle.name)
+        while node in self.nodes:  # names may be used twice
+            node += "'"
+        self.place(node, planar(obstacle.pose))
+        bottom, top = obstacle.bottom, obstacle.height
+        solids = tuple(_upright(shape, pose, bottom, top) for shape, pose in simple_parts(obstacle.shape))
+        self.add(Part(node, "solid", colour_of(obstacle.colour), solids, shine=0.1))
+
+    def add_robot(self, model: RobotModel, pose: Pose, name: str = ROBOT) -> None:
+        """Add a robot with its frame base_footprint at `pose`; its wheels are nodes below it."""
+        self.place(name, planar(pose))
+        if model.name in DESCRIBED:
+            self._add_described(model, name)
+        elif model.name == "burger":
+            for part in burger.body(model, name):
+                self.add(part)
+            for side, outwards in SIDES:
+                node = self._place_hub(model, name, side, outwards)
+                for part in burger.wheel(model, node, outwards):
+                    self.add(part)
+        else:
+            for i, seen in enumerate(model.solid):
+                self.add(self._solid(seen, name, f"part{i}", model.height))
+
+    def _place_hub(self, model: RobotModel, name: str, side: str, outwards: int) -> str:
+        """Place the node of a wheel, which turns about its y, and return it."""
+        hub = np.eye(4)
+        hub[:3, 3] = (0.0, outwards * model.wheel_separation / 2, model.wheel_radius)
+        self.place(f"{name}/wheel_{side}", hub)
+        return f"{name}/wheel_{side}"
+
+    def _add_described(self, model: RobotModel, name: str) -> None:
+        """Add a TurtleBot3 as its URDF describes it; what turns is below the nodes of its wheels."""
+        robot = turtlebot3(model.name)
+        for side, outwards in SIDES:
+            self._place_hub(model, name, side, outwards)
+        for link, at in robot.transforms().items():
+            surfaces = link_surfaces(robot, link, without=TINY)
+            if not surfaces:
+                continue
+            above = f"{name}/{link.removesuffix('_link')}" if link.startswith("wheel_") else name
+            self.place(f"{above}/{link}", np.linalg.inv(self.nodes[above]) @ at if above != name else at)
+            for part in link_parts(f"{above}/{link}", surfaces):
+                self.add_surface(part)
+
+    def _solid(self, part: SimplePart, node: str, name: str, height: float) -> Part:
+        """A part of a robot of which only the outlines are known."""
+        bottom, top = part.bottom, min(part.top, height)
+        solids = tuple(
+            _upright(shape, pose, bottom, top) for shape, pose in simple_parts(part.shape, part.pose)
+        )
+        return Part(node, name, colour_of(part.colour), solids, shine=0.2)
+
+    def add_scan(
+        self, model: RobotModel, ranges: Floats, pose: Pose | None = None, name: str = ROBOT
+    ) -> None:
+        """Add what the laser of a robot that is there saw: ranges (beams,) [m], not finite where nothing was hit.
+
+        It saw that at `pose`; by default where the robot is.
+        """
+        points = scan_points(ranges, model.laser)
+        mount = np.eye(4)
+        mount[:3, 3] = model.laser.mount
+        if model.laser.yaw:
+            mount = mount @ planar((0.0, 0.0, model.laser.yaw))
+        if pose is not None:
+            mount = np.linalg.inv(self.nodes[name]) @ planar(pose) @ mount
+        self.place(f"{name}/scan", mount)
+        place = self.transform(f"{name}/scan")
+        self.scans.append(points[np.isfinite(ranges)] @ place[:3, :3].T + place[:3, 3])
+        geometry = meshcat().geometry
+        colours = np.tile(np.array([_rgb(style.LIGHT["vermilion"])]), (len(points), 1))
+        # A beam that hits nothing has its point far below the ground, so that each beam keeps its place.
+        self.visualizer[f"{name}/scan"].set_object(
+            geometry.PointCloud(points.T.astype(np.float32), colours.T.astype(np.float32), size=0.022)
+        )
+        self.recorder.set_property(f"/meshcat/{name}/scan/<object>", "frustumCulled", value=False)
+        self.recorder.set_property(f"/meshcat/{name}/scan/<object>", "castShadow", value=False)
+
+    def add_trail(self, name: str, points: Floats, colour: str, height: float = 0.004) -> None:
+        """Add a line (n, 2) on the ground, in a colour of the palette."""
+        points = simplified(np.asarray(points, dtype=float))
+        if len(points) < 2:
+            return
+        self.trails.append(Trail(name, points, colour))
+        vertices, faces = ribbon(points, TRAIL_WIDTH, height)
+        strip = meshcat().geometry.TriangularMeshGeometry(vertices, faces)
+        material = meshcat().geometry.MeshBasicMaterial(color=int(style.LIGHT[colour][1:], 16))
+        self.visualizer[f"trails/{name}"].set_object(strip, material)
+
+    def animate(self, times: Floats, tracks: Iterable[tuple[str, str, Floats]]) -> None:
+        """Let nodes move: tracks are (node, property, values), values (n,) or (n, 3) at `times` (n,), lines in between.
+
+        Properties are those of three.js: `position`, `rotation[z]` ... Samples that the others tell are left out.
+        """
+        animation = meshcat().animation.Animation(default_framerate=1)
+        for node, name, values in tracks:
+            kind = "vector3" if values.ndim == 2 else "number"
+            table = values.reshape(len(times), -1)
+            tolerance = 0.001 if kind == "vector3" else 0.01
+            for i in keyframes(times, table, tolerance):
+                value = rounded(table[i]).tolist()
+                frame = animation.at_frame(self.visualizer[node], float(snap(times[i])))
+                frame.set_property(name, kind, value if kind == "vector3" else value[0])
+        self.duration = float(snap(times[-1]))
+        self.visualizer.set_animation(animation, play=False)
+
+    def transform(self, node: str) -> Floats:
+        """Where a node is in the world (4, 4)."""
+        result: Floats = np.eye(4)
+        names = node.split("/")
+        for i in range(1, len(names) + 1):
+            result = result @ self.nodes.get("/".join(names[:i]), np.eye(4))
+        return result
+
+    @property
+    def themes(self) -> dict[str, dict[str, Sequence[float]]]:
+        """What changes its colour with the page: the paths and their colours, for light and for dark pages."""
+        paths = {"/meshcat/ground": (GROUND, DARK_GROUND), "/meshcat/grid": (GRID, DARK_GRID)}
+        walls = (part for part in self.parts if part.colour == WALL)
+        paths |= {f"/meshcat/{part.node}/{part.name}".replace("//", "/"): (WALL, DARK_WALL) for part in walls}
+        for trail in self.trails:
+            paths[f"/meshcat/trails/{trail.name}"] = (style.LIGHT[trail.colour], style.DARK[trail.colour])
+        return {
+            name: {path: [*(round(c, 4) for c in _rgb(colours[i])), 1.0] for path, colours in paths.items()}
+            for i, name in enumerate(("light", "dark"))
+        }
+
+
+def planar(pose: Pose) -> Floats:
+    """The transform (4, 4) of a pose on the ground."""
+    x, y, theta = pose
+    c, s = math.cos(theta), math.sin(theta)
+    return np.array([[c, -s, 0, x], [s, c, 0, y], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+
+
+def obstacle_node(name: str) -> str:
+    """Where in the scene an obstacle is."""
+    return "obstacles/" + name.replace("/", " ")
+
+
+def _upright(shape: Simple, pose: Pose, bottom: float, top: float) -> Solid:
+    """A shape as it stands, or lies if it is a ball."""
+    if isinstance(shape, Sphere):
+        return Ball((pose[0], pose[1], bottom + shape.radius), shape.radius)
+    if isinstance(shape, Cylinder):
+        return Rod((pose[0], pose[1], (bottom + top) / 2), shape.radius, top - bottom)
+    return Prism(outline_at(shape, pose), bottom, top)
+
+
+def colour_of(name: str) -> str:
+    """The colour of an obstacle."""
+    return name if name.startswith("#") else {"wall": WALL, "grey": GREY}.get(name) or style.LIGHT[name]
+
+
+def scan_points(ranges: Floats, lidar: LidarModel) -> Floats:
+    """Where beams end (beams, 3), seen from the laser; 100 m below it where they hit nothing.
+
+    A laser that sees all around may give fewer ranges than it has beams, as evenly spread. The points of a laser
+    without noise would lie within the surfaces, where nobody sees them: they are drawn a hair nearer.
+    """
+    places = np.arange(len(ranges))
+    step = 2 * math.pi * places / len(ranges) if lidar.angle_max is None else lidar.increment * places
+    angles = lidar.angle_min + step
+    hit = np.isfinite(ranges)
+    reach = np.where(hit, ranges - (0.0 if lidar.noise else HAIR), 0.0)
+    return rounded(
+        np.column_stack([reach * np.cos(angles), reach * np.sin(angles), np.where(hit, 0.0, -100.0)])
+    )
+
+
+def grid(bounds: tuple[float, float, float, float]) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+    """A line each metre in both directions; on large grounds each five or more."""
+    x0, y0, x1, y1 = bounds
+    step = next(s for s in (1, 5, 10, 50, 100, 1000) if max(x1 - x0, y1 - y0) / s <= 60 or s == 1000)
+    xs = np.arange(math.ceil(x0 / step) * step, x1 + step / 2, step).tolist()
+    ys = np.arange(math.ceil(y0 / step) * step, y1 + step / 2, step).tolist()
+    return [((x, y0), (x, y1)) for x in xs] + [((x0, y), (x1, y)) for y in ys]
+
+
+def ribbon(points: Floats, width: float, height: float) -> tuple[Floats, NDArray[np.int64]]:
+    """A strip along a line (n, 2): vertices (2n, 3) and triangles (m, 3) that look up, of the same width at corners."""
+    steps = np.diff(points, axis=0)
+    steps /= np.hypot(*steps.T)[:, None] + 1e-12
+    normals = np.column_stack([-steps[:, 1], steps[:, 0]])
+    joint = np.vstack([normals[:1], normals[:-1] + normals[1:], normals[-1:]])
+    joint[1:-1] /= 1e-12 + (joint[1:-1] * normals[1:]).sum(axis=1)[:, None]
+    length = np.hypot(*joint.T)[:, None]
+    joint *= np.minimum(1.0, 2.0 / (length + 1e-12)) * width / 2
+    sides = np.stack([points + joint, points - joint], axis=1).reshape(-1, 2)
+    first = 2 * np.arange(len(points) - 1)[:, None]
+    faces = np.vstack([first + np.array(corners) for corners in ((0, 1, 2), (1, 3, 2))])
+    return rounded(np.column_stack([sides, np.full(len(sides), height)])), faces
+
+
+def keyframes(times: Floats, values: Floats, tolerance: float) -> list[int]:
+    """Which samples (n, k) to keep so that lines between them are within `tolerance` of all others."""
+    keep = {0, len(times) - 1}
+    open_ends = [(0, len(times) - 1)]
+    while open_ends:
+        first, last = open_ends.pop()
+        if last - first < 2:
+            continue
+        part = (times[first + 1 : last] - times[first]) / (times[last] - times[first])
+        line = values[first] + part[:, None] * (values[last] - values[first])
+        # Snapped, so that of two samples that are equally far off the same one is taken everywhere.
+        off = snap(np.abs(values[first + 1 : last] - line).max(axis=1), 1e-7)
+        worst = int(np.argmax(off))
+        if off[worst] > tolerance:
+            middle = first + 1 + worst
+            keep.add(middle)
+            open_ends += [(first, middle), (middle, last)]
+    return sorted(keep)
+
+
+def simplified(points: Floats, tolerance: float = 0.002) -> Floats:
+    """The corners of a line (n, 2) without those that change it by less than `tolerance` in x and in y."""
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    way = np.concatenate([[0.0], np.cumsum(np.where(steps > 1e-9, steps, 0.0))])
+    moved = np.concatenate([[True], np.diff(way) > 0])
+    way, points = way[moved], points[moved]
+    return points[keyframes(way, points, tolerance)]
+
+
+def _slab(x1: float, y1: float, x2: float, y2: float) -> Floats:
+    """The outline of a wall along a segment."""
+    a, b = np.array([x1, y1]), np.array([x2, y2])
+    along = (b - a) / (math.hypot(x2 - x1, y2 - y1) or 1.0) * WALL_THICKNESS / 2
+    aside = np.array([-along[1], along[0]])
+    return np.array([a - along - aside, b + along - aside, b + along + aside, a - along + aside])
+
+
+def _rgb(colour: str) -> Colour:
+    return (int(colour[1:3], 16) / 255, int(colour[3:5], 16) / 255, int(colour[5:7], 16) / 255)
+
+
+def _matt(colour: str) -> Any:
+    # Not Lambert's: the viewer computes that one at corners only, and a ground has four.
+    return meshcat().geometry.MeshPhongMaterial(color=int(colour[1:], 16), shininess=0, specular=0)

@@ -1,0 +1,102 @@
+"""What the scripts in a page need to know of a world and a robot, as JSON: the replay player and the pad draw it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rosmini.geometry.poses import Pose
+from rosmini.sim.models import LidarModel, RobotModel
+from rosmini.sim.shapes import ROUND, outline_at, simple_parts
+from rosmini.sim.world import Obstacle, World
+from rosmini.viz.rounding import MILLIMETRE, snap
+from rosmini.viz.style import dark_of
+
+UNBOUNDED = 1e6
+"""Stands for an acceleration, a speed or a range without a bound [m/s2, m/s, rad/s, m]: JSON has no infinity."""
+
+
+def scene_data(world: World, model: RobotModel | None = None) -> dict[str, Any]:
+    """A world, and the robot in it if there is one, in the terms of `rosmini/viz/static/rosmini-canvas.js`.
+
+    Lengths are metres rounded to the millimetre, in the frame `map`; the robot's are in `base_footprint`. Polygons
+    are counter-clockwise. `segments` are the walls that have no outline of their own: what a shape's sides are is left
+    to who reads them. The same world gives the same data on every machine.
+    """
+    shapes = [shape for obstacle in world.obstacles for shape in shapes_of(obstacle)]
+    data: dict[str, Any] = {
+        "name": world.name,
+        "bounds": _metres(world.bounds),
+        "segments": _metres(world.walls.reshape(-1, 4)),
+        "shapes": shapes,
+    }
+    if model is not None:
+        data["robot"] = robot_data(model)
+    return data
+
+
+def robot_data(model: RobotModel) -> dict[str, Any]:
+    """A robot as a script draws and drives it: speeds in m/s and rad/s, accelerations in m/s2."""
+    lidar = model.lidar
+    return {
+        "name": model.name,
+        "footprint": _metres(_counter_clockwise(model.footprint)),
+        "lidar": None
+        if lidar is None
+        else {
+            "x": _metres(lidar.mount[0]),
+            "beams": lidar.beams,
+            "min": _metres(lidar.range_min),
+            "max": _metres(min(lidar.range_max, UNBOUNDED)),
+            **_fan(lidar),
+        },
+        "max_linear": _metres(min(model.max_linear, UNBOUNDED)),
+        "max_angular": _metres(min(model.max_angular, UNBOUNDED)),
+        "acceleration": _metres(min(model.wheel_acceleration, UNBOUNDED)),
+        "wheel_separation": _metres(model.wheel_separation),
+        "wheel_radius": _metres(model.wheel_radius),
+    }
+
+
+def _fan(lidar: LidarModel) -> dict[str, float]:
+    """`y`, `start` and `step` of a laser that is off centre, or does not look all around from straight ahead."""
+    if lidar.angle_max is None and lidar.angle_min == lidar.yaw == lidar.mount[1] == 0:
+        return {}
+    start, step = round(lidar.angle_min + lidar.yaw, 8), round(lidar.increment, 8)
+    return {"y": _metres(lidar.mount[1]), "start": start, "step": step}
+
+
+def shapes_of(obstacle: Obstacle, pose: Pose | None = None) -> list[dict[str, Any]]:
+    """The simple shapes that a thing is made of, where it stands, or where it would at `pose`.
+
+    What a robot may pass under has its `bottom` [m]; a colour beside the palette has its twin for dark pages, `dark`.
+    """
+    more: dict[str, Any] = {"colour": obstacle.colour}
+    if obstacle.bottom > 0:
+        more["bottom"] = _metres(obstacle.bottom)
+    if obstacle.colour.startswith("#"):
+        more["dark"] = dark_of(obstacle.colour)
+    found = []
+    for shape, place in simple_parts(obstacle.shape, obstacle.pose if pose is None else pose):
+        if isinstance(shape, ROUND):
+            x, y, r = _metres((*place[:2], shape.radius))
+            found.append({"kind": "disc", "x": x, "y": y, "r": r, **more})
+        else:
+            points = _metres(_counter_clockwise(outline_at(shape, place)))
+            found.append({"kind": "polygon", "points": points, **more})
+    return found
+
+
+def _counter_clockwise(corners: ArrayLike) -> ArrayLike:
+    """The corners (n, 2) of a simple polygon, turned round if they go clockwise (the shoelace formula tells)."""
+    points = np.asarray(corners, dtype=float)
+    x, y = points[:, 0], points[:, 1]
+    area = float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+    return points[::-1] if area < 0 else points
+
+
+def _metres(values: ArrayLike) -> Any:
+    """Plain numbers in the shape of `values`, rounded; never a negative zero."""
+    return np.round(snap(np.asarray(values, dtype=float), MILLIMETRE), 3).tolist()

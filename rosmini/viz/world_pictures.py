@@ -1,0 +1,429 @@
+"""A world from above: walls and obstacles, and, if given, a robot, what its laser sees, and where it was."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.sim.models import BURGER, RobotModel
+from rosmini.sim.world import Obstacle, World
+from rosmini.viz.beams import Beams, beams_of
+from rosmini.viz.figures import (
+    LARGEST,
+    WIDTH,
+    blank_figure,
+    house_style,
+    legend,
+    legend_width,
+    place,
+    say,
+    step_of,
+    ticks,
+)
+from rosmini.viz.rounding import degrees, fixed
+from rosmini.viz.style import LIGHT
+from rosmini.viz.view import Picture, ViewError, matplotlib_picture
+from rosmini.viz.world_drawing import (
+    DASHES,
+    TRAIL_WIDTH,
+    draw_name,
+    draw_place,
+    draw_robot,
+    draw_scan,
+    draw_start,
+    draw_trail,
+    draw_way,
+    draw_world,
+    name_box,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Floats = NDArray[np.float64]
+Bounds = tuple[float, float, float, float]
+
+LEFT, RIGHT, TOP, LEGEND, BOTTOM = 46.0, 8.0, 8.0, 28.0, 40.0
+"""The margins around a map [px]; LEGEND is added to TOP."""
+HEIGHT = 540.0
+SMALLEST = 200.0
+"""What a picture measures at least, either way [px]."""
+FLATTEST = 0.2
+"""The least height of what is seen by its width, and the other way round."""
+
+
+COLOURS = ("green", "purple", "sky", "vermilion", "orange")
+"""Of robots beside the first one, which is blue."""
+
+
+def world_picture(
+    world: World,
+    *,
+    robot: Sequence[float] | None = None,
+    model: RobotModel | None = None,
+    scan: Any = None,
+    scan_from: Sequence[float] | Floats | None = None,
+    trail: ArrayLike | None = None,
+    odom: ArrayLike | None = None,
+    others: Iterable[Other] = (),
+    name: str = "",
+    title: str | None = None,
+    size: tuple[float, float] = (WIDTH, HEIGHT),
+) -> Picture:
+    """Draw a world from above, in metres, to scale.
+
+    Args:
+        world: what to draw.
+        robot: where the robot is: x [m], y [m], heading [rad], in the world's frame.
+        model: which robot; TurtleBot3 Burger if not given.
+        scan: what its laser sees: a `sensor_msgs/LaserScan`, or ranges [m] of which beam i looks at 2 pi i / beams.
+        scan_from: the pose of the robot when it saw that, or at each beam (beams, 3); by default its pose now.
+        trail: where the robot was, (n, 2) or (n, 3), in the world's frame: a solid line.
+        odom: where its odometry believes that it was, likewise: a dashed line.
+        others: more robots, each an `Other`: they are drawn in other colours, with their names.
+        name: of the robot, where there are others.
+        title: a caption under the picture, and the first words of its text form.
+        size: the largest width and height [CSS px].
+
+    Raises:
+        ViewError: a pose, a scan or a trail is not one; the message says what is wrong with it.
+
+    """
+    if not isinstance(world, World):
+        raise ViewError(
+            f"a world is drawn from a rosmini.sim World, not from a {type(world).__name__}: "
+            "rosmini.sim.worlds.world('room') is one"
+        )
+    scene = Scene(world)
+    scene.fill(
+        robot=robot, model=model, scan=scan, scan_from=scan_from, trail=trail, odom=odom, others=others, name=name
+    )  # fmt: skip
+    return scene.picture(title, size)
+
+
+@dataclass(frozen=True)
+class Other:
+    """Another robot in a picture."""
+
+    name: str
+    model: RobotModel
+    pose: Pose
+    trail: Floats | None = None
+    """Where it was, (n, 2) or (n, 3)."""
+
+    def checked(self) -> Other:
+        """Itself, if it can be drawn. Raises `ViewError`."""
+        what = f"of the robot {self.name!r}"
+        trail = None if self.trail is None else _line(self.trail, f"the trail {what}")
+        return replace(self, pose=pose_of(self.pose, f"the pose {what}"), trail=trail)
+
+
+def colour_of(number: int) -> str:
+    """The colour of the robot of this number among the others."""
+    return COLOURS[number % len(COLOURS)]
+
+
+class Scene:
+    """What there is to see in a world, and how it is drawn and said."""
+
+    def __init__(self, world: World, model: RobotModel = BURGER) -> None:
+        self.world = world
+        self.model = model
+        self.robot: Pose | None = None
+        self.ghost: Pose | None = None
+        """Where odometry believes that the robot is."""
+        self.beams: Beams | None = None
+        self.laser: Pose = (0.0, 0.0, 0.0)
+        self.trail: Floats | None = None
+        self.odom: Floats | None = None
+        self.name = ""
+        """Of the robot, where there are others."""
+        self.alone_too = False
+        """Whether its name is written and said where there are no others, too."""
+        self.others: list[Other] = []
+        self.places: list[Obstacle] = []
+        """Things where they stood before they were moved."""
+        self.ways: list[tuple[Floats, str]] = []
+        """Where things were moved along, (n, 2), and their colours."""
+
+    def fill(
+        self, *, robot: Sequence[float] | None, model: RobotModel | None, scan: Any,
+        scan_from: Sequence[float] | Floats | None, trail: ArrayLike | None, odom: ArrayLike | None,
+        others: Iterable[Other], name: str,
+    ) -> None:  # fmt: skip
+        """Add robots and what they saw and did, as `world_picture` takes them. Raises `ViewError`."""
+        self.model = model or BURGER
+        if robot is not None:
+            self.robot = pose_of(robot, "the robot's pose")
+        if scan is not None:
+            each: Any = self.robot if scan_from is None else scan_from
+            if each is None:
+                raise ViewError("a scan is drawn from where it was taken: give robot=(x, y, heading) with it")
+            several = np.ndim(each) == 2
+            first = pose_of(each[0] if several else each, "the pose of a scan")
+            self.look(beams_of(scan, self.model.laser), first, each if several else None)
+        self.trail = None if trail is None else _line(trail, "trail")
+        self.odom = None if odom is None else _line(odom, "odom")
+        self.others, self.name = [other.checked() for other in others], name
+
+    def look(self, beams: Beams, robot: Pose, each: Floats | None) -> None:
+        """Add what the laser of a robot saw from the pose `robot`, or at each beam from one of `each` (beams, 3)."""
+        self.laser = laser_pose(robot, self.model)
+        x, y, _ = self.model.laser.mount
+        starts = None if each is None else compose(inverse(self.laser), compose(each, (x, y, 0.0)))
+        self.beams = replace(beams, starts=starts)
+
+    def picture(self, title: str | None, size: tuple[float, float]) -> Picture:
+        """The drawing of it."""
+        with house_style():
+            handles = self._legend()
+            figure, axes, scale = map_axes(self.bounds(), size, legend_width(handles))
+            self._draw(axes, scale)
+            legend(figure, handles, LEFT)
+            return matplotlib_picture(
+                figure, text=self.text(title), alt=self.alt(), form="svg", caption=title, adapt=True
+            )
+
+    def _draw(self, axes: Axes, scale: float) -> None:
+        draw_world(axes, self.world, scale)
+        for place_ in self.places:
+            draw_place(axes, place_)
+        for way, colour in self.ways:
+            draw_way(axes, way, colour, scale)
+        if self.beams is not None:
+            draw_scan(axes, self.beams, self.laser, scale)
+        if self.trail is not None:
+            draw_trail(axes, self.trail[:, :2], scale)
+            draw_start(axes, self.trail[0, :2], scale)
+        if self.odom is not None:
+            draw_trail(axes, self.odom[:, :2], scale, colour="orange", dashed=True)
+        if self.ghost is not None:
+            draw_robot(axes, self.model, self.ghost, scale, ghost=True)
+        for i, other in enumerate(self.others):
+            colour = colour_of(i)
+            if other.trail is not None:
+                draw_trail(axes, other.trail[:, :2], scale, colour=colour)
+                draw_start(axes, other.trail[0, :2], scale, colour=colour)
+        for i, other in enumerate(self.others):
+            draw_robot(axes, other.model, other.pose, scale, colour=colour_of(i))
+        if self.robot is not None:
+            draw_robot(axes, self.model, self.robot, scale)
+        self._draw_names(axes, scale)
+
+    def _draw_names(self, axes: Axes, scale: float) -> None:
+        """The robots' names, where they have others; of those that would cover one another the first."""
+        named = [(other.name, other.model, other.pose, colour_of(i)) for i, other in enumerate(self.others)]
+        if (named or self.alone_too) and self.name and self.robot is not None:
+            named.insert(0, (self.name, self.model, self.robot, "blue"))
+        written: list[Bounds] = []
+        for name, model, pose, colour in named:
+            for above in (False, True):
+                x0, y0, x1, y1 = box = name_box(model, pose, name, scale, above=above)
+                if all(x1 < a or c < x0 or y1 < b or d < y0 for a, b, c, d in written):
+                    draw_name(axes, model, pose, name, colour, scale, above=above)
+                    written.append(box)
+                    break
+
+    def _legend(self) -> list[Any]:
+        from matplotlib.lines import Line2D
+
+        def line(label: str, colour: str, **options: Any) -> Line2D:
+            return Line2D([], [], color=LIGHT[colour], linewidth=TRAIL_WIDTH, label=label, **options)
+
+        handles: list[Any] = []
+        if self.trail is not None:
+            handles.append(line("where it was", "blue"))
+        if self.odom is not None:
+            handles.append(line("where odometry believes it was", "orange", dashes=DASHES))
+        if self.beams is not None:
+            handles.append(line("laser hits", "vermilion", marker="o", markersize=3.2, linestyle=""))
+        return handles
+
+    def bounds(self) -> Bounds:
+        """The rectangle that has to be seen: the world, the robot, its trails and what its laser hits."""
+        x0, y0, x1, y1 = self.world.bounds
+        points = [np.array([(x0, y0), (x1, y1)])]
+        for pose in (self.robot, self.ghost):
+            if pose is not None:
+                points += [np.array([pose[:2]]) - self.model.reach, np.array([pose[:2]]) + self.model.reach]
+        points += [line[:, :2] for line in (self.trail, self.odom) if line is not None]
+        for other in self.others:
+            points += [np.array([other.pose[:2]]) + side * other.model.reach for side in (-1, 1)]
+            points += [] if other.trail is None else [other.trail[:, :2]]
+        if self.beams is not None and self.beams.hits.any():
+            reach = self.beams.ranges[self.beams.hits]
+            heading = self.beams.angles[self.beams.hits] + self.laser[2]
+            points.append(
+                self.laser[:2] + np.column_stack([reach * np.cos(heading), reach * np.sin(heading)])
+            )
+        every = np.vstack(points)
+        # what goes beyond the world widens the view by steps of 10 cm, which no last bit changes
+        low = np.floor(every.min(axis=0) * 10 + 0.01237) / 10
+        high = np.ceil(every.max(axis=0) * 10 - 0.01237) / 10
+        return (
+            float(min(low[0], x0)),
+            float(min(low[1], y0)),
+            float(max(high[0], x1)),
+            float(max(high[1], y1)),
+        )
+
+    def text(self, title: str | None) -> str:
+        """A line for each thing that is drawn."""
+        lines = [f"{title or f'world {self.world.name}'}: {contents(self.world)}"]
+        if self.robot is not None:
+            named = self.name and (self.others or self.alone_too)
+            lines.append(f"{self.name if named else self.model.name}: pose {pose_text(self.robot)}")
+        for other in self.others:
+            driven = "" if other.trail is None else f", {fixed(length_of(other.trail), 2)} m driven"
+            kind = f" ({other.model.name})" if other.model.name != other.name else ""
+            lines.append(f"{other.name}{kind}: pose {pose_text(other.pose)}{driven}")
+        if self.beams is not None:
+            lines.append(f"scan: {self.beams.text()}")
+        if self.trail is not None:
+            lines.append(f"trail: {fixed(length_of(self.trail), 2)} m")
+        off = self._off()
+        if off is not None:
+            lines.append(f"odometry: {off} m off at the end")
+        elif self.odom is not None:
+            lines.append(f"odometry: {fixed(length_of(self.odom), 2)} m")
+        return "\n".join(lines)
+
+    def alt(self) -> str:
+        """A sentence for each thing that matters."""
+        said = [f"The world {self.world.name} from above: {contents(self.world, ' by ')}."]
+        if self.robot is not None:
+            x, y, heading = self.robot
+            said.append(
+                f"The robot is at x {fixed(x, 2)} m, y {fixed(y, 2)} m, heading {degrees(heading, 0)} degrees."
+            )
+        if self.others:
+            said.append(_others_sentence(self.others))
+        if self.beams is not None:
+            said.append(_sentence(self.beams.clause()))
+        if self.trail is not None:
+            said.append(f"A solid line shows where it was, {fixed(length_of(self.trail), 2)} m long.")
+        if self.odom is not None:
+            off = self._off()
+            end = f", at the end {off} m off" if off is not None else ""
+            said.append(f"A dashed line shows where odometry believes that it was{end}.")
+        return " ".join(said)
+
+    def _off(self) -> str | None:
+        if self.trail is None or self.odom is None or len(self.trail) != len(self.odom):
+            return None
+        return fixed(math.dist(self.trail[-1, :2], self.odom[-1, :2]), 3)
+
+
+def _others_sentence(others: list[Other]) -> str:
+    """Where the other robots are, in words; of many only how many they are."""
+    if len(others) > 6:
+        return f"There are {len(others)} more robots, each in a colour of its own."
+    places = [f"{o.name} at x {fixed(o.pose[0], 2)} m, y {fixed(o.pose[1], 2)} m" for o in others]
+    return f"Beside it there {'is' if len(places) == 1 else 'are'} {', '.join(places)}."
+
+
+def laser_pose(robot: Pose, model: RobotModel) -> Pose:
+    """Where the laser of a robot at the pose `robot` is."""
+    x, y, _ = model.laser.mount
+    return compose(robot, (x, y, 0.0))
+
+
+def map_axes(bounds: Bounds, size: tuple[float, float], legend_width: float) -> tuple[Figure, Axes, float]:
+    """A figure with axes in metres, equal in x and y, a grid, and room for a legend; and its pixels a metre."""
+    for side in size:
+        if not SMALLEST <= side <= LARGEST:
+            raise ViewError(f"the size of a picture must be {SMALLEST:g} to {LARGEST:g} pixels, not {side}")
+    x0, y0, x1, y1 = bounds
+    extent = max(x1 - x0, y1 - y0, 1.0)
+    x0, x1 = _wide(x0, x1, extent)
+    y0, y1 = _wide(y0, y1, extent)
+    top = TOP + (LEGEND if legend_width else 0.0)
+    scale = min((size[0] - LEFT - RIGHT) / (x1 - x0), (size[1] - top - BOTTOM) / (y1 - y0))
+    width, height = (x1 - x0) * scale, (y1 - y0) * scale
+    figure = blank_figure(
+        math.ceil(max(width + RIGHT, legend_width, SMALLEST - LEFT) + LEFT), math.ceil(height + top + BOTTOM)
+    )
+    axes = place(figure, LEFT, top, width, height)
+    axes.set(xlim=(x0, x1), ylim=(y0, y1), xlabel="x [m]", ylabel="y [m]")
+    step = 1.0 if 2.0 <= extent <= 14.0 else step_of(extent, 10)
+    for axis, low, high in ((axes.xaxis, x0, x1), (axes.yaxis, y0, y1)):
+        marks = ticks(low, high, step)
+        axis.set_ticks(marks, labels=say(marks))
+    return figure, axes, scale
+
+
+def _wide(low: float, high: float, extent: float) -> tuple[float, float]:
+    """From where to where one axis goes: what there is, with a margin, and wide enough to look at."""
+    spare = max(0.0, FLATTEST * extent - (high - low)) / 2 + 0.02 * extent
+    return low - spare, high + spare
+
+
+def contents(world: World, by: str = " x ") -> str:
+    """The size of a world and what is in it, in words."""
+    x0, y0, x1, y1 = world.bounds
+    size = f"{fixed(x1 - x0, 2)}{by}{fixed(y1 - y0, 2)} m"
+    walls = sum(o.colour == "wall" for o in world.obstacles)
+    movable = sum(o.movable for o in world.obstacles)
+    moving = sum(o.motion is not None for o in world.obstacles)
+    others = len(world.obstacles) - walls
+    parts = [_count(len(world.walls), "wall segment"), _count(walls, "wall")]
+    obstacles = _count(others, "obstacle")
+    alone = "moves by itself" if moving == 1 else "move by themselves"
+    said = [(count, verb) for count, verb in ((movable, "can be pushed"), (moving, alone)) if count]
+    if said and others == 1:
+        obstacles += f" ({said[0][1]})"
+    elif said:
+        obstacles += f" ({', '.join(f'{count} of them {verb}' for count, verb in said)})"
+    parts = [part for part in (*parts, obstacles) if part]
+    if not parts:
+        return f"{size}, nothing in it"
+    return f"{size}, {', '.join(parts[:-1])}{' and ' if len(parts) > 1 else ''}{parts[-1]}"
+
+
+def _count(count: int, noun: str) -> str:
+    return "" if not count else f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def _sentence(clause: str) -> str:
+    return clause[0].upper() + clause[1:] + "."
+
+
+def pose_text(pose: Sequence[float]) -> str:
+    """A pose as `(1.20, 0.40, 90.0 deg)`."""
+    return f"({fixed(pose[0], 2)}, {fixed(pose[1], 2)}, {degrees(pose[2])} deg)"
+
+
+def length_of(line: Floats) -> float:
+    """The length [m] of a line (n, 2) or (n, 3)."""
+    return float(np.linalg.norm(np.diff(line[:, :2], axis=0), axis=1).sum())
+
+
+def pose_of(given: Sequence[float], what: str) -> Pose:
+    """A pose as a tuple. Raises `ViewError` if it is none."""
+    try:
+        x, y, heading = (float(v) for v in given)
+    except (TypeError, ValueError) as error:
+        raise ViewError(f"{what} must be x [m], y [m] and heading [rad], not {given!r}") from error
+    if not all(map(math.isfinite, (x, y, heading))):
+        raise ViewError(f"{what} is ({x}, {y}, {heading}): there is no such place to draw it at")
+    return (x, y, heading)
+
+
+def _line(given: ArrayLike, what: str) -> Floats:
+    try:
+        line = np.array(given, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise ViewError(f"{what} must be an array of points, not a {type(given).__name__}") from error
+    if line.ndim != 2 or line.shape[1] not in (2, 3) or not len(line):
+        raise ViewError(f"{what} must be an array (n, 2) or (n, 3) with at least one point, not {line.shape}")
+    bad = ~np.isfinite(line).all(axis=1)
+    if bad.any():
+        raise ViewError(f"{what}[{np.flatnonzero(bad)[0]}] is {line[bad][0].tolist()}, which is no place")
+    return line

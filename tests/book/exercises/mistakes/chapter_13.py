@@ -1,0 +1,149 @@
+"""Wrong answers to the exercises of chapter 13, which their checks have to refuse."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.book.exercises.chapter_13 import PICTURE, _empty, _string, _trigger
+from rosmini.errors import ROSException, ServiceException
+from rosmini.graph import Graph, Node
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+def _picture_but(old: str, new: str) -> Callable[[], Any]:
+    return lambda: PICTURE.replace(old, new)
+
+
+# ---- 13.2: two services that share something ----
+
+
+def _counter(
+    *,
+    first: int = 0,
+    step: int = 1,
+    cleared: int = 0,
+    name: str = "counter",
+    success: bool = True,
+    clears: bool = True,
+) -> Callable[[], Any]:
+    def start(graph: Graph) -> None:
+        node = graph.node(name)
+        calls = [first]
+
+        def count(_: Any) -> tuple[bool, str]:
+            calls[0] += step
+            return success, str(calls[0])
+
+        def clear(_: Any) -> list[Any]:
+            calls[0] = cleared
+            return []
+
+        node.service("count", _trigger(), count)
+        if clears:
+            node.service("clear", _empty(), clear)
+
+    return lambda: start
+
+
+def _number_as_message(graph: Graph) -> None:
+    node = graph.node("counter")
+    node.service("count", _trigger(), lambda _: (True, 1))
+    node.service("clear", _empty(), lambda _: [])
+
+
+# ---- 13.3: a client that is ready for everything ----
+
+
+def _careful(
+    *, wait: bool = True, catch: bool = True, look: bool = True, limit: float | None = None
+) -> Callable[[], Any]:
+    def ask(node: Node, seconds: float) -> str:
+        if wait:
+            try:
+                node.wait_for_service("who", timeout=seconds if limit is None else limit)
+            except ROSException:
+                return "nobody"
+        try:
+            answer = node.service_client("who", _trigger())()
+        except ServiceException:
+            if catch:
+                return "no answer"
+            raise
+        return str(answer.message) if answer.success or not look else "no answer"
+
+    return lambda: ask
+
+
+# ---- 13.4: a service that remembers a topic ----
+
+
+def _secretary(
+    *, first: bool = False, before: str = "nothing yet", topic: str = "status", known: bool = True
+) -> Callable[[], Any]:
+    def start(graph: Graph) -> None:
+        node = graph.node("secretary")
+        heard: list[str] = []
+
+        def tell(_: Any) -> tuple[bool, str]:
+            return (known, heard[0 if first else -1]) if heard else (False, before)
+
+        node.subscriber(topic, _string(), lambda message: heard.append(message.data))
+        node.service("last_status", _trigger(), tell)
+
+    return lambda: start
+
+
+def _waiting_secretary(graph: Graph) -> None:
+    node = graph.node("secretary")
+    node.subscriber("status", _string())
+
+    def tell(_: Any) -> tuple[bool, str]:
+        try:
+            return True, node.wait_for_message("status", _string(), timeout=1.0).data
+        except ROSException:
+            return False, "nothing yet"
+
+    node.service("last_status", _trigger(), tell)
+
+
+MISTAKES = {
+    "13.1": [
+        _picture_but("---\n", ""),
+        _picture_but("uint32", "int32"),
+        _picture_but("bool colour\n", ""),
+        _picture_but("uint32 width\nbool colour", "bool colour\nuint32 width"),
+        _picture_but("sensor_msgs/", ""),
+        _picture_but("Image image", "Image picture"),
+        _picture_but("---\nbool success", "bool success\n---"),
+        _picture_but("string message", "string message\nstring encoding"),
+        lambda: ["uint32 width", "bool colour"],
+    ],
+    "13.2": [
+        _counter(first=-1),
+        _counter(step=0),
+        _counter(cleared=1),
+        _counter(name="count"),
+        _counter(success=False),
+        _counter(clears=False),
+        lambda: _number_as_message,
+        lambda: lambda graph: graph.node("counter"),
+    ],
+    "13.3": [
+        _careful(wait=False),
+        _careful(catch=False),
+        _careful(look=False),
+        _careful(limit=1.0),
+        _careful(limit=60.0),
+        lambda: lambda node, seconds: "nobody",
+    ],
+    "13.4": [
+        _secretary(first=True),
+        _secretary(before=""),
+        _secretary(topic="state"),
+        _secretary(known=False),
+        lambda: _waiting_secretary,
+        lambda: lambda graph: graph.node("secretary"),
+    ],
+}

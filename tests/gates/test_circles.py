@@ -1,0 +1,27 @@
+"""No two files import each other, however indirectly, be it in functions or for type checking."""
+
+from __future__ import annotations
+
+import grimp
+
+
+def circles(graph: grimp.ImportGraph) -> set[frozenset[str]]:
+    """The largest sets of modules in which each imports each, directly or through the others."""
+    found = set()
+    for module in graph.modules:
+        circle = graph.find_upstream_modules(module) & graph.find_downstream_modules(module)
+        if circle:
+            found.add(frozenset({module, *circle}))
+    return found
+
+
+def test_circles_are_found():
+    graph = grimp.ImportGraph()
+    for importer, imported in ("ab", "bc", "ca", "cd", "ef", "fe"):
+        graph.add_import(importer=importer, imported=imported)
+    assert circles(graph) == {frozenset("abc"), frozenset("ef")}
+
+
+def test_no_file_is_in_a_circle():
+    found = circles(grimp.build_graph("rosmini", cache_dir=None))
+    assert sorted(map(sorted, found)) == [], "let both import what they share from a third file"

@@ -1,0 +1,254 @@
+"""What is where and in whose way, how much room there is, and crowds that go through nothing."""
+
+from __future__ import annotations
+
+import gc
+import math
+
+import numpy as np
+import pytest
+
+from rosmini.geometry import polygons
+from rosmini.sim.engine import Engine
+from rosmini.sim.engine.stepper import VIEW
+from rosmini.sim.models import BURGER, WAFFLE
+from rosmini.sim.motion import Walk
+from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World, WorldError
+
+ANGLE = Polygon(((0.0, 0.0), (0.4, 0.0), (0.4, 0.1), (0.1, 0.1), (0.1, 0.4), (0.0, 0.4)))
+
+
+def generator(name: str) -> np.random.Generator:
+    return np.random.default_rng(sum(name.encode()))
+
+
+def pen(half: float, *obstacles: Obstacle) -> World:
+    h = half
+    sides = np.array([(-h, -h, h, -h), (h, -h, h, h), (h, h, -h, h), (-h, h, -h, -h)])
+    return World("pen", obstacles, walls=sides)
+
+
+PILLARS = (
+    Obstacle("pillar", Cylinder(0.1), (0.4, 0.3, 0.0)),
+    Obstacle("wedge", Polygon(((0.0, 0.0), (0.4, 0.0), (0.0, 0.3))), (-0.5, -0.4, 0.3)),
+    Obstacle("shelf", Box(0.5, 0.2), (0.3, -0.5, 0.0), bottom=1.0, height=1.2),
+)
+CRATES = (
+    Obstacle("crate", Box(0.2, 0.15), (-0.3, 0.6, 0.4), mass=1.0),
+    Obstacle("ball", Cylinder(0.08), (0.7, -0.2, 0.0), mass=0.2),
+)
+
+
+def crowded(world: World, count: int, seed: int) -> Engine:
+    rng = np.random.default_rng(seed)
+    half = float(world.walls.max())
+    engine = Engine(world, generator)
+    while len(engine.robots) < count:
+        x, y = rng.uniform(-half + 0.25, half - 0.25, 2).tolist()
+        model = WAFFLE if len(engine.robots) % 5 == 4 else BURGER
+        try:
+            engine.add(f"robot {len(engine.robots)}", model, (x, y, float(rng.uniform(-3, 3))))
+        except WorldError:
+            continue
+    return engine
+
+
+def drive(engine: Engine, rng: np.random.Generator, seconds: float) -> None:
+    for name, robot in engine.robots.items():
+        fast = robot.model.max_linear
+        engine.command(name, *rng.uniform((-fast / 2, -1.5), (fast, 1.5)).tolist())
+    engine.advance(engine.now + seconds)
+
+
+# -- room and hindrances ---------------------------------------------------------------------------------------------
+
+
+def there(*obstacles: Obstacle, walls: tuple = ()) -> Engine:
+    world = World("test", obstacles, np.array(walls, dtype=float).reshape(-1, 4))
+    return Engine(world, generator, noise=0.0)
+
+
+def room(engine: Engine, name: str) -> float:
+    """How far a robot finds that it can go."""
+    contacts = engine.contacts
+    scene = contacts.scene(contacts.bodies.values(), VIEW)
+    return scene.clearances([scene.index[name]], VIEW)[scene.index[name]]
+
+
+@pytest.mark.parametrize(
+    ("made", "expected"),
+    [
+        (there(walls=((0.3, -1.0, 0.3, 1.0),)), 0.3 - 0.041),
+        (there(Obstacle("disc", Cylinder(0.1), (0.4, 0.0, 0.0))), 0.3 - 0.041),
+        (there(Obstacle("box", Box(0.2, 0.2), (0.4, 0.0, 0.0))), 0.3 - 0.041),
+        (there(Obstacle("crate", Box(0.2, 0.2), (0.4, 0.0, 0.0), mass=1.0)), 0.3 - 0.041),
+        (there(Obstacle("turned", Box(0.2, 0.2), (0.4, 0.0, math.pi / 4))), 0.4 - 0.1 * 2**0.5 - 0.041),
+        (there(walls=((0.341, 0.405, 9.0, 9.0),)), 0.3 * 2**0.5),
+        (there(walls=((9.0, -1.0, 9.0, 1.0),)), VIEW),
+        (there(), VIEW),
+    ],
+)
+def test_the_room_around_a_robot_is_its_distance_from_what_is_nearest(made, expected):
+    made.add("burger", BURGER, (0.0, 0.0, 0.0))
+    assert room(made, "burger") == pytest.approx(expected, abs=1e-6)
+
+
+def test_of_the_room_between_two_robots_each_has_half():
+    made = there()
+    made.add("one", BURGER, (0.0, 0.0, 0.0))
+    made.add("two", BURGER, (0.4, 0.0, math.pi))
+    for name in ("one", "two"):
+        assert room(made, name) == pytest.approx((0.4 - 0.082) / 2, abs=1e-6)
+
+
+def test_an_outline_with_an_inner_corner_keeps_its_shape_and_its_mass():
+    made = there(Obstacle("angle", ANGLE, (1.0, 1.0, math.pi / 2), mass=2.0))
+    body = made.contacts.bodies["angle"]
+    assert body.mass.mass == 2.0
+    assert sum(polygons.area(piece.corners) for piece in body.pieces) == pytest.approx(0.07)
+    assert (body.mass.x, body.mass.y) == pytest.approx((0.19 / 1.4, 0.19 / 1.4))
+    hindrance = made.contacts.hindrance
+    assert hindrance(BURGER, (0.8, 1.25, 0.0)) is None  # in the open corner
+    assert hindrance(BURGER, (0.95, 1.05, 0.0)) == "the obstacle 'angle'"
+    assert made.obstacles()[0].pose == pytest.approx((1.0, 1.0, math.pi / 2))
+
+
+def test_a_thing_without_symmetry_slides_and_turns_about_its_centre_of_mass():
+    engine = there(Obstacle("angle", ANGLE, (1.0, 1.0, 0.0), mass=2.0))
+    c = 0.19 / 1.4
+    w = 3.0
+    engine.put("angle", (1.0, 1.0, 0.0), (0.5 + w * c, -w * c, w))  # so its centre goes along x with 0.5 m/s
+    engine.advance(1.0)
+    x, y, theta = engine.pose("angle")
+    assert engine.velocity("angle") == (0.0, 0.0, 0.0)
+    assert theta > 0.1
+    middle = (x + math.cos(theta) * c - math.sin(theta) * c, y + math.sin(theta) * c + math.cos(theta) * c)
+    # a mass that slides to rest with friction 0.5 goes v^2 / 2 mu g
+    assert middle == pytest.approx((1.0 + c + 0.5**2 / 2 / 0.5 / 9.80665, 1.0 + c), abs=1e-3)
+
+
+def test_a_removed_robot_is_in_nobodys_way():
+    made = there()
+    made.add("one", BURGER, (0.0, 0.0, 0.0))
+    assert made.hindrance(BURGER, (0.0, 0.0, 0.0)) == "the robot 'one'"
+    assert made.hindrance(BURGER, (0.0, 0.0, 0.0), "one") is None
+    made.remove("one")
+    assert made.hindrance(BURGER, (0.0, 0.0, 0.0)) is None
+
+
+# -- what comes and goes ---------------------------------------------------------------------------------------------
+
+
+def entries(engine: Engine) -> int:
+    """How many objects hang on an engine; of shared ones, as of classes, nothing is counted."""
+    seen: set[int] = set()
+    todo: list[object] = [engine]
+    while todo:
+        each = todo.pop()
+        if id(each) not in seen and not isinstance(each, (type, type(gc), type(entries))):
+            seen.add(id(each))
+            todo += gc.get_referents(each)
+    return len(seen)
+
+
+def test_ten_thousand_spawns_and_deletions_leave_nothing_behind():
+    engine = there(walls=((5.0, -9.0, 5.0, 9.0),))
+    engine.add("burger", BURGER, (0.0, 0.0, 0.0))
+    engine.command("burger", 0.05, 0.3)
+
+    def come_and_go(number: int) -> None:
+        at = (2.0 + 0.3 * (number % 7), 1.0 + number % 5, 0.0)
+        kinds = (
+            Obstacle(f"box {number}", Box(0.2, 0.2), at),
+            Obstacle(f"crate {number}", Box(0.2, 0.2), at, mass=0.4),
+            Obstacle(f"walker {number}", Cylinder(0.1), motion=Walk((at[:2], (at[0], at[1] + 0.5)))),
+        )
+        name = f"robot {number}"
+        if number % 4 == 3:
+            engine.add(name, WAFFLE, at)
+        else:
+            name = kinds[number % 4].name
+            engine.insert(kinds[number % 4])
+        if number % 10 == 0:
+            engine.advance(engine.now + 0.011)
+            engine.scan("burger")
+        (engine.remove if number % 4 == 3 else engine.take_away)(name)
+
+    for number in range(100):
+        come_and_go(number)
+    before = entries(engine)
+    for number in range(100, 10_000):
+        come_and_go(number)
+    assert entries(engine) <= before + 20
+    assert len(engine.world.obstacles) == 0
+
+
+def test_to_insert_a_thing_looks_at_no_other_that_is_far_away(monkeypatch):
+    engine = there()
+    for number in range(400):
+        engine.insert(Obstacle(f"{number}", Box(0.2, 0.2), (number % 20, number // 20, 0.0), mass=1.0))
+    looked = []
+    original = Obstacle.parts
+    monkeypatch.setattr(Obstacle, "parts", lambda self: looked.append(self.name) or original(self))
+    bodies = engine.contacts.near
+    near = []
+    monkeypatch.setattr(engine.contacts, "near", lambda *args: near.append(list(bodies(*args))) or near[-1])
+    engine.insert(Obstacle("new", Box(0.2, 0.2), (5.5, 5.5, 0.0), mass=1.0))
+    assert len(looked) <= 1
+    assert max(len(each) for each in near) < 12
+
+
+# -- crowds ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_crowd_goes_through_nothing(seed):
+    engine = crowded(pen(1.6, *PILLARS, *CRATES), 30, seed)
+    rng = np.random.default_rng(seed)
+    touched = 0
+    for _ in range(8):
+        drive(engine, rng, float(rng.uniform(0.3, 1.5)))
+        touched += sum(robot.touching for robot in engine.robots.values())
+        for robot in engine.robots.values():
+            assert abs(robot.corners()).max() < 1.6 + 1e-3
+            corners = robot.corners()
+            assert not polygons.overlaps_disc(corners, 0.4, 0.3, 0.095)
+            x, y, _ = engine.pose("ball")
+            assert not polygons.overlaps_disc(corners, x, y, 0.075)
+    assert touched > 8
+
+
+def test_a_crowd_that_is_brought_back_goes_on_equally_to_the_last_bit():
+    engine = crowded(pen(1.2, *PILLARS, *CRATES), 14, 5)
+    drive(engine, np.random.default_rng(0), 2.0)
+    state = engine.state()
+
+    def run(engine: Engine) -> list:
+        rng = np.random.default_rng(1)
+        for _ in range(4):
+            drive(engine, rng, 0.7)
+        return [robot.pose for robot in engine.robots.values()] + [o.pose for o in engine.obstacles()]
+
+    expected = run(engine)
+    engine.restore(state)
+    assert run(engine) == expected
+    other = Engine(engine.world, generator)
+    other.restore(state)
+    assert run(other) == expected
+
+
+def test_things_that_come_and_go_are_in_a_crowds_way_while_they_are_there():
+    engine = crowded(pen(3.0), 5, 1)
+    for i, name in enumerate(engine.robots):
+        engine.put(name, (0.0, 0.35 * i - 0.7, 0.0))
+    engine.insert(Obstacle("bar", Box(0.1, 2.5), (0.5, 0.0, 0.0)))
+    front = {name: max(x for x, _ in robot.model.footprint) for name, robot in engine.robots.items()}
+    for taken, limit in ((False, 0.45 + 1e-4), (True, 3.0)):
+        if taken:
+            engine.take_away("bar")
+        for name in engine.robots:
+            engine.command(name, 0.2, 0.0)
+        engine.advance(engine.now + 5.0)
+        for name, robot in engine.robots.items():
+            assert robot.pose[0] + front[name] * math.cos(robot.pose[2]) < limit
+    assert min(robot.pose[0] for robot in engine.robots.values()) > 0.8

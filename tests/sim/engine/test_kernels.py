@@ -1,0 +1,169 @@
+"""How two outlines overlap, how a body is brought out of another, and how far apart they are."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from rosmini.sim.engine import kernels, outlines
+
+pymunk = pytest.importorskip("pymunk")
+
+from rosmini.sim.models import BURGER, WAFFLE
+
+
+def piece_of(shape) -> tuple[np.ndarray, float]:
+    """The outline of one of pymunk's shapes in its body's frame."""
+    if isinstance(shape, pymunk.Circle):
+        return np.array([shape.offset]), shape.radius
+    if isinstance(shape, pymunk.Segment):
+        return np.array([shape.a, shape.b]), shape.radius
+    return np.array(shape.get_vertices()), shape.radius
+
+
+def put(body, pose) -> None:
+    body.angle = pose[2]
+    body.position = pose[:2]
+
+
+def depths_of(contacts) -> list[float]:
+    """How deep two shapes overlap at each point of their contact; pymunk's own `distance` has either sign."""
+    nx, ny = contacts.normal
+    pairs = ((point.point_a, point.point_b) for point in contacts.points)
+    return [(a[0] - b[0]) * nx + (a[1] - b[1]) * ny for a, b in pairs]
+
+
+KINDS = ("disc", "robot", "triangle", "wall")
+
+
+def shape_of(kind: str) -> tuple:
+    """Something that a robot can bump into; its body goes with it, for a shape alone keeps none."""
+    body = pymunk.Body(1.0, 1.0)
+    if kind == "disc":
+        return body, pymunk.Circle(body, 0.08, (0.02, 0.0))
+    if kind == "wall":
+        return body, pymunk.Segment(body, (-0.3, 0.0), (0.5, 0.0), 0.0)
+    triangle = [(-0.1, -0.1), (0.2, -0.05), (0.0, 0.2)]
+    outlines = {"burger": BURGER.footprint, "robot": WAFFLE.footprint, "triangle": triangle}
+    return body, pymunk.Poly(body, outlines[kind])
+
+
+places = st.floats(-0.4, 0.4)
+headings = st.floats(-math.pi, math.pi)
+
+
+def placed(shape, pose: tuple[float, float, float]) -> tuple[np.ndarray, float]:
+    """The outline of a shape there."""
+    outline, radius = piece_of(shape)
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    return outline @ np.array([[c, s], [-s, c]]) + pose[:2], radius
+
+
+# -- two outlines ----------------------------------------------------------------------------------------------------
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.sampled_from(KINDS), places, places, headings, headings)
+def test_two_outlines_overlap_where_and_as_deep_as_pymunk_says(kind, x, y, theta, other_theta):
+    own, burger = shape_of("burger")
+    body, shape = shape_of(kind)
+    put(own, (0.0, 0.0, theta))
+    put(body, (x, y, other_theta))
+    space = pymunk.Space()
+    space.add(body, shape)
+    hits = [hit.contact_point_set for hit in space.shape_query(burger)]
+    depth = max((depth for hit in hits for depth in depths_of(hit)), default=0.0)
+    a, _ = placed(burger, (0.0, 0.0, theta))
+    b, radius = placed(shape, (x, y, other_theta))
+    found = outlines.contact(a, 0, len(a), 0.0, b, 0, len(b), radius, 1e-9)
+    assert max(found[3], found[6]) == pytest.approx(depth, abs=1e-8)
+    assert bool(found[0]) == (depth > 1e-9) or depth < 2e-8
+    expected = hits[0] if hits else pymunk.ContactPointSet(pymunk.Vec2d(0.0, 0.0), ())
+    if found[0] and found[1] * expected.normal.x + found[2] * expected.normal.y > 1 - 1e-6:
+        # of equal ways out either may be taken; if it is the same one, the points are the same
+        assume(len(expected.points) == found[0])
+        assert sorted([found[3], found[6]][: found[0]]) == pytest.approx(
+            sorted(depths_of(expected)), abs=1e-6
+        )
+        mine = [found[4:6], found[7:9]][: found[0]]
+        its = [tuple(point.point_a) for point in expected.points]
+        if math.dist(mine[0], its[0]) > math.dist(mine[0], its[-1]):
+            its.reverse()
+        for one, other in zip(mine, its, strict=True):
+            assert one == pytest.approx(other, abs=1e-5)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.sampled_from(KINDS), places, places, headings, headings)
+def test_two_outlines_are_as_far_apart_as_pymunk_says(kind, x, y, theta, other_theta):
+    body, shape = shape_of(kind)
+    put(body, (x, y, other_theta))
+    wide = pymunk.Poly(pymunk.Body(1.0, 1.0), BURGER.footprint, radius=0.5)
+    put(wide.body, (0.0, 0.0, theta))
+    space = pymunk.Space()
+    space.add(body, shape)
+    expected = [0.5 - max(depths_of(hit.contact_point_set)) for hit in space.shape_query(wide)]
+    a, _ = placed(wide, (0.0, 0.0, theta))
+    b, radius = placed(shape, (x, y, other_theta))
+    found = outlines.gap(a, 0, len(a), 0.0, b, 0, len(b), radius)
+    if expected:
+        assert found < 0.5 + 1e-9
+        assert found == pytest.approx(expected[0], abs=1e-7)
+    else:
+        assert found > 0.5 - 1e-9
+
+
+@given(places, places, st.floats(0.01, 0.3), st.floats(0.01, 0.3))
+def test_two_discs_overlap_along_the_line_of_their_middles(x, y, r, q):
+    assume(math.hypot(x, y) > 1e-3)
+    a, b = np.zeros((1, 2)), np.array([[x, y]])
+    count, nx, ny, depth, px, py, *_ = outlines.contact(a, 0, 1, r, b, 0, 1, q, 0.0)
+    expected = r + q - math.hypot(x, y)
+    assert bool(count) == (expected > 0)
+    assert outlines.gap(a, 0, 1, r, b, 0, 1, q) == pytest.approx(-expected)
+    if count:
+        assert depth == pytest.approx(expected)
+        assert (nx, ny) == pytest.approx((x / math.hypot(x, y), y / math.hypot(x, y)))
+        assert (px, py) == pytest.approx((r * nx, r * ny))
+
+
+def test_robots_that_coincide_are_told_how_to_part():
+    a = np.array(BURGER.footprint)
+    count, nx, ny, depth, *_ = outlines.contact(a, 0, 4, 0.0, a.copy(), 0, 4, 0.0, 0.0)
+    assert count == 2
+    assert math.hypot(nx, ny) == pytest.approx(1.0)
+    assert depth == pytest.approx(0.146)  # a Burger's length, which is less than its width
+
+
+# -- out of one another ---------------------------------------------------------------------------------------------
+
+
+depths = st.floats(1e-6, 1e-2)
+levers = st.floats(-0.2, 0.2)
+
+
+@given(depths, levers)
+def test_one_point_of_contact_just_touches_afterwards(depth, lever):
+    along, turn = kernels.give(1, depth, 0.0, lever, 0.0, 1.0, 0.0025)
+    assert along + turn * lever == pytest.approx(depth, abs=1e-12)
+    assert along > 0
+    assert turn * lever >= 0
+
+
+@given(depths, depths, levers, levers)
+def test_of_two_points_one_just_touches_afterwards_and_none_is_deeper_than_before(first, second, r, q):
+    assume(abs(r - q) > 1e-3)
+    along, turn = kernels.give(2, first, second, r, q, 1.0, 0.0025)
+    left = [first - along - turn * r, second - along - turn * q]
+    assert min(abs(left[0]), abs(left[1])) < 1e-9
+    assert max(left) < max(first, second)
+    if r * q < 0 and first == second:  # the points are on both sides, so both can just touch
+        assert left == pytest.approx([0.0, 0.0], abs=1e-9)
+
+
+def test_flat_against_a_wall_a_body_does_not_turn():
+    assert kernels.give(2, 0.001, 0.001, 0.105, -0.105, 1.0, 0.0025) == pytest.approx((0.001, 0.0))

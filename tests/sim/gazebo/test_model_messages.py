@@ -1,0 +1,173 @@
+"""What the server tells clients of its models, and what a client knows by that alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rosmini.sim.gazebo import GazeboServer
+from rosmini.sim.gazebo.msgs import Link, Quaternion, Visual
+from rosmini.sim.gazebo.snapshot import Snapshot, pose_of
+from rosmini.sim.gazebo.spawning import spawn_text
+from rosmini.sim.sdf.poses import matrix
+from rosmini.urdf.xacro import expand
+
+from .conftest import Bench, box, urdf
+
+Start = Callable[..., Bench]
+
+PAINTED = box(
+    "crate",
+    static=True,
+    extra="""<link name="lid"><pose>0 0 0.4 0 0 0.3</pose>
+  <visual name="v"><pose>0.1 0 0 0 0 0</pose><geometry><cylinder><radius>0.1</radius><length>0.02</length>
+    </cylinder></geometry>
+  <material><diffuse>1 0.5 0 1</diffuse></material></visual></link>""",
+)
+
+
+def turtlebot3(model: str) -> str:
+    return expand(f"package://turtlebot3_description/urdf/turtlebot3_{model}.urdf.xacro")
+
+
+def link(server: GazeboServer, name: str) -> Link:
+    """A link as a client knows it."""
+    model = name.partition("::")[0]
+    told = next(each for each in server.client().snapshot().models if each.name == model)
+    return next(each for each in told.link if each.name == name)
+
+
+def test_the_message_of_a_model_has_its_links_visuals_and_collisions(bench: Start) -> None:
+    there = bench()
+    there.spawn(PAINTED, "thing", 1.0)
+    lid = link(there.server, "thing::lid")
+    assert pose_of(lid.pose) == pytest.approx((0, 0, 0.4, 0, 0, 0.3))
+    (visual,) = lid.visual
+    assert isinstance(visual, Visual)
+    assert (visual.name, visual.parent_name) == ("thing::lid::v", "thing::lid")
+    assert pose_of(visual.pose)[:3] == pytest.approx((0.1, 0, 0))
+    assert visual.geometry.cylinder is not None
+    assert (visual.geometry.cylinder.radius, visual.geometry.cylinder.length) == (0.1, 0.02)
+    assert visual.material is not None
+    assert (visual.material.diffuse.r, visual.material.diffuse.b) == (1.0, 0.0)
+    (collision,) = link(there.server, "thing::link").collision
+    assert collision.geometry.box is not None
+    assert collision.geometry.box.size.x == 0.4
+    printed = str(visual)
+    assert "geometry {\n  type: CYLINDER\n  cylinder {\n    radius: 0.1\n    length: 0.02\n  }\n}" in printed
+    assert "material {\n  diffuse {\n    r: 1" in printed
+
+
+def test_what_gazebo_has_no_words_for_is_not_printed(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(), "robot")
+    message = there.server.topics.model(there.server.world.model("robot"))
+    assert message.flat.robot is not None
+    assert "flat" not in str(message)
+    assert str(message).startswith('name: "robot"\nid: ')
+
+
+def test_a_client_sees_wheels_turn(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(), "robot")
+    client = there.server.client()
+    there.drive("cmd_vel", 0.1)
+    there.graph.run(3.0)
+    there.graph.run(0.0)
+    left = next(each for each in client.snapshot().models[-1].link if each.name == "robot::left")
+    world = there.server.world
+    truth = matrix(world.model("robot").link_in_model("left"))
+    assert matrix(pose_of(left.pose)) == pytest.approx(truth, abs=0.02)  # it was told up to 1/60 s ago
+    start = matrix(world.model("robot").link_frame("left"))
+    assert not np.allclose(truth[:3, :3], start[:3, :3], atol=0.1)
+    told = {pose.name: pose for pose in there.server.topics.poses().pose}
+    assert matrix(pose_of(told["robot::left"])) == pytest.approx(truth, abs=1e-9)
+    assert math.hypot(*vars(told["robot::right"].orientation).values()) == pytest.approx(1.0)
+
+
+def test_poses_of_what_stands_are_not_made_again(bench: Start) -> None:
+    there = bench()
+    there.spawn(box(static=True), "thing", 1.0)
+    first, second = (there.server.topics.poses().pose[-1] for _ in range(2))
+    assert first is second
+    there.server.drag("thing", (2.0, 0.0, 0.0))
+    assert there.server.topics.poses().pose[-1].position.x == 2.0
+
+
+def test_a_client_forgets_what_was_deleted(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(), "robot")
+    client = there.server.client()
+    there.graph.run(0.1)
+    there.server.delete("robot")
+    there.spawn(box(), "robot", 3.0)
+    there.graph.run(0.0)
+    (model,) = client.snapshot().models
+    assert [each.name for each in model.link] == ["robot::link"]
+    assert model.pose is not None
+    assert model.pose.position.x == 3.0
+    assert model.pose.orientation == Quaternion()
+
+
+def test_a_client_knows_what_drives(bench: Start) -> None:
+    there = bench()
+    there.spawn(urdf(axle=0.2), "robot", 1.0, 2.0, math.pi / 2)
+    there.spawn(box(), "crate", -1.0)
+    spawn_text(there.server.world, box("post", static=True), "post", (0, -2, 0, 0, 0, 0))
+    seen = there.server.client().snapshot()
+    (robot,) = seen.robots
+    assert robot.name == "robot"
+    assert robot.pose == pytest.approx((1.0, 2.2, math.pi / 2))
+    assert robot.model.drive == "differential"
+    assert robot.model.wheel_separation == 0.3
+    assert robot.model.lidar is not None
+    assert robot.model.lidar.beams == 181
+    assert [model.name for model in seen.things] == ["crate"]
+    assert [model.name for model in seen.standing] == ["post"]
+    assert {each.name for each in seen.world(robots=False).obstacles} == {"crate", "post"}
+
+
+def test_a_client_hears_when_time_stops_whoever_stops_it(bench: Start) -> None:
+    there = bench()
+    client = there.server.client()
+    there.graph.run(1.0)
+    assert not client.snapshot().paused
+    there.call("pause_physics", "std_srvs/Empty")
+    there.graph.run(0.0)
+    assert client.snapshot().paused
+    assert client.snapshot().time == pytest.approx(there.server.world.now)
+    there.server.world.step(500)
+    there.graph.run(0.0)
+    assert client.snapshot().time == pytest.approx(there.server.world.now)
+    there.call("unpause_physics", "std_srvs/Empty")
+    there.graph.run(0.0)
+    assert not client.snapshot().paused
+
+
+def test_server_and_client_show_the_same(bench: Start) -> None:
+    there = bench("-u")
+    there.spawn(turtlebot3("burger"), "tb3", 0.5)
+    client = there.server.client()
+    assert client.snapshot() == replace(there.server.topics.snapshot(), flat=client.snapshot().flat)
+    assert isinstance(client.snapshot(), Snapshot)
+    assert client.show().text == there.server.show().text
+
+
+def test_each_part_of_a_thing_has_its_own_colour(bench: Start) -> None:
+    def part(name: str, z: float, colour: str) -> str:
+        shape = "<geometry><box><size>0.2 0.2 0.2</size></box></geometry>"
+        return f"""<link name="{name}"><pose>0 0 {z} 0 0 0</pose><collision name="c">{shape}</collision>
+          <visual name="v">{shape}<material><diffuse>{colour} 1</diffuse></material></visual></link>"""
+
+    there = bench()
+    tower = f'<sdf version="1.6"><model name="tower">{part("a", 0.1, "1 0 0")}{part("b", 0.3, "0 1 0")}</model></sdf>'
+    there.spawn(tower, "tower")
+    found = there.server.client().world().obstacles
+    assert [(each.colour, each.bottom, round(each.height, 6)) for each in found] == [
+        ("#ff0000", 0.0, 0.2),
+        ("#00ff00", pytest.approx(0.2), 0.4),
+    ]

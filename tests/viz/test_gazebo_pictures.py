@@ -1,0 +1,257 @@
+"""Pictures of a running Gazebo world: robots from above, and visuals or collisions in three dimensions."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+pytest.importorskip("meshcat")
+
+from rosmini import Graph
+from rosmini.sim.gazebo import GazeboServer
+from rosmini.sim.gazebo.spawning import spawn_text
+from rosmini.sim.models import BURGER
+from rosmini.urdf.xacro import expand
+from rosmini.viz.meshcat.solid_order import painting_order
+from rosmini.viz.view import ViewError
+
+WALLS = """<sdf version="1.6"><world name="yard">
+  <model name="ground"><static>1</static><link name="l">
+    <collision name="c"><geometry><plane><normal>0 0 1</normal><size>100 100</size></plane></geometry></collision>
+    <visual name="v"><geometry><plane>
+      <normal>0 0 1</normal><size>100 100</size></plane></geometry></visual></link></model>
+  <model name="wall"><static>1</static><pose>2 0 0.25 0 0 0</pose><link name="l">
+    <collision name="c"><geometry><box><size>0.1 4 0.5</size></box></geometry></collision>
+    <visual name="v"><geometry><box><size>0.1 4 0.5</size></box></geometry></visual></link></model>
+</world></sdf>"""
+BALL = """<sdf version="1.6"><model name="lamp"><static>1</static><link name="l"><pose>0 0 0.5 0.3 0 0</pose>
+  <collision name="c"><geometry><box><size>0.1 0.1 1</size></box></geometry></collision>
+  <visual name="ball"><pose>0 0 0.4 0 0 0</pose><geometry><sphere><radius>0.1</radius></sphere></geometry>
+    <material><diffuse>1 1 0 1</diffuse></material></visual>
+  <visual name="pole"><geometry><cylinder><radius>0.02</radius><length>0.8</length></cylinder></geometry></visual>
+  <visual name="foot"><pose>0 0 -0.5 0 0 0</pose><geometry>
+    <polyline><point>-0.2 -0.2</point><point>-0.2 0.2</point><point>0.2 0</point>
+    <height>0.1</height></polyline></geometry></visual></link></model></sdf>"""
+
+
+def turtlebot3(model):
+    return expand(f"package://turtlebot3_description/urdf/turtlebot3_{model}.urdf.xacro")
+
+
+def add(server, model, name, pose=(0.0, 0.0, 0.0)):
+    server.spawn(turtlebot3(model), name, pose, namespace=name)
+
+
+@pytest.fixture
+def server(tmp_path):
+    path = tmp_path / "yard.world"
+    path.write_text(WALLS, encoding="utf-8")
+    with Graph() as graph:
+        yield GazeboServer(graph.node("gazebo"), str(path), "-u")
+
+
+def crate(name="crate", colour="0.5 0.3 0.1"):
+    shape = "<geometry><box><size>0.3 0.3 0.3</size></box></geometry>"
+    return f"""<sdf version="1.6"><model name="{name}"><link name="l"><pose>0 0 0.15 0 0 0</pose>
+      <inertial><mass>2</mass><inertia><ixx>.03</ixx><iyy>.03</iyy><izz>.03</izz></inertia></inertial>
+      <collision name="c">{shape}</collision>
+      <visual name="v">{shape}<material><diffuse>{colour} 1</diffuse></material></visual></link></model></sdf>"""
+
+
+def hexes(view):
+    return {part.colour for part in [*view.scene.parts, *view.scene.surfaces]}
+
+
+# ---- from above ----
+
+
+def test_from_above_what_drives_is_a_robot_and_what_does_not_is_a_thing(server):
+    add(server, "burger", "tb3_0", (0.0, 1.0, 0.5 * math.pi))
+    add(server, "waffle", "tb3_1", (0.0, -1.0, 0.0))
+    server.spawn(crate(), "crate", (-1.0, 0.0, 0.0))
+    picture = server.show()
+    head, size, *lines = picture.text.splitlines()
+    assert head == "Gazebo's world yard: 0.00 s, paused"
+    assert size.endswith("2 obstacles")  # the wall and the crate
+    assert lines == [
+        "tb3_0: pose (0.00, 1.00, 90.0 deg)",
+        "tb3_1: pose (-0.06, -1.00, 0.0 deg)"
+        if "-0.06" in lines[1]
+        else "tb3_1: pose (0.00, -1.00, 0.0 deg)",
+        "crate: pose (-1.00, 0.00, 0.0 deg)",
+        "static: ground, wall",
+    ]
+    assert "The robot is at x 0.00 m, y 1.00 m, heading 90 degrees." in picture.alt
+    drawn = picture._images()["image/svg+xml"].decode()
+    assert "tb3_0" in drawn
+    assert "tb3_1" in drawn
+
+
+def test_a_single_robot_has_its_name_too(server):
+    add(server, "burger", "lonely")
+    picture = server.show(title="One")
+    assert picture.text.splitlines()[0] == "One: 0.00 s, paused"
+    assert "lonely" in picture._images()["image/svg+xml"].decode()
+
+
+def test_a_trail_belongs_to_the_robot_that_is_named(server):
+    for i in range(3):
+        add(server, "burger", f"tb3_{i}", (0.0, float(i), 0.0))
+    picture = server.show(name="tb3_2", trail=[(0.0, 0.0), (0.0, 2.0)])
+    assert picture.text.splitlines()[2:6] == [
+        "tb3_2: pose (0.00, 2.00, 0.0 deg)",
+        "tb3_0: pose (0.00, 0.00, 0.0 deg)",
+        "tb3_1: pose (0.00, 1.00, 0.0 deg)",
+        "trail: 2.00 m",
+    ]
+
+
+def test_a_robot_that_is_given_is_not_drawn_twice(server):
+    add(server, "burger", "tb3", (0.5, 0.0, 0.0))
+    text = server.show(robot=(0.5, 0.0, 0.0), model=BURGER).text
+    assert text.count("pose") == 1
+    assert "tb3: pose (0.50, 0.00, 0.0 deg)" in text
+    with pytest.raises(ViewError, match="the robot's pose"):
+        server.show(robot="there")
+
+
+# ---- in three dimensions ----
+
+
+def test_a_turtlebot3_looks_as_its_meshes_do(server):
+    add(server, "waffle", "tb3", (0.0, 1.0, 0.3))
+    view = server.show3d(title="The yard")
+    assert view.text.splitlines()[:3] == [
+        "The yard",
+        "3D: yard with 3 models, at 0.00 s, paused",
+        "tb3: pose (0.00, 1.00, 17.2 deg)",
+    ]
+    nodes = {part.node for part in view.scene.surfaces}
+    assert "models/tb3/wheel_left_link" in nodes
+    corners = np.vstack(
+        [
+            part.surface.vertices @ view.scene.transform(part.node)[:3, :3].T
+            + view.scene.transform(part.node)[:3, 3]
+            for part in view.scene.surfaces
+        ]
+    )
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    assert low[2] == pytest.approx(0, abs=2e-3)
+    assert high[2] == pytest.approx(0.141, abs=2e-3)  # e-manual
+    assert np.allclose((low + high)[:2] / 2, (-0.06, 0.98), atol=0.06)
+    assert len(hexes(view)) > 5
+
+
+def test_a_wheel_that_has_turned_is_drawn_turned(server):
+    add(server, "burger", "tb3")
+    before = server.show3d().scene.transform("models/tb3/wheel_left_link")
+    robot = server.engine.robot("tb3")
+    server.engine.command("tb3", 0.1, 0.0)
+    server.engine.advance(server.engine.now + 0.6)
+    after = server.show3d().scene.transform("models/tb3/wheel_left_link")
+    turned = robot.left_way / 0.033
+    assert turned > 1
+    assert (np.trace(before[:3, :3].T @ after[:3, :3]) - 1) / 2 == pytest.approx(math.cos(turned), abs=1e-6)
+
+
+def test_copies_of_a_model_share_their_geometry(server):
+    add(server, "burger", "a")
+    one = server.show3d()
+    add(server, "burger", "b", (0.0, 1.0, 0.0))
+    two = server.show3d()
+    assert not any("models/b" in first for first, _ in two.scene.copies)
+    there = {second for _, second in two.scene.copies}
+    wanted = {f"/meshcat/{p.node}/{p.name}" for p in two.scene.surfaces if p.node.startswith("models/b/")}
+    assert wanted <= there
+    more = sum(map(len, two.scene.commands)) - sum(map(len, one.scene.commands))
+    assert 0 < more < 2000
+    assert '"copies":[["/meshcat/models/a/' in two._html(book=True)
+
+
+def test_a_house_with_two_turtlebot3_stays_small():
+    with Graph() as graph:
+        house = GazeboServer(graph.node("gazebo"), world="house")
+        add(house, "burger", "tb3_0", (-3.0, 1.0, 0.0))
+        add(house, "waffle", "tb3_1", (-3.0, 2.0, 0.0))
+        view = house.show3d()
+        assert len(view._html(book=True)) < 800_000
+        same = house.client().show3d()
+        assert same._html(book=True) == view._html(book=True)
+
+
+def test_things_keep_the_colours_of_their_visuals_and_walls_those_of_the_page(server):
+    server.spawn(crate(), "crate", (0.0, 1.0, 0.4))
+    view = server.show3d()
+    assert not view.scene.surfaces  # upright boxes are drawn as those of every other world are
+    assert "#804c1a" in hexes(view)
+    assert "/meshcat/models/ground" not in str(view.scene.recorder.commands)
+
+
+def test_what_looks_other_than_it_is_solid_is_drawn_by_its_visuals(server):
+    spawn_text(server.world, BALL, "lamp", (0.5, 0.5, 0.0, 0.0, 0.0, 1.0))
+    view = server.show3d()
+    parts = view.scene.surfaces
+    assert {part.colour for part in parts} == {"#ffff00", "#98a3ad"}
+    ball = next(part for part in parts if part.colour == "#ffff00").surface
+    low, high = ball.bounds
+    assert high - low == pytest.approx([0.2, 0.2, 0.2], abs=2e-3)
+    assert (low + high) / 2 == pytest.approx([0.0, 0.0, 0.4], abs=1e-9)
+    foot = next(part for part in parts if part.colour != "#ffff00").surface
+    assert foot.bounds[0][2] == pytest.approx(-0.5)
+    tilt = view.scene.transform("models/lamp/l")
+    assert tilt[2, 2] == pytest.approx(math.cos(0.3))
+    assert view.svg.count("<path") > 20
+
+
+def test_collisions_in_place_of_visuals(server):
+    spawn_text(server.world, BALL, "lamp", (0.5, 0.5, 0.0, 0.0, 0.0, 1.0))
+    view = server.show3d(collisions=True)
+    assert "what is solid of them" in view.text
+    assert {part.colour for part in view.scene.surfaces} == {"#e69e00"}
+    (lamp,) = view.scene.surfaces
+    assert lamp.surface.bounds[1] == pytest.approx([0.05, 0.05, 0.5])
+    assert hexes(view) == {"#e69e00"}
+
+
+def test_the_camera_goes_to_a_model(server):
+    add(server, "burger", "tb3", (1.7, 0.5, 0.0))
+    camera = server.show3d(focus="tb3").scene.camera
+    assert np.allclose(camera.target[:2], (1.7, 0.5), atol=0.05)
+    assert camera.distance < 1
+    assert camera.position[0] < 1.95  # not behind the wall, which is ahead of the robot
+    assert server.show3d(focus="tb3", distance=3, azimuth=10, elevation=70).scene.camera.azimuth == 10
+    with pytest.raises(ViewError, match=r"not 'tb4'.*tb3"):
+        server.show3d(focus="tb4")
+    with pytest.raises(ViewError, match="above 0, not -1"):
+        server.show3d(focus="tb3", distance=-1)
+
+
+def test_what_stands_on_something_is_painted_after_it(server):
+    for name, z, size, colour in (
+        ("high", 0.3, "0.3 0.3 0.3", "0 0 1"),
+        ("low", 0.0, "0.6 0.6 0.3", "1 0 0"),
+    ):
+        static = crate(name, colour).replace("<link", "<static>1</static><link", 1)
+        text = static.replace("0.3 0.3 0.3", size)
+        spawn_text(server.world, text, name, (0.0, 0.0, z, 0.0, 0.0, 0.0))
+    painted = re.findall(r'fill="#(..)00(..)"', server.show3d().svg)
+    assert [red > blue for red, blue in painted] == [True] * 3 + [False] * 3
+
+
+def test_the_order_of_painting():
+    eye = np.array([0.0, -9.0, 9.0])
+    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], dtype=float)
+    assert painting_order([square, square], eye, [(0.3, 0.6), (0.0, 0.3)]) == [1, 0]
+    assert painting_order([square, square], eye, [(0.0, 0.3), (0.3, 0.6)]) == [0, 1]
+    far = square + (0.0, 2.0)
+    assert painting_order([square, far], eye) == [1, 0]
+    # what is apart in the picture has no order but that of its distance
+    assert painting_order([square, far], eye, None, [(0, 0, 1, 1), (2, 0, 3, 1)]) == [1, 0]
+
+
+def test_the_same_calls_give_the_same_bytes(server):
+    add(server, "burger", "tb3", (0.3, 0.2, 0.1))
+    assert server.show3d()._html(book=True) == server.show3d()._html(book=True)
+    assert server.show()._images() == server.show()._images()

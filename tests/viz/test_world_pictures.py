@@ -1,0 +1,299 @@
+"""The picture of a world: what it says, and that it is the same whatever the last bit."""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rosmini.geometry.poses import arc
+from rosmini.geometry.raycast import raycast
+from rosmini.msgs import message_class
+from rosmini.sim.models import BURGER
+from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, Walk, World
+from rosmini.sim.worlds import world as built_in
+from rosmini.viz import ViewError, style, world_picture
+from rosmini.viz.world_drawing import LEAST_ROBOT
+
+from ..processes import run
+
+ROOT = Path(__file__).parents[2]
+SVG = "{http://www.w3.org/2000/svg}"
+WALLS = np.array([(0, 0, 4, 0), (4, 0, 4, 3), (4, 3, 0, 3), (0, 3, 0, 0)], dtype=float)
+THINGS = (
+    Obstacle("crate", Box(0.4, 0.2), (1.0, 2.0, 0.3), colour="orange", mass=1.0),
+    Obstacle("pillar", Cylinder(0.15), (3.0, 1.0, 0.0), colour="green"),
+    Obstacle("shelf", Polygon(((0.0, 0.0), (0.5, 0.0), (0.0, 0.5))), (0.0, 0.0, 0.0), colour="wall"),
+)
+ROOM = World("small", THINGS, walls=WALLS)
+
+
+def ranges(world: World, pose, noise: float = 0.0) -> np.ndarray:
+    """What the Burger's laser would see without noise, shifted by `noise`."""
+    x, y, theta = pose
+    mount = BURGER.lidar.mount[0]
+    seen = raycast(
+        world.segments, world.discs, x + mount * math.cos(theta), y + mount * math.sin(theta), theta,
+        2 * math.pi / 360, 360, 3.5,
+    )  # fmt: skip
+    return seen + noise
+
+
+def colours(svg: str) -> dict[str, int]:
+    """How often each colour of the palette is painted with."""
+    drawn = svg[svg.index("</style>") :]
+    return {name: drawn.count(f'"{value}"') for name, value in style.LIGHT.items() if f'"{value}"' in drawn}
+
+
+def test_a_world_says_how_large_it_is_and_what_is_in_it():
+    view = world_picture(ROOM)
+    assert (
+        view.text
+        == "world small: 4.00 x 3.00 m, 4 wall segments, 1 wall and 2 obstacles (1 of them can be pushed)"
+    )
+    assert view.alt.startswith("The world small from above: 4.00 by 3.00 m")
+    assert world_picture(built_in("empty")).text == "world empty: 10.00 x 10.00 m, nothing in it"
+    assert {"orange", "green", "muted"} <= set(colours(view.svg))
+    assert "blue" not in colours(view.svg)  # no robot
+
+
+def test_things_of_every_shape_and_colour_are_drawn_and_those_that_move_said():
+    things = (
+        Obstacle("ball", Sphere(0.2), (1, 1, 0), colour="#123456"),
+        Obstacle(
+            "top",
+            Compound(((Box(1, 0.5), (0, 0, 0)), (Cylinder(0.2), (0.5, 0, 0)))),
+            (2, 2, 0),
+            0.8,
+            "sky",
+            bottom=0.7,
+        ),
+        Obstacle("man", Cylinder(0.2), colour="purple", motion=Walk(((0.5, 0.5), (3.5, 0.5)))),
+    )
+    view = world_picture(World("varied", things, walls=WALLS))
+    assert "3 obstacles (1 of them moves by itself)" in view.text
+    assert {"sky", "purple"} <= set(colours(view.svg))
+    assert '"#123456"' in view.svg
+    dashed = [line for line in ET.fromstring(view.svg).iter(f"{SVG}path") if line.get("stroke-dasharray")]
+    assert len(dashed) == 1, "the way of the man"
+    alone = World("one", (things[2],))
+    assert world_picture(alone).text.endswith("1 obstacle (moves by itself)")
+
+
+def test_everything_is_in_the_text_the_alt_text_and_the_picture():
+    pose = (2.0, 1.5, math.pi / 2)
+    trail = [(1.0, 0.5, 0.0), (2.0, 0.5, 0.0), (2.0, 1.5, 0.0)]
+    odom = [(1.0, 0.5), (2.0, 0.5), (2.03, 1.54)]
+    view = world_picture(
+        ROOM, robot=pose, scan=ranges(ROOM, pose), trail=trail, odom=odom, title="A look around"
+    )
+    lines = view.text.splitlines()
+    assert lines[0].startswith("A look around: 4.00 x 3.00 m")
+    assert lines[1] == "burger: pose (2.00, 1.50, 90.0 deg)"
+    # the pillar is (1, -0.5) away from the robot, and 0.15 thick; the laser is 3.2 cm behind the middle
+    distance = math.hypot(1.0, -0.5 + 0.032) - 0.15
+    assert lines[2] == f"scan: 360 of 360 beams hit, nearest {distance:.2f} m behind on the right (-115 deg)"
+    assert lines[3:] == ["trail: 2.00 m", "odometry: 0.050 m off at the end"]
+    for said in ("heading 90 degrees", "360 of 360 laser beams", "2.00 m long", "0.050 m off"):
+        assert said in view.alt
+    assert "<figcaption>A look around</figcaption>" in view.html
+    words = [node.text for node in ET.fromstring(view.svg).iter(f"{SVG}text")]
+    assert {"x [m]", "y [m]", "where it was", "where odometry believes it was", "laser hits"} <= set(words)
+
+
+def test_truth_is_solid_and_odometry_is_dashed():
+    svg = world_picture(ROOM, trail=[(1, 1), (2, 1)], odom=[(1, 1), (2, 1.1)]).svg
+    paths = [p for p in re.findall(r"<path[^>]*>", svg) if style.LIGHT["orange"] in p and "dasharray" in p]
+    (odom,) = [p for p in paths if p.count("L") == 1]
+    assert "stroke-dasharray" in odom
+    truth = [p for p in re.findall(r"<path[^>]*>", svg) if f'stroke="{style.LIGHT["blue"]}"' in p]
+    assert truth
+    assert not any("dasharray" in p for p in truth)
+
+
+def test_a_length_in_x_is_as_long_in_y():
+    box = World("box", (Obstacle("square", Box(2.0, 2.0), (1.0, 5.0, 0.0), colour="purple"),))
+    (path,) = re.findall(rf'd="([^"]+)"[^>]*stroke="{style.LIGHT["purple"]}"', world_picture(box).svg)
+    points = np.array(re.findall(r"[ML](\S+?) (\S+?)(?=[LzM])", path), dtype=float)
+    width, height = np.ptp(points, axis=0)
+    assert width == pytest.approx(height, abs=0.02)
+    assert width > 300
+
+
+def test_the_robot_is_drawn_to_scale_but_never_too_small_to_be_seen():
+    def length(extent: float) -> float:
+        world = World("plain", walls=np.array([(0, 0, extent, 0), (extent, extent, 0, extent)]))
+        svg = world_picture(world, robot=(extent / 2, extent / 2, 0.0), size=(600, 600)).svg
+        plate, *_ = re.findall(rf'd="([^"]+)"[^>]*fill="{style.LIGHT["blue"]}"', svg)
+        return float(np.ptp([float(x) for x, _ in re.findall(r"[ML](\S+?) (\S+?)(?=[A-Za-z])", plate)]))
+
+    footprint = np.ptp(np.array(BURGER.footprint)[:, 0])
+    scale = (600 - 54) / (2 * 1.04)
+    assert length(2.0) == pytest.approx(scale * footprint, rel=0.02)
+    assert length(100.0) == pytest.approx(LEAST_ROBOT, rel=0.05)
+
+
+def test_the_bytes_are_the_same_again_in_another_process_and_for_inputs_with_another_last_digit():
+    pose = (1.0, 1.0, 0.5)
+    trail = arc((1.0, 1.0, 0.5), 0.2, 0.3, np.linspace(0, 5, 151))
+
+    def svg(noise: float) -> str:
+        return world_picture(
+            ROOM,
+            robot=(1.0 + noise, 1.0, 0.5 - noise),
+            scan=ranges(ROOM, pose, noise),
+            trail=trail + noise,
+            odom=trail * (1 + noise),
+        ).html  # fmt: skip
+
+    assert svg(0.0) == svg(0.0)
+    assert svg(1e-12) == svg(0.0)
+    assert svg(-1e-12) == svg(0.0)
+    assert svg(0.01) != svg(0.0)
+    code = (
+        "import sys; from rosmini.sim.worlds import world; from rosmini.viz import world_picture; "
+        "sys.stdout.write(world_picture(world('room'), robot=(0, 0, 1)).svg)"
+    )
+    done = run([sys.executable, "-c", code], check=True, cwd=ROOT)
+    assert done.stdout == world_picture(built_in("room"), robot=(0, 0, 1)).svg
+
+
+def test_a_full_picture_is_under_60_kilobytes():
+    room = built_in("room")
+    rng = np.random.default_rng(0)
+    trail = np.cumsum(rng.normal(0, 0.01, (3600, 2)), axis=0) + (
+        0.5,
+        0.8,
+    )  # worse than any way of two minutes
+    scan = ranges(room, (0, 0, 0)) + rng.normal(0, 0.01, 360)
+    view = world_picture(room, robot=(0, 0, 0), scan=scan, trail=trail[::20], odom=trail[::20])
+    assert len(view.html.encode()) < 60_000
+    smooth = arc((0.0, 0.0, 0.0), 0.2, 0.25, np.linspace(0, 120, 3601))
+    assert len(world_picture(room, trail=smooth).html.encode()) < 20_000
+
+
+def test_a_scan_can_be_one_that_was_taken_elsewhere():
+    before = (1.0, 1.0, 0.0)
+    here = world_picture(ROOM, robot=(2.0, 1.5, 2.0), scan=ranges(ROOM, before), scan_from=before)
+    there = world_picture(ROOM, robot=before, scan=ranges(ROOM, before))
+    assert here.text.splitlines()[2] == there.text.splitlines()[2]
+    (dots,) = re.findall(r'd="(M[^"]+h0)"', here.svg)
+    assert dots in there.svg
+
+
+def test_beams_that_hit_nothing_are_said_and_have_no_point():
+    LaserScan = message_class("sensor_msgs/LaserScan")
+    step = 2 * math.pi / 360
+    message = LaserScan(
+        angle_min=0.0, angle_max=359 * step, angle_increment=step, range_min=0.12, range_max=3.5
+    )
+    message.ranges = [math.inf, -math.inf, math.nan, 0.0, 3.6, 1.0] * 60
+    view = world_picture(built_in("empty"), robot=(0, 0, 0), scan=message)
+    assert "scan: 60 of 360 beams hit, nearest 1.00 m ahead (-1 deg)" in view.text
+    assert view.svg.count("h0") == 60
+    message.ranges = [math.inf] * 360
+    text = world_picture(built_in("empty"), robot=(0, 0, 0), scan=message).text
+    assert "scan: 0 of 360 beams hit, nothing within 3.50 m" in text
+
+
+@pytest.mark.parametrize("walls", [[(0, 0, 50, 0)], [(3, 0, 3, 0.1)], [(1, 1, 1, 1)], [(0, 0, 1e4, 0)]])
+def test_a_world_that_is_flat_or_tiny_or_huge_can_be_seen(walls):
+    view = world_picture(World("w", walls=np.array(walls, dtype=float)), trail=[(0, 0)], odom=[(0, 0)])
+    root = ET.fromstring(view.svg)
+    assert 200 <= float(root.get("width")) <= 660
+    assert 130 <= float(root.get("height")) <= 540
+    words = [node for node in root.iter(f"{SVG}text") if node.text == "where odometry believes it was"]
+    assert float(words[0].get("x")) + 200 < float(root.get("width"))
+
+
+def test_what_is_beyond_the_world_is_in_the_picture_too():
+    view = world_picture(ROOM, robot=(9.0, 1.0, 0.0))
+    words = {node.text for node in ET.fromstring(view.svg).iter(f"{SVG}text")}
+    assert "9" in words
+
+
+BLOCK = np.array([(1, 1, 2, 1), (2, 1, 2, 2), (2, 2, 1, 2), (1, 2, 1, 1)], dtype=float)
+HOLE = np.array([(1.5, 1.2, 1.2, 1.5), (1.2, 1.5, 1.5, 1.8), (1.5, 1.8, 1.8, 1.5), (1.8, 1.5, 1.5, 1.2)])
+
+
+def walls_of(walls, start=(0.0, 0.0, 0.0), *, solid=False) -> list[str]:
+    """The paths that walls are drawn with."""
+    svg = world_picture(World("w", walls=np.array(walls, dtype=float), starts=(start,), solid=solid)).svg
+    return [p for p in re.findall(r"<path[^>]*>", svg) if f'"{style.LIGHT["muted"]}"' in p]
+
+
+def test_walls_that_go_round_something_solid_are_filled_and_others_are_not():
+    (blocks,) = walls_of(np.vstack([BLOCK, HOLE]), solid=True)
+    assert blocks.count("z") == 2
+    assert f'fill="{style.LIGHT["muted"]}"' in blocks
+    (room,) = walls_of(BLOCK)
+    assert 'fill="none"' in room
+    (single,) = walls_of([(0, 0, 1, 0)])
+    assert 'fill="none"' in single
+
+
+def test_solid_walls_in_any_order_are_drawn_whole():
+    (shuffled,) = walls_of(BLOCK[[0, 2, 1, 3]], solid=True)
+    assert shuffled.count("M") >= 1 and shuffled.count("L") >= 3
+
+
+def test_a_map_of_many_cells_is_drawn_with_the_points_that_can_be_seen():
+    stairs = np.repeat(np.arange(4001) / 200, 2)
+    corners = np.column_stack([stairs[1:], stairs[:-1]])
+    corners = np.vstack([corners, (20.0, 0.0)])
+    walls = np.hstack([corners, np.roll(corners, -1, axis=0)])
+    (path,) = walls_of(walls, start=(1.0, 19.0, 0.0))
+    assert 2 <= path.count("L") < 100  # of 8002: a step is an eighth of a pixel
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"robot": (0.0, math.nan, 0.0)}, r"the robot's pose is \(0.0, nan, 0.0\)"),
+        ({"robot": (0.0, 0.0)}, r"x \[m\], y \[m\] and heading \[rad\], not \(0.0, 0.0\)"),
+        ({"robot": 3}, "not 3"),
+        ({"scan": np.ones(360)}, "give robot="),
+        ({"robot": (0, 0, 0), "scan": np.ones(100)}, "100 ranges were given, but the LDS-01 has 360 beams"),
+        ({"robot": (0, 0, 0), "scan": np.ones((2, 360))}, r"array \(n,\), not \(2, 360\)"),
+        ({"robot": (0, 0, 0), "scan": "scan"}, "not a str"),
+        ({"trail": np.empty((0, 3))}, r"trail must be an array .* with at least one point, not \(0, 3\)"),
+        ({"trail": [(0, 0), (0, math.inf)]}, r"trail\[1\] is \[0.0, inf\], which is no place"),
+        ({"odom": [1, 2, 3]}, r"odom must be an array"),
+        ({"odom": "here"}, "odom must be an array of points, not a str"),
+        ({"size": (10, 10)}, "200 to 4000 pixels, not 10"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_with_a_reason(options, message):
+    with pytest.raises(ViewError, match=message):
+        world_picture(ROOM, **options)
+
+
+def test_a_map_without_a_world_is_refused():
+    with pytest.raises(ViewError, match="not from a str"):
+        world_picture("room")
+
+
+def test_importing_viz_loads_neither_numpy_nor_matplotlib_and_names_are_there():
+    code = (
+        "import sys, rosmini.viz as v; assert {'world_picture', 'scan_picture'} <= set(dir(v)); "
+        "print(sorted({'matplotlib', 'numpy'} & set(sys.modules))); v.world_picture; "
+        "print(sorted({'matplotlib', 'numpy', 'pymunk', 'numba'} & set(sys.modules)))"
+    )
+    done = run([sys.executable, "-c", code], check=True, cwd=ROOT)
+    assert done.stdout.splitlines() == ["[]", "['numpy']"]
+
+
+@pytest.mark.parametrize(
+    ("colour", "edge"),
+    [("#ffffff", "line"), ("#f0f0e0", "line"), ("#000000", "line"), ("#0066cc", None), ("blue", None)],
+)
+def test_what_is_as_light_or_dark_as_a_page_has_a_neutral_edge(colour, edge):
+    made = World("w", (Obstacle("pillar", Cylinder(0.2), (0.0, 0.0, 0.0), colour=colour),))
+    svg = world_picture(made)._repr_mimebundle_()[0]["image/svg+xml"]
+    (pillar,) = (each for each in ET.fromstring(svg).iter(f"{SVG}path") if each.get("fill-opacity"))
+    assert pillar.get("stroke") == style.LIGHT.get(edge or colour, colour)
