@@ -1,0 +1,1 @@
+"""The wire of ROS 1: XML-RPC and TCPROS, through the ports that :mod:`rosmini.graph` defines."""

@@ -1,0 +1,162 @@
+"""Where the Master is, under which address this process is known, and where it listens.
+
+The rules are those of http://wiki.ros.org/ROS/NetworkSetup and http://wiki.ros.org/ROS/EnvironmentVariables, but for
+one: without ``ROS_IP`` or ``ROS_HOSTNAME`` nothing here listens on the network. Whoever wants to be reached says so.
+"""
+
+from __future__ import annotations
+
+import os
+from ipaddress import ip_address
+from typing import TYPE_CHECKING, NamedTuple
+from urllib.parse import urlsplit
+
+from rosmini.errors import ROSInitException, shown
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+MASTER_URI = "http://localhost:11311"
+"""The Master's address where nothing else is said."""
+
+LOOPBACK = "127.0.0.1"
+EVERYWHERE = "0.0.0.0"  # noqa: S104 - bound only when an address of the network was given
+LOCALHOST = "localhost"
+
+
+class Addresses(NamedTuple):
+    """The addresses of a process."""
+
+    master_uri: str
+    """Where the Master is, as it was given: ``http://host:port``."""
+    host: str
+    """The host name or address that others are told."""
+    bind: str
+    """The address to listen on: one of loopback, or 0.0.0.0 for every network of the machine."""
+
+    @property
+    def is_open(self) -> bool:
+        """True where others on the network can reach this process."""
+        return self.bind == EVERYWHERE
+
+    @property
+    def master(self) -> tuple[str, int]:
+        """The Master's host and port."""
+        return host_and_port(self.master_uri)
+
+    def uri(self, port: int, scheme: str = "http") -> str:
+        """Return what others are told of a server of this process: ``http://host:port/``, or ``rosrpc://host:port``."""
+        return f"{scheme}://{_in_uri(self.host)}:{port}{'/' if scheme == 'http' else ''}"
+
+    @property
+    def announcement(self) -> str | None:
+        """A line that says where this process listens, or None if only this machine can reach it."""
+        if not self.is_open:
+            return None
+        return f"listening on every network of this machine, known to others as {self.host}"
+
+    @property
+    def warning(self) -> str | None:
+        """What is likely to go wrong with these addresses, and what to do; None if nothing is."""
+        host, _ = self.master
+        if is_loopback(self.host) and not is_loopback(host):
+            return (
+                f"the Master is on another machine ({host}), but nodes there cannot reach this process: it listens on "
+                f"{self.bind} only. Set ROS_IP to the address of this machine that {host} can reach, "
+                "or ROS_HOSTNAME to a name that resolves to it there."
+            )
+        return None
+
+
+def addresses(
+    environ: Mapping[str, str] | None = None, arguments: Mapping[str, str] | None = None
+) -> Addresses:
+    """Return the addresses of a process.
+
+    ``environ`` has ``ROS_MASTER_URI``, ``ROS_HOSTNAME`` and ``ROS_IP`` (``os.environ`` by default); ``arguments`` has
+    ``__master``, ``__hostname`` and ``__ip`` by these keys, as :attr:`rosmini.names.Remappings.special` does, and goes
+    before it. Raises ``ROSInitException`` for an address that is none.
+    """
+    environ = os.environ if environ is None else environ
+    arguments = arguments or {}
+    source, uri = _first(
+        ("__master:=", arguments.get("__master")),
+        ("ROS_MASTER_URI", environ.get("ROS_MASTER_URI")),
+        ("the default", MASTER_URI),
+    )
+    master_host, _ = host_and_port(uri, source)
+    source, host = _first(
+        ("__hostname:=", arguments.get("__hostname")),
+        ("__ip:=", arguments.get("__ip")),
+        ("ROS_HOSTNAME", environ.get("ROS_HOSTNAME")),
+        ("ROS_IP", environ.get("ROS_IP")),
+        ("the default", LOCALHOST if master_host == LOCALHOST else LOOPBACK),
+    )
+    _check_host(host, source)
+    return Addresses(uri, host, _bound(host))
+
+
+def host_and_port(uri: str, source: str = "the Master's address") -> tuple[str, int]:
+    """Return host and port of ``http://host:port``; port 80 if there is none, as the Web has it.
+
+    Raises ``ROSInitException``, naming the ``source``, if it has another form.
+    """
+    try:
+        parts = urlsplit(uri)
+        host, port = parts.hostname, parts.port
+    except ValueError:
+        host, port = None, None
+    if not host or parts.scheme not in ("http", "rosrpc") or parts.path not in ("", "/") or port == 0:
+        raise ROSInitException(
+            f"{source} is {shown(uri)}, which is no address of a Master. It has the form http://host:port, "
+            f"such as {MASTER_URI}."
+        )
+    return host, 80 if port is None else port
+
+
+def is_loopback(host: str) -> bool:
+    """Tell whether a host is this machine by its name or address alone; nothing is resolved."""
+    if host == LOCALHOST:
+        return True
+    try:
+        return ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+def is_literal(host: str) -> bool:
+    """Tell whether a host is an address already, so that it need not be resolved."""
+    try:
+        ip_address(host)
+    except ValueError:
+        return False
+    return True
+
+
+def _first(*sources: tuple[str, str | None]) -> tuple[str, str]:
+    """Return the first source that says something, and what it says; the last one always does."""
+    return next((source, text) for source, text in sources if text)
+
+
+def _check_host(host: str, source: str) -> None:
+    if "/" in host or any(letter.isspace() for letter in host) or (":" in host and not is_literal(host)):
+        raise ROSInitException(
+            f"{source} is {shown(host)}, which is neither an address nor the name of a host: it has no scheme and no "
+            "port, such as 192.168.1.5 or robot.local."
+        )
+    if is_literal(host) and (ip_address(host).is_unspecified or ip_address(host).is_multicast):
+        raise ROSInitException(
+            f"{source} is {host}, which nobody can connect to. Give an address of this machine, such as those that "
+            "`hostname -I` prints."
+        )
+
+
+def _bound(host: str) -> str:
+    """Return the address to listen on for what others are told."""
+    if not is_loopback(host):
+        return EVERYWHERE
+    return LOOPBACK if host == LOCALHOST else host
+
+
+def _in_uri(host: str) -> str:
+    return f"[{host}]" if ":" in host else host
