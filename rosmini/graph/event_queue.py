@@ -66,6 +66,7 @@ class EventQueue:
         self._rounds = 0
         self._inbox: Inbox[Callable[[], object] | None] = Inbox()
         self._holds = 0
+        self._remote_waits = 0
         self._hold_lock = threading.Lock()
 
     def now_ns(self) -> int:
@@ -114,6 +115,11 @@ class EventQueue:
                 self._holds -= 1
 
         self._inbox.put(let_go)
+
+    def count_remote(self, change: int) -> None:
+        """Count who waits for something outside this process, which may take what time it likes. From any thread."""
+        with self._hold_lock:
+            self._remote_waits += change
 
     def quiet(self) -> bool:
         """Tell whether there is nothing to do at this moment."""

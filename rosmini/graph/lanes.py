@@ -84,6 +84,9 @@ class Hub(Protocol):
     def park(self, waiter: Waiter) -> None:
         """Leave the caller parked until ``waiter`` resumes it."""
 
+    def count_remote(self, change: int) -> None:
+        """Count who waits for something outside this process."""
+
 
 class Lane:
     """A first-in, first-out queue of tasks with one blocking point.
@@ -319,3 +322,21 @@ class Waiter:
                 event.wait(None if limit is None else limit - patience)
         finally:
             self._event = None
+
+
+class RemoteWaiter(Waiter):
+    """Waits for an answer from outside this process; whoever is to wake it has a time-out on the wall.
+
+    Simulated time goes on meanwhile, for the other end may need it; only where nothing else is left to do the queue
+    waits for the answer instead of ending.
+    """
+
+    __slots__ = ()
+
+    def wait(self, timeout_ns: int | None = None) -> bool:
+        """Block as :meth:`Waiter.wait`."""
+        self._hub.count_remote(1)
+        try:
+            return super().wait(timeout_ns)
+        finally:
+            self._hub.count_remote(-1)

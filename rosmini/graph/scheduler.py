@@ -25,7 +25,7 @@ from rosmini.errors import GraphEnded, RosminiError
 from . import threads
 from .event_queue import ROUNDS_PER_INSTANT, TICK_QUANTUM_NS, EventQueue
 from .interrupts import MAIN_THREAD, InterruptGuard
-from .lanes import Lane, LaneContext, LaneExit, Waiter
+from .lanes import Lane, LaneContext, LaneExit, RemoteWaiter, Waiter
 from .notebook import CellOutput, kernel_shell
 from .report import RunReport, Waiting, ended
 from .workers import Worker, adopt_thread, start_workers, work
@@ -119,9 +119,12 @@ class Scheduler(EventQueue):
             lane.submit(task)
         return lane
 
-    def waiter(self, reason: str) -> Waiter:
-        """Return a new :class:`Waiter`; ``reason`` completes "... was waiting for"."""
-        return Waiter(self, reason)
+    def waiter(self, reason: str, *, remote: bool = False) -> Waiter:
+        """Return a new :class:`Waiter`; ``reason`` completes "... was waiting for".
+
+        ``remote``: what wakes it comes from outside this process (see :class:`~rosmini.graph.lanes.RemoteWaiter`).
+        """
+        return RemoteWaiter(self, reason) if remote else Waiter(self, reason)
 
     def on_hub(self, function: Callable[..., T], *arguments: Any) -> T:
         """Return ``function(*arguments)``, run in the hub's thread, in a lane with the caller's node and context.
@@ -466,6 +469,8 @@ class Scheduler(EventQueue):
                 self._rounds = 0
                 if self._until is None:  # else it is asked before anything happens then
                     self._timed.take_due(due, self.ready)
+            elif self._remote_waits:
+                self._wait_for_event(None)
             elif self._root_waiter is not None and not self._root_waiter.done:
                 self._root_waiter.fail(ended(self._root_waiter.reason, self.waiting()))
             return

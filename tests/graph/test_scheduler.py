@@ -104,6 +104,29 @@ def test_the_main_program_is_told_when_nothing_can_wake_it() -> None:
         scheduler.waiter("an answer").wait()
 
 
+def test_a_wait_for_another_process_holds_no_simulated_time_and_is_no_end() -> None:
+    scheduler, seen = Scheduler(), []
+    start = scheduler.now_ns()
+    waiter = scheduler.waiter("an answer from afar", remote=True)
+
+    def answer() -> None:
+        threading.Thread(target=lambda: waiter.wake("hello"), name="afar").start()
+
+    scheduler.call_at(start + SECOND, lambda: seen.append(scheduler.now_ns() - start))
+    scheduler.call_at(start + 2 * SECOND, answer)
+    assert waiter.wait()  # time passes while it waits, and nothing but the answer is left in the end
+    assert (waiter.value, seen) == ("hello", [SECOND])
+
+
+def test_without_waits_for_another_process_the_queue_ends_again() -> None:
+    scheduler = Scheduler()
+    waiter = scheduler.waiter("an answer from afar", remote=True)
+    scheduler.call_soon(lambda: waiter.fail(ValueError("no answer")))
+    with pytest.raises(ValueError, match="no answer"):
+        waiter.wait()
+    assert scheduler.run().reason == "drained"
+
+
 def test_a_wait_times_out_and_the_waiter_can_be_used_again(scheduler: Scheduler) -> None:
     waiter = scheduler.waiter("a word")
     assert waiter.wait(SECOND) is False
