@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from typing import Self
 
     from .lanes import Waiter
+    from .master_port import MasterPort
     from .scheduler import Scheduler
     from .transport import Transport
 
@@ -34,10 +35,11 @@ class Graph(GraphCore):
         seed: what random numbers of this graph start from; see :meth:`rng`.
         strict: raise an exception that a callback lets out at the call that drives the graph; else log it, as ROS does.
         transports: each makes a transport from the scheduler, the preferred one first; in-process hand-over by default.
-        rosout: run the node ``/rosout``, which ``roscore`` starts.
+        rosout: run the node ``/rosout``, which ``roscore`` starts; a Master elsewhere has its own.
         log_dir: write a log file for each node, ``<log_dir>/<run_id>/<node>-<number>.log``; if not given, the folder
             that the environment variable ``ROS_LOG_DIR`` names, and no files if there is none. A graph writes its files
             anew.
+        master: makes the way to a Master elsewhere from the graph; by default the graph has its own in this process.
 
     Only the graph's creator drives it, with :meth:`run` or by any call that blocks.
 
@@ -55,15 +57,22 @@ class Graph(GraphCore):
         transports: Sequence[Callable[[Scheduler], Transport]] = (LocalTransport,),
         rosout: bool = True,
         log_dir: str | Path | None = None,
+        master: Callable[[Any], MasterPort] | None = None,
     ) -> None:
         super().__init__(
-            simulated=simulated, rate=rate, seed=seed, strict=strict, transports=transports, log_dir=log_dir
+            simulated=simulated,
+            rate=rate,
+            seed=seed,
+            strict=strict,
+            transports=transports,
+            log_dir=log_dir,
+            master=master,
         )
         self.scheduler.graph = self
         if self.notebook:
             self.scheduler.ask_driver = self._run_errand
         self._nodes_started = 0
-        if rosout:
+        if rosout and self.master.is_local:
             self._start_rosout()
 
     def __repr__(self) -> str:
@@ -129,6 +138,7 @@ class Graph(GraphCore):
             except Exception as error:  # what one node does at its end must not keep another up
                 problems.append(error)
         self.closing = False
+        self.notices.clear()
         for problem in problems[1:]:
             self.report(problem, None, raise_strict=False)
         if problems:

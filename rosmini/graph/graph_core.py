@@ -64,6 +64,7 @@ class GraphCore(ABC):
         strict: bool,
         transports: Sequence[Callable[[Scheduler], Transport]],
         log_dir: str | Path | None,
+        master: Callable[[Any], MasterPort] | None = None,
     ) -> None:
         self.scheduler = Scheduler(simulated=simulated, rate=rate)
         self.scheduler.on_error = self._lane_failed
@@ -73,10 +74,11 @@ class GraphCore(ABC):
         self.notebook = kernel_shell() is not None
         self.changes = Changes(self.scheduler)
         self.transport = Transports(self.scheduler, transports)
-        notices = Notices(
+        self.notices = Notices(
             self.scheduler, self.changes, self.transport.call, lambda error: self.report(error, None)
         )
-        self.master: MasterPort = Master(MASTER_URI, notices)
+        """What carries the notices of a Master in this process."""
+        self.master: MasterPort = Master(MASTER_URI, self.notices) if master is None else master(self)
         """The Master, or the way to it."""
         self.nodes: dict[str, Any] = {}
         """The nodes in this process, by name."""
@@ -86,10 +88,11 @@ class GraphCore(ABC):
         self.clock_class = message_class("rosgraph_msgs/Clock")
         self._live: Drive | None = None
         self._anonymous = AnonymousNames()
-        roscore = self.ask_as("/roscore")
-        for key, value in ROSCORE_PARAMETERS.items():
-            roscore.ask("setParam", key, value)
-        self.log_folder = log_folder(log_dir, ROSCORE_PARAMETERS["/run_id"])
+        if self.master.is_local:
+            roscore = self.ask_as("/roscore")
+            for key, value in ROSCORE_PARAMETERS.items():
+                roscore.ask("setParam", key, value)
+        self.log_folder = log_folder(log_dir, ROSCORE_PARAMETERS["/run_id"] if self.master.is_local else "")
         """Where the log files are, if there are any."""
 
     @property

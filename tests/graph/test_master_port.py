@@ -219,3 +219,25 @@ def test_a_change_during_a_slow_subscription_is_not_lost(graph: Graph, master: S
     node.run(lambda: first.append(node.on_param("/speed", heard.append)))
     graph.run(3.0)
     assert (first, heard) == ([1], [2])
+
+
+def test_a_graph_with_a_master_elsewhere_starts_nothing_of_roscore_s() -> None:
+    class Elsewhere(MasterPort):
+        uri = "http://robot:11311/"
+
+        def __init__(self, behind: MasterPort) -> None:
+            self.behind = behind
+            self.asked: list[tuple[Any, ...]] = []
+
+        def call(self, method: str, caller_id: str, *arguments: Any) -> list[Any]:
+            self.asked.append((method, caller_id, *arguments))
+            return self.behind.call(method, caller_id, *arguments)
+
+    with Graph() as home, Graph(master=lambda _: Elsewhere(home.master)) as graph:
+        assert graph.nodes == {}
+        port = graph.master
+        assert isinstance(port, Elsewhere)
+        assert port.asked == []
+        assert graph.master_uri == "http://robot:11311/"
+        graph.node("talker")
+        assert home.ask_as("/test").find("lookupNode", "/talker") == graph.nodes["/talker"].uri
