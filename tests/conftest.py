@@ -91,7 +91,7 @@ def book_html(shared_tmp: Path) -> Path:
     """The folder of the built book: built once in a run, whichever worker asks first."""
     from filelock import FileLock
 
-    from rosmini.book.build import build_book
+    from book.tools.build import build_book
 
     output = shared_tmp / "book"
     with FileLock(shared_tmp / "book.lock", timeout=240):

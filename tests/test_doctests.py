@@ -11,14 +11,7 @@ import pytest
 import rosmini
 
 FINDER = doctest.DocTestFinder(exclude_empty=True)
-WITHOUT = (
-    "rosmini.__main__",
-    "rosmini._assets",
-    "rosmini.cli.bench.actionlib_node",
-    "rosmini.cli.bench.rosbag_peer",
-    "rosmini.cli.bench.rospy_node",
-    "rosmini.book.sphinx_ext",
-)
+WITHOUT = ("rosmini.__main__", "rosmini._assets")
 
 
 def examples() -> list[doctest.DocTest]:

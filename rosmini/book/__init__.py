@@ -1,4 +1,4 @@
-"""What the notebooks and the book need beside the library: checks for exercises, the build, notebook hygiene."""
+"""What a chapter needs beside the library: exercises that check themselves."""
 
 from rosmini.book.checks import check
 

@@ -6,9 +6,9 @@ import argparse
 import os
 from importlib.util import find_spec
 
-from rosmini.book.build import has_display
-from rosmini.book.checkout import find_checkout
 from rosmini.errors import RosminiError
+
+from .checkout import find_checkout, has_display
 
 
 def port_number(text: str) -> int:

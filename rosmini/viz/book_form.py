@@ -11,7 +11,7 @@ BOOK = "book"
 def book_form() -> bool:
     """Whether outputs are made for the book: the environment has `ROSMINI_DISPLAY=book`.
 
-    `python -m rosmini.book.notebooks execute` and the tests set it for the kernels that they start, so committed
+    `python -m book.tools.notebooks execute` and the tests set it for the kernels that they start, so committed
     outputs hold small HTML that refers to the book's scripts. Anywhere else a view's HTML carries its scripts.
     """
     return os.environ.get(VARIABLE) == BOOK

@@ -7,7 +7,7 @@ import sys
 
 import nbformat
 
-from rosmini.book import notebooks
+from book.tools import notebooks
 
 from ..processes import run
 
@@ -40,7 +40,7 @@ def test_nbval_runs_notebooks_in_the_form_of_the_book_and_leaves_other_tests_alo
     environment = os.environ | {"ROSMINI_DISPLAY": "before"}
     done = {
         plugin: run([*command, *plugin, tmp_path], env=environment, cwd=tmp_path)
-        for plugin in [("-p", "rosmini.book.pytest_plugin"), ()]
+        for plugin in [("-p", "book.tools.pytest_plugin"), ()]
     }
     with_plugin, without = done.values()
     assert "2 passed" in with_plugin.stdout, with_plugin.stdout
@@ -48,7 +48,7 @@ def test_nbval_runs_notebooks_in_the_form_of_the_book_and_leaves_other_tests_alo
 
 
 def test_the_project_loads_the_plugin(pytestconfig):
-    assert pytestconfig.pluginmanager.has_plugin("rosmini.book.pytest_plugin")
+    assert pytestconfig.pluginmanager.has_plugin("book.tools.pytest_plugin")
 
 
 def test_execute_runs_a_notebook_in_the_form_of_the_book(tmp_path, monkeypatch):

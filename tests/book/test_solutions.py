@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from rosmini.book import solutions
-from rosmini.book.solutions import SolutionError
+from book.tools import solutions
+from book.tools.solutions import SolutionError
 
 TEXT = """<details>
 <summary>Solution to exercise 11.1</summary>

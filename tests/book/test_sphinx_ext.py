@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("sphinx")
 
-from rosmini.book.sphinx_ext import copy_viewer
+from book.tools.sphinx_ext import copy_viewer
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 
 PAGE = r"""# A page
@@ -55,7 +55,7 @@ def html(tmp_path_factory):
 
     source = tmp_path_factory.mktemp("source")
     (source / "conf.py").write_text(
-        "extensions = ['myst_nb', 'sphinx_thebe', 'rosmini.book.sphinx_ext']\n"
+        "extensions = ['myst_nb', 'sphinx_thebe', 'book.tools.sphinx_ext']\n"
         "html_math_renderer = 'mathml'\nmyst_enable_extensions = ['dollarmath']\nhtml_theme = 'sphinx_book_theme'\n"
         "thebe_config = {'always_load': False}\nhtml_context = {'default_mode': 'auto'}\n",
         encoding="utf-8",

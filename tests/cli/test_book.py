@@ -13,10 +13,10 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.book import build, checkout
-from rosmini.book.build import BookError, build_book, has_display
-from rosmini.book.checkout import NoCheckout, find_checkout
-from rosmini.cli import book, lab, main
+from book.tools import build
+from book.tools.build import BookError, build_book
+from rosmini.cli import book, checkout, lab, main
+from rosmini.cli.checkout import NoCheckout, find_checkout, has_display
 
 from ..processes import PATIENCE, free_port, listens, start, wait_until
 
@@ -31,7 +31,7 @@ def test_the_checkout_is_found_from_below(monkeypatch):
 def test_outside_of_a_checkout_the_command_says_where_it_looked(monkeypatch, tmp_path, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(
-        checkout, "__file__", str(tmp_path / "site-packages" / "rosmini" / "book" / "checkout.py")
+        checkout, "__file__", str(tmp_path / "site-packages" / "rosmini" / "cli" / "checkout.py")
     )
     with pytest.raises(NoCheckout):
         find_checkout()
@@ -46,7 +46,7 @@ def built(monkeypatch, tmp_path):
     """A build that takes no time, and the addresses that a browser was told to open."""
     opened: list[str] = []
     first = tmp_path / "index.html"
-    monkeypatch.setattr(book, "build_book", lambda *args, **options: first)
+    monkeypatch.setattr(build, "build_book", lambda *args, **options: first)
     monkeypatch.setattr(book.webbrowser, "open", lambda address: opened.append(address) or True)
     return first, opened
 
@@ -86,7 +86,7 @@ def test_what_counts_as_a_display(platform, environment, seen, monkeypatch):
         monkeypatch.delenv(name, raising=False)
     for name, value in environment.items():
         monkeypatch.setenv(name, value)
-    monkeypatch.setattr(build.sys, "platform", platform)
+    monkeypatch.setattr(checkout.sys, "platform", platform)
     assert has_display() is seen
 
 

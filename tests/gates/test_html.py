@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import yaml
 
-from rosmini.book.pages import page_problems, script_problems, site_problems
+from book.tools.pages import page_problems, script_problems, site_problems
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path, embed
 
 

@@ -9,7 +9,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from rosmini.book import notebooks, solutions
+from book.tools import notebooks, solutions
 
 from ..processes import run
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from rosmini.book import notebooks
+from book.tools import notebooks
 
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))

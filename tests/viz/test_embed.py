@@ -9,7 +9,7 @@ import re
 
 import pytest
 
-from rosmini.book.pages import page_problems
+from book.tools.pages import page_problems
 from rosmini.viz import ViewError
 from rosmini.viz import embed as module
 from rosmini.viz.book_form import book_form

@@ -7,7 +7,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from rosmini.book import notebooks
+from book.tools import notebooks
 
 from ...processes import run
 

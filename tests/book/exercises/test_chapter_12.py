@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import rosmini.rospy
-from rosmini.book import notebooks
+from book.tools import notebooks
 from rosmini.msgs import message_class
 
 from .conftest import figure_numbers, prose_of

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from book.tools import notebooks
 from rosmini.bag import Bag
-from rosmini.book import notebooks
 from rosmini.msgs import message_class
 from rosmini.scripts import ScriptSpec, run_scripts
 from rosmini.time import Time

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from book.tools import notebooks, solutions
 from rosmini import Graph, rosrun
-from rosmini.book import notebooks, solutions
 from rosmini.msgs import message_class
 from rosmini.sim.stage import load
 

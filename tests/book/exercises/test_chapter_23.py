@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from rosmini.book import notebooks
+from book.tools import notebooks
 from rosmini.cli.gz import TOOL
 from rosmini.markup import parse_file
 from rosmini.packages import PackageIndex

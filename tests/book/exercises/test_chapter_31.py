@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rosmini.book import notebooks
+from book.tools import notebooks
 
 from .conftest import figure_numbers
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.book import notebooks
+from book.tools import notebooks
 
 from .conftest import assert_figures_are_numbered, assert_scripts_print_what_is_shown
 

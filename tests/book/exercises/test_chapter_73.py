@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from defusedxml import ElementTree
 
-from rosmini.book import notebooks
+from book.tools import notebooks
 from rosmini.packages import assets_dir
 
 from ...interop.conftest import SYSTEM_PYTHON, need_ros

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.book import notebooks
+from book.tools import notebooks
 
 from .conftest import figure_numbers
 

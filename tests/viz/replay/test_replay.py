@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from rosmini.book.pages import page_problems
+from book.tools.pages import page_problems
 from rosmini.geometry.poses import arc
 from rosmini.geometry.raycast import raycast
 from rosmini.sim.models import BURGER, model

@@ -1,8 +1,8 @@
 """Notebook hygiene: what the stored form of a notebook may and may not contain.
 
-python -m rosmini.book.notebooks execute NOTEBOOK ...   run them and store their outputs, cleanly
-python -m rosmini.book.notebooks clean NOTEBOOK ...     take out what does not belong there
-python -m rosmini.book.notebooks check NOTEBOOK ...     say what is wrong; exit status 1 if anything is
+python -m book.tools.notebooks execute NOTEBOOK ...   run them and store their outputs, cleanly
+python -m book.tools.notebooks clean NOTEBOOK ...     take out what does not belong there
+python -m book.tools.notebooks check NOTEBOOK ...     say what is wrong; exit status 1 if anything is
 """
 
 from __future__ import annotations
@@ -207,7 +207,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """The command line of this module; 1 if a notebook has problems."""
     summary, _, usage = str(__doc__).partition("\n")
     parser = argparse.ArgumentParser(
-        prog="python -m rosmini.book.notebooks",
+        prog="python -m book.tools.notebooks",
         description=summary,
         epilog=usage,
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -17,7 +17,7 @@ from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.transforms import SphinxTransform
 
-from rosmini.book.pages import VIEWER_CALL
+from book.tools.pages import VIEWER_CALL
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 
 if TYPE_CHECKING:
