@@ -43,7 +43,7 @@ from .imports import Importer
 from .shims import copy_of
 from .shims.process import make_builtins_module
 from .shims.randomness import NumpyRandom
-from .shims.threads import Thread, Threads, script_classes
+from .shims.threads import Threads, script_classes
 from .stdin import Feed, ScriptInput
 from .streams import OutputSink, ScriptOutput
 from .ticks import TICK
@@ -427,10 +427,9 @@ class ScriptContext:
         self.importer.local.clear()
         self.importer.private.clear()
 
-    def thread_class(self) -> type[Thread]:
+    def thread_class(self) -> Any:
         """Return the script's ``threading.Thread``."""
-        cls: type[Thread] = self.thread_classes["Thread"]
-        return cls
+        return self.thread_classes["Thread"]
 
     def event_class(self) -> Any:
         """Return the script's ``threading.Event``."""

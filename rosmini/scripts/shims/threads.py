@@ -2,17 +2,22 @@
 
 In simulated time a thread is a lane of the graph: it runs when the others block, in the same order each time. In wall
 time it is a real thread that knows its script and node, so that what it calls in rospy works. Locks (see
-:mod:`rosmini.scripts.shims.locks`) work between all of them.
+:mod:`rosmini.scripts.shims.locks`) work between all of them. The classes that the standard library builds on locks are
+its own, executed for each script on these locks.
 """
 
 from __future__ import annotations
 
 import _thread as real_thread
+import ast
+import functools
+import inspect
 import itertools
 import sys
 import threading as real_threading
-from types import ModuleType, SimpleNamespace
-from typing import TYPE_CHECKING, Any, ClassVar
+from types import CodeType, ModuleType, SimpleNamespace
+from typing import TYPE_CHECKING, Any
+from weakref import WeakSet
 
 from rosmini.graph.lanes import LaneExit
 from rosmini.scripts.failures import user_traceback
@@ -20,42 +25,54 @@ from rosmini.scripts.failures import user_traceback
 from . import locks
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable
 
     from rosmini.graph.lanes import Lane
     from rosmini.scripts.script import Script
 
 
+_REUSED = (
+    "_RLock",
+    "Condition",
+    "Semaphore",
+    "BoundedSemaphore",
+    "BrokenBarrierError",
+    "Barrier",
+    "_newname",
+    "Thread",
+    "Timer",
+)
+"""What is taken from the source of the standard library's ``threading``."""
+
+
 class Threads:
-    """The threads of one script: who is who."""
+    """The threads of one script, by lane."""
 
     def __init__(self, context: Script) -> None:
         self.context = context
-        self.by_lane: dict[Lane, Thread] = {}
+        self.by_lane: dict[Lane, LaneThread] = {}
         self.idents = itertools.count(1)
         self.names = itertools.count(1)
         self.excepthook: Callable[[Any], object] = self.report
         self.at_end: list[Callable[[], object]] = []
-        self.main: Thread | None = None
+        self.main: LaneThread | None = None
         self.trace: Any = None
 
-    def current(self) -> Thread:
-        """Return the thread of the caller; callbacks, which rospy runs, get one on first asking."""
+    def current(self) -> LaneThread:
+        """Return the thread of the caller; a callback, which rospy runs, gets one when it first asks."""
         lane = self.context.scheduler.current()
         thread = self.by_lane.get(lane)
         if thread is None:
             thread = self.foreign(lane)
         return thread
 
-    def foreign(self, lane: Lane) -> Thread:
+    def foreign(self, lane: Lane) -> LaneThread:
         """Make a thread object for a lane that the script did not start."""
-        cls = self.context.thread_class()
-        thread: Thread = cls.__new__(cls)
-        Thread.__init__(thread, name=f"Dummy-{next(self.names)}", daemon=True)
+        thread: LaneThread = self.context.thread_class()(name=f"Dummy-{next(self.names)}", daemon=True)
         thread.adopt(lane, next(self.idents))
         return thread
 
-    def alive(self) -> list[Thread]:
+    def alive(self) -> list[LaneThread]:
         """The threads that run, the main one first."""
         return [thread for thread in self.by_lane.values() if thread.is_alive()]
 
@@ -68,154 +85,102 @@ class Threads:
         self.context.get_own("stderr").write(f"Exception in thread {name}:\n{text}")
 
 
-class Thread(locks.ForScript):
-    """``threading.Thread``."""
+class LaneThread(locks.ForScript):
+    """What is different in a script's ``threading.Thread``: how it starts, runs and ends."""
 
-    _started_waiters: ClassVar[None] = None
+    # Set by the standard library's ``Thread.__init__``.
+    _initialized: bool
+    _started: locks.Event
+    _ident: int | None
+    name: str
+    daemon: bool
+    run: Callable[[], None]
 
-    def __init__(
-        self,
-        group: None = None,
-        target: Callable[..., object] | None = None,
-        name: str | None = None,
-        args: Iterable[Any] = (),
-        kwargs: Mapping[str, Any] | None = None,
-        *,
-        daemon: bool | None = None,
-        context: Any = None,
-    ) -> None:
-        if group is not None:
-            raise AssertionError("group argument must be None for now")
-        threads = self._script.threads
-        self._target = target
-        self._args = tuple(args)
-        self._kwargs = dict(kwargs or {})
-        if name is None:
-            suffix = f" ({target.__name__})" if target is not None and hasattr(target, "__name__") else ""
-            name = f"Thread-{next(threads.names)}{suffix}"
-        self._name = str(name)
-        self._run_context = context
-        self._daemonic = (
-            bool(threads.current().daemon) if daemon is None and threads.main is not None else bool(daemon)
-        )
-        self._ident: int | None = None
-        self._lane: Lane | None = None
-        self._real: real_threading.Thread | None = None
-        self._ended = self._script.event_class()()
-
-    # -- what a user sees ----------------------------------------------------------------------------------------
-
-    def run(self) -> None:
-        """Call the target; subclasses override it."""
-        try:
-            if self._target is not None:
-                self._target(*self._args, **self._kwargs)
-        finally:
-            del self._target, self._args, self._kwargs
+    _ended: locks.Event
+    _lane: Lane | None = None
+    _real: real_threading.Thread | None = None
 
     def start(self) -> None:
         """Begin to run."""
-        if not hasattr(self, "_ended"):
+        if not self._initialized:
             raise RuntimeError("thread.__init__() not called")
-        if self._ident is not None:
+        if self._started.is_set():
             raise RuntimeError("threads can only be started once")
         script = self._script
         if script.ended:
             raise RuntimeError("can't create new thread at interpreter shutdown")
-        self._ident = next(script.threads.idents)
+        ident = next(script.threads.idents)
+        name = f"{script.name}/{self.name}"
         if script.scheduler.simulated:
-            lane = script.scheduler.spawn(
-                f"{script.name}/{self._name}", node=script.node, context=script, on_error=script.lane_failed
-            )
-            self.adopt(lane, self._ident)
+            lane = script.scheduler.spawn(name, node=script.node, context=script, on_error=script.lane_failed)
+            self.adopt(lane, ident)
             lane.on_exit = self._over
             lane.submit(self._bootstrap)
             return
         started = real_threading.Event()
         # Real ones are daemons: the end of the script waits for them, the end of the host's process does not.
         self._real = real_threading.Thread(
-            target=self._run_really, args=(started,), name=f"{script.name}/{self._name}", daemon=True
+            target=self._run_really, args=(name, ident, started), name=name, daemon=True
         )
         self._real.start()
         started.wait()
 
     def join(self, timeout: float | None = None) -> None:
         """Wait until the thread has ended, for at most ``timeout`` seconds."""
-        if self._ident is None:
+        if not self._started.is_set():
             raise RuntimeError("cannot join thread before it is started")
         if self is self._script.threads.current():
             raise RuntimeError("cannot join current thread")
         self._ended.wait(timeout)
 
     def is_alive(self) -> bool:
-        """Tell whether it was started and has not ended."""
-        return self._ident is not None and not self._ended.is_set()
+        """Return whether it was started and has not ended."""
+        return self._started.is_set() and not self._ended.is_set()
 
     isAlive = is_alive  # Python 2's name, in many public scripts
 
     @property
-    def name(self) -> str:
-        """A name, for people."""
-        return self._name
-
-    @name.setter
-    def name(self, name: str) -> None:
-        self._name = str(name)
-
-    @property
-    def ident(self) -> int | None:
-        """A number, the same on each run in simulated time; None before the start."""
-        return self._ident
-
-    @property
     def native_id(self) -> int | None:
-        """The number of the real thread if there is one, else :attr:`ident`."""
+        """The number of the real thread if there is one, else its ``ident``."""
         return self._real.native_id if self._real is not None else self._ident
 
-    @property
-    def daemon(self) -> bool:
-        """Whether the end of the script ends it."""
-        return self._daemonic
-
-    @daemon.setter
-    def daemon(self, daemonic: bool) -> None:
-        if self._ident is not None:
-            raise RuntimeError("cannot set daemon status of active thread")
-        self._daemonic = bool(daemonic)
+    # Without the warnings that these names are deprecated: public scripts are full of them.
 
     def isDaemon(self) -> bool:
-        """Return :attr:`daemon`."""
+        """Return ``daemon``."""
         return self.daemon
 
     def setDaemon(self, daemonic: bool) -> None:
-        """Set :attr:`daemon`."""
+        """Set ``daemon``."""
         self.daemon = daemonic
 
     def getName(self) -> str:
-        """Return :attr:`name`."""
+        """Return ``name``."""
         return self.name
 
     def setName(self, name: str) -> None:
-        """Set :attr:`name`."""
+        """Set ``name``."""
         self.name = name
 
     def __repr__(self) -> str:
-        state = "initial" if self._ident is None else "started" if self.is_alive() else "stopped"
-        return f"<{type(self).__name__}({self._name}, {state}{' daemon' if self._daemonic else ''})>"
+        state = "initial" if not self._started.is_set() else "started" if self.is_alive() else "stopped"
+        return f"<{type(self).__name__}({self.name}, {state}{' daemon' if self.daemon else ''})>"
 
     # -- running -------------------------------------------------------------------------------------------------
 
     def adopt(self, lane: Lane, ident: int) -> None:
-        """Be the thread of ``lane``."""
+        """Become the thread of ``lane``."""
         self._lane = lane
         self._ident = ident
+        self._ended = self._script.event_class()()
         self._script.threads.by_lane[lane] = self
+        self._started.set()
 
-    def _run_really(self, started: real_threading.Event) -> None:
+    def _run_really(self, name: str, ident: int, started: real_threading.Event) -> None:
         script = self._script
-        lane = script.scheduler.adopt_thread(f"{script.name}/{self._name}", node=script.node, context=script)
+        lane = script.scheduler.adopt_thread(name, node=script.node, context=script)
         try:
-            self.adopt(lane, self._ident or 0)
+            self.adopt(lane, ident)
             started.set()
             self._bootstrap()
         except LaneExit:
@@ -229,8 +194,9 @@ class Thread(locks.ForScript):
         try:
             if threads.trace is not None:
                 sys.settrace(threads.trace)
-            if self._run_context is not None:
-                self._run_context.run(self.run)
+            context = getattr(self, "_context", None)  # since Python 3.14
+            if context is not None:
+                context.run(self.run)
             else:
                 self.run()
         except LaneExit:
@@ -252,7 +218,7 @@ class Thread(locks.ForScript):
 
     @property
     def busy(self) -> bool:
-        """Whether it may still run code of the script: false for a callback's between two calls."""
+        """Whether it may still run code of the script: false between two calls of a callback."""
         return self.is_alive() and (
             self._real is not None or (self._lane is not None and not self._lane.idle)
         )
@@ -261,35 +227,6 @@ class Thread(locks.ForScript):
         """Ask it to end where it blocks: the script is over."""
         if self._real is None and self._lane is not None:
             self._lane.kill()
-
-
-class Timer(Thread):
-    """``threading.Timer``."""
-
-    def __init__(
-        self,
-        interval: float,
-        function: Callable[..., object],
-        args: Iterable[Any] | None = None,
-        kwargs: Mapping[str, Any] | None = None,
-    ) -> None:
-        super().__init__()
-        self.interval = interval
-        self.function = function
-        self.args = list(args or ())
-        self.kwargs = dict(kwargs or {})
-        self.finished = self._script.event_class()()
-
-    def cancel(self) -> None:
-        """Do not call."""
-        self.finished.set()
-
-    def run(self) -> None:
-        """Wait, then call."""
-        self.finished.wait(self.interval)
-        if not self.finished.is_set():
-            self.function(*self.args, **self.kwargs)
-        self.finished.set()
 
 
 class _Threading(ModuleType):
@@ -312,30 +249,52 @@ class _Threading(ModuleType):
         super().__setattr__(name, value)
 
 
-def script_classes(context: Script) -> dict[str, type]:
-    """Make the subclasses of one script."""
+@functools.cache
+def _definitions() -> dict[str, CodeType]:
+    """Compile, one by one, what is reused of the standard library's ``threading``.
 
-    def own(base: type, **more: object) -> type:
-        return type(base.__name__, (base,), {"_script": context, "__module__": "threading", **more})
+    They count as part of this file, so that a user's traceback leaves them out.
+    """
+    return {
+        node.name: compile(ast.Module([node], []), __file__, "exec")
+        for node in ast.parse(inspect.getsource(real_threading)).body
+        if isinstance(node, ast.ClassDef | ast.FunctionDef) and node.name in _REUSED
+    }
+
+
+def script_classes(context: Script) -> dict[str, type]:
+    """Make the classes of one script's ``threading``."""
+
+    def own(*bases: type, **more: object) -> type:
+        members = {"_script": context, "__module__": "threading", **more}
+        return type(bases[-1].__name__, bases, members)
 
     lock = own(locks.Lock)
-    rlock = own(locks.RLock, _lock_class=lock)
-    condition = own(locks.Condition, _lock_class=rlock)
-    parts = {"_condition_class": condition, "_lock_class": lock}
-    semaphore = own(locks.Semaphore, **parts)
-    thread = own(Thread)
-    return {
+    scheduler = context.scheduler
+    names: dict[str, Any] = {
+        **vars(real_threading),
         "Lock": lock,
-        "RLock": rlock,
-        "Condition": condition,
+        "_allocate_lock": lock,
         "Event": own(locks.Event),
-        "Semaphore": semaphore,
-        "BoundedSemaphore": own(locks.BoundedSemaphore, **parts),
-        "Barrier": own(locks.Barrier, **parts),
-        "Thread": thread,
-        # So that `issubclass(Timer, Thread)` holds as in the standard library.
-        "Timer": type("Timer", (Timer, thread), {"_script": context, "__module__": "threading"}),
+        "_time": lambda: scheduler.now_ns() / 1e9,
+        "get_ident": scheduler.current,  # a lane stands for itself
+        "current_thread": context.threads.current,
+        "_counter": lambda: next(context.threads.names),
+        "_dangling": WeakSet(),
     }
+    for name in _REUSED:
+        # In reports, a lane that waits for a notification does not wait for a lock.
+        other = {"_allocate_lock": own(locks.Lock, _reason="a condition")} if name == "Condition" else {}
+        namespace = {**names, **other} if other else names
+        exec(_definitions()[name], namespace)  # noqa: S102 - the standard library's own code
+        names[name] = namespace[name]
+        if name == "_RLock":
+            names["RLock"] = names[name]
+        elif name == "Condition":
+            names[name].notifyAll = names[name].notify_all  # without the warning that it is deprecated
+        elif name == "Thread":
+            names[name] = own(LaneThread, names[name])
+    return {name: names[name] for name in ("Lock", "RLock", "Event", *_REUSED) if name[0] != "_"}
 
 
 def make_threading(context: Script) -> ModuleType:
@@ -366,7 +325,6 @@ def make_threading(context: Script) -> ModuleType:
         ),
         "TIMEOUT_MAX": real_threading.TIMEOUT_MAX,
         "ThreadError": RuntimeError,
-        "BrokenBarrierError": locks.BrokenBarrierError,
         "ExceptHookArgs": SimpleNamespace,
         "__excepthook__": threads.report,
     }
