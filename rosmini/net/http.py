@@ -1,0 +1,65 @@
+"""Whole messages of HTTP over asyncio's streams, parsed by h11, for the two ends of XML-RPC."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import h11
+
+from rosmini.errors import TransportException
+
+if TYPE_CHECKING:
+    import asyncio
+
+HEAD_LIMIT = 64 * 1024
+"""The longest start line with header fields, in bytes."""
+
+BODY_LIMIT = 64 * 1024 * 1024
+"""The longest document, in bytes: a map of the world as a parameter still fits."""
+
+CHUNK = 64 * 1024
+
+
+async def read_message(
+    connection: h11.Connection, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
+) -> tuple[h11.Request | h11.Response, bytes] | None:
+    """Return the next message and its body; None when the peer closed the connection before it began.
+
+    Raises ``TransportException`` for a body over the limit, and ``h11.RemoteProtocolError`` for what is no HTTP.
+    """
+    head: h11.Request | h11.Response | None = None
+    body = bytearray()
+    while True:
+        event = connection.next_event()
+        if event is h11.NEED_DATA:
+            if connection.they_are_waiting_for_100_continue:
+                go_on = connection.send(h11.InformationalResponse(status_code=100, headers=[]))
+                writer.write(go_on or b"")
+            connection.receive_data(await reader.read(CHUNK))
+        elif isinstance(event, h11.Request | h11.Response):
+            head = event
+            _check(next((int(value) for key, value in event.headers if key == b"content-length"), 0))
+        elif isinstance(event, h11.Data):
+            body += event.data
+            _check(len(body))
+        elif isinstance(event, h11.EndOfMessage) and head is not None:
+            return head, bytes(body)
+        elif isinstance(event, h11.ConnectionClosed) or event is h11.PAUSED:
+            return None
+
+
+def _check(length: int) -> None:
+    if length > BODY_LIMIT:
+        msg = f"a document of {length} bytes is too long: at most {BODY_LIMIT} are taken"
+        raise TransportException(msg)
+
+
+def write_message(
+    connection: h11.Connection,
+    writer: asyncio.StreamWriter,
+    head: h11.Request | h11.Response,
+    body: bytes,
+) -> None:
+    """Write a message whose head says how long the body is."""
+    parts = [connection.send(head), connection.send(h11.Data(data=body)), connection.send(h11.EndOfMessage())]
+    writer.write(b"".join(part for part in parts if part))

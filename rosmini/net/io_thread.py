@@ -1,0 +1,146 @@
+"""The one thread of a process that reads from and writes to the network: an asyncio loop.
+
+What it learns enters a graph through the scheduler's inbox; what a graph wants of it comes through
+:meth:`IoThread.call` and :meth:`IoThread.start`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+from rosmini.errors import TransportException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine
+    from concurrent.futures import Future
+
+    from rosmini.graph.scheduler import Scheduler
+
+T = TypeVar("T")
+
+LEAVE_S = 2.0
+"""How long ending may take."""
+
+
+class IoThread:
+    """Starts when it is first needed. After :meth:`close` it can be used again, with a new loop."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._thread: threading.Thread | None = None
+        self.closers: dict[Callable[[], object], None] = {}
+        """Called once in the loop's thread when it ends: they close what they have open. Change it there only."""
+
+    @property
+    def loop(self) -> asyncio.AbstractEventLoop:
+        """The running loop."""
+        with self._lock:
+            if self._loop is None:
+                self._loop = loop = asyncio.SelectorEventLoop()  # also where Windows would take another
+                self._thread = threading.Thread(
+                    target=_run, args=(loop, self.closers), name="rosmini-net", daemon=True
+                )
+                self._thread.start()
+            return self._loop
+
+    @property
+    def runs(self) -> bool:
+        """True between the first use and :meth:`close`."""
+        return self._loop is not None
+
+    def call(self, function: Callable[..., object], *arguments: Any) -> None:
+        """Call a function in the loop's thread soon. From any thread."""
+        self.loop.call_soon_threadsafe(function, *arguments)
+
+    def start(self, coroutine: Coroutine[Any, Any, T]) -> Future[T]:
+        """Run a coroutine in the loop's thread. From any thread."""
+        return asyncio.run_coroutine_threadsafe(coroutine, self.loop)
+
+    def ask(self, scheduler: Scheduler, coroutine: Coroutine[Any, Any, T], reason: str) -> T:
+        """Return the result of a coroutine; the calling lane is parked, and simulated time goes on meanwhile.
+
+        Raises what the coroutine raises, and ``TransportException`` when the network is closed meanwhile.
+        """
+        waiter = scheduler.waiter(reason, remote=True)
+        future = self.start(coroutine)
+        future.add_done_callback(lambda done: _pass_on(done, waiter))
+        try:
+            waiter.wait()
+        finally:
+            future.cancel()
+        return cast("T", waiter.value)
+
+    def on_hub(self, scheduler: Scheduler, function: Callable[[], T]) -> asyncio.Future[T]:
+        """Return the future result of a function that is called in the hub's thread. Only in the loop's thread."""
+        loop = asyncio.get_running_loop()
+        result: asyncio.Future[T] = loop.create_future()
+
+        def settle(value: Any, error: Exception | None) -> None:
+            if result.done():
+                return
+            if error is None:
+                result.set_result(value)
+            else:
+                result.set_exception(error)
+
+        def work() -> None:
+            try:
+                answer: tuple[Any, Exception | None] = (function(), None)
+            except Exception as error:
+                answer = (None, error)
+            if not loop.is_closed():
+                loop.call_soon_threadsafe(settle, *answer)
+
+        scheduler.call_soon_threadsafe(work)
+        return result
+
+    def close(self) -> None:
+        """End everything that runs in the loop, and the thread; it takes two seconds at most."""
+        with self._lock:
+            loop, self._loop = self._loop, None
+            thread, self._thread = self._thread, None
+        if loop is not None and thread is not None:
+            loop.call_soon_threadsafe(loop.stop)
+            thread.join(LEAVE_S)
+
+
+def _pass_on(done: Future[Any], waiter: Any) -> None:
+    if done.cancelled():
+        waiter.fail(TransportException("the network of this graph was closed"))
+    elif (error := done.exception()) is not None:
+        waiter.fail(error)
+    else:
+        waiter.wake(done.result())
+
+
+def _run(loop: asyncio.AbstractEventLoop, closers: dict[Callable[[], object], None]) -> None:
+    """Run the loop until it is stopped; then close what is open and end its tasks."""
+    asyncio.set_event_loop(loop)
+    try:
+        loop.run_forever()
+    finally:
+        loop.run_until_complete(_end(closers))
+        asyncio.set_event_loop(None)
+        loop.close()
+
+
+async def _end(closers: dict[Callable[[], object], None]) -> None:
+    for closer in list(closers):
+        closer()
+    closers.clear()
+    tasks = asyncio.all_tasks() - {asyncio.current_task()}
+    for task in tasks:
+        task.cancel()
+    if tasks:
+        await asyncio.wait(tasks, timeout=LEAVE_S / 2)
+    for _ in range(3):  # what they closed is closed some turns later
+        await asyncio.sleep(0)
+
+
+def later(loop: asyncio.AbstractEventLoop, seconds: float, function: Callable[[], object]) -> None:
+    """Call a function in the loop's thread after some seconds on the wall. From any thread."""
+    loop.call_soon_threadsafe(partial(loop.call_later, seconds, function))

@@ -1,0 +1,105 @@
+"""Sockets that listen and sockets that are connected, with errors that say what to do."""
+
+from __future__ import annotations
+
+import asyncio
+import ipaddress
+import os
+import socket
+import sys
+import threading
+from typing import Any
+
+from rosmini.errors import TransportException
+
+BACKLOG = 128
+
+Address = tuple[socket.AddressFamily, Any]
+"""A family, and what ``socket.connect`` takes."""
+
+
+def listen(bind: str, port: int) -> socket.socket:
+    """Return a socket that listens at an address of this machine.
+
+    Raises ``OSError``: the port is in use, for instance.
+    """
+    family = socket.AF_INET6 if ":" in bind else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    try:
+        if sys.platform != "win32":  # there it would let a second process listen at the same port
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind((bind, port))
+        listener.listen(BACKLOG)
+        listener.setblocking(False)
+    except OSError:
+        listener.close()
+        raise
+    return listener
+
+
+def literal(host: str, port: int) -> Address | None:
+    """Return the address that needs no look-up, or None."""
+    try:
+        number = ipaddress.ip_address("127.0.0.1" if host == "localhost" else host)
+    except ValueError:
+        return None
+    return (socket.AF_INET if number.version == 4 else socket.AF_INET6, (str(number), port))
+
+
+async def resolve(host: str, port: int) -> Address:
+    """Return the address of a host; names are looked up in a thread of their own, which may take its time.
+
+    Raises ``TransportException`` for a name that does not resolve.
+    """
+    found = literal(host, port)
+    if found is not None:
+        return found
+    loop = asyncio.get_running_loop()
+    answer: asyncio.Future[Address] = loop.create_future()
+
+    def settle(address: Address | None, error: OSError | UnicodeError | None) -> None:
+        if answer.done():
+            return
+        if address is not None:
+            answer.set_result(address)
+            return
+        problem = TransportException(
+            f"the host name {host!r} does not resolve on this machine ({error}): add it to /etc/hosts here, or set "
+            "ROS_IP or ROS_HOSTNAME, on the machine that calls itself so, to an address that others reach"
+        )
+        problem.__cause__ = error
+        answer.set_exception(problem)
+
+    def look_up() -> None:
+        found: tuple[Address | None, OSError | UnicodeError | None]
+        try:
+            family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+            found = ((family, address), None)
+        except (OSError, UnicodeError) as error:
+            found = (None, error)
+        if not loop.is_closed():
+            loop.call_soon_threadsafe(settle, *found)
+
+    threading.Thread(target=look_up, name=f"rosmini-resolver {host}", daemon=True).start()
+    return await answer
+
+
+async def connect(host: str, port: int) -> socket.socket:
+    """Return a connected, non-blocking socket.
+
+    Raises ``TransportException`` when nobody listens there, or the name or the way there is not known.
+    """
+    family, address = await resolve(host, port)
+    made = socket.socket(family, socket.SOCK_STREAM)
+    try:
+        made.setblocking(False)
+        made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        await asyncio.get_running_loop().sock_connect(made, address)
+    except OSError as error:
+        made.close()
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise TransportException(f"nobody can be reached at {host}:{port}: {reason}") from error
+    except BaseException:
+        made.close()
+        raise
+    return made

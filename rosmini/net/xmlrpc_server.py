@@ -1,0 +1,127 @@
+"""A server of XML-RPC: the Master's API, the Parameter Server's, and each node's slave API."""
+
+from __future__ import annotations
+
+import asyncio
+import inspect
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+import h11
+
+from rosmini.errors import TransportException
+
+from .http import HEAD_LIMIT, read_message, write_message
+from .sockets import listen
+from .xmlrpc_text import XmlRpcFault, decode, encode_answer, encode_fault
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
+    from .io_thread import IoThread
+
+    Handler = Callable[[str, tuple[Any, ...]], Any | Awaitable[Any]]
+
+IDLE_S = 300.0
+"""How long a connection may be silent before it is closed."""
+
+
+class XmlRpcServer:
+    """Answers calls at a port of this machine, from when it is made.
+
+    Args:
+        io: the thread that reads and writes.
+        handler: called in that thread with a method's name and the arguments; returns the value, or what has to be
+            awaited for it. It must not block. An :class:`XmlRpcFault` that it raises is answered as such, any other
+            exception as fault 1, as rospy does.
+        bind: the address at which to listen; "" or "0.0.0.0": all of the machine's.
+        port: 0 for any that is free.
+
+    Raises ``OSError`` at once when the port is in use or the address is not the machine's.
+
+    """
+
+    def __init__(self, io: IoThread, handler: Handler, *, bind: str = "127.0.0.1", port: int = 0) -> None:
+        self._handler = handler
+        self._io = io
+        self._socket = listen(bind, port)
+        self.port: int = self._socket.getsockname()[1]
+        self._server: asyncio.Server | None = None
+        self._writers: set[asyncio.StreamWriter] = set()
+        self._closed = False
+        io.start(self._begin())
+
+    async def _begin(self) -> None:
+        self._io.closers[self._end] = None
+        if not self._closed:
+            self._server = await asyncio.start_server(self._serve, sock=self._socket)
+
+    def close(self) -> None:
+        """Stop listening, and close all connections. From any thread; harmless when repeated."""
+        if not self._closed:
+            self._closed = True
+            if self._io.runs:
+                self._io.call(self._end)
+
+    def _end(self) -> None:
+        self._io.closers.pop(self._end, None)
+        if self._server is not None:
+            self._server.close()
+        self._socket.close()
+        for writer in self._writers:
+            writer.close()
+
+    async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        """Answer the calls of one connection, one after another."""
+        self._writers.add(writer)
+        connection = h11.Connection(h11.SERVER, max_incomplete_event_size=HEAD_LIMIT)
+        try:
+            with suppress(OSError, TimeoutError):
+                while await self._serve_one(connection, reader, writer):
+                    connection.start_next_cycle()
+        finally:
+            self._writers.discard(writer)
+            writer.close()
+
+    async def _serve_one(
+        self, connection: h11.Connection, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
+    ) -> bool:
+        """Answer the next call; return whether a further one may come."""
+        try:
+            async with asyncio.timeout(IDLE_S):
+                message = await read_message(connection, reader, writer)
+            if message is None:
+                return False
+            head, body = message
+            status, answer = 200, b""
+            if isinstance(head, h11.Request) and head.method == b"POST":
+                answer = await self._answer(body)
+            else:
+                status = 501
+        except (h11.RemoteProtocolError, TransportException) as error:
+            if connection.our_state is h11.ERROR:
+                return False
+            status, answer = 400, str(error).encode()
+        fields = [
+            ("Server", "rosmini"),
+            ("Content-Type", "text/xml" if status == 200 else "text/plain"),
+            ("Content-Length", str(len(answer))),
+            *([] if status == 200 else [("Connection", "close")]),
+        ]
+        write_message(connection, writer, h11.Response(status_code=status, headers=fields), answer)
+        await writer.drain()
+        return connection.our_state is h11.DONE and connection.their_state is h11.DONE
+
+    async def _answer(self, body: bytes) -> bytes:
+        arguments, method = decode(body)
+        if method is None:
+            raise TransportException("the document is no call: it names no method")
+        try:
+            value = self._handler(method, arguments)
+            if inspect.isawaitable(value):
+                value = await value
+            return encode_answer(value)
+        except XmlRpcFault as fault:
+            return encode_fault(fault.code, fault.text)
+        except Exception as error:
+            return encode_fault(1, f"{type(error)}:{error}")
