@@ -27,17 +27,6 @@ from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPa
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-__all__ = [
-    "NODES_GROUP",
-    "Executable",
-    "InterfaceFiles",
-    "Package",
-    "PackageIndex",
-    "assets_dir",
-    "package_around",
-    "search_paths",
-]
-
 NODES_GROUP = "rosmini.nodes"
 """The entry-point group of built-in nodes; a name in it is ``package/executable``."""
 

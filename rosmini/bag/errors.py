@@ -14,21 +14,6 @@ from rosmini.errors import RosminiError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = [
-    "BagFull",
-    "BagTypeChanged",
-    "DamagedIndex",
-    "FilterError",
-    "NotOpenForWriting",
-    "ROSBagEncryptException",
-    "ROSBagEncryptNotSupportedException",
-    "ROSBagException",
-    "ROSBagFormatException",
-    "ROSBagUnindexedException",
-    "UnknownCompression",
-    "in_file",
-]
-
 
 class ROSBagException(RosminiError):
     """The base of all errors about bags."""

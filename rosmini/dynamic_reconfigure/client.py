@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from rosmini.graph import Node, Waiter
 
-__all__ = ["Client"]
-
 _TRUE = ("yes", "true", "t", "1")
 _PATIENCE = 1.0
 """After how many seconds a client that waits for ever says what it waits for."""

@@ -20,8 +20,6 @@ from .errors import DynamicReconfigureParameterException
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-__all__ = ["KINDS", "Description", "ParameterGroup", "ReconfigurableParameter", "cast_value"]
-
 KINDS: dict[str, type] = {"bool": bool, "int": int, "str": str, "double": float}
 """dynamic_reconfigure's names of types, and Python's types."""
 

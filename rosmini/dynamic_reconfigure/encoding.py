@@ -12,16 +12,6 @@ from .errors import DynamicReconfigureParameterException
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-__all__ = [
-    "Config",
-    "decode_description",
-    "decode_values",
-    "encode_description",
-    "encode_values",
-    "group_states",
-    "group_tree",
-]
-
 _LISTS = {"bool": "bools", "int": "ints", "str": "strs", "double": "doubles"}
 _CLASSES = {
     "bool": "BoolParameter",

@@ -4,12 +4,6 @@ from __future__ import annotations
 
 from rosmini.errors import RosminiError
 
-__all__ = [
-    "DynamicReconfigureCallbackException",
-    "DynamicReconfigureException",
-    "DynamicReconfigureParameterException",
-]
-
 
 class DynamicReconfigureException(RosminiError):
     """The base of the others."""

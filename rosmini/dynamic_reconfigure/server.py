@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from rosmini.graph import Node, Waiter
     from rosmini.graph.lanes import Lane
 
-__all__ = ["Server"]
-
 _ALL_LEVELS = -1
 """The level of the first call: all bits are set."""
 

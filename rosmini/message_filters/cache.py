@@ -12,8 +12,6 @@ from .filters import SimpleFilter, StampingFilter
 if TYPE_CHECKING:
     from rosmini.graph import Node
 
-__all__ = ["Cache"]
-
 
 class Cache(StampingFilter):
     """Keeps the last ``cache_size`` messages of the filter ``f``, in the order of their arrival, and passes each on.

@@ -6,8 +6,6 @@ from typing import Any
 
 from rosmini.errors import RosminiError
 
-__all__ = ["MessageFilterError", "check_size"]
-
 
 class MessageFilterError(RosminiError, ValueError):
     """A filter was given a size, a span of time or a message that it cannot work with."""

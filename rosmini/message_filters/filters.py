@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from rosmini.graph import Node
     from rosmini.time import Time
 
-__all__ = ["SimpleFilter", "StampingFilter", "Subscriber"]
-
 
 class SimpleFilter:
     """Something with output, for which callbacks are registered. Derived ones call ``signalMessage``."""

@@ -16,8 +16,6 @@ from .errors import MessageFilterError, check_size
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["ApproximateTime", "ExactTime", "Policy"]
-
 Queue = dict[int, Any]
 """Messages that wait for their partners, by stamp, in the order in which their stamps arrived."""
 

@@ -13,8 +13,6 @@ from .filters import SimpleFilter, StampingFilter
 if TYPE_CHECKING:
     from rosmini.graph import Node
 
-__all__ = ["TimeSequencer"]
-
 
 class TimeSequencer(StampingFilter):
     """Passes on the messages of ``f`` in the order of their stamps, each at least ``delay`` seconds after its stamp.

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from rosmini.graph import Node
 
-__all__ = ["ApproximateTimeSynchronizer", "TimeSynchronizer"]
-
 
 class StampedQueue(MutableMapping[Time, Any]):
     """The messages of one input that wait for partners, by stamp: the policy's queue under the keys of ROS's client."""

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from .contract import MessageContract
 
-__all__ = ["complete", "set_slots"]
-
 
 def set_slots(message: Any, args: tuple[Any, ...], kwds: dict[str, Any]) -> None:
     """Set all fields, by position or by keyword, those not given to None. Raises as genpy's constructor does."""

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from .definition import MessageSpec
     from .message import Message
 
-__all__ = ["define_action", "define_message", "define_service"]
-
 
 def define_message(name: str, text: str) -> type[Any]:
     """The class of the message type "package/Type" with the ``.msg`` text ``text`` (http://wiki.ros.org/msg).

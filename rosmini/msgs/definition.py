@@ -20,23 +20,6 @@ from rosmini.errors import DefinitionError, nearest, shown
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = [
-    "ACTION_SUFFIXES",
-    "BUILTIN_TYPES",
-    "BYTES",
-    "FORMATS",
-    "INTEGER_RANGES",
-    "NUMBERS",
-    "Constant",
-    "Field",
-    "MessageSpec",
-    "ServiceSpec",
-    "is_type_name",
-    "parse_message",
-    "parse_service",
-    "split_action",
-]
-
 INTEGER_RANGES: dict[str, tuple[int, int]] = {
     **{f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (8, 16, 32, 64)},
     **{f"uint{bits}": (0, 2**bits - 1) for bits in (8, 16, 32, 64)},

@@ -25,18 +25,6 @@ if TYPE_CHECKING:
     from .contract import MessageContract
     from .definition import Field
 
-__all__ = [
-    "DTYPES",
-    "ERRORS",
-    "array_freezer",
-    "as_bool",
-    "check",
-    "check_field",
-    "checked_text",
-    "explain",
-    "freeze_bytes",
-]
-
 # What a wrong value can raise in generated code; AttributeError: None or a number where a message belongs.
 ERRORS = (struct.error, TypeError, ValueError, OverflowError, AttributeError, SerializationError)
 

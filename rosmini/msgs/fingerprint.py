@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     Lookup = Callable[[str], MessageSpec]
 
-__all__ = ["dependencies", "full_text", "message_md5", "service_md5"]
-
 
 def message_md5(spec: MessageSpec, lookup: Lookup) -> str:
     """The md5 sum of a message: of its text without comments, with each nested type replaced by its own md5 sum.

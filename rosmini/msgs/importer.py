@@ -20,15 +20,6 @@ from .registry import MODULE_PREFIX, registry
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = [
-    "UnknownImport",
-    "UnknownPackageImport",
-    "how_to_import",
-    "install",
-    "installed",
-    "uninstall",
-]
-
 _KINDS = ("msg", "srv", "action")
 
 

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from .definition import Field, MessageSpec
 
-__all__ = ["MAX_DEPTH", "MAX_EMPTY", "Measure", "measure", "measured"]
-
 MAX_DEPTH = 64
 """So deep can messages be in messages."""
 MAX_FIELDS = 4096

@@ -25,8 +25,6 @@ from .sources import PackageSource
 if TYPE_CHECKING:
     from .sources import Source
 
-__all__ = ["Registry", "Service", "make_service_class", "registry"]
-
 MODULE_PREFIX = "rosmini.msgs"
 
 

@@ -13,8 +13,6 @@ from .definition import LONGEST_TEXT
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["KINDS", "PackageSource", "Source"]
-
 KINDS = ("msg", "srv", "action")
 
 

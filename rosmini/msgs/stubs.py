@@ -18,8 +18,6 @@ from .sources import PackageSource
 if TYPE_CHECKING:
     from .definition import Field, MessageSpec
 
-__all__ = ["stub_files", "write_stubs"]
-
 HEAD = "# Written by python -m rosmini.msgs.stubs; do not edit.\n"
 
 

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from .contract import MessageContract
 
-__all__ = ["strify_message"]
-
 PLAIN_WIDTH = 70  # up to this length YAML puts a quoted string on one line, whatever is in it
 
 

@@ -12,8 +12,6 @@ from rosmini.expressions import MATH, Expression, ExpressionError, Namespace
 
 from .errors import RosParamException
 
-__all__ = ["degrees", "radians"]
-
 _NAMES = {"pi": math.pi, "math": Namespace("math", MATH)}
 
 

@@ -14,8 +14,6 @@ from .errors import RosParamException
 if TYPE_CHECKING:
     from rosmini.graph import Graph
 
-__all__ = ["ParamClient"]
-
 
 class ParamClient:
     """Reads and writes the parameters of a graph, as YAML and as values.

@@ -25,8 +25,6 @@ from .errors import RosParamException
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-__all__ = ["NS", "Document", "assignments", "dumps", "load_file", "load_str", "parse"]
-
 NS = "_ns"
 """A document with this key says itself into which namespace it goes."""
 

@@ -9,8 +9,6 @@ from rosmini.errors import ParameterError
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["RosParamException", "RosParamIOException"]
-
 
 class RosParamException(ParameterError):
     """A parameter file, or a value in it, is wrong; ``file`` and ``line`` (from 1) say where, if known."""

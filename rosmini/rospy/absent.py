@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from rosmini.errors import RosminiError
 
-__all__ = ["AbsentModule", "absent_module"]
-
 _MASTER = "ask the Master: rosgraph.Master(rospy.get_name()).getSystemState(), lookupNode(name) and so on"
 _ALONE = "take the lines that use it out, or run the script on real ROS"
 

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import ModuleType
 
-__all__ = ["install", "installed", "modules", "uninstall"]
-
 _HERE = __package__ or "rosmini.rospy"
 _ROSPY = "client core exceptions msg msproxy names numpy_msg rostime service timer topics"
 _ALIASES = {

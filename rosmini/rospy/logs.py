@@ -13,8 +13,6 @@ from rosmini.graph.rosout import LEVELS, NAMES
 from .rostime import Duration
 from .session import current_node, current_session, require_node
 
-__all__ = ["DEBUG", "ERROR", "FATAL", "INFO", "WARN"]
-
 DEBUG, INFO, WARN, ERROR, FATAL = (LEVELS[name] for name in ("DEBUG", "INFO", "WARN", "ERROR", "FATAL"))
 
 KEYWORDS = frozenset({"logger_name", "exc_info", "stack_info", "stacklevel", "extra"})

@@ -10,8 +10,6 @@ from rosmini.msgs.message import Message
 if TYPE_CHECKING:
     from io import BytesIO
 
-__all__ = ["AnyMsg", "args_kwds_to_message"]
-
 
 class AnyMsg(Message):
     """A message of any type, as the bytes that came over the wire, in ``_buff``.

@@ -12,8 +12,6 @@ from rosmini.graph.master_port import METHODS
 from .names import resolve_name
 from .session import any_node
 
-__all__ = ["MasterProxy"]
-
 
 class MasterProxy:
     """The Master's API, with the caller's name filled in; answers are (code, status, value).

@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["numpy_msg"]
-
 
 @cache
 def numpy_msg(msg_type: Any) -> Any:

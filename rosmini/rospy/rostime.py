@@ -10,17 +10,6 @@ from rosmini.graph.clock import TopicClock
 
 from .session import any_node, current_node
 
-__all__ = [
-    "Duration",
-    "Time",
-    "get_rostime",
-    "get_time",
-    "is_rostime_initialized",
-    "is_wallclock",
-    "switch_to_wallclock",
-    "wallsleep",
-]
-
 TICKS_PER_LOOK = 50
 """A loop that polls the time takes about 50 microseconds a turn with rospy."""
 

@@ -13,8 +13,6 @@ from .session import answer_interrupt, any_node, require_node
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["Rate", "Timer", "TimerEvent", "sleep"]
-
 
 def sleep(duration: float | base.Duration) -> None:
     """Sleep for seconds of the node's time; not at all for zero or less.

@@ -13,8 +13,6 @@ from rosmini.msgs import message_class
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-__all__ = ["create_cloud", "create_cloud_xyz32", "read_points", "read_points_list"]
-
 PointCloud2 = message_class("sensor_msgs/PointCloud2")
 PointField = message_class("sensor_msgs/PointField")
 

@@ -355,6 +355,3 @@ def relative(state: tuple[Pose6, Velocity], frame: tuple[Pose6, Velocity]) -> tu
     turn = matrix(at)[:2, :2].T
     rx, ry = turn @ (vx - fx, vy - fy)
     return compose(inverse(at), pose), (float(rx), float(ry), w - fw)
-
-
-__all__ = ["Services", "pose_message", "pose_of", "relative", "twist_message"]

@@ -7,8 +7,6 @@ from typing import Any
 from rosmini.bag.types import RecordedSource
 from rosmini.msgs.registry import Registry
 
-__all__ = ["generate_dynamic"]
-
 
 def generate_dynamic(core_type: str, msg_cat: str) -> dict[str, Any]:
     """Return the classes of a type and of all that it holds, by their names, from a full text as in ``_full_text``.

@@ -10,17 +10,6 @@ from rosmini.graph import running_graph
 from rosmini.graph.master_port import METHODS
 from rosmini.names import resolve_for
 
-__all__ = [
-    "Error",
-    "Failure",
-    "Master",
-    "MasterError",
-    "MasterException",
-    "MasterFailure",
-    "ROSMasterException",
-    "is_online",
-]
-
 
 class MasterException(RosminiError):
     """The Master did not do what it was asked for."""

@@ -6,17 +6,6 @@ from typing import Any
 
 from rosmini.graph import running_graph
 
-__all__ = [
-    "DEFAULT_MASTER_PORT",
-    "DEFAULT_MASTER_URI",
-    "ROS_HOSTNAME",
-    "ROS_IP",
-    "ROS_IPV6",
-    "ROS_MASTER_URI",
-    "ROS_NAMESPACE",
-    "get_master_uri",
-]
-
 ROS_MASTER_URI = "ROS_MASTER_URI"
 ROS_NAMESPACE = "ROS_NAMESPACE"
 ROS_HOSTNAME = "ROS_HOSTNAME"

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import TextIO
 
-__all__ = ["LoggingException", "RosStreamHandler"]
-
 COLOURS = {"DEBUG": "\033[32m", "WARN": "\033[33m", "ERROR": "\033[31m", "FATAL": "\033[31m"}
 SEVERITIES = {"WARNING": "WARN", "CRITICAL": "FATAL"}
 """What ROS calls Python's levels, where the names differ."""

@@ -12,18 +12,6 @@ from rosmini.packages import PackageIndex
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = [
-    "InvalidROSPkgException",
-    "MultipleNodesException",
-    "ROSPkgException",
-    "find_node",
-    "find_resource",
-    "get_dir_pkg",
-    "get_pkg_dir",
-    "get_pkg_subdir",
-    "resource_file",
-]
-
 MANIFEST_FILE = "manifest.xml"
 PACKAGE_FILE = "package.xml"
 

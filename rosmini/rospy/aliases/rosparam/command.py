@@ -16,8 +16,6 @@ from . import api
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["yamlmain"]
-
 NAME = "rosparam"
 VERBS = {
     "set": "set a parameter to a YAML value",

@@ -15,8 +15,6 @@ from rosmini.time import Duration, Time
 from .buffer_interface import AT_ONCE, BufferInterface
 from .buffer_server import ERRORS
 
-__all__ = ["BufferClient"]
-
 
 class BufferClient(BufferInterface):
     """Asks the buffer server at the action ``ns``, and holds no transform itself.

@@ -16,16 +16,6 @@ from rosmini.time import Duration, Time
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = [
-    "BufferInterface",
-    "ConvertRegistration",
-    "NotImplementedException",
-    "Stamped",
-    "TransformRegistration",
-    "TypeException",
-    "convert",
-]
-
 AT_ONCE = Duration()
 
 

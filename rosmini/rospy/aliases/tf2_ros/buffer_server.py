@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from rosmini.actionlib import ServerGoalHandle
     from rosmini.graph import Timer
 
-__all__ = ["ERRORS", "BufferServer"]
-
 ERRORS: dict[int, type[TransformException]] = {
     1: LookupException,
     2: ConnectivityException,
