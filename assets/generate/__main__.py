@@ -1,10 +1,10 @@
-"""`python -m assets.generate`: make the committed worlds, maps, meshes and pictures again, in this checkout."""
+"""`python -m assets.generate`: make the committed worlds, maps, meshes, pictures and stubs again, in this checkout."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from . import pictures, worlds
+from . import pictures, stubs, worlds
 from .meshes import turtlebot3
 
 CHECKOUT = Path(__file__).resolve().parents[2]
@@ -28,7 +28,7 @@ def main(checkout: Path = CHECKOUT) -> None:
         print(file)
     maps = checkout / "assets/ros/rosmini_sim/maps"
     maps.mkdir(parents=True, exist_ok=True)
-    for file in worlds.write_maps(maps):
+    for file in (*worlds.write_maps(maps), *stubs.write_stubs(checkout / "rosmini/msgs")):
         print(file)
 
 

@@ -9,7 +9,20 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosmini.errors import ServiceException, nearest
+from rosmini import errors as exceptions
+from rosmini.errors import (
+    ROSException,
+    ROSInitException,
+    ROSInternalException,
+    ROSInterruptException,
+    ROSSerializationException,
+    ROSTimeMovedBackwardsException,
+    ServiceException,
+    TransportException,
+    TransportInitError,
+    TransportTerminated,
+    nearest,
+)
 from rosmini.msgs import message_class
 
 from . import core, names, rostime, timer, topics
@@ -62,17 +75,6 @@ from .core import (
     parse_rosrpc_uri,
     signal_shutdown,
 )
-from .exceptions import (
-    ROSException,
-    ROSInitException,
-    ROSInternalException,
-    ROSInterruptException,
-    ROSSerializationException,
-    ROSTimeMovedBackwardsException,
-    TransportException,
-    TransportInitError,
-    TransportTerminated,
-)
 from .importer import install, modules, uninstall
 from .msg import AnyMsg
 from .msproxy import MasterProxy
@@ -114,6 +116,7 @@ __all__ = [
     "TransportInitError",
     "TransportTerminated",
     "delete_param",
+    "exceptions",
     "get_caller_id",
     "get_master",
     "get_name",

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 _HERE = __package__ or "rosmini.rospy"
-_ROSPY = "client core exceptions msg msproxy names numpy_msg rostime service timer topics"
+_ROSPY = "client core msg msproxy names numpy_msg rostime service timer topics"
 _ALIASES = {
     "actionlib": "",
     "dynamic_reconfigure": "",
@@ -68,6 +68,7 @@ _HOMES = {
     "dynamic_reconfigure.srv": "rosmini.msgs.dynamic_reconfigure.srv",
     "genpy.rostime": "rosmini.time",
     "roslib.message": f"{_HERE}.aliases.genpy.message",
+    "rospy.exceptions": "rosmini.errors",
     "sensor_msgs.point_cloud2": f"{_HERE}.aliases.point_cloud2",
     "tf.msg": "rosmini.msgs.tf.msg",
     "tf.srv": "rosmini.msgs.tf.srv",

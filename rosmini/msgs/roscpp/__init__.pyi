@@ -1,3 +1,3 @@
-# Written by python -m rosmini.msgs.stubs; do not edit.
+# Written by python -m assets.generate; do not edit.
 from . import msg as msg
 from . import srv as srv

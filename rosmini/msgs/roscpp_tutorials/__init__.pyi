@@ -1,2 +1,2 @@
-# Written by python -m rosmini.msgs.stubs; do not edit.
+# Written by python -m assets.generate; do not edit.
 from . import srv as srv

@@ -1,4 +1,4 @@
-# Written by python -m rosmini.msgs.stubs; do not edit.
+# Written by python -m assets.generate; do not edit.
 from typing import Any, ClassVar, Sequence, overload
 from rosmini.msgs.message import Message as _Message
 from rosmini.msgs.registry import Service as _Service

@@ -22,6 +22,11 @@ from rosmini.names import (
 from rosmini.names import canonicalize as canonicalize_name
 
 __all__ = [
+    "ANYTYPE",
+    "GLOBALNS",
+    "PRIV_NAME",
+    "REMAP",
+    "SEP",
     "anonymous_name",
     "canonicalize_name",
     "get_ros_namespace",

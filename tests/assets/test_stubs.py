@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.msgs.stubs import write_stubs
+from assets.generate.stubs import write_stubs
 
 RIGHT = """
 from rosmini.msgs import std_msgs
@@ -40,8 +40,8 @@ def test_stubs_are_fresh(root: Path, tmp_path: Path) -> None:
         path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8")
         for path in folder.glob("*/*.pyi")
     }
-    assert sorted(written) == sorted(committed), "run: python -m rosmini.msgs.stubs"
-    assert written == committed, "run: python -m rosmini.msgs.stubs"
+    assert sorted(written) == sorted(committed), "run `uv run python -m assets.generate`"
+    assert written == committed, "run `uv run python -m assets.generate`"
 
 
 def test_stubs_of_packages_that_are_gone_are_removed(tmp_path: Path) -> None:

@@ -1,24 +1,18 @@
-"""Type stubs for the messages and services that come with rosmini: ``python -m rosmini.msgs.stubs`` writes them.
+"""Type stubs for the messages and services that come with rosmini: `rosmini/msgs/<package>/msg.pyi`.
 
-They stand beside this file (``rosmini/msgs/<package>/msg.pyi``), where type checkers and editors find them. Packages of
-a workspace have none; their classes are ``Any`` to a type checker.
+Type checkers and editors find them there. Packages of a workspace have none; their classes are `Any` to a type checker.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from rosmini.msgs.definition import BYTES, INTEGER_RANGES, Field, MessageSpec
+from rosmini.msgs.registry import Registry
+from rosmini.msgs.sources import PackageSource
 from rosmini.packages import PackageIndex, assets_dir
 
-from .definition import BYTES, INTEGER_RANGES
-from .registry import Registry
-from .sources import PackageSource
-
-if TYPE_CHECKING:
-    from .definition import Field, MessageSpec
-
-HEAD = "# Written by python -m rosmini.msgs.stubs; do not edit.\n"
+HEAD = "# Written by python -m assets.generate; do not edit.\n"
 
 
 def stub_files(registry: Registry) -> dict[str, str]:
@@ -39,12 +33,11 @@ def stub_files(registry: Registry) -> dict[str, str]:
     return dict(sorted(files.items()))
 
 
-def write_stubs(folder: Path | None = None) -> list[Path]:
-    """Write the stubs of the packages that come with rosmini, remove those of packages that are gone.
+def write_stubs(root: Path) -> list[Path]:
+    """Write the stubs of the packages that come with rosmini into a folder, and remove those of packages that are gone.
 
-    Gives the paths that changed: none, if the stubs were fresh.
+    Returns the paths that changed: none if the stubs were fresh.
     """
-    root = Path(__file__).resolve().parent if folder is None else folder
     files = stub_files(_bundled())
     changed = []
     for path in sorted(root.glob("*/*.pyi")):
@@ -54,7 +47,7 @@ def write_stubs(folder: Path | None = None) -> list[Path]:
     for name, text in files.items():
         path = root / name
         if not path.exists() or path.read_text(encoding="utf-8") != text:
-            path.parent.mkdir(exist_ok=True)
+            path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8", newline="\n")
             changed.append(path)
     return changed
@@ -136,8 +129,3 @@ def _types(field: Field, package: str, own_module: str, others: set[str]) -> tup
     if base in INTEGER_RANGES or base in ("float32", "float64", "bool"):
         return "Any", f"Sequence[{single}] | Any"
     return f"list[{single}]", f"Sequence[{single}]"
-
-
-if __name__ == "__main__":
-    for changed_path in write_stubs():
-        print(changed_path)
