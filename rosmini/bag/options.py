@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from optparse import OptionParser, Values
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import UsageError
+from rosmini.introspection.options import Parser as ToolParser
 
 from .errors import ROSBagException
 from .player import PlayOptions
@@ -14,31 +14,18 @@ from .records import Compression
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from optparse import Values
 
 
 class BagUsageError(ROSBagException, UsageError):
-    """A command line that makes no sense; ``usage`` says which ones do."""
-
-    def __init__(self, usage: str, problem: str) -> None:
-        super().__init__(f"{usage}\n\nrosbag: error: {problem}")
-        self.problem = problem
+    """A command line that makes no sense; the text says which ones do."""
 
 
-class Parser(OptionParser):
-    """A parser in the form of ROS's tools, which raises instead of ending the process; ``-h`` is the caller's."""
+class Parser(ToolParser):
+    """A parser of ``rosbag``."""
 
     def __init__(self, usage: str, description: str) -> None:
-        super().__init__(usage=usage, description=description, prog="rosbag")
-
-    def error(self, msg: str) -> NoReturn:
-        """Raise ``UsageError``."""
-        raise BagUsageError(self.get_usage().rstrip(), msg)
-
-    def parse(self, words: Sequence[str], /) -> Values:
-        """Return the options, with the words that are none as ``words``, and all as ``argv``. Raises ``UsageError``."""
-        values, rest = self.parse_args(list(words))
-        values.words, values.argv = rest, list(words)
-        return values
+        super().__init__("rosbag", usage, description, failure=BagUsageError)
 
 
 _UNITS = {"s": 1.0, "m": 60.0, "h": 3600.0}

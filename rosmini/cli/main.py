@@ -39,6 +39,9 @@ class Entry(NamedTuple):
 
 COMMANDS: dict[str, Entry] = {
     "run": Entry("rosmini.cli.run", "run scripts written for rospy as nodes of one graph"),
+    "rosnode": Entry(
+        "rosmini.cli.rosnode", "nodes: which there are, what they do, whether they answer; end them"
+    ),
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
     "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
     "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),

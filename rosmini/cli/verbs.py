@@ -16,17 +16,24 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NoReturn, Protocol
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, cast
 
-from rosmini.errors import RosminiError, UsageError, nearest
+from rosmini.errors import MasterUnreachable, RosminiError, UsageError, nearest
+from rosmini.names import is_remapping
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from rosmini.graph import Graph
+    from rosmini.introspection.peers import Peers
 
 SETTLE_S = 0.1
 """How long the nodes after a `+` run before the verb acts [s]."""
+
+
+NOT_A_VERB = 64
+"""The exit status of ROS's tools where the first word is none of their commands."""
 
 
 class VerbError(RosminiError):
@@ -44,6 +51,8 @@ class Result:
     complaints: tuple[str, ...] = ()
     status: int = 0
     """The exit status."""
+    always_printed: ClassVar[bool] = False
+    """True if an empty text is printed, too, as an empty line: ROS's tools do that with lists."""
 
     def __str__(self) -> str:
         return ""
@@ -63,12 +72,33 @@ class Lines(Result):
         return "\n".join(self.lines)
 
 
+def _to_stderr(text: str) -> None:
+    print(text, file=sys.stderr)
+
+
 @dataclass(frozen=True)
 class Call:
-    """What a verb is given beside its options: the graph on which it acts; ``say`` prints what it prints as it goes."""
+    """What a verb is given beside its options.
 
-    graph: Graph
+    ``say`` prints what it prints as it goes, ``warn`` what is amiss; ``read_line`` reads what somebody types in a
+    terminal, and is None where nobody can.
+    """
+
+    peers: Peers
+    """The graph on which the verb acts; for a verb that only asks, perhaps only the way to Master and nodes."""
     say: Callable[[str], object] = print
+    warn: Callable[[str], object] = _to_stderr
+    read_line: Callable[[], str] | None = None
+
+    @property
+    def graph(self) -> Graph:
+        """The graph. Not for verbs that only ask."""
+        return cast("Graph", self.peers)
+
+    @property
+    def in_terminal(self) -> bool:
+        """True in a terminal, where a verb goes on until Ctrl-C; in Python it ends after some time by itself."""
+        return self.read_line is not None
 
 
 class Parser(Protocol):
@@ -105,6 +135,8 @@ class Verb:
     parser: Callable[[], Parser]
     act: Callable[[Any, Call], Result]
     needs_graph: bool = False
+    only_asks: bool = False
+    """True if the verb needs no node of its own: it only asks the Master and the nodes."""
     in_terminal: Callable[[Sequence[str]], int] | None = None
     """What a terminal does instead: for verbs that run nodes there until Ctrl-C."""
 
@@ -114,7 +146,9 @@ class Tool:
     """A tool and the table of its verbs.
 
     ``usage_status`` is the exit status for a command line that makes no sense; ``elsewhere`` are verbs of ROS's tool
-    that are not here; ``example`` is what to write after a `+` for the nodes on which a verb can act.
+    that are not here; ``example`` is what to write after a `+` for the nodes on which a verb can act. ``purpose`` makes
+    it a tool on the wire, which acts on the graph of the Master at ``ROS_MASTER_URI``: what it is a tool for, in the
+    overview that it prints, as ROS's do, where the first word is none of its commands.
     """
 
     name: str
@@ -122,6 +156,7 @@ class Tool:
     usage_status: int = 2
     elsewhere: tuple[str, ...] = ()
     example: str = "rosmini_sim/simulator"
+    purpose: str = ""
     verbs: dict[str, Verb] = field(default_factory=dict)
 
     def verb(
@@ -131,13 +166,14 @@ class Tool:
         parser: Callable[[], Parser],
         name: str | None = None,
         needs_graph: bool = False,
+        only_asks: bool = False,
         in_terminal: Callable[[Sequence[str]], int] | None = None,
     ) -> Callable[[Callable[[Any, Call], Result]], Callable[[Any, Call], Result]]:
         """Add the decorated function, under its own name if none is given."""
 
         def add(act: Callable[[Any, Call], Result]) -> Callable[[Any, Call], Result]:
             known = name or act.__name__
-            self.verbs[known] = Verb(known, summary, parser, act, needs_graph, in_terminal)
+            self.verbs[known] = Verb(known, summary, parser, act, needs_graph, only_asks, in_terminal)
             return act
 
         return add
@@ -158,6 +194,14 @@ class Tool:
         return (
             f"usage: rosmini {self.name} <verb> [options] [args]\n\n{self.summary}\n\n"
             f"verbs:\n{listed}\n\n`rosmini {self.name} <verb> -h` says more about one."
+        )
+
+    def overview(self) -> str:
+        """Return the list of verbs as a tool of ROS prints it."""
+        listed = "\n".join(f"\t{self.name} {verb.name}\t{verb.summary}" for verb in self.verbs.values())
+        return (
+            f"{self.name} is a command-line tool for {self.purpose}.\n\nCommands:\n{listed}\n\n"
+            f"Type {self.name} <command> -h for more detailed usage, e.g. '{self.name} {self.example} -h'\n"
         )
 
     # -- in Python -----------------------------------------------------------------------------------------------
@@ -182,6 +226,7 @@ class Tool:
         return Prompt(self, graph)
 
     def _help_for(self, words: Sequence[str]) -> str | None:
+        """Return the help that the words ask for, if they do."""
         helps = {"-h", "--help", "help"}
         if not words or (words[0] in helps and len(words) == 1):
             return self.help()
@@ -203,6 +248,10 @@ class Tool:
         """Do what the words say, print it, and return the exit status."""
         words: list[str] = args.words
         own, nodes = _before_plus(words)
+        if self.purpose:
+            own = [word for word in own if not is_remapping(word)]
+            if not own or (own[0] not in {*self.verbs, "--help", "help"}):
+                return self._not_a_verb(own)
         try:
             asked = self._help_for(own)
             if asked is not None:
@@ -221,26 +270,65 @@ class Tool:
         except UsageError as error:
             print(error, file=sys.stderr)
             return self.usage_status
+        except MasterUnreachable as error:
+            if not self.purpose:
+                raise
+            print(f"ERROR: Unable to communicate with master!\n{_no_master(error)}", file=sys.stderr)
+            return 1
+        except BrokenPipeError:  # what reads the output, such as `head`, has had enough
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return 0
         text = str(result)
-        if text:
+        if text or result.always_printed:
             print(text)
         for complaint in result.complaints:
             print(complaint, file=sys.stderr)
         return result.status
 
-    def _in_terminal(self, verb: Verb, own: Sequence[str], nodes: Sequence[str]) -> Result:
-        from rosmini.graph import Graph
+    def _not_a_verb(self, words: Sequence[str]) -> int:
+        """Print the overview, and what was probably meant."""
+        print(self.overview())
+        if words and words[0] not in ("-h", "--help"):
+            hint = nearest(words[0], self.verbs)
+            print(
+                f"{self.name}: there is no command {words[0]!r}{f'; {hint}' if hint else ''}", file=sys.stderr
+            )
+        return NOT_A_VERB
 
+    def _in_terminal(self, verb: Verb, own: Sequence[str], nodes: Sequence[str]) -> Result:
         given = verb.parser().parse(own)
+        if self.purpose and not nodes:
+            return self._on_wire(verb, given)
         if verb.needs_graph and not nodes:
             raise RosminiError(
                 f"{self.name} {verb.name} acts on a graph, and none is running in this process: name it after a +, "
                 f"for example `rosmini {' '.join((self.name, verb.name, *own))} + {self.example}`"
             )
+        from rosmini.graph import Graph
+
         with Graph() as graph:
             if nodes:
                 _start(nodes, graph)
             return verb.act(given, Call(graph))
+
+    def _on_wire(self, verb: Verb, given: Any) -> Result:
+        """Act on the graph of the Master that the environment names."""
+        from rosmini.net.addresses import addresses
+
+        say = partial(print, flush=True)
+        if verb.only_asks:
+            from rosmini.introspection.direct import DirectWire
+
+            return verb.act(
+                given, Call(DirectWire(addresses().master_uri), say, read_line=sys.stdin.readline)
+            )
+        raise RosminiError("there is no wire yet")
+
+
+def _no_master(error: MasterUnreachable) -> str:
+    return (
+        f"{error}\nIs it running? `rosmini roscore` starts one; ROS_MASTER_URI says where it is looked for."
+    )
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,42 @@
+"""What the tools on the wire have in common: names as they are typed, and how long a verb goes on."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from rosmini.names import canonicalize, resolve_for
+
+if TYPE_CHECKING:
+    from optparse import Values
+
+    from rosmini.introspection.options import Parser
+
+    from .verbs import Call
+
+DURATION_S = 5.0
+"""How long a verb that goes on until Ctrl-C in a terminal does so in Python [s]."""
+
+
+def global_name(name: str) -> str:
+    """Return the global name that a name on a command line means: relative ones are in ``ROS_NAMESPACE``."""
+    namespace = canonicalize("/" + os.environ.get("ROS_NAMESPACE", ""))
+    return resolve_for(name, f"{namespace.rstrip('/')}/tool")
+
+
+def add_duration(parser: Parser) -> None:
+    """Add the option that says how long a verb goes on."""
+    parser.add_option(
+        "--duration",
+        type="float",
+        metavar="S",
+        help=f"end after S seconds of graph time (not in ROS; in Python {DURATION_S:g}, in a terminal: at Ctrl-C)",
+    )
+
+
+def duration_ns(given: Values, call: Call) -> int | None:
+    """Return how long the verb goes on [ns]; None: until Ctrl-C."""
+    seconds: float | None = given.duration
+    if seconds is None and not call.in_terminal:
+        seconds = DURATION_S
+    return None if seconds is None else round(max(seconds, 0.0) * 1e9)
