@@ -65,6 +65,8 @@ class MasterPort(ABC):
     """The Master's address."""
     is_local = False
     """True for a Master in this process: it answers at once, in any thread, and its notifier tells of every change."""
+    leave_by: int | None = None
+    """Until when nodes that end keep trying to unregister, in graph time; None while the Master answers."""
 
     @abstractmethod
     def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
@@ -103,7 +105,6 @@ class MasterProxy:
         self._lock = threading.Lock()
         self._busy = False
         self._queue: deque[Waiter] = deque()
-        self._leave_by: int | None = None
 
     def call(self, method: str, *arguments: Any) -> Triple:
         """Return the Master's answer: [code, status, value]. Raises ``MasterUnreachable``."""
@@ -148,7 +149,10 @@ class MasterProxy:
                 except MasterUnreachable as error:
                     if self._is_over():
                         raise
-                    warn(f"{error} ({method}). Trying again until it answers.")
+                    warn(
+                        f"Unable to register with master node [{self._host.master.uri}]: "
+                        f"master may not be running yet. Will keep trying. ({error})"
+                    )
                     warn = _silent
                     self._pause()
 
@@ -157,7 +161,7 @@ class MasterProxy:
         return self._value(method, self.insist(method, *arguments, warn=warn))
 
     def unregister(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> None:
-        """Take a registration back; after some vain attempts only ``warn``.
+        """Take a registration back; after some vain attempts only ``warn``, once for all that end then.
 
         What the Master has forgotten is no error.
         """
@@ -168,17 +172,22 @@ class MasterProxy:
         scheduler = self._host.scheduler
         with self._turn():
             while True:
+                started = scheduler.now_ns()
+                if port.leave_by is not None and started >= port.leave_by:
+                    return
                 try:
                     self._host.master.call(method, self._caller_id, *arguments)
                 except MasterUnreachable as error:
-                    if self._leave_by is None:
-                        self._leave_by = scheduler.now_ns() + LEAVE_NS
-                    if scheduler.now_ns() >= self._leave_by:
-                        warn(f"{error} ({method}). The registration stays there.")
+                    port.leave_by = port.leave_by or started + LEAVE_NS
+                    if scheduler.now_ns() + RETRY_NS >= port.leave_by:
+                        port.leave_by = started
+                        warn(
+                            f"{error} ({method}). The registration stays there; `rosnode cleanup` removes it."
+                        )
                         return
                     self._pause()
                 else:
-                    self._leave_by = None
+                    port.leave_by = None
                     return
 
     def who_publishes(self, topic: str) -> str:

@@ -114,13 +114,13 @@ class Node(ParameterApi):
             self.logger.open_file(log_file)
         for key, value in self.remappings.private_parameters.items():
             name = resolve("~" + key, self.namespace, self.name)
-            self.master.insist("setParam", name, value, warn=self.logwarn)
+            self.master.insist("setParam", name, value, warn=self.logerr)
         publication = Publication(self, "/rosout", graph.log_class)
         publication.latch = True  # as rospy's: the last message is for a listener that comes later, too
         self._publish(publication)
         for service, service_class, handler in logger_services(self.logger):
             self.service(service, service_class, handler)
-        code, _, use_sim_time = self.master.insist("getParam", "/use_sim_time", warn=self.logwarn)
+        code, _, use_sim_time = self.master.insist("getParam", "/use_sim_time", warn=self.logerr)
         if code == 1 and use_sim_time is True:
             self._follow_clock_topic()
 
@@ -195,7 +195,7 @@ class Node(ParameterApi):
         self.slave.topics_changed()  # subscribers may ask before the Master's answer is here
         try:
             self.master.register(
-                "registerPublisher", topic, publication.message_class._type, self.uri, warn=self.logwarn
+                "registerPublisher", topic, publication.message_class._type, self.uri, warn=self.logerr
             )
         except ROSException:
             del self.publications[topic]
@@ -257,7 +257,7 @@ class Node(ParameterApi):
         before = subscription.updates
         try:
             uris = self.master.register(
-                "registerSubscriber", topic, subscription.message_class._type, self.uri, warn=self.logwarn
+                "registerSubscriber", topic, subscription.message_class._type, self.uri, warn=self.logerr
             )
         except ROSException:
             del self.subscriptions[topic]
@@ -328,7 +328,7 @@ class Node(ParameterApi):
             )
             uri = self.graph.transport.service_uri(self.uri)
             try:
-                self.master.register("registerService", resolved, uri, self.uri, warn=self.logwarn)
+                self.master.register("registerService", resolved, uri, self.uri, warn=self.logerr)
             except ROSException:
                 del self.services[resolved]
                 raise

@@ -178,7 +178,7 @@ class ParameterApi(BlockingApi, LoggingApi):
         callbacks = self._parameter_callbacks.setdefault(key, [])
         callbacks.append(callback)
         try:
-            value = self.master.register("subscribeParam", self.uri, resolved, warn=self.logwarn)
+            value = self.master.register("subscribeParam", self.uri, resolved, warn=self.logerr)
         except ROSException:
             callbacks.remove(callback)
             raise
@@ -231,7 +231,7 @@ class ParameterApi(BlockingApi, LoggingApi):
                 self._tell(name, callback, wire_copy(now))
 
     def _value_now(self, name: str) -> Any:
-        code, _, value = self.master.insist("getParam", name, warn=self.logwarn)
+        code, _, value = self.master.insist("getParam", name, warn=self.logerr)
         return value if code == 1 else {}
 
     def _note_parameters(self) -> None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
-TRYING = "Trying again until it answers"
+TRYING = "Will keep trying"
 """What a node says whose Master does not answer."""
 
 

@@ -2,12 +2,15 @@
 
 import os
 import threading
-from xmlrpc.client import ServerProxy
+from xmlrpc.client import Fault, ServerProxy
 from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 
 from rosmini.graph.master import Master
+from rosmini.net.addresses import addresses
+from rosmini.net.io_thread import IoThread
+from rosmini.net.master_server import MasterServer
 
 from ..processes import wait_until
 from .conftest import need_ros, rosmaster
@@ -154,7 +157,20 @@ def calls(one: str, two: str, three: str) -> list[tuple]:
     ]  # fmt: skip
 
 
-def test_every_answer_and_every_notification_is_the_real_ones(real) -> None:
+@pytest.fixture
+def served():
+    """A Master of ours that is asked over XML-RPC, as the real one is."""
+    io = IoThread()
+    server = MasterServer(io, Master("http://127.0.0.1:11311/", Recorder()), addresses({}), 0)
+    try:
+        with ServerProxy(f"http://127.0.0.1:{server.port}") as proxy:
+            yield proxy
+    finally:
+        server.close()
+        io.close()
+
+
+def test_every_answer_and_every_notification_is_the_real_ones(real, served) -> None:
     proxy, slaves = real
     recorder = Recorder()
     ours = Master("http://127.0.0.1:11311/", recorder)
@@ -162,12 +178,16 @@ def test_every_answer_and_every_notification_is_the_real_ones(real) -> None:
     code, _, given = proxy.getParam("/test", "/")
     assert code == 1
     assert ours.setParam("/test", "/", given) == [1, "parameter / set", 0]
+    assert served.setParam("/test", "/", given) == [1, "parameter / set", 0]
     differences = []
     for number, (method, *arguments) in enumerate(calls(*slaves.uris)):
         expected = getattr(proxy, method)(*arguments)
         answer = getattr(ours, method)(*arguments)
         if answer != expected or type(answer[2]) is not type(expected[2]):
             differences.append((number, method, arguments, "real", expected, "ours", answer))
+        answer = getattr(served, method)(*arguments)
+        if answer != expected:
+            differences.append((number, method, arguments, "real", expected, "ours over XML-RPC", answer))
         # The real Master sends what the value is by then, so let each notification arrive before the next change.
         wait_until(lambda: len(slaves.heard) >= len(recorder.heard), f"the notifications of {method}")
     assert differences == []
@@ -188,3 +208,25 @@ def test_the_masters_own_facts(real) -> None:
         code, status, value = getattr(proxy, method)("/a")
         own = getattr(ours, method)("/a")
         assert (code, status, type(value)) == (own[0], own[1], type(own[2]))
+
+
+def fault(call) -> tuple[int, str]:
+    with pytest.raises(Fault) as caught:
+        call("/a")
+    return caught.value.faultCode, caught.value.faultString
+
+
+def test_what_is_no_call_of_the_master_gives_the_real_one_s_faults(real, served) -> None:
+    for method in ("bogus", "_dispatch", "system.listMethods", "call"):
+        expected, answer = (fault(getattr(to, method)) for to in (real[0], served))
+        assert answer == expected
+
+
+def test_several_calls_in_one_document_are_answered_as_by_the_real_one(real, served) -> None:
+    wanted = [
+        {"methodName": "setParam", "params": ["/a", "/several", [1, 2]]},
+        {"methodName": "getParam", "params": ["/a", "/several"]},
+        {"methodName": "bogus", "params": ["/a"]},
+        {"methodName": "deleteParam", "params": ["/a", "/several"]},
+    ]
+    assert getattr(served, "system.multicall")(wanted) == getattr(real[0], "system.multicall")(wanted)

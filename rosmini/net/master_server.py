@@ -1,0 +1,110 @@
+"""A Master of this process, served to everybody over XML-RPC as ``rosmaster`` serves its own."""
+
+from __future__ import annotations
+
+import errno
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import RosminiError
+from rosmini.graph.master_port import METHODS
+
+from .xmlrpc_server import XmlRpcServer
+from .xmlrpc_text import XmlRpcFault
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.graph.master import Master
+
+    from .addresses import Addresses
+    from .io_thread import IoThread
+
+MULTICALL = "system.multicall"
+"""The method that makes several calls at once: so roslaunch sets its parameters."""
+
+
+class AddressInUse(RosminiError):
+    """Another process listens at the Master's port."""
+
+
+class MasterServer:
+    """Answers the Master API at a port of this machine, in the I/O thread: a busy graph delays no answer.
+
+    Args:
+        io: the thread that reads and writes.
+        master: who answers; its ``uri`` becomes the address at which it is served.
+        where: what others are told of this machine, and where to listen.
+        port: 0 for any that is free.
+        on_shutdown: called in the I/O thread with the reason when somebody shuts the Master down.
+        on_call: called there with the method's name, the arguments and the answer of each call.
+
+    Raises ``AddressInUse`` when another process listens there, and ``RosminiError`` when the address is not this
+    machine's.
+
+    """
+
+    def __init__(
+        self,
+        io: IoThread,
+        master: Master,
+        where: Addresses,
+        port: int,
+        *,
+        on_shutdown: Callable[[str], object] | None = None,
+        on_call: Callable[[str, tuple[Any, ...], Any], object] | None = None,
+    ) -> None:
+        self._master = master
+        self._on_shutdown = on_shutdown
+        self._on_call = on_call
+        try:
+            self._server = XmlRpcServer(io, self._answer, bind=where.bind, port=port)
+        except OSError as error:
+            raise _refusal(where, port, error) from error
+        self._before, master.uri = master.uri, where.uri(self._server.port)
+
+    @property
+    def port(self) -> int:
+        """The port at which it listens."""
+        return self._server.port
+
+    def close(self) -> None:
+        """Stop serving; the Master keeps what it knows. Harmless when repeated."""
+        self._server.close()
+        self._master.uri = self._before
+
+    def _answer(self, method: str, arguments: tuple[Any, ...]) -> Any:
+        if method == MULTICALL:
+            return [self._answer_one(call) for call in (arguments[0] if arguments else [])]
+        if method not in METHODS:
+            raise XmlRpcFault(1, f"<class 'Exception'>:method \"{method}\" is not supported")
+        answer = getattr(self._master, method)(*arguments)
+        if self._on_call is not None:
+            self._on_call(method, arguments, answer)
+        reason = self._master.shutdown_reason
+        if method == "shutdown" and reason is not None and self._on_shutdown is not None:
+            self._on_shutdown(reason)
+        return answer
+
+    def _answer_one(self, call: Any) -> Any:
+        """Answer one of several calls: in a list of its own, or as a fault of its own."""
+        try:
+            if call["methodName"] == MULTICALL:
+                raise XmlRpcFault(1, "<class 'RuntimeError'>:Recursive system.multicall forbidden")
+            return [self._answer(call["methodName"], tuple(call["params"]))]
+        except XmlRpcFault as fault:
+            return {"faultCode": fault.code, "faultString": fault.text}
+        except Exception as error:  # what the caller sent may be anything
+            return {"faultCode": 1, "faultString": f"{type(error)}:{error}"}
+
+
+def _refusal(where: Addresses, port: int, error: OSError) -> RosminiError:
+    if error.errno == errno.EADDRINUSE:
+        return AddressInUse(
+            f"port {port} of {where.bind} is in use by another process, perhaps by a Master: its address would be "
+            f"{where.uri(port)}. End that process, or take another port: `rosmini roscore -p {port + 1}` here and "
+            f"ROS_MASTER_URI=http://{where.host}:{port + 1} for all others."
+        )
+    return RosminiError(
+        f"cannot listen at {where.bind}, port {port}: {error.strerror or error}. ROS_IP and ROS_HOSTNAME name an "
+        "address of this machine; ports below 1024 need rights that users do not have."
+    )

@@ -1,0 +1,72 @@
+"""A Master in another process, as a graph asks it: the Master API over XML-RPC."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import MasterUnreachable, TransportException, shown
+from rosmini.graph.master_port import MasterPort
+
+from .xmlrpc_client import XmlRpcFault
+
+if TYPE_CHECKING:
+    from rosmini.graph.transport import Triple
+
+    from .xmlrpc_client import XmlRpcClient
+
+TIMEOUT_S = 10.0
+"""How long a call waits for the Master, by the clock on the wall."""
+
+LEAVE_S = 2.0
+"""How long a call that takes a registration back waits: a node that ends is not held up by a Master that hangs."""
+
+
+class RemoteMaster(MasterPort):
+    """The way to the Master at ``uri``; a call parks the calling lane, and simulated time goes on meanwhile."""
+
+    def __init__(self, uri: str, client: XmlRpcClient) -> None:
+        self.uri = uri
+        self._client = client
+
+    def __repr__(self) -> str:
+        return f"<the Master at {self.uri}>"
+
+    def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
+        """Return the Master's answer: [code, status, value].
+
+        Raises ``MasterUnreachable``, which says what to do, when there is none.
+        """
+        timeout = LEAVE_S if method.startswith(("unregister", "unsubscribe")) else TIMEOUT_S
+        try:
+            answer = self._client.call(self.uri, method, caller_id, *arguments, timeout=timeout)
+        except TransportException as error:
+            raise unreachable(self.uri, error) from error
+        return checked(self.uri, method, answer)
+
+
+def checked(uri: str, method: str, answer: Any) -> Triple:
+    """Return an answer of the Master's. Raises ``MasterUnreachable`` if it is none."""
+    if (
+        isinstance(answer, list)
+        and len(answer) == 3
+        and isinstance(answer[0], int)
+        and isinstance(answer[1], str)
+    ):
+        return answer
+    raise MasterUnreachable(
+        f"what answers at {uri} is not a ROS Master: to {method} it said {shown(answer)}. Set ROS_MASTER_URI to the "
+        "address that roscore shows when it starts."
+    )
+
+
+def unreachable(uri: str, error: TransportException) -> MasterUnreachable:
+    """Return the error that says that a Master does not answer, why, and what to do."""
+    if isinstance(error, XmlRpcFault):
+        return MasterUnreachable(
+            f"what answers at {uri} is not a ROS Master: {error}. Set ROS_MASTER_URI to the address that roscore shows "
+            "when it starts."
+        )
+    return MasterUnreachable(
+        f"the Master at {uri} does not answer: {error}. Start it with `rosmini roscore`, or set ROS_MASTER_URI to the "
+        "address of one that runs"
+    )

@@ -1,0 +1,122 @@
+"""A Master that is served: what others get of it, and what is said where it cannot be."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Iterator
+from datetime import datetime
+from typing import Any
+from xmlrpc.client import Binary, Fault, ServerProxy
+
+import pytest
+
+from rosmini.errors import RosminiError
+from rosmini.graph import Graph
+from rosmini.graph.master import Master
+from rosmini.net.addresses import addresses
+from rosmini.net.io_thread import IoThread
+from rosmini.net.master_server import AddressInUse, MasterServer
+
+from ..processes import free_port
+
+
+@pytest.fixture
+def io() -> Iterator[IoThread]:
+    """The thread that reads and writes."""
+    made = IoThread()
+    yield made
+    made.close()
+
+
+def master_of(graph: Graph) -> Master:
+    assert isinstance(graph.master, Master)
+    return graph.master
+
+
+def test_others_ask_the_master_of_a_graph_and_see_its_nodes(io: IoThread) -> None:
+    with Graph() as graph:
+        server = MasterServer(io, master_of(graph), addresses({}), 0)
+        assert graph.master_uri == f"http://localhost:{server.port}/"
+        talker = graph.node("talker")
+        with ServerProxy(f"http://127.0.0.1:{server.port}") as proxy:
+            found: Any = proxy.lookupNode("/test", "/talker")
+            assert found == [1, "node api", talker.uri]
+            own: Any = proxy.getUri("/test")
+            assert own == [1, "", graph.master_uri]
+        assert talker.slave_call("getMasterUri", "/test")[2] == graph.master_uri
+        server.close()
+        assert graph.master_uri == "http://localhost:11311/"
+
+
+def test_it_answers_while_the_graph_stands_still_and_wakes_who_waits_in_it(io: IoThread) -> None:
+    """What another process registers lets a node of a graph in simulated time go on."""
+    with Graph(simulated=False) as graph:
+        server = MasterServer(io, master_of(graph), addresses({}), 0)
+        node = graph.node("waiting")
+        with ServerProxy(f"http://127.0.0.1:{server.port}") as proxy:
+            proxy.registerService("/far", "/far/start", "rosrpc://127.0.0.1:1", "http://127.0.0.1:2/")
+        node.wait_for_service("/far/start", 60)
+        server.close()
+
+
+def test_texts_bytes_and_dates_are_kept_as_they_are(io: IoThread) -> None:
+    with Graph() as graph:
+        server = MasterServer(io, master_of(graph), addresses({}), 0)
+        value = {"text": "größer <&>", "bytes": Binary(b"\0\1"), "when": datetime(2026, 1, 2, 3, 4, 5)}
+        with ServerProxy(f"http://127.0.0.1:{server.port}", use_builtin_types=True) as proxy:
+            set_to: Any = proxy.setParam("/test", "/all", value)
+            assert set_to[0] == 1
+            found: Any = proxy.getParam("/test", "/all")
+            assert found[2] == {**value, "bytes": b"\0\1"}
+        server.close()
+
+
+def test_somebody_shuts_it_down(io: IoThread) -> None:
+    reasons: list[str] = []
+    with Graph() as graph:
+        server = MasterServer(io, master_of(graph), addresses({}), 0, on_shutdown=reasons.append)
+        with ServerProxy(f"http://127.0.0.1:{server.port}") as proxy:
+            answer: Any = proxy.shutdown("/test", "enough")
+            assert answer == [1, "shutdown", 0]
+        assert reasons == ["external shutdown request from [/test]: enough"]
+        server.close()
+
+
+def test_each_call_can_be_watched(io: IoThread) -> None:
+    seen: list[tuple[Any, ...]] = []
+    with Graph(rosout=False) as graph:
+        server = MasterServer(io, master_of(graph), addresses({}), 0, on_call=lambda *call: seen.append(call))
+        with ServerProxy(f"http://127.0.0.1:{server.port}") as proxy:
+            proxy.setParam("/test", "/rate", 5)
+        assert seen == [("setParam", ("/test", "/rate", 5), [1, "parameter /rate set", 0])]
+        server.close()
+
+
+@pytest.mark.parametrize("arguments", [(), (5,), ([{"methodName": 5}],), ([None],), (["text"],)])
+def test_several_calls_that_make_no_sense_are_a_fault(io: IoThread, arguments: tuple[Any, ...]) -> None:
+    with Graph(rosout=False) as graph:
+        server = MasterServer(io, master_of(graph), addresses({}), 0)
+        with ServerProxy(f"http://127.0.0.1:{server.port}", allow_none=True) as proxy:
+            try:
+                answers: Any = getattr(proxy, "system.multicall")(*arguments)
+            except Fault:
+                answers = []
+            assert all("faultString" in answer for answer in answers)
+        server.close()
+
+
+def test_a_port_in_use_says_what_to_do(io: IoThread) -> None:
+    with Graph() as graph, socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        port = other.getsockname()[1]
+        with pytest.raises(AddressInUse, match=rf"port {port} .*`rosmini roscore -p {port + 1}`"):
+            MasterServer(io, master_of(graph), addresses({}), port)
+        assert graph.master_uri == "http://localhost:11311/"
+
+
+def test_an_address_of_another_machine_says_what_to_do(io: IoThread) -> None:
+    with Graph() as graph:
+        where = addresses({})._replace(bind="192.0.2.1")  # of a network that is for documents only
+        with pytest.raises(RosminiError, match=r"cannot listen at 192\.0\.2\.1.*ROS_IP"):
+            MasterServer(io, master_of(graph), where, free_port())
