@@ -61,7 +61,7 @@ def decode(document: bytes) -> tuple[tuple[Any, ...], str | None]:
 
     Raises :class:`XmlRpcFault` for an answer that says so, and ``TransportException`` for what is no XML-RPC.
     """
-    target = xmlrpc.client.Unmarshaller()
+    target = xmlrpc.client.Unmarshaller(use_builtin_types=True)
     parser = DefusedExpatParser(target, forbid_dtd=True)
     try:
         parser.feed(document)

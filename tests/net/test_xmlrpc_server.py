@@ -81,7 +81,7 @@ def test_values_arrive_as_they_were_sent(server: XmlRpcServer, client: XmlRpcCli
 
 
 def test_bytes_arrive(server: XmlRpcServer, client: XmlRpcClient) -> None:
-    assert client.call(uri_of(server), "setParam", b"\x00\xff")[2][0].data == b"\x00\xff"
+    assert client.call(uri_of(server), "setParam", b"\x00\xff")[2][0] == b"\x00\xff"
 
 
 def test_pythons_own_client_is_served(server: XmlRpcServer) -> None:
