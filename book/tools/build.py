@@ -59,6 +59,15 @@ def _jupyter_book(checkout: Path, output: Path, *, quiet: bool) -> subprocess.Co
     )
 
 
+def has_display() -> bool:
+    """Whether a browser opened from here would be seen."""
+    if os.environ.get("CI"):
+        return False
+    if sys.platform in {"win32", "darwin"}:
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
 def _has_jupyter_book() -> bool:
     from importlib.util import find_spec
 

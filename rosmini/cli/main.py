@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import importlib.util
 import io
 import sys
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
 from rosmini import __version__
 from rosmini.errors import RosminiError, nearest
+
+from .checkout import find_checkout
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,6 +36,14 @@ class Entry(NamedTuple):
 
     module: str
     summary: str
+    folder: str | None = None
+    """The folder of a checkout from which the module is imported; None: it is in the installed package."""
+
+    def load(self) -> Command:
+        """Import the subcommand. Raises `NoCheckout` if it needs a checkout and there is none."""
+        if self.folder is not None and (home := str(find_checkout() / self.folder)) not in sys.path:
+            sys.path.insert(0, home)
+        return cast("Command", importlib.import_module(self.module))
 
 
 COMMANDS: dict[str, Entry] = {
@@ -45,32 +54,29 @@ COMMANDS: dict[str, Entry] = {
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
     "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
     "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),
-    "book": Entry("rosmini.cli.book", "build the book from the stored outputs and open it"),
-    "lab": Entry("rosmini.cli.lab", "open the notebooks in JupyterLab"),
+    "book": Entry("book.tools.book", "build the book from the stored outputs and open it", "."),
+    "lab": Entry("book.tools.lab", "open the notebooks in JupyterLab", "."),
     "bench": Entry(
-        "rosmini.cli.bench", "measure rosmini, beside real ROS and ir-sim where they are installed"
+        "rosmini_bench",
+        "measure rosmini, beside real ROS and ir-sim where they are installed",
+        "tests/benchmarks",
     ),
 }
 
 
-def available() -> dict[str, Entry]:
-    """The subcommands whose module is installed, by name."""
-    return {name: entry for name, entry in COMMANDS.items() if importlib.util.find_spec(entry.module)}
-
-
-def chosen(argv: Sequence[str], commands: dict[str, Entry]) -> str | None:
+def chosen(argv: Sequence[str]) -> str | None:
     """The subcommand that `argv` names: its first word that is not an option; None if there is no such word.
 
     Raises `RosminiError` if that word is no subcommand.
     """
     word = next((word for word in argv if not word.startswith("-")), None)
-    if word is None or word in commands:
+    if word is None or word in COMMANDS:
         return word
-    guess = nearest(word, commands)
-    raise RosminiError(f"there is no command {word!r}; {guess or 'the commands are: ' + ', '.join(commands)}")
+    guess = nearest(word, COMMANDS)
+    raise RosminiError(f"there is no command {word!r}; {guess or 'the commands are: ' + ', '.join(COMMANDS)}")
 
 
-def build_parser(commands: dict[str, Entry], loaded: dict[str, Command]) -> argparse.ArgumentParser:
+def build_parser(loaded: dict[str, Command]) -> argparse.ArgumentParser:
     """The whole parser: in full for the `loaded` subcommands, by name and summary for the others."""
     parser = argparse.ArgumentParser(
         prog="rosmini",
@@ -79,7 +85,7 @@ def build_parser(commands: dict[str, Entry], loaded: dict[str, Command]) -> argp
     )
     parser.add_argument("--version", action="store_true", help="print the version and exit")
     subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
-    for name, entry in commands.items():
+    for name, entry in COMMANDS.items():
         if name in loaded:
             loaded[name].add_parser(subparsers)
         else:
@@ -96,15 +102,14 @@ def main(argv: Sequence[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):  # a message's letter that the locale lacks ends no command
             stream.reconfigure(errors="backslashreplace")
     argv = sys.argv[1:] if argv is None else list(argv)
-    commands = available()
     try:
-        name = chosen(argv, commands)
+        name = chosen(argv)
     except RosminiError as error:
         print(f"rosmini: {error}", file=sys.stderr)
         return 2
-    loaded = {name: cast("Command", importlib.import_module(commands[name].module))} if name else {}
     try:
-        parser = build_parser(commands, loaded)
+        loaded = {name: COMMANDS[name].load()} if name else {}
+        parser = build_parser(loaded)
         args = parser.parse_args(argv)
         if args.version:
             print(f"rosmini {__version__}")

@@ -9,9 +9,11 @@ import pytest
 
 from rosmini.sim.worlds import world
 from rosmini.viz import rqt_graph, scan_picture, style, world_picture
-from rosmini.viz.style import book_css
+from rosmini.viz.embed import STATIC
 
 pytestmark = pytest.mark.browser
+
+SHEET = (STATIC / "rosmini.css").read_text(encoding="utf-8")
 
 PAINTS = """(selector) => [...document.querySelectorAll(selector)].map((node) => {
   const look = getComputedStyle(node);
@@ -32,7 +34,7 @@ def show(chromium, watch):
     def show(theme: str, *views):
         figures = "".join(view.html for view in views)
         page.set_content(
-            f'<!DOCTYPE html><html data-theme="{theme}"><head><style>{book_css()}</style></head>'
+            f'<!DOCTYPE html><html data-theme="{theme}"><head><style>{SHEET}</style></head>'
             f"<body>{figures}</body></html>"
         )
         return page

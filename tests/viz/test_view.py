@@ -149,9 +149,14 @@ def test_text_and_lines_stand_out(palette):
         assert contrast(palette[line], palette["page"]) >= 3.0, line
 
 
-def test_both_palettes_name_the_same_colours_and_the_style_sheet_is_fresh():
+def test_both_palettes_name_the_same_colours_and_the_style_sheet_has_them():
     assert list(style.LIGHT) == list(style.DARK)
-    assert (ROOT / "rosmini/viz/static/rosmini.css").read_text(encoding="utf-8") == style.book_css()
+    sheet = (ROOT / "rosmini/viz/static/rosmini.css").read_text(encoding="utf-8")
+    light, dark = sheet.split("@media not print")
+    for rules, palette in ((light, style.LIGHT), (dark, style.DARK)):
+        assert dict(re.findall(r"--rosmini-([a-z-]+): (#[0-9a-f]{6});", rules)) == palette
+    assert f"--rosmini-font: {style.FONT};" in light
+    assert all(page in dark.partition("{")[2].partition("{")[0] for page in style.DARK_PAGES)
 
 
 def test_a_picture_follows_the_theme_of_its_page_and_has_no_id_and_no_link():

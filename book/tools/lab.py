@@ -6,9 +6,10 @@ import argparse
 import os
 from importlib.util import find_spec
 
+from rosmini.cli.checkout import find_checkout
 from rosmini.errors import RosminiError
 
-from .checkout import find_checkout, has_display
+from .build import has_display
 
 
 def port_number(text: str) -> int:

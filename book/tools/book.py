@@ -6,7 +6,9 @@ import argparse
 import webbrowser
 from pathlib import Path
 
-from .checkout import find_checkout, has_display, make_importable
+from rosmini.cli.checkout import find_checkout
+
+from .build import build_book, has_display
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -24,9 +26,6 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def main(args: argparse.Namespace) -> int:
     """Build, print where the first page is, and open it unless told not to or nobody would see it."""
     checkout = find_checkout()
-    make_importable(checkout)
-    from book.tools.build import build_book
-
     print(f"Building the book in {checkout} ...", flush=True)
     output = args.output.resolve() if args.output else None
     first = build_book(checkout, output, quiet=not args.verbose)

@@ -13,10 +13,10 @@ from pathlib import Path
 
 import pytest
 
-from book.tools import build
-from book.tools.build import BookError, build_book
-from rosmini.cli import book, checkout, lab, main
-from rosmini.cli.checkout import NoCheckout, find_checkout, has_display
+from book.tools import book, build, lab
+from book.tools.build import BookError, build_book, has_display
+from rosmini.cli import checkout, main
+from rosmini.cli.checkout import NoCheckout, find_checkout
 
 from ..processes import PATIENCE, free_port, listens, start, wait_until
 
@@ -46,7 +46,7 @@ def built(monkeypatch, tmp_path):
     """A build that takes no time, and the addresses that a browser was told to open."""
     opened: list[str] = []
     first = tmp_path / "index.html"
-    monkeypatch.setattr(build, "build_book", lambda *args, **options: first)
+    monkeypatch.setattr(book, "build_book", lambda *args, **options: first)
     monkeypatch.setattr(book.webbrowser, "open", lambda address: opened.append(address) or True)
     return first, opened
 
@@ -86,7 +86,7 @@ def test_what_counts_as_a_display(platform, environment, seen, monkeypatch):
         monkeypatch.delenv(name, raising=False)
     for name, value in environment.items():
         monkeypatch.setenv(name, value)
-    monkeypatch.setattr(checkout.sys, "platform", platform)
+    monkeypatch.setattr(build.sys, "platform", platform)
     assert has_display() is seen
 
 
@@ -187,7 +187,7 @@ def test_lab_serves_the_notebooks_on_this_machine_only(tmp_path):
 
 def test_lab_opens_no_browser_unless_it_can(monkeypatch):
     monkeypatch.setattr(lab, "has_display", lambda: True)
-    parser = main.build_parser(main.available(), {"lab": lab})
+    parser = main.build_parser({"lab": lab})
     assert "--no-browser" not in lab.lab_arguments(parser.parse_args(["lab"]), "n")
     assert "--no-browser" in lab.lab_arguments(parser.parse_args(["lab", "--no-open"]), "n")
     monkeypatch.setattr(lab, "has_display", lambda: False)
