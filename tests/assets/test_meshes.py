@@ -56,8 +56,9 @@ def test_every_surface_has_a_colour_and_looks_to_all_sides(name):
     for surface in surfaces:
         assert surface.colour is not None
         assert np.isfinite(surface.vertices).all()
-        corners = surface.triangles
+    for shape in MESHES[name]():  # the files are made of these, which `test_generate.py` compares
+        corners = shape.triangles
         flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         size = np.linalg.norm(flat, axis=1)
-        towards = np.einsum("ij,ikj->ik", flat, surface.normals[surface.faces])
+        towards = np.einsum("ij,ikj->ik", flat, shape.normals[shape.faces])
         assert (towards[size > 1e-9] > 0).all()

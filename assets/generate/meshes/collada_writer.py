@@ -10,12 +10,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.urdf.meshes import Surface
+from .shapes import Shape
 
 Floats = NDArray[np.float64]
 
 
-def write(surfaces: Sequence[Surface]) -> str:
+def write(surfaces: Sequence[Shape]) -> str:
     """The surfaces as a COLLADA file. Coordinates are rounded to a tenth of a millimetre, normals to a thousandth."""
     names = [surface.name or f"surface{i}" for i, surface in enumerate(surfaces)]
     pairs = list(zip(names, surfaces, strict=True))
@@ -46,7 +46,7 @@ def write(surfaces: Sequence[Surface]) -> str:
     )
 
 
-def _effect(name: str, surface: Surface) -> str:
+def _effect(name: str, surface: Shape) -> str:
     colour = " ".join(_number(part, 3) for part in surface.colour or (0.6, 0.6, 0.6, 1.0))
     return (
         f'<effect id="{name}-effect"><profile_COMMON><technique sid="common"><phong>'
@@ -56,9 +56,8 @@ def _effect(name: str, surface: Surface) -> str:
     )
 
 
-def _geometry(name: str, surface: Surface) -> str:
+def _geometry(name: str, surface: Shape) -> str:
     points, point_of = _distinct(surface.vertices, 4)
-    assert surface.normals is not None  # noqa: S101 (those that we write have some)
     normals, normal_of = _distinct(surface.normals, 3)
     corners = surface.faces.ravel()
     pairs = np.column_stack([point_of[corners], normal_of[corners]]).ravel().tolist()

@@ -16,9 +16,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from rosmini.urdf.meshes.surface import Floats, Surface, box, join, lathe, polygon, prism, rod
+from rosmini.urdf.meshes.surface import Floats
 
 from . import collada_writer
+from .shapes import Shape, box, join, lathe, polygon, prism, rod
 
 PLATE, HOLE = "#454e57", "#181c20"
 METAL, BRASS = "#c3cad1", "#b99a5b"
@@ -58,7 +59,7 @@ def holes(
     tops: Sequence[float],
     inside: Callable[[float, float], bool],
     deep: int = 1,
-) -> Surface:
+) -> Shape:
     """The dark square holes of the plates: all on the highest, and only the `deep` outer rows, which show, below it."""
     size = 0.0036
     tile = np.array([(-size, -size, 0), (size, -size, 0), (size, size, 0), (-size, size, 0)])
@@ -73,7 +74,7 @@ def holes(
     return join(found, HOLE, "holes")
 
 
-def pillars(places: Sequence[tuple[float, float]], floors: Sequence[float]) -> Surface:
+def pillars(places: Sequence[tuple[float, float]], floors: Sequence[float]) -> Shape:
     """Brass supports between plates."""
     return join(
         [rod(0.003, low + THICKNESS, high, 6).at(x, y) for low, high in pairwise(floors) for x, y in places],
@@ -82,12 +83,12 @@ def pillars(places: Sequence[tuple[float, float]], floors: Sequence[float]) -> S
     )
 
 
-def board(x: float, y: float, z: float, length: float, width: float, colour: str, name: str) -> Surface:
+def board(x: float, y: float, z: float, length: float, width: float, colour: str, name: str) -> Shape:
     """A circuit board, on its z."""
     return join(box((x, y, z + 0.0008), (length, width, 0.0016)), colour, name)
 
 
-def tyre() -> list[Surface]:
+def tyre() -> list[Shape]:
     """A wheel with its tyre: 66 mm across and 18 mm wide, with 20 treads; the hub looks to the left."""
     radius, half = 0.033, 0.009
     core = radius - 0.0016
@@ -112,7 +113,7 @@ def tyre() -> list[Surface]:
     ]
 
 
-def _tread(angle: float, low: float, high: float, half: float) -> Iterator[Surface]:
+def _tread(angle: float, low: float, high: float, half: float) -> Iterator[Shape]:
     """A bar across the tyre: its outer side, its flanks and its ends."""
     edges = [(low, angle - 0.095), (high, angle - 0.07), (high, angle + 0.07), (low, angle + 0.095)]
     ring = [(r * math.sin(a), r * math.cos(a)) for r, a in edges]
@@ -127,7 +128,7 @@ def _about_y(angle: float) -> Floats:
     return np.array([[c, 0, s, 0], [0, 1.0, 0, 0], [-s, 0, c, 0], [0, 0, 0, 1]])
 
 
-def lds() -> list[Surface]:
+def lds() -> list[Shape]:
     """LDS-01, 95.5 x 69.5 x 39.5 mm: a foot, the motor in front, and the turret; the scan plane is z = 0."""
     foot = rounded(0.0955, 0.0695, 0.033, 6) + np.array([0.013, 0.0])
     bottom, top = -0.030, 0.0095
@@ -149,7 +150,7 @@ def lds() -> list[Surface]:
     ]
 
 
-def r200() -> list[Surface]:
+def r200() -> list[Shape]:
     """RealSense R200: a bar of 130 mm with three eyes that look along x; its right end is in the origin."""
     middle = (0.003, 0.065, 0.010)
     outline = rounded(0.130, 0.020, 0.0095, 5)
@@ -170,7 +171,7 @@ def r200() -> list[Surface]:
     ]
 
 
-def pi_camera() -> list[Surface]:
+def pi_camera() -> list[Shape]:
     """Raspberry Pi camera v2.1: a board of 25 x 24 mm that stands upright in a holder and looks along x."""
     x, y, z = 0.005, 0.011, 0.013
     return [
@@ -191,7 +192,7 @@ def pi_camera() -> list[Surface]:
 # ---- the burger ----
 
 
-def burger_base() -> list[Surface]:
+def burger_base() -> list[Shape]:
     """Four plates of 138 x 138 mm with motors, battery, OpenCR and Raspberry Pi between; the laser is on top."""
     half, floors = 0.069, [0.006, 0.050, 0.092, 0.1365]
     outline = np.array(
@@ -227,7 +228,7 @@ def burger_base() -> list[Surface]:
     ]
 
 
-def _caster(x: float, y: float = 0.0) -> Surface:
+def _caster(x: float, y: float = 0.0) -> Shape:
     """The ball that carries the back: its lowest point is on the ground, 10 mm below base_link."""
     radius = 0.008
     steps = [math.pi * (i / 6 - 0.5) for i in range(7)]
@@ -236,14 +237,14 @@ def _caster(x: float, y: float = 0.0) -> Surface:
     return lathe(ball, 12).at(x, y)
 
 
-def _battery(x: float, z: float, width: float, length: float) -> list[Surface]:
+def _battery(x: float, z: float, width: float, length: float) -> list[Shape]:
     height = 0.026
     case = box((x, 0.0, z + height / 2), (length, width, height))
     label = box((x, 0.0, z + height / 2), (length + 0.0006, width * 0.5, height * 0.45))
     return [join(case, BATTERY, "battery"), join(label, LABEL, "label")]
 
 
-def _parts_on_boards(z1: float, z2: float, x1: float = 0.0, x2: float = -0.006) -> list[Surface]:
+def _parts_on_boards(z1: float, z2: float, x1: float = 0.0, x2: float = -0.006) -> list[Shape]:
     """Chips and sockets of OpenCR and of the computer."""
     chips = [
         *box((x1 + 0.005, 0.004, z1 + 0.001), (0.016, 0.016, 0.002)),
@@ -263,7 +264,7 @@ def _parts_on_boards(z1: float, z2: float, x1: float = 0.0, x2: float = -0.006) 
     return [join(chips, CHIP, "chips"), join(sockets, METAL, "sockets")]
 
 
-def _spacers(boards: Sequence[tuple[float, float, float, float, float]]) -> Surface:
+def _spacers(boards: Sequence[tuple[float, float, float, float, float]]) -> Shape:
     return join(
         [
             rod(0.002, z, z + 0.010, 5).at(x + a * (length / 2 - 0.004), y + b * (width / 2 - 0.004))
@@ -283,7 +284,7 @@ WAFFLE_FLOORS = (0.006, 0.046, 0.0885)
 ON_SECOND = WAFFLE_FLOORS[1] + THICKNESS
 
 
-def waffle_base() -> list[Surface]:
+def waffle_base() -> list[Shape]:
     """What both Waffles share: three plates of 266 x 266 mm with cut corners, motors in front, two casters, OpenCR."""
     half, cut, floors = 0.133, 0.046, WAFFLE_FLOORS
     ring = [(half, half - cut), (half - cut, half)]
@@ -311,7 +312,7 @@ def waffle_base() -> list[Surface]:
     ]
 
 
-def joule() -> list[Surface]:
+def joule() -> list[Shape]:
     """The Waffle's computer: an Intel Joule on its board, with fins to cool it."""
     x, z = -0.070, ON_SECOND + 0.010
     fins = [
@@ -324,7 +325,7 @@ def joule() -> list[Surface]:
     ]
 
 
-def raspberry_pi() -> list[Surface]:
+def raspberry_pi() -> list[Shape]:
     """The Waffle Pi's computer."""
     x, z = -0.070, ON_SECOND + 0.010
     sockets = [
@@ -342,7 +343,7 @@ def raspberry_pi() -> list[Surface]:
     ]
 
 
-MESHES: dict[str, Callable[[], list[Surface]]] = {
+MESHES: dict[str, Callable[[], list[Shape]]] = {
     "bases/burger_base.dae": burger_base,
     "bases/waffle_base.dae": waffle_base,
     "bases/waffle_joule.dae": joule,

@@ -212,7 +212,7 @@ def _fans(sizes: list[int]) -> NDArray[np.int64]:
 def _welded(
     points: Floats, normals: Floats | None, faces: NDArray[np.int64], colour: Colour | None
 ) -> Surface:
-    """Corners that are alike in place and normal become one."""
+    """Corners that are alike in position and normal become one vertex: between flat faces, edges stay sharp."""
     rows = points if normals is None else np.hstack([points, normals])
     places: dict[bytes, int] = {}
     firsts: list[int] = []
@@ -223,7 +223,7 @@ def _welded(
             places[key] = len(firsts)
             firsts.append(i)
         which[i] = places[key]
-    return Surface(points[firsts], which[faces], None if normals is None else normals[firsts], colour)
+    return Surface(points[firsts], which[faces], colour)
 
 
 def _transform(node: Element) -> Floats:

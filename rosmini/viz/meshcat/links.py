@@ -6,14 +6,15 @@ import math
 from collections.abc import Collection
 from dataclasses import replace
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
 from rosmini.urdf import Box, Cylinder, Geometry, Material, Mesh, Robot, Sphere, Visual, load
 from rosmini.urdf.meshes import Surface, read
-from rosmini.urdf.meshes.surface import box, join, lathe, rod
 from rosmini.viz.view import ViewError
 
+from .solids import Facets, Floats, Prism, mesh, regular, triangulate
 from .surfaces import LinkPart
 
 GREY = "#98a3ad"
@@ -72,15 +73,37 @@ def link_surfaces(
 def surfaces_of(geometry: Geometry) -> list[Surface]:
     """A shape around its origin."""
     if isinstance(geometry, Box):
-        return [join(box((0, 0, 0), geometry.size), GREY)]
+        x, y, z = (side / 2 for side in geometry.size)
+        return [upright(np.array([(-x, -y), (x, -y), (x, y), (-x, y)]), -z, z)]
     if isinstance(geometry, Cylinder):
-        return [rod(geometry.radius, -geometry.length / 2, geometry.length / 2, ROUND)]
+        radius, half = geometry.radius, geometry.length / 2
+        return [_lathe([(0.0, -half), (radius, -half), (radius, half), (0.0, half)])]
     if isinstance(geometry, Sphere):
-        angles = [math.pi * (i / BALL - 0.5) for i in range(BALL + 1)]
+        angles = [math.pi * (i / BALL - 0.5) for i in range(1, BALL)]
         rings = [(geometry.radius * math.cos(a), geometry.radius * math.sin(a)) for a in angles]
-        rings[0], rings[-1] = (0.0, rings[0][1]), (0.0, rings[-1][1])
-        return [lathe(rings, ROUND)]
+        return [_lathe([(0.0, -geometry.radius), *rings, (0.0, geometry.radius)])]
     return _mesh(geometry)
+
+
+def upright(outline: Floats, bottom: float, top: float) -> Surface:
+    """An outline (n, 2), counter-clockwise, from `bottom` to `top`, closed."""
+    floor = np.column_stack([outline, np.full(len(outline), bottom)])
+    below = Facets(tuple(floor[corners[::-1]] for corners in triangulate(outline)))
+    return Surface(*mesh([Prism(outline, bottom, top), below]))
+
+
+def _lathe(profile: list[tuple[float, float]]) -> Surface:
+    """The surface of revolution about z of a profile of (radius, height), upwards: smooth, but for its edges."""
+    vertices, faces = [], []
+    circle, ahead = regular(ROUND, 1.0), np.roll(np.arange(ROUND), -1)
+    low = np.arange(ROUND)
+    for (r0, z0), (r1, z1) in pairwise(profile):
+        vertices += [np.column_stack([circle * r, np.full(ROUND, z)]) for r, z in ((r0, z0), (r1, z1))]
+        quads = ([(low, ahead, ahead + ROUND)] if r0 else []) + (
+            [(low, ahead + ROUND, low + ROUND)] if r1 else []
+        )
+        faces += [np.column_stack(triangle) + ROUND * (len(vertices) - 2) for triangle in quads]
+    return Surface(np.vstack(vertices), np.vstack(faces))
 
 
 def _mesh(mesh: Mesh) -> list[Surface]:
@@ -94,6 +117,4 @@ def merged(surfaces: list[Surface]) -> Surface:
     """Several surfaces as one, in the colour of the first."""
     starts = np.cumsum([0, *(len(each.vertices) for each in surfaces)])
     faces = [each.faces + start for each, start in zip(surfaces, starts, strict=False)]
-    return Surface(
-        np.vstack([each.vertices for each in surfaces]), np.vstack(faces), None, surfaces[0].colour
-    )
+    return Surface(np.vstack([each.vertices for each in surfaces]), np.vstack(faces), surfaces[0].colour)

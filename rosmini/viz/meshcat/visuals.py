@@ -7,14 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from rosmini.geometry.polygons import area
 from rosmini.sim.gazebo.msgs import Collision, Geometry, Link, Model, Pose, Visual
 from rosmini.sim.gazebo.snapshot import pose_of, solids_of
 from rosmini.sim.sdf.poses import matrix
 from rosmini.urdf import Box, Cylinder, Sphere
 from rosmini.urdf.meshes import Surface, read
 
-from .links import hex_colour, merged, surfaces_of
-from .solids import Facets, Floats, Prism, mesh, triangulate
+from .links import hex_colour, merged, surfaces_of, upright
+from .solids import Floats
 
 SOLID = "#e69e00"
 """The colour of what is solid, as Gazebo's View menu shows it."""
@@ -90,7 +91,10 @@ def _shape(shape: Geometry) -> list[Surface]:
         normal, size2 = shape.plane.normal, shape.plane.size
         return [_plane(np.array([normal.x, normal.y, normal.z]), size2.x, size2.y)]
     outlines = [np.array([(point.x, point.y) for point in line.point]) for line in shape.polyline]
-    return [_upright(outline, shape.polyline[0].height) for outline in outlines]
+    return [
+        upright(outline if area(outline) > 0 else outline[::-1], 0.0, shape.polyline[0].height)
+        for outline in outlines
+    ]
 
 
 def _plane(normal: Floats, length: float, width: float) -> Surface:
@@ -102,17 +106,6 @@ def _plane(normal: Floats, length: float, width: float) -> Surface:
     ends = ((-1, -1), (1, -1), (1, 1), (-1, 1))
     corners = [a * length / 2 * ahead + b * width / 2 * aside for a, b in ends]
     return Surface(np.array(corners), np.array([(0, 1, 2), (0, 2, 3)]))
-
-
-def _upright(outline: Floats, height: float) -> Surface:
-    """A closed outline from the ground up."""
-    x, y = outline.T
-    if float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) < 0:
-        outline = outline[::-1]
-    floor = np.column_stack([outline, np.zeros(len(outline))])
-    below = Facets(tuple(floor[corners[::-1]] for corners in triangulate(outline)))
-    vertices, faces = mesh([Prism(outline, 0.0, height), below])
-    return Surface(vertices, faces)
 
 
 # ---- what is drawn by its solids ----
