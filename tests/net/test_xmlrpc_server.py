@@ -66,7 +66,8 @@ def say(server: XmlRpcServer, text: bytes) -> bytes:
         parts = []
         with suppress(ConnectionError):  # it may close before it has read all
             raw.sendall(text)
-            raw.shutdown(socket.SHUT_WR)
+            with suppress(OSError):  # it has closed already
+                raw.shutdown(socket.SHUT_WR)
             while part := raw.recv(65536):
                 parts.append(part)
         return b"".join(parts)
