@@ -14,6 +14,7 @@ changes alone, and `Publisher.publish_frozen` sends them as they are.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,7 @@ from rosmini.errors import RosminiError, SerializationError
 
 from . import fields
 from .codegen import Generator, Leaf, compiled
+from .definition import BYTES, FORMATS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -38,32 +40,53 @@ def template(message: Message, *varying: str) -> Callable[..., Any]:
 
     Raises `RosminiError` if a path leads to no such field, and `SerializationError` as publishing the message does.
     """
-    return compiled(_Template(type(message)._freeze(message), varying))
+    frozen = type(message)._freeze(message)
+    cls = type(frozen)
+    maker, constant = _maker(cls, varying)
+
+    def explained(values: tuple[Any, ...], cause: Exception) -> SerializationError:
+        """Return the error for values of which one does not fit."""
+        example = cls._freeze(frozen)
+        for path, value in zip(varying, values, strict=True):
+            parent, _, name = path.rpartition(".")
+            setattr(attrgetter(parent)(example) if parent else example, name, value)
+        return fields.explain(cls, example, cause)
+
+    made: Callable[..., Any] = maker(tuple(attrgetter(path)(frozen) for path in constant), explained)
+    return made
+
+
+@lru_cache(maxsize=1024)
+def _maker(cls: Any, varying: tuple[str, ...]) -> tuple[Callable[..., Any], tuple[str, ...]]:
+    """Compile what the templates of one class with the same varying fields share; return it and the constant fields."""
+    generator = _Template(cls, varying)
+    return compiled(generator), tuple(generator.constant)
 
 
 class _Template(Generator):
-    def __init__(self, frozen: Any, varying: tuple[str, ...]) -> None:
-        cls = type(frozen)
-        super().__init__(cls, "make")
-        self.frozen = frozen
+    def __init__(self, cls: Any, varying: tuple[str, ...]) -> None:
+        super().__init__(cls, "maker")
         self.varying = {path: f"v{place}" for place, path in enumerate(varying)}
-        known = [self.path(leaf) for leaf in self.leaves]
+        paths = [self.path(leaf) for leaf in self.leaves]
         for path in varying:
-            if path not in known:
-                msg = f"{cls._type} has no field {path!r} for a template to set; it has {', '.join(known)}"
+            if path not in paths:
+                msg = f"{cls._type} has no field {path!r} for a template to set; it has {', '.join(paths)}"
                 raise RosminiError(msg)
+        constant = [path for path in paths if path not in self.varying]
+        self.constant = {path: f"c{place}" for place, path in enumerate(constant)}
 
     @staticmethod
     def path(leaf: Leaf) -> str:
         return leaf[0].field_path(leaf[1])
 
-    def _make(self) -> None:
+    def _maker(self) -> None:
+        self.emit("def maker(constants, explained):", 0)
         given = ", ".join(self.varying.values())
-        self.emit(f"def make({given}):", 0)
+        self.emit(f"def make({given}):")
         changing = [leaf for leaf in self.leaves if self.path(leaf) in self.varying]
         numbers = [leaf for leaf in changing if self.is_number(leaf)]
         if changing:
-            self.emit("try:")
+            self.emit("try:", 2)
         if numbers:
             packer, _ = self.struct_for(numbers)
             values = [self.varying[self.path(leaf)] for leaf in numbers]
@@ -73,36 +96,30 @@ class _Template(Generator):
                 f"{as_bool}({value})" if leaf[3] == "bool" else value
                 for leaf, value in zip(numbers, values, strict=True)
             )
-            self.emit(f"{listed}, = {packer}.unpack({packer}.pack({', '.join(packed)}))", 2)
+            self.emit(f"{listed}, = {packer}.unpack({packer}.pack({', '.join(packed)}))", 3)
             for leaf, value in zip(numbers, values, strict=True):
                 if leaf[3] == "bool":
-                    self.emit(f"{value} = {value} != 0", 2)
+                    self.emit(f"{value} = {value} != 0", 3)
         for leaf in changing:
             if not self.is_number(leaf):
-                self.emit_checked(leaf, self.varying[self.path(leaf)], 2)
+                self.emit_checked(leaf, self.varying[self.path(leaf)], 3)
         if changing:
-            self.emit(f"except {self.use('ERRORS', fields.ERRORS)} as error:")
-            self.emit(f"raise {self.use('explained', self.explained)}(({given},), error) from error", 2)
-        self.emit_targets(1)
+            self.emit(f"except {self.use('ERRORS', fields.ERRORS)} as error:", 2)
+            self.emit(f"raise explained(({given},), error) from error", 3)
+        if self.constant:
+            self.emit(f"{', '.join(self.constant.values())}, = constants", 2)
+        self.emit_targets(2)
         for leaf in self.leaves:
-            value = self.varying.get(self.path(leaf)) or self.constant(leaf)
-            self.emit(f"{leaf[0].target}.{self.slot(leaf[1])} = {value}")
-        self.emit_finish(1)
-        self.emit("return o")
+            value = self.varying.get(self.path(leaf)) or self.fresh(leaf)
+            self.emit(f"{leaf[0].target}.{self.slot(leaf[1])} = {value}", 2)
+        self.emit_finish(2)
+        self.emit("return o", 2)
+        self.emit("return make")
 
-    def constant(self, leaf: Leaf) -> str:
-        """What stays, as it is put into each message: lists anew, for a receiver may write into them."""
+    def fresh(self, leaf: Leaf) -> str:
+        """Return the expression for a constant field: lists are copied, for a receiver may write into them."""
         _, _, field, _ = leaf
-        value = attrgetter(self.path(leaf))(self.frozen)
-        name = self.use("constant", value)
-        if isinstance(value, list) and field is not None:
-            return f"{self.array_function(field, verb='freeze')}({name})"
-        return name
-
-    def explained(self, values: tuple[Any, ...], cause: Exception) -> SerializationError:
-        """The error for values of which one does not fit."""
-        message = self.cls._freeze(self.frozen)
-        for path, value in zip(self.varying, values, strict=True):
-            parent, _, name = path.rpartition(".")
-            setattr(attrgetter(parent)(message) if parent else message, name, value)
-        return fields.explain(self.cls, message, cause)
+        name = self.constant[self.path(leaf)]
+        if field is None or field.size is None or field.base in FORMATS or field.base in BYTES:
+            return name
+        return f"{self.array_function(field, verb='freeze')}({name})"

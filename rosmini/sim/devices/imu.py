@@ -77,10 +77,10 @@ class ImuDevice(Sensor):
     def sample(self, number: int) -> tuple[float, ...]:
         """Return the orientation as a quaternion, the angular velocity and the acceleration."""
         robot, imu = self.robot, self._imu
-        v, w, dv, dw = robot.motion()
+        theta, motion = robot.turning()
         aside = STILL if self._rolls else (robot.velocity[1], robot.acceleration_aside)
-        half = imu.heading(number, robot.pose[2] - self._heading) / 2
-        return (0.0, 0.0, math.sin(half), math.cos(half), *imu.read(number, v, w, dv, dw, aside))
+        heading, *rest = imu.sample(number, theta - self._heading, *motion, aside)
+        return (0.0, 0.0, math.sin(heading / 2), math.cos(heading / 2), *rest)
 
     @property
     def heading(self) -> float:

@@ -185,6 +185,15 @@ class Robot:
         dv, _, dw = self.drive.velocity(rates, self._way.rolling)
         return Motion(v, w, dv, dw)
 
+    def turning(self) -> tuple[float, Motion]:
+        """Return its heading, not wrapped, and `motion`: all that an IMU needs, without finding its position."""
+        cruise, ns = self._way.cruise, self._instant.ns
+        if cruise is not None and self._step is None and not self.touching:
+            dt = (ns - self._since_ns) / SECOND - cruise.begin
+            if dt >= 0:
+                return cruise.theta + cruise.motion.w * dt, cruise.motion
+        return self.pose[2], self.motion()
+
     @property
     def velocity(self) -> Speeds:
         """How fast it really goes: ahead and to its left side [m/s], and to the left [rad/s]."""
@@ -318,6 +327,10 @@ class Thing(Robot):
         """How it really moves at this moment."""
         rates = self._rates if self._instant.ns <= self._followed_ns else (0.0, 0.0)
         return Motion(self.seen[0], self.seen[2], *rates)
+
+    def turning(self) -> tuple[float, Motion]:
+        """Return its heading, not wrapped, and `motion`."""
+        return self.pose[2], self.motion()
 
     @property
     def velocity(self) -> Speeds:

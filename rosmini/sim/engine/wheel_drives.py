@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from rosmini.geometry.poses import Pose
 from rosmini.sim.models import RobotModel
+from rosmini.sim.sensors.imu import Motion
 
 from .free_motion import (
     ROUNDING,
@@ -37,6 +38,16 @@ class Spot(NamedTuple):
     rates: Numbers
 
 
+class Cruise(NamedTuple):
+    """The last phase of a way, in which nothing changes any more: when it begins [s], at which heading, and how fast.
+
+    """
+
+    begin: float
+    theta: float
+    motion: Motion
+
+
 class Way:
     """The motion of a robot from a pose and a state of its wheels to its targets, and on: phases with steady rates."""
 
@@ -47,6 +58,8 @@ class Way:
         self._robot = robot
         (self._end, rates), *self._later = robot.phases(state, targets)
         self._phases = [(0.0, Spot(pose, state, rates))]
+        self.cruise = self._cruise()
+        """Where it ends; None until somebody has asked for a time after that."""
 
     def at(self, dt: float) -> Spot:
         """Where it leads to in so many seconds."""
@@ -57,6 +70,7 @@ class Way:
             state = self._robot.settled(state, self.targets)
             self._phases.append((self._end, Spot(pose, state, rates)))
             self._end += length
+            self.cruise = self._cruise()
         begin, spot = self._phases[-1]
         if dt < begin:
             begin, spot = next(each for each in reversed(self._phases) if dt >= each[0])
@@ -64,7 +78,14 @@ class Way:
             return spot
         pose, state, rates = spot
         pose, state = self._robot.after(pose, state, rates, dt - begin, self.rolling)
-        return Spot(pose, state, rates)
+        return tuple.__new__(Spot, (pose, state, rates))  # in half the time of Spot(...)
+
+    def _cruise(self) -> Cruise | None:
+        if not math.isinf(self._end):
+            return None
+        begin, (pose, state, _) = self._phases[-1]
+        v, _, w = self._robot.velocity(state, self.rolling)
+        return Cruise(begin, pose[2], Motion(v, w, 0.0, 0.0))
 
     def plain(self) -> tuple[Pose, WheelState, Numbers, Numbers]:
         """All that it follows from."""
