@@ -55,6 +55,8 @@ class Robot:
         self.drive = AnySide(model) if model.drive == "holonomic" else TwoWheels(model)
         self._instant = instant
         self.stop(pose)
+        self._past: tuple[Leg | None, Way] = (None, self._way)
+        """The leg of its trail that was asked for last, and the way on it."""
 
     def stop(self, pose: Pose) -> None:
         """Stand still there, with encoders at zero and no command."""
@@ -130,8 +132,10 @@ class Robot:
 
     def later(self, leg: Leg, dt: float) -> Pose:
         """Where it was so long [s] after the begin of a leg of its trail."""
-        _, pose, state, (targets, rolling) = leg
-        return Way(self.drive, pose, state, targets, rolling).at(dt).pose
+        if leg is not self._past[0]:
+            _, pose, state, (targets, rolling) = leg
+            self._past = (leg, Way(self.drive, pose, state, targets, rolling))
+        return self._past[1].at(dt).pose
 
     # -- where it is ---------------------------------------------------------------------------------------------
 
