@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -169,14 +170,17 @@ class Body:
         """Whether something from `bottom` to `top` can bump into it, or passes over or under it."""
         return self.bottom <= top and bottom <= self.top
 
+    @cached_property
+    def _circle(self) -> tuple[float, float, float]:
+        """The centre and the radius of a circle around its pieces, in its own frame."""
+        corners = np.vstack([piece.corners for piece in self.pieces])
+        x, y = ((corners.min(axis=0) + corners.max(axis=0)) / 2).tolist()
+        farthest = float(np.hypot(corners[:, 0] - x, corners[:, 1] - y).max())
+        return x, y, farthest + max(piece.radius for piece in self.pieces)
+
     def row(self, surface: Surface) -> tuple[float, ...]:
         """Its properties as `rosmini.sim.engine.kernels` wants them."""
-        corners, radii = (
-            np.vstack([piece.corners for piece in self.pieces]),
-            max(p.radius for p in self.pieces),
-        )
-        x, y = ((corners.min(axis=0) + corners.max(axis=0)) / 2).tolist()
-        girth = float(np.hypot(corners[:, 0] - x, corners[:, 1] - y).max()) + radii
+        x, y, girth = self._circle
         drag, load, lever = self.rubs
         default = surface.grip if self.kind == ROBOT else surface.drag
         hold = (default if drag is None else drag) * load * surface.gravity

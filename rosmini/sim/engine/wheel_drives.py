@@ -39,9 +39,7 @@ class Spot(NamedTuple):
 
 
 class Cruise(NamedTuple):
-    """The last phase of a way, in which nothing changes any more: when it begins [s], at which heading, and how fast.
-
-    """
+    """The last phase of a way, in which speeds stay: when it begins [s], and the heading and the motion then."""
 
     begin: float
     theta: float
@@ -58,8 +56,7 @@ class Way:
         self._robot = robot
         (self._end, rates), *self._later = robot.phases(state, targets)
         self._phases = [(0.0, Spot(pose, state, rates))]
-        self.cruise = self._cruise()
-        """Where it ends; None until somebody has asked for a time after that."""
+        self._last: Cruise | None = None
 
     def at(self, dt: float) -> Spot:
         """Where it leads to in so many seconds."""
@@ -70,7 +67,6 @@ class Way:
             state = self._robot.settled(state, self.targets)
             self._phases.append((self._end, Spot(pose, state, rates)))
             self._end += length
-            self.cruise = self._cruise()
         begin, spot = self._phases[-1]
         if dt < begin:
             begin, spot = next(each for each in reversed(self._phases) if dt >= each[0])
@@ -80,12 +76,14 @@ class Way:
         pose, state = self._robot.after(pose, state, rates, dt - begin, self.rolling)
         return tuple.__new__(Spot, (pose, state, rates))  # in half the time of Spot(...)
 
-    def _cruise(self) -> Cruise | None:
-        if not math.isinf(self._end):
-            return None
-        begin, (pose, state, _) = self._phases[-1]
-        v, _, w = self._robot.velocity(state, self.rolling)
-        return Cruise(begin, pose[2], Motion(v, w, 0.0, 0.0))
+    @property
+    def cruise(self) -> Cruise | None:
+        """Its last phase; None until somebody has asked where it is in that."""
+        if self._last is None and self._end == math.inf:
+            begin, (pose, state, _) = self._phases[-1]
+            v, _, w = self._robot.velocity(state, self.rolling)
+            self._last = Cruise(begin, pose[2], Motion(v, w, 0.0, 0.0))
+        return self._last
 
     def plain(self) -> tuple[Pose, WheelState, Numbers, Numbers]:
         """All that it follows from."""
@@ -223,7 +221,9 @@ class TwoWheels(Drive):
 
     def haste(self, state: WheelState, targets: Numbers, rolling: Numbers) -> float:
         """See `Drive.haste`."""
-        lefts, rights = {state[0], targets[0]}, {state[1], targets[1]}
+        if state[:2] == targets:
+            return self._speed(self.velocity(targets, rolling))
+        lefts, rights = (state[0], targets[0]), (state[1], targets[1])
         return max(self._speed(self.velocity((a, b), rolling)) for a in lefts for b in rights)
 
 

@@ -116,7 +116,9 @@ class Imu:
             rows = np.frombuffer(self._rows).reshape(-1, 7).copy()
             start = max(number + 1 - self._first, 0)
             rows[start:, :3] += more
-            rows[start:, 6] += more[2] * np.arange(self._first + start - number, self._end - number) / self.model.rate
+            rows[start:, 6] += (
+                more[2] * np.arange(self._first + start - number, self._end - number) / self.model.rate
+            )
             self._rows, self._drift = rows.tobytes(), float(rows[-1, 6])
 
     def sample(
