@@ -41,7 +41,7 @@ def template(message: Message, *varying: str) -> Callable[..., Any]:
     Raises `RosminiError` if a path leads to no such field, and `SerializationError` as publishing the message does.
     """
     frozen = type(message)._freeze(message)
-    cls = type(frozen)
+    cls: Any = type(frozen)
     maker, constant = _maker(cls, varying)
 
     def explained(values: tuple[Any, ...], cause: Exception) -> SerializationError:
