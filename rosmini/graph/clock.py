@@ -7,9 +7,10 @@ topic ``/clock`` instead, as in ROS (http://wiki.ros.org/Clock): time stands sti
 from __future__ import annotations
 
 import heapq
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rosmini.errors import ROSInterruptException, RosminiError, ROSTimeMovedBackwardsException
+from rosmini.errors import RosminiError, ROSTimeMovedBackwardsException
 from rosmini.time import Duration, Time
 
 if TYPE_CHECKING:
@@ -111,9 +112,10 @@ class Rate:
 
     def remaining(self) -> Duration:
         """Return how long :meth:`sleep` would sleep."""
-        return Duration.from_nsec(self._left(self._node.clock.now_ns()))
+        return Duration.from_nsec(self.left_ns(self._node.clock.now_ns()))
 
-    def _left(self, now: int) -> int:
+    def left_ns(self, now: int) -> int:
+        """Return how much is left of this turn at a time of the node's clock; negative when it took too long."""
         self._last = min(self._last, now)
         return self._last + self._period - now
 
@@ -126,14 +128,21 @@ class Rate:
         node = self._node
         clock = node.clock
         try:
-            node.sleep_ns(self._left(clock.now_ns()))
+            node.sleep_ns(self.left_ns(clock.now_ns()))
         except ROSTimeMovedBackwardsException:
             if not self._reset:
                 raise
-            self._last = clock.now_ns()
+            self.restart(clock.now_ns())
             return
+        self.end_turn(clock.now_ns())
+
+    def restart(self, now: int) -> None:
+        """Let a turn begin now."""
+        self._last = now
+
+    def end_turn(self, now: int) -> None:
+        """Note that a turn was slept to its end; the next one began when it was due, unless it is very late."""
         self._last += self._period
-        now = clock.now_ns()
         if now - self._last > 2 * self._period:
             self._last = now
 
@@ -152,7 +161,8 @@ class Timer:
     """Calls ``callback(event)`` every ``period`` seconds of the node's time, in a lane of its own.
 
     A callback that takes longer than the period delays the next one; missed ones are not made up for. One that raises
-    ends the timer, as it ends the thread of a ``rospy.Timer``: that is reported, and the node goes on.
+    ends the timer, as it ends the thread of a ``rospy.Timer``: that is reported, and the node goes on. Between two
+    callbacks nothing is parked.
     """
 
     def __init__(
@@ -168,46 +178,86 @@ class Timer:
             msg = f"a timer's period must be positive, not {period.to_sec()} s"
             raise RosminiError(msg)
         self._node = node
-        self._period = period
+        self._cycle = Rate(node, 1e9 / period.to_nsec())
+        self._cycle.sleep_dur = period
+        self._period = period.to_nsec()
         self._callback = callback
-        self._oneshot = oneshot
         self._reset = reset
+        self._oneshot = oneshot
         self._running = True
+        self._slept_from = 0
+        self._expected = Time()
+        self._before: tuple[Time | None, Time | None, float | None] = None, None, None
+        self._cancel: Callable[[], None] | None = None
+        node.timers[self] = None
         name = getattr(callback, "__name__", "callback")
-        self._lane = node.spawn(f"{node.name} timer {name}", self._run)
+        self._lane = node.spawn(f"{node.name} timer {name}", self._begin)
 
     def shutdown(self) -> None:
         """Stop the timer: no callback starts after this."""
         self._running = False
+        self._node.timers.pop(self, None)
+        if self._cancel is not None:
+            self._cancel()
 
     def is_alive(self) -> bool:
         """Tell whether callbacks may still come."""
         return self._running
 
-    def _run(self) -> None:
-        rate = Rate(self._node, 1e9 / self._period.to_nsec(), reset=self._reset)
-        rate.sleep_dur = self._period
-        expected = self._node.now() + self._period
-        last_expected: Time | None = None
-        last_real: Time | None = None
-        last_duration: float | None = None
-        while self._running and not self._node.is_shutdown():
-            try:
-                rate.sleep()
-            except ROSInterruptException:
-                break
-            if not self._running:
-                break
-            real = self._node.now()
-            try:
-                self._callback(TimerEvent(last_expected, last_real, expected, real, last_duration))
-            except Exception as error:
-                self._running = False  # before the report, which may raise where the graph is driven
-                self._node.callback_failed(error, self._callback, "a timer, which ends with it", None)
-                break
-            last_duration = (self._node.now() - real).to_sec()
-            last_expected, last_real = expected, real
-            if self._oneshot:
-                break
-            expected = expected + self._period
-        self._running = False
+    def _begin(self) -> None:
+        now = self._node.clock.now_ns()
+        self._cycle.restart(now)
+        self._expected = Time.from_nsec(now + self._period)
+        self._wait()
+
+    def _wait(self) -> None:
+        """Ask for the next turn, as :meth:`Rate.sleep` sleeps until then."""
+        node = self._node
+        if node.is_shutdown():
+            self.shutdown()
+        if not self._running:
+            return
+        clock = node.clock
+        now = self._slept_from = clock.now_ns()
+        span = self._cycle.left_ns(now)
+        if span <= 0:  # everything else that is due comes first
+            node.scheduler.call_soon_threadsafe(self._due)
+        elif now == 0:
+            self._cancel = clock.call_at(1, partial(self._wait_from_first_message, span))
+        else:
+            self._cancel = clock.call_at(now + span, self._due)
+
+    def _wait_from_first_message(self, span: int) -> None:
+        clock = self._node.clock
+        self._slept_from = clock.now_ns()
+        self._cancel = clock.call_at(self._slept_from + span, self._due)
+
+    def _due(self) -> None:
+        self._lane.post(self._turn)
+
+    def _turn(self) -> None:
+        """Call the callback. In the timer's lane."""
+        if not self._running:
+            return
+        node = self._node
+        now = node.clock.now_ns()
+        if now >= self._slept_from:
+            self._cycle.end_turn(now)
+        elif self._reset:
+            self._cycle.restart(now)
+        else:  # the clock has moved backwards
+            self.shutdown()
+            return
+        real, expected = Time.from_nsec(now), self._expected
+        last_expected, last_real, last_duration = self._before
+        try:
+            self._callback(TimerEvent(last_expected, last_real, expected, real, last_duration))
+        except Exception as error:
+            self.shutdown()  # before the report, which may raise where the graph is driven
+            node.callback_failed(error, self._callback, "a timer, which ends with it", None)
+            return
+        if self._oneshot:
+            self.shutdown()
+        self._before = expected, real, (node.clock.now_ns() - now) / 1e9
+        self._expected = Time.from_nsec(expected.to_nsec() + self._period)
+        self._wait()

@@ -93,6 +93,8 @@ class Node(ParameterApi):
         self.subscriptions: dict[str, Subscription] = {}
         self.services: dict[str, ServiceServer] = {}
         self._hooks: list[Callable[[], object]] = []
+        self.timers: dict[Timer, None] = {}
+        """The timers that run."""
         self._waiters: dict[Waiter, None] = {}
         self._connections = 0
         self._parameter_callbacks: dict[str, list[Callable[[Any], object]]] = {}
@@ -427,6 +429,8 @@ class Node(ParameterApi):
         graph = self.graph
         for waiter in list(self._waiters):
             waiter.fail(ROSInterruptException(self._shutdown_message()))
+        for timer in list(self.timers):
+            timer.shutdown()
         servers, subscriptions = list(self.services.values()), list(self.subscriptions.values())
         publications = list(self.publications.values())
         for server in servers:

@@ -37,6 +37,7 @@ class NodePort(Protocol):
     shutdown_reason: str | None
     publications: dict[str, Any]
     subscriptions: dict[str, Any]
+    timers: dict[Any, None]
 
     @property
     def clock(self) -> NodeClock: ...

@@ -158,6 +158,46 @@ def test_a_timer_can_be_stopped_from_its_callback_and_from_outside(graph: Graph)
     assert not timer.is_alive()
 
 
+def test_a_timer_ends_with_its_node_and_holds_no_time_up(graph: Graph) -> None:
+    node, other, fired = graph.node("node"), graph.node("other"), []
+    timer = node.timer(1.0, lambda _: fired.append(1))
+    until(graph, lambda: fired)
+    node.shutdown()
+    late = node.timer(1.0, lambda _: fired.append("late"))
+    kept = other.timer(5.0, lambda _: None)
+    kept.shutdown()
+    if graph.simulated:
+        begin = graph.now()
+        graph.run()  # nothing is due any more
+        assert graph.now() == begin
+    else:
+        settle(graph)
+    assert not timer.is_alive() and not late.is_alive() and not kept.is_alive()
+    assert fired == [1]
+
+
+def test_between_two_calls_nothing_of_a_timer_is_parked(simulated: Graph) -> None:
+    node = simulated.node("node")
+    node.timer(1.0, lambda _: node.sleep(0.5))
+    assert simulated.run(1.75).waiting == ()
+    assert [waiting.lane for waiting in simulated.run(0.5).waiting] == ["/node timer <lambda>"]
+
+
+def test_a_jump_back_ends_a_timer_or_restarts_it(graph: Graph) -> None:
+    node, clock = on_topic_clock(graph)
+    tell(graph, clock, 100.0, node)
+    fired: list[Any] = []
+    ended = node.timer(10.0, lambda _: fired.append("ended"))
+    kept = node.timer(10.0, lambda event: fired.append(event.current_real.to_sec()), reset=True)
+    settle(graph)
+    for seconds in (50.0, 55.0, 60.0):
+        tell(graph, clock, seconds, node)
+        settle(graph)
+    assert fired == [50.0, 60.0]
+    assert not ended.is_alive()
+    assert kept.is_alive()
+
+
 @pytest.mark.parametrize("period", [0, -1.0])
 def test_a_timers_period_must_be_positive(simulated: Graph, period: float) -> None:
     with pytest.raises(RosminiError, match="positive"):

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import gc
+import threading
 import weakref
 from typing import Any
 
 import numpy as np
 import pytest
 
+from rosmini.actionlib import SimpleActionClient, SimpleActionServer
 from rosmini.errors import RosminiError, TransportInitError
-from rosmini.graph import Graph
+from rosmini.graph import Graph, Node, Publisher
+from rosmini.msgs.actionlib_tutorials.msg import FibonacciAction
 from rosmini.msgs.std_msgs.msg import String
+from rosmini.msgs.std_srvs.srv import Trigger
 from rosmini.scripts import run_source
 from rosmini.time import Time
 
@@ -72,19 +76,43 @@ def test_a_publisher_that_left_before_the_connection_was_made_is_no_error() -> N
     assert subscriber.num_connections() == 0
 
 
-def test_a_graph_that_was_driven_and_dropped_is_collected() -> None:
-    """Its idle greenlets hold nothing; one whose timers or scripts are parked has to be shut down."""
+def used(heard: list[str]) -> tuple[Graph, Node, Publisher]:
+    """Return a graph with something of everything in it, which has run for a little more than a second."""
+    graph = Graph()
+    server, talker = graph.node("server"), graph.node("talker")
+    server.subscriber("chatter", String, lambda message: heard.append(f"{server.name} {message.data}"))
+    server.service("trigger", Trigger, lambda _: (True, server.name))
+    SimpleActionServer(server, "count", FibonacciAction, lambda _: None)
+    publisher = talker.publisher("chatter", String, latch=True)
+    talker.timer(0.25, lambda _: publisher.publish("tick"))
+    assert talker.service_client("trigger", Trigger, persistent=True)().message == "/server"
+    talker.run(lambda: talker.sleep(0.5))
+    assert SimpleActionClient(talker, "count", FibonacciAction).wait_for_server(5.0)
+    graph.run(1.1)
+    return graph, talker, publisher
+
+
+def test_graphs_that_were_driven_and_dropped_are_collected() -> None:
+    """Whoever drops one whose own code still blocks has to shut it down."""
     heard: list[str] = []
     alive: list[weakref.ref[Any]] = []
-    for _ in range(10):
-        graph = Graph()
-        graph.node("listener").subscriber("chatter", String, lambda message: heard.append(message.data))
-        publisher = graph.node("talker").publisher("chatter", String)
-        publisher.wait_for_subscribers()
-        publisher.publish("x")
-        graph.run(1.0)
-        alive.append(weakref.ref(graph.scheduler))
-    del graph, publisher
+    threads = threading.active_count()
+    for _ in range(100):
+        graph, _, _ = used(heard)
+        alive += map(weakref.ref, [graph, graph.scheduler, *graph.nodes.values(), *graph.scheduler._idle])
+    del graph, _
     gc.collect()
-    assert heard == ["x"] * 10
+    assert len(heard) == 400
+    assert len(alive) >= 500
     assert [each for each in alive if each() is not None] == []
+    assert threading.active_count() == threads
+
+
+def test_whoever_holds_a_publisher_holds_its_graph() -> None:
+    heard: list[str] = []
+    publisher = used(heard)[2]
+    gc.collect()
+    heard.clear()
+    publisher.publish("still here")
+    publisher.node.graph.run(1.1)
+    assert heard == ["/server still here", *["/server tick"] * 4]
