@@ -8,6 +8,7 @@ blocks therefore reads like a threaded ROS node, and runs in the same order each
 from __future__ import annotations
 
 import threading
+import time
 from _thread import get_ident
 from collections import deque
 from typing import TYPE_CHECKING, Any, Protocol
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
 
 PATIENCE_S = 2.0
 """How long a call waits in another thread before it asks why."""
+
+LOOK_S = 0.05
+"""How often in wall time it looks whether whoever drove the queue has stopped, and drives it itself then."""
 
 
 TURNS = 1_000
@@ -283,43 +287,55 @@ class Waiter:
         """
         hub = self._hub
         if not self.done:
-            if get_ident() != hub.thread and not hub.take_hub(to_wait=True):
-                self._wait_in_thread(timeout_ns)
-            elif timeout_ns is None:
-                hub.park(self)
-            else:
-                timer = hub.call_at(hub.now_ns() + timeout_ns, self._time_out)
-                try:
-                    hub.park(self)
-                finally:
-                    timer.cancel()
+            end = None if timeout_ns is None else hub.now_ns() + timeout_ns
+            drives = get_ident() == hub.thread or hub.take_hub(to_wait=True) or self._wait_in_thread(end)
+            if drives and not self.done:
+                self._park(end)
         if self._error is not None:
             raise self._error
         return self.done
+
+    def _park(self, end_ns: int | None) -> None:
+        hub = self._hub
+        if end_ns is None:
+            hub.park(self)
+            return
+        timer = hub.call_at(end_ns, self._time_out)
+        try:
+            hub.park(self)
+        finally:
+            timer.cancel()
 
     def _time_out(self) -> None:
         """Resume the waiting code without marking the waiter as done."""
         if not self.done:
             self._go_on()
 
-    def _wait_in_thread(self, timeout_ns: int | None) -> None:
+    def _wait_in_thread(self, end_ns: int | None) -> bool:
+        """Sleep while somebody else drives; return True if nobody does any more and this thread has taken the hub."""
         hub = self._hub
-        event = threading.Event()
-        self._event = event
+        event = self._event = threading.Event()
         try:
             if self.done:
-                return
-            limit = None
-            if timeout_ns is not None and hub.simulated:
-                when = hub.now_ns() + timeout_ns
-                hub.call_soon_threadsafe(lambda: hub.call_at(when, self._time_out))
-            elif timeout_ns is not None:
-                limit = timeout_ns / 1e9 / hub.rate
-            complain = hub.ask_driver(self)
-            patience = PATIENCE_S if limit is None else min(limit, PATIENCE_S)
-            if not event.wait(patience):
-                complain()
-                event.wait(None if limit is None else limit - patience)
+                return False
+            if end_ns is not None and hub.simulated:
+                hub.call_soon_threadsafe(lambda: hub.call_at(end_ns, self._time_out))
+            complain: Callable[[], None] | None = hub.ask_driver(self)
+            impatient = time.monotonic() + PATIENCE_S
+            look = LOOK_S
+            while not event.wait(look):
+                if not hub.simulated:
+                    if end_ns is not None:
+                        left = (end_ns - hub.now_ns()) / 1e9 / hub.rate
+                        if left <= 0:
+                            return False
+                        look = min(look, left)
+                    if get_ident() == hub.thread or hub.take_hub(to_wait=True):
+                        return True
+                if complain is not None and time.monotonic() > impatient:
+                    complain()
+                    complain = None
+            return False
         finally:
             self._event = None
 

@@ -327,3 +327,25 @@ def test_in_simulated_time_a_call_from_another_thread_waits_for_whoever_drives()
     assert graph.scheduler.is_hub_thread()
     assert node.name in graph.nodes
     graph.shutdown()
+
+
+def test_a_run_goes_on_when_the_thread_that_drove_the_graph_has_stopped() -> None:
+    graph = Graph(simulated=False)
+    driving, enough = threading.Event(), threading.Event()
+
+    def drives() -> bool:
+        driving.set()
+        return enough.is_set()
+
+    driver = threading.Thread(target=lambda: graph.run(until=drives), daemon=True)
+    graph.node("node").timer(0.001, lambda _: None)
+    driver.start()
+    assert driving.wait(PATIENCE)
+
+    def is_driven_here() -> bool:
+        enough.set()  # the other thread asks for us
+        return threading.current_thread() is threading.main_thread()
+
+    assert graph.run(PATIENCE, until=is_driven_here).reason == "condition"
+    driver.join(PATIENCE)
+    graph.shutdown()
