@@ -60,7 +60,7 @@ class Sensor(Device):
 
     Args:
         host: the simulated world.
-        robot: the engine's name of the robot.
+        robot: the engine's name of the robot; None for a sensor that measures something else.
         topic: where it is published; `default_topic` if not given.
         frame: the frame of the header; `default_frame` if not given.
         rate: samples a second [Hz]; `default_rate` if not given.
@@ -82,7 +82,7 @@ class Sensor(Device):
     def __init__(
         self,
         host: Host,
-        robot: str,
+        robot: str | None,
         *,
         topic: str | None = None,
         frame: str | None = None,
@@ -92,7 +92,8 @@ class Sensor(Device):
         super().__init__(
             host, name or f"{robot}/{self.label or self.default_topic}", rate or self.default_rate
         )
-        self.robot = host.engine.robot(robot)
+        if robot is not None:
+            self.robot = host.engine.robot(robot)
         message: Any = message_class(self.message_type)()
         if message._has_header:
             message.header.frame_id = self.default_frame if frame is None else frame

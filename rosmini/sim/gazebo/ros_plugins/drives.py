@@ -23,15 +23,41 @@ from .ros_names import RosNames
 
 
 @dataclass(frozen=True, kw_only=True)
-class DiffDriveTags(Tags):
-    """The tags of libgazebo_ros_diff_drive.so."""
-
-    ignored: ClassVar[tuple[str, ...]] = ("wheelTorque",)
+class DriveTags(Tags):
+    """The tags that all drives have."""
 
     command_topic: str = tag("commandTopic", "cmd_vel", "the topic of commands")
     odometry_topic: str = tag("odometryTopic", "odom", "where the odometry is published")
     odometry_frame: str = tag("odometryFrame", "odom", "the frame of its messages")
     base_frame: str = tag("robotBaseFrame", "base_footprint", "the robot's own frame")
+    rate: float = tag("updateRate", 100.0, "how often it publishes", unit="Hz")
+
+
+class Drive(ModelPlugin):
+    """The base of the plugins that drive a model."""
+
+    needs_robot = True
+
+    def options(self, names: RosNames, tags: DriveTags) -> dict[str, Any]:
+        """Return the options of its device, with all topics."""
+        return {
+            "cmd_vel": names.topic(tags.command_topic),
+            "odom": names.topic(tags.odometry_topic),
+            "odom_frame": names.frame(tags.odometry_frame),
+            "base_frame": names.frame(tags.base_frame),
+            "tf": "/tf",
+            "rate": rate_of(tags.rate),
+            "source": "world",
+            "name": f"{self.name}/drive",
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class DiffDriveTags(DriveTags):
+    """The tags of libgazebo_ros_diff_drive.so."""
+
+    ignored: ClassVar[tuple[str, ...]] = ("wheelTorque",)
+
     odometry_source: str = tag(
         "odometrySource", "world", "encoder: what the wheels' turns tell; world: the truth"
     )
@@ -49,15 +75,12 @@ class DiffDriveTags(Tags):
     acceleration: float = tag(
         "wheelAcceleration", 0.0, "how fast a rim's speed changes; 0: at once", unit="m/s2"
     )
-    rate: float = tag("updateRate", 100.0, "how often it publishes", unit="Hz")
     left: str = tag("leftJoint", "left_joint", "the left wheel's joint")
     right: str = tag("rightJoint", "right_joint", "the right wheel's joint")
 
 
-class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
+class DiffDrive(Drive, filename="libgazebo_ros_diff_drive.so"):
     """Two driven wheels. A command holds until the next one, as in Gazebo."""
-
-    needs_robot = True
 
     @classmethod
     def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
@@ -81,21 +104,13 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
         """Advertise its topics."""
         tags = DiffDriveTags.read(sdf, lambda _: None)
         names = RosNames(model, sdf)
-        host = self.world.host
-        drive = self.add(
-            DifferentialDrive(
-                host,
-                model.name,
-                cmd_vel=names.topic(tags.command_topic),
-                odom=names.topic(tags.odometry_topic) if tags.publish_tf else None,
-                odom_frame=names.frame(tags.odometry_frame),
-                base_frame=names.frame(tags.base_frame),
-                tf="/tf" if tags.publish_odom_tf and tags.publish_tf else None,
-                rate=rate_of(tags.rate),
-                source=tags.odometry_source,
-                name=f"{self.name}/drive",
-            )
-        )
+        host, options = self.world.host, self.options(names, tags)
+        if not tags.publish_tf:
+            options |= {"odom": None, "tf": None}
+        if not tags.publish_odom_tf:
+            options["tf"] = None
+        options["source"] = tags.odometry_source
+        drive = self.add(DifferentialDrive(host, model.name, **options))
         if tags.publish_wheel_tf:
             name = f"{self.name}/wheels"
             self.add(WheelTransforms(host, name, rate_of(tags.rate), model, names))
@@ -113,19 +128,14 @@ class DiffDrive(ModelPlugin, filename="libgazebo_ros_diff_drive.so"):
 
 
 @dataclass(frozen=True, kw_only=True)
-class SkidSteerTags(Tags):
+class SkidSteerTags(DriveTags):
     """The tags of libgazebo_ros_skid_steer_drive.so."""
 
     ignored: ClassVar[tuple[str, ...]] = ("torque",)
 
-    command_topic: str = tag("commandTopic", "cmd_vel", "the topic of commands")
-    odometry_topic: str = tag("odometryTopic", "odom", "where the odometry is published")
-    odometry_frame: str = tag("odometryFrame", "odom", "the frame of its messages")
-    base_frame: str = tag("robotBaseFrame", "base_footprint", "the robot's own frame")
     broadcast_tf: bool = tag("broadcastTF", False, "publish the transform between the two frames")
     separation: float = tag("wheelSeparation", 0.4, "how far left and right wheels are apart", unit="m")
     diameter: float = tag("wheelDiameter", 0.15, "of the wheels", unit="m")
-    rate: float = tag("updateRate", 100.0, "how often it publishes", unit="Hz")
     left_front: str = tag("leftFrontJoint", "left_front_joint", "the joint of a wheel")
     right_front: str = tag("rightFrontJoint", "right_front_joint", "the joint of a wheel")
     left_rear: str = tag("leftRearJoint", "left_rear_joint", "the joint of a wheel")
@@ -135,14 +145,12 @@ class SkidSteerTags(Tags):
     covariance_yaw: float = tag("covariance_yaw", 0.01, "of the odometry", unit="rad2")
 
 
-class SkidSteerDrive(ModelPlugin, filename="libgazebo_ros_skid_steer_drive.so"):
+class SkidSteerDrive(Drive, filename="libgazebo_ros_skid_steer_drive.so"):
     """Four driven wheels, as of a Husky: the two on a side turn alike.
 
     It moves as if it stood on two wheels `wheelSeparation` apart in the middle of the four: how much real wheels skid
     in a turn is not simulated. Its odometry is the truth.
     """
-
-    needs_robot = True
 
     @classmethod
     def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
@@ -157,21 +165,11 @@ class SkidSteerDrive(ModelPlugin, filename="libgazebo_ros_skid_steer_drive.so"):
         """Advertise its topics."""
         tags = SkidSteerTags.read(sdf, lambda _: None)
         names = RosNames(model, sdf)
-        self.add(
-            DifferentialDrive(
-                self.world.host,
-                model.name,
-                cmd_vel=names.topic(tags.command_topic),
-                odom=names.topic(tags.odometry_topic),
-                odom_frame=names.frame(tags.odometry_frame),
-                base_frame=names.frame(tags.base_frame),
-                tf="/tf" if tags.broadcast_tf else None,
-                rate=rate_of(tags.rate),
-                source="world",
-                covariance=(tags.covariance_x, tags.covariance_y, *(UNMEASURED,) * 3, tags.covariance_yaw),
-                name=f"{self.name}/drive",
-            )
-        )
+        options = self.options(names, tags)
+        if not tags.broadcast_tf:
+            options["tf"] = None
+        covariance = (tags.covariance_x, tags.covariance_y, *(UNMEASURED,) * 3, tags.covariance_yaw)
+        self.add(DifferentialDrive(self.world.host, model.name, covariance=covariance, **options))
 
 
 def _check_wheels(sdf: Element, separation: float, diameter: float) -> None:
@@ -221,21 +219,15 @@ class WheelTransforms(Device):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlanarMoveTags(Tags):
+class PlanarMoveTags(DriveTags):
     """The tags of libgazebo_ros_planar_move.so."""
 
-    command_topic: str = tag("commandTopic", "cmd_vel", "the topic of commands")
-    odometry_topic: str = tag("odometryTopic", "odom", "where the odometry is published")
-    odometry_frame: str = tag("odometryFrame", "odom", "the frame of its messages")
-    base_frame: str = tag("robotBaseFrame", "base_footprint", "the robot's own frame")
     rate: float = tag("odometryRate", 20.0, "how often it publishes", unit="Hz")
     timeout: float = tag("cmdTimeout", -1.0, "how long a command holds; below 0: until the next", unit="s")
 
 
-class PlanarMove(ModelPlugin, filename="libgazebo_ros_planar_move.so"):
+class PlanarMove(Drive, filename="libgazebo_ros_planar_move.so"):
     """A model that goes anywhere on the ground as it is told. Its odometry is the truth."""
-
-    needs_robot = True
 
     @classmethod
     def prepare(cls, body: Body, sdf: Element, complain: Callable[[str], object]) -> None:
@@ -247,21 +239,9 @@ class PlanarMove(ModelPlugin, filename="libgazebo_ros_planar_move.so"):
         """Advertise its topics."""
         tags = PlanarMoveTags.read(sdf, lambda _: None)
         names = RosNames(model, sdf)
-        self.device = self.add(
-            devices.PlanarMove(
-                self.world.host,
-                model.name,
-                cmd_vel=names.topic(tags.command_topic),
-                odom=names.topic(tags.odometry_topic),
-                odom_frame=names.frame(tags.odometry_frame),
-                base_frame=names.frame(tags.base_frame),
-                tf="/tf",
-                rate=rate_of(tags.rate),
-                timeout=max(0.0, tags.timeout),
-                source="world",
-                name=f"{self.name}/drive",
-            )
-        )
+        options = self.options(names, tags)
+        move = devices.PlanarMove(self.world.host, model.name, timeout=max(0.0, tags.timeout), **options)
+        self.device = self.add(move)
 
 
 def rate_of(rate: float, step: float = 0.001) -> float:

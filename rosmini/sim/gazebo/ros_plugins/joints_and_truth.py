@@ -10,13 +10,11 @@ from typing import Any
 import numpy as np
 
 from rosmini.markup import Element
-from rosmini.msgs import message_class
-from rosmini.sim.devices import GroundTruth, JointStates
+from rosmini.sim.devices import GroundTruth, JointStates, Sensor
 from rosmini.sim.gazebo.model import WORLD_FRAMES, Model
 from rosmini.sim.gazebo.msgs import quaternion
 from rosmini.sim.gazebo.plugin_tags import Tags, tag
 from rosmini.sim.gazebo.plugins import ModelPlugin
-from rosmini.sim.host import Device, Host, Stamp
 from rosmini.sim.sdf import Pose6
 from rosmini.sim.sdf.poses import compose, inverse
 
@@ -42,40 +40,33 @@ class JointStatePublisher(ModelPlugin, filename="libgazebo_ros_joint_state_publi
         joints = [name.strip() for name in tags.joints.split(",") if name.strip()]
         for joint in joints:
             model.joint(joint)
-        rate = rate_of(tags.rate, self.world.physics.time_step)
         self.device = self.add(
             _JointStates(
-                self.world.host, f"{self.name}/joints", rate, model, joints, names.topic("joint_states")
+                model,
+                joints,
+                topic=names.topic("joint_states"),
+                rate=rate_of(tags.rate, self.world.physics.time_step),
+                name=f"{self.name}/joints",
             )
         )
 
 
-class _JointStates(Device):
+class _JointStates(Sensor):
+    message_type = "sensor_msgs/JointState"
     order = JointStates.order
-    always = False
+    queue_size = 1000
+    varying = ("position", "velocity")
 
-    def __init__(
-        self, host: Host, name: str, rate: float, model: Model, joints: list[str], topic: str
-    ) -> None:
-        super().__init__(host, name, rate)
+    def __init__(self, model: Model, joints: list[str], **options: Any) -> None:
         self._model, self._joints = model, joints
-        self._message: Any = message_class("sensor_msgs/JointState")()
-        self._message.name = joints
-        self._publisher = host.node.publisher(topic, type(self._message), queue_size=1000)
+        super().__init__(model.world.host, None, **options)
 
-    def wanted(self) -> bool:
-        return bool(self._publisher.num_connections())
+    def describe(self, message: Any) -> None:
+        message.name = self._joints
 
-    def due(self, stamp: Stamp, _: int, /) -> None:
-        message = self._message
-        message.header.stamp.secs, message.header.stamp.nsecs = stamp
+    def sample(self, _: int) -> tuple[tuple[float, ...], ...]:
         there = [self._model.joint(name) for name in self._joints]
-        message.position = [position for position, _ in there]
-        message.velocity = [rate for _, rate in there]
-        self._publisher.publish(message)
-
-    def close(self) -> None:
-        self._publisher.unregister()
+        return tuple(position for position, _ in there), tuple(rate for _, rate in there)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,46 +94,39 @@ class GroundTruthPlugin(ModelPlugin, filename="libgazebo_ros_p3d.so"):
         roll, pitch, yaw = sdf.floats(tags.rpy, 3, "rpyOffsets")
         self.device = self.add(
             _Truth(
-                self.world.host,
-                f"{self.name}/truth",
-                rate_of(tags.rate, self.world.physics.time_step),
                 model,
                 tags,
-                names,
                 (dx, dy, dz, roll, pitch, yaw),
+                topic=names.topic(tags.topic),
+                frame=names.frame(tags.frame),
+                rate=rate_of(tags.rate, self.world.physics.time_step),
+                name=f"{self.name}/truth",
             )
         )
 
 
-class _Truth(Device):
+class _Truth(Sensor):
+    message_type = "nav_msgs/Odometry"
     order = GroundTruth.order
-    always = False
+    queue_size = 1
+    varying = (
+        *(f"pose.pose.position.{axis}" for axis in "xyz"),
+        *(f"pose.pose.orientation.{axis}" for axis in "xyzw"),
+        *(f"twist.twist.{kind}.{axis}" for kind in ("linear", "angular") for axis in "xyz"),
+    )
 
-    def __init__(
-        self,
-        host: Host,
-        name: str,
-        rate: float,
-        model: Model,
-        tags: GroundTruthTags,
-        names: RosNames,
-        offset: Pose6,
-    ) -> None:
-        super().__init__(host, name, rate)
+    def __init__(self, model: Model, tags: GroundTruthTags, offset: Pose6, **options: Any) -> None:
         self._model, self._tags, self._offset = model, tags, offset
-        self._message: Any = message_class("nav_msgs/Odometry")()
-        self._message.header.frame_id = names.frame(tags.frame)
-        self._message.child_frame_id = tags.body
-        self._message.pose.covariance = self._message.twist.covariance = np.diag([tags.noise**2] * 6).ravel()
-        self._publisher = host.node.publisher(names.topic(tags.topic), type(self._message), queue_size=1)
-        self._rng = host.rng(name)
         self._deviation = tags.noise * model.world.noise
+        super().__init__(model.world.host, None, **options)
+        self._rng = self.host.rng(self.name)
 
-    def wanted(self) -> bool:
-        return bool(self._publisher.num_connections())
+    def describe(self, message: Any) -> None:
+        message.child_frame_id = self._tags.body
+        message.pose.covariance = message.twist.covariance = np.diag([self._tags.noise**2] * 6).ravel()
 
-    def due(self, stamp: Stamp, _: int, /) -> None:
-        model, message = self._model, self._message
+    def sample(self, _: int) -> tuple[float, ...]:
+        model = self._model
         pose, (vx, vy, w) = model.link_pose(self._tags.body), model.link_velocity(self._tags.body)
         if self._tags.frame not in (*WORLD_FRAMES, "/world"):
             frame = model.link_pose(self._tags.frame)
@@ -154,21 +138,13 @@ class _Truth(Device):
         x, y, z = pose[0] + dx, pose[1] + dy, pose[2] + dz
         if any(turn):
             pose = compose((0.0, 0.0, 0.0, turn[0], turn[1], turn[2]), (0.0, 0.0, 0.0, *pose[3:]))
-        error = self._rng.standard_normal(6) * self._deviation if self._deviation else np.zeros(6)
-        message.header.stamp.secs, message.header.stamp.nsecs = stamp
-        at, way = message.pose.pose, message.twist.twist
-        at.position.x, at.position.y, at.position.z = x, y, z
-        to = at.orientation
-        to.x, to.y, to.z, to.w = quaternion(pose[3], pose[4], pose[5])
-        way.linear.x, way.linear.y, way.linear.z = vx + error[0], vy + error[1], float(error[2])
-        way.angular.x, way.angular.y, way.angular.z = float(error[3]), float(error[4]), w + error[5]
-        self._publisher.publish(message)
+        speeds = np.array([vx, vy, 0.0, 0.0, 0.0, w])
+        if self._deviation:
+            speeds += self._rng.standard_normal(6) * self._deviation
+        return (x, y, z, *quaternion(pose[3], pose[4], pose[5]), *speeds.tolist())
 
     def state(self) -> Any:
         return copy.deepcopy(self._rng)
 
     def restore(self, state: Any) -> None:
         self._rng = copy.deepcopy(state)
-
-    def close(self) -> None:
-        self._publisher.unregister()
