@@ -9,7 +9,6 @@ from __future__ import annotations
 from .bag import Bag
 from .errors import (
     BagFull,
-    BagTypeChanged,
     FilterError,
     ROSBagEncryptException,
     ROSBagEncryptNotSupportedException,
@@ -28,7 +27,6 @@ __all__ = [
     "BagFull",
     "BagMessage",
     "BagMessageWithConnectionHeader",
-    "BagTypeChanged",
     "Compression",
     "FilterError",
     "PlayOptions",

@@ -73,9 +73,5 @@ class BagFull(ROSBagException):
     """The disk, a quota or a limit of file sizes is full. What fitted is in the bag, which is closed and whole."""
 
 
-class BagTypeChanged(ROSBagException):
-    """A message in a bag has another definition than the message of that name has now."""
-
-
 class FilterError(ROSBagException):
     """An expression that chooses messages uses what such an expression may not use, or failed on a message."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from rosmini.errors import UsageError
 from rosmini.introspection.options import Parser as ToolParser
@@ -15,6 +16,9 @@ from .records import Compression
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from optparse import Values
+
+
+Options = TypeVar("Options", RecordOptions, PlayOptions)
 
 
 class BagUsageError(ROSBagException, UsageError):
@@ -69,7 +73,7 @@ def record_parser() -> Parser:
     )
     add("--chunksize", type="int", default=768, metavar="SIZE", help="chunks of SIZE KB (768)")
     add("-l", "--limit", type="int", metavar="NUM", help="only NUM messages of each topic")
-    add("--node", help="all topics to which this node subscribes")
+    add("--node", dest="of_node", help="all topics to which this node subscribes")
     add(
         "-j",
         "--bz2",
@@ -99,28 +103,17 @@ def record_options(args: Sequence[str]) -> RecordOptions:
     """Return what a command line asks to record. Raises ``UsageError``."""
     parser = record_parser()
     given, topics = parser.parse_args(list(args))
-    if not (topics or given.all or given.node):
+    if not (topics or given.all or given.of_node):
         parser.error("You must specify a topic name or else use the '-a' option.")
     try:
-        return RecordOptions(
+        return _options(
+            RecordOptions,
+            given,
             topics=tuple(topics),
-            all=given.all,
-            regex=given.regex,
-            exclude=given.exclude,
-            of_node=given.node,
-            output_name=given.output_name,
-            output_prefix=given.output_prefix,
-            split=given.split,
-            max_splits=given.max_splits,
             size=None if given.size is None else given.size * MEGABYTE,
             duration=None if given.duration is None else seconds(parser, given.duration),
             buffsize=given.buffsize * MEGABYTE,
             chunksize=given.chunksize * 1024,
-            limit=given.limit,
-            compression=given.compression,
-            publish=given.publish,
-            repeat_latched=given.repeat_latched,
-            quiet=given.quiet,
         )
     except UsageError:
         raise
@@ -198,16 +191,13 @@ def play_options(args: Sequence[str]) -> tuple[list[str], PlayOptions]:
     if not bags:
         parser.error("You must specify at least 1 bag file to play back.")
     try:
-        return bags, _play_options(given)
+        topics, pauses = tuple(given.topics), tuple(given.pause_topics)
+        return bags, _options(PlayOptions, given, topics=topics, pause_topics=pauses)
     except ROSBagException as error:
         parser.error(str(error))
 
 
-def _play_options(given: Values) -> PlayOptions:
-    names = (
-        "rate", "start", "duration", "loop", "pause", "immediate", "clock", "hz", "delay", "queue", "skip_empty",
-        "keep_alive",
-        "prefix", "wait_for_subscribers", "quiet",
-    )  # fmt: skip
-    values = {name: getattr(given, name) for name in names}
-    return PlayOptions(topics=tuple(given.topics), pause_topics=tuple(given.pause_topics), **values)
+def _options(cls: type[Options], given: Values, **changed: Any) -> Options:
+    """Return the options of a recorder or player: those given under the names of its fields, some of them changed."""
+    named = {each.name: getattr(given, each.name) for each in fields(cls) if hasattr(given, each.name)}
+    return cls(**{**named, **changed})

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from rosmini.time import Time
 
 from .bag import Bag
-from .errors import BagTypeChanged, ROSBagException
+from .errors import ROSBagException
 from .expressions import compile_expression
 from .records import Compression
 from .types import local_class
@@ -169,12 +169,3 @@ def _changes(bag: Bag) -> Iterator[TypeChange]:
             local[key] = None if cls is None else cls._md5sum
     for (kind, md5sum), names in topics.items():
         yield TypeChange(kind, md5sum, local[kind, md5sum], tuple(sorted(set(names))))
-
-
-def require_same_types(bag: Bag) -> None:
-    """Raise ``BagTypeChanged`` if a type of the bag is known here with another definition."""
-    changes = [str(change) for change in changed_types(bag) if change.local is not None]
-    if changes:
-        raise BagTypeChanged(
-            f"{bag.filename or 'the bag'} has messages of changed types: {'; '.join(changes)}"
-        )

@@ -7,7 +7,7 @@ import threading
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable
 
 
 class OutputSink:
@@ -106,11 +106,6 @@ class ScriptOutput(io.TextIOBase):
                 self._shown = 0
             self._partial = rest
         return len(text)
-
-    def writelines(self, lines: Iterable[str]) -> None:  # type: ignore[override]
-        """Write each of ``lines``, which bring their own ends."""
-        for line in lines:
-            self.write(line)
 
     def flush(self) -> None:
         """Show an unfinished line too."""

@@ -38,7 +38,7 @@ from .errors import GazeboError, SpawnError, UnknownPlugin
 from .model import STILL, GazeboWorld, Model, Sensor, Velocity
 from .physics_properties import PhysicsProperties
 from .plugins import ModelPlugin, Plugin, SensorPlugin, WorldPlugin, plugin_class
-from .wrenches import Wrenches, WrenchState
+from .wrenches import Wrench, Wrenches
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class WorldState:
 
     models: dict[str, ModelState]
     physics: PhysicsProperties
-    forces: tuple[WrenchState, ...]
+    forces: tuple[Wrench, ...]
 
 
 class RunningWorld(GazeboWorld):

@@ -20,23 +20,9 @@ RATE = 200.0
 """How often forces act [Hz]: once in each step of the engine."""
 
 
-@dataclass
+@dataclass(frozen=True)
 class Wrench:
     """A force and a torque on a thing, in the frame of the world."""
-
-    model: Model
-    body: str
-    force: tuple[float, float]
-    torque: float
-    start: float
-    end: float
-    mass: float
-    inertia: float
-
-
-@dataclass(frozen=True)
-class WrenchState:
-    """A wrench as plain data, with the name of its model."""
 
     model: str
     body: str
@@ -51,7 +37,8 @@ class Wrenches:
 
     def __init__(self, world: GazeboWorld) -> None:
         self._world = world
-        self._acting: list[Wrench] = []
+        self._acting: list[tuple[Wrench, Model, tuple[float, float]]] = []
+        """With what each acts on, and its mass and inertia."""
         self._update: Update | None = None
 
     def apply(self, model: Model, link: str, frame: Pose6, request: Any) -> None:
@@ -75,9 +62,9 @@ class Wrenches:
         now = self._world.now
         start = max(now, request.start_time.to_sec())
         lasting = request.duration.to_sec()
-        mass, inertia = model.weight
         end = math.inf if lasting < 0 else start + lasting
-        self._acting.append(Wrench(model, f"{model.name}::{link}", (fx, fy), turn, start, end, mass, inertia))
+        wrench = Wrench(model.name, f"{model.name}::{link}", (fx, fy), turn, start, end)
+        self._acting.append((wrench, model, model.weight))
         self._schedule()
 
     def _schedule(self) -> None:
@@ -91,42 +78,29 @@ class Wrenches:
 
     def clear(self, body: str) -> None:
         """Stop everything that acts on a body."""
-        self._acting = [each for each in self._acting if body not in (each.body, each.model.name)]
+        self._acting = [each for each in self._acting if body not in (each[0].body, each[0].model)]
 
     def _push(self, now: float) -> None:
         dt = 1 / RATE
-        there = self._world.models
-        self._acting = [
-            each for each in self._acting if each.end > now - dt and there.get(each.model.name) is each.model
-        ]
-        for each in self._acting:
-            span = min(now, each.end) - max(now - dt, each.start)
+        self._acting = [each for each in self._acting if each[0].end > now - dt and self._is_there(each[1])]
+        for wrench, model, (mass, inertia) in self._acting:
+            span = min(now, wrench.end) - max(now - dt, wrench.start)
             if span > 1e-9:
-                vx, vy, w = each.model.velocity
-                fx, fy = each.force
-                each.model.set_velocity(
-                    (
-                        vx + fx * span / each.mass,
-                        vy + fy * span / each.mass,
-                        w + each.torque * span / each.inertia,
-                    )
+                (vx, vy, w), (fx, fy) = model.velocity, wrench.force
+                model.set_velocity(
+                    (vx + fx * span / mass, vy + fy * span / mass, w + wrench.torque * span / inertia)
                 )
         self._schedule()
 
-    def state(self) -> tuple[WrenchState, ...]:
-        """Return all that act, as plain data."""
-        there = self._world.models
-        return tuple(
-            WrenchState(each.model.name, each.body, each.force, each.torque, each.start, each.end)
-            for each in self._acting
-            if there.get(each.model.name) is each.model
-        )
+    def _is_there(self, model: Model) -> bool:
+        return self._world.models.get(model.name) is model
 
-    def restore(self, state: tuple[WrenchState, ...]) -> None:
+    def state(self) -> tuple[Wrench, ...]:
+        """Return all that act."""
+        return tuple(wrench for wrench, model, _ in self._acting if self._is_there(model))
+
+    def restore(self, state: tuple[Wrench, ...]) -> None:
         """Make those act that acted then."""
         models = [self._world.model(each.model) for each in state]
-        self._acting = [
-            Wrench(model, each.body, each.force, each.torque, each.start, each.end, *model.weight)
-            for model, each in zip(models, state, strict=True)
-        ]
+        self._acting = [(each, model, model.weight) for each, model in zip(state, models, strict=True)]
         self._schedule()

@@ -1,6 +1,6 @@
 """Doors: models with a plugin of ours that opens them. In real Gazebo, which lacks it, they swing freely.
 
-In real Gazebo, which does not know it, they swing freely on their hinges. <model name="door">
+    <model name="door">
       <link name="leaf">...</link>
       <joint name="hinge" type="revolute">
         <parent>world</parent><child>leaf</child><pose>-0.45 0 0 0 0 0</pose>...

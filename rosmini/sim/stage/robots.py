@@ -108,21 +108,12 @@ def robot(thing: Thing, number: int, units: Units) -> StageRobot:
             raise StageError(
                 each.place, "a position on another one is not simulated; give each a place of its own"
             )
-        direct = any(each is child for child in thing.children)
-        if each.kind in ("ranger", "laser"):
-            if direct:
-                lasers.append(_laser(each, thing, units))
-            else:
-                units.note(
-                    each.place, "{} is not directly on a position: stageros does not find it", each.name
-                )
+        if each.kind in ("ranger", "laser", "camera") and not any(each is child for child in thing.children):
+            units.note(each.place, "{} is not directly on a position: stageros does not find it", each.name)
+        elif each.kind in ("ranger", "laser"):
+            lasers.append(_laser(each, thing, units))
         elif each.kind == "camera":
-            if direct:
-                cameras.append(_camera(each, thing))
-            else:
-                units.note(
-                    each.place, "{} is not directly on a position: stageros does not find it", each.name
-                )
+            cameras.append(_camera(each, thing))
         if each.body is not None:
             body.append(each)
     x, y, _, a = thing.at
