@@ -40,6 +40,7 @@ class Graph(GraphCore):
             that the environment variable ``ROS_LOG_DIR`` names, and no files if there is none. A graph writes its files
             anew.
         master: makes the way to a Master elsewhere from the graph; by default the graph has its own in this process.
+        run_id: what ``/run_id`` is set to, and the folder of log files called; the same for all graphs by default.
 
     Only the graph's creator drives it, with :meth:`run` or by any call that blocks.
 
@@ -58,6 +59,7 @@ class Graph(GraphCore):
         rosout: bool = True,
         log_dir: str | Path | None = None,
         master: Callable[[Any], MasterPort] | None = None,
+        run_id: str | None = None,
     ) -> None:
         super().__init__(
             simulated=simulated,
@@ -67,6 +69,7 @@ class Graph(GraphCore):
             transports=transports,
             log_dir=log_dir,
             master=master,
+            run_id=run_id,
         )
         self.scheduler.graph = self
         if self.notebook:

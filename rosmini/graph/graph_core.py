@@ -40,7 +40,7 @@ ROSCORE_PARAMETERS = {
     "/rosversion": "1.16.0\n",
     "/run_id": "00000000-0000-0000-0000-000000000001",
 }
-"""What ``roscore`` sets; its run id is random, ours is not."""
+"""What ``roscore`` sets; its run id is random, that of a graph is not unless it is given one."""
 
 
 class Drive(Protocol):
@@ -65,6 +65,7 @@ class GraphCore(ABC):
         transports: Sequence[Callable[[Scheduler], Transport]],
         log_dir: str | Path | None,
         master: Callable[[Any], MasterPort] | None = None,
+        run_id: str | None = None,
     ) -> None:
         self.scheduler = Scheduler(simulated=simulated, rate=rate)
         self.scheduler.on_error = self._lane_failed
@@ -88,11 +89,14 @@ class GraphCore(ABC):
         self.clock_class = message_class("rosgraph_msgs/Clock")
         self._live: Drive | None = None
         self._anonymous = AnonymousNames()
+        self.keeps_time = False
+        """True while this graph publishes its time on ``/clock``: its own nodes do not follow that topic then."""
+        parameters = ROSCORE_PARAMETERS | ({} if run_id is None else {"/run_id": run_id})
         if self.master.is_local:
             roscore = self.ask_as("/roscore")
-            for key, value in ROSCORE_PARAMETERS.items():
+            for key, value in parameters.items():
                 roscore.ask("setParam", key, value)
-        self.log_folder = log_folder(log_dir, ROSCORE_PARAMETERS["/run_id"] if self.master.is_local else "")
+        self.log_folder = log_folder(log_dir, parameters["/run_id"] if self.master.is_local else "")
         """Where the log files are, if there are any."""
 
     @property

@@ -123,7 +123,7 @@ class Node(ParameterApi):
         for service, service_class, handler in logger_services(self.logger):
             self.service(service, service_class, handler)
         code, _, use_sim_time = self.master.insist("getParam", "/use_sim_time", warn=self.logerr)
-        if code == 1 and use_sim_time is True:
+        if code == 1 and use_sim_time is True and not graph.keeps_time:
             self._follow_clock_topic()
 
     def _follow_clock_topic(self) -> None:

@@ -206,6 +206,11 @@ class ParameterApi(BlockingApi, LoggingApi):
         self._parameter_told.pop(resolved, None)
         self.master.unregister("unsubscribeParam", self.uri, resolved, warn=self.logwarn)
 
+    @property
+    def watched_parameters(self) -> list[str]:
+        """The parameters for which :meth:`on_param` was called."""
+        return list(self._parameter_callbacks)
+
     def parameter_changed(self, key: str, value: Any) -> None:  # noqa: ARG002 - what the Master says
         """Learn from the Master that a parameter has changed to which this node subscribes.
 

@@ -12,6 +12,7 @@ from .xmlrpc_client import XmlRpcFault
 if TYPE_CHECKING:
     from rosmini.graph.transport import Triple
 
+    from .watch import Watch
     from .xmlrpc_client import XmlRpcClient
 
 TIMEOUT_S = 10.0
@@ -22,11 +23,15 @@ LEAVE_S = 2.0
 
 
 class RemoteMaster(MasterPort):
-    """The way to the Master at ``uri``; a call parks the calling lane, and simulated time goes on meanwhile."""
+    """The way to the Master at ``uri``; a call parks the calling lane, and simulated time goes on meanwhile.
 
-    def __init__(self, uri: str, client: XmlRpcClient) -> None:
+    ``watch`` looks after the registrations that are made through it.
+    """
+
+    def __init__(self, uri: str, client: XmlRpcClient, watch: Watch | None = None) -> None:
         self.uri = uri
         self._client = client
+        self._watch = watch
 
     def __repr__(self) -> str:
         return f"<the Master at {self.uri}>"
@@ -36,6 +41,8 @@ class RemoteMaster(MasterPort):
 
         Raises ``MasterUnreachable``, which says what to do, when there is none.
         """
+        if self._watch is not None and method.startswith("register"):
+            self._watch.begin()
         timeout = LEAVE_S if method.startswith(("unregister", "unsubscribe")) else TIMEOUT_S
         try:
             answer = self._client.call(self.uri, method, caller_id, *arguments, timeout=timeout)

@@ -1,0 +1,144 @@
+"""Looks now and then whether the Master still knows the nodes of this process.
+
+A Master that goes away and comes back has forgotten everything. Real nodes do not notice; ours say so, once, and
+register again. In the same way a node learns that another one has its name while the Master's word did not reach it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
+
+from rosmini.errors import MasterUnreachable, ROSException, TransportException
+
+from .registrations import register_again
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    from rosmini.graph import Graph, Node
+
+    from .io_thread import IoThread
+    from .xmlrpc_client import XmlRpcClient
+
+PERIOD_S = 2.0
+"""How often the Master is asked, by the clock on the wall."""
+
+TIMEOUT_S = 5.0
+"""How long it may take to answer."""
+
+
+class _Seen(NamedTuple):
+    """A node, and its address when it was asked for."""
+
+    node: Node
+    uri: str
+
+
+class Watch:
+    """Watches the Master at ``uri`` on behalf of the nodes of ``graph``; begun with the first registration."""
+
+    def __init__(self, graph: Graph, uri: str, io: IoThread, client: XmlRpcClient) -> None:
+        self._graph = graph
+        self._uri = uri
+        self._io = io
+        self._client = client
+        self._task: Future[None] | None = None
+        self._turn = 0
+        self._is_lost = False
+
+    def begin(self) -> None:
+        """Begin to watch. Harmless when repeated."""
+        if self._task is None or self._task.done():
+            self._is_lost = False
+            self._task = self._io.start(self._run())
+
+    def end(self) -> None:
+        """Stop watching. Harmless when repeated."""
+        if self._task is not None:
+            self._task.cancel()
+
+    # -- in the loop's thread ------------------------------------------------------------------------------------
+
+    async def _run(self) -> None:
+        scheduler = self._graph.scheduler
+        while True:
+            await asyncio.sleep(PERIOD_S)
+            nodes = await self._io.on_hub(scheduler, self._nodes)
+            if nodes:
+                await self._look(nodes)
+
+    async def _look(self, nodes: list[_Seen]) -> None:
+        """Ask for one node, another one each time; for all where something is wrong."""
+        self._turn += 1
+        chosen = nodes[self._turn % len(nodes)]
+        scheduler = self._graph.scheduler
+        try:
+            found = [(chosen, await self._address(chosen))]
+            if self._is_lost or found[0][1] != chosen.uri:
+                found = [(seen, await self._address(seen)) for seen in nodes]
+        except TransportException as error:
+            if not self._is_lost:
+                self._is_lost = True
+                scheduler.call_soon_threadsafe(partial(self._say_lost, error))
+            return
+        forgotten = [seen for seen, uri in found if uri is None]
+        replaced = [seen for seen, uri in found if uri is not None and uri != seen.uri]
+        was_lost, self._is_lost = self._is_lost, False
+        if was_lost or forgotten or replaced:
+            await self._io.on_hub(scheduler, partial(self._catch_up, forgotten, replaced, was_lost=was_lost))
+
+    async def _address(self, seen: _Seen) -> str | None:
+        """Return what the Master holds for the address of a node; None if it does not know it."""
+        name = seen.node.name
+        answer = await self._client.request(self._uri, "lookupNode", (name, name), TIMEOUT_S)
+        if not (isinstance(answer, list) and len(answer) == 3):
+            raise TransportException(f"{self._uri} answers, but not as a Master does")
+        return str(answer[2]) if answer[0] == 1 else None
+
+    # -- in the hub's thread -------------------------------------------------------------------------------------
+
+    def _nodes(self) -> list[_Seen]:
+        return [_Seen(node, node.uri) for node in self._graph.nodes.values() if node.shutdown_reason is None]
+
+    def _say_lost(self, error: TransportException) -> None:
+        self._say(
+            f"the Master at {self._uri} does not answer any more: {error}. Connections stay; this process registers "
+            "again when it is back.",
+            [seen.node for seen in self._nodes()],
+        )
+
+    def _say(self, text: str, nodes: list[Node]) -> None:
+        """Let the first of the nodes say it, for all."""
+        for node in nodes[:1]:
+            node.spawn(f"{node.name} tells of the Master", partial(node.logwarn, text))
+
+    def _catch_up(self, forgotten: list[_Seen], replaced: list[_Seen], *, was_lost: bool) -> None:
+        """Register forgotten nodes again, and end those whose name another one has."""
+        present = set(self._nodes())
+        for node, _ in [seen for seen in replaced if seen in present]:
+            node.shutdown_requested("/master", f"[{node.name}] Reason: new node registered with same name")
+        again = [seen.node for seen in forgotten if seen in present]
+        if not again and not was_lost:
+            return
+        for node in again:
+            node.spawn(f"{node.name} registers again", partial(_register, node))
+        names = (
+            f", and has forgotten {', '.join(node.name for node in again)}: registering again"
+            if again
+            else ""
+        )
+        self._say(
+            f"the Master at {self._uri} {'is back' if was_lost else 'answers'}{names}",
+            again or [seen.node for seen in present],
+        )
+
+
+def _register(node: Node) -> None:
+    try:
+        register_again(node)
+    except MasterUnreachable:
+        return  # it has ended meanwhile
+    except ROSException as error:
+        node.logerr(error)
