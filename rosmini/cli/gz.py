@@ -143,6 +143,7 @@ def _topic_options(parser: ArgumentParser) -> None:
     add("-l", "--list", action="store_true", help="all topics")
     add("-i", "--info", metavar="TOPIC", help="who publishes and who hears it")
     add("-e", "--echo", metavar="TOPIC", help="what is published on it")
+    add("-u", "--unformatted", action="store_true", help="with -e: each message in one line")
     add("-z", "--hz", metavar="TOPIC", help="its average rate; Gazebo prints one for each message")
     add("-d", "--duration", type=float, default=1.0, help="for how long [s]; Gazebo goes on for ever")
     add("-n", "--count", type=int, default=0, help="how many messages (not in Gazebo)")
@@ -170,8 +171,11 @@ class Heard(Result):
     """The messages that were heard on a topic."""
 
     messages: tuple[Message, ...]
+    unformatted: bool = False
 
     def __str__(self) -> str:
+        if self.unformatted:
+            return "\n".join(" ".join(map(str.strip, str(message).splitlines())) for message in self.messages)
         return "\n".join(line for message in self.messages for line in (*str(message).splitlines(), ""))
 
 
@@ -208,7 +212,7 @@ def topic(given: Namespace, call: Call) -> Result:
     finally:
         node.close()
     if given.echo:
-        return Heard(messages=tuple(message for _, message in heard))
+        return Heard(messages=tuple(message for _, message in heard), unformatted=given.unformatted)
     times = [when for when, _ in heard]
     span = times[-1] - times[0] if times else 0
     return Frequency(hz=(len(times) - 1) * 1e9 / span if span else None)

@@ -55,6 +55,9 @@ def test_topics_are_listed_told_of_echoed_and_measured(bench: Start) -> None:
     echoed = lines(gz, "topic", "-e", stats, "-n", 1)
     assert echoed[0] == "sim_time {"
     assert "paused: false" in echoed
+    (short,) = lines(gz, "topic", "-u", "-e", stats, "-n", 1)
+    assert short.startswith("sim_time { sec: ")
+    assert "} paused: false iterations: " in short
     assert lines(gz, "topic", "-z", "~/world_stats", "-d", 2) == ["Hz:   5.00"]
     with pytest.raises(GazeboError, match="did you mean"):
         gz.run("topic", "-i", "/gazebo/empty/world_stat")

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import importlib
 import logging
 import os
 import re
 import sys
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
 from rosmini.rospy.names import get_name
-from rosmini.rospy.session import any_node
+from rosmini.rospy.session import any_node, current_session
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from typing import TextIO
 
 COLOURS = {"DEBUG": "\033[32m", "WARN": "\033[33m", "ERROR": "\033[31m", "FATAL": "\033[31m"}
@@ -71,11 +73,32 @@ class RosStreamHandler(logging.Handler):
         stream.write(f"{colour}{line}\033[0m" if colour else line)
 
 
-def __getattr__(name: str) -> Any:
-    """Name the way out for what sets up log files for a whole process."""
-    if name in ("configure_logging", "renew_latest_logdir"):
-        raise AttributeError(
-            f"module 'rosgraph.roslogging' has no {name!r} in rosmini: set ROS_LOG_DIR for log files of nodes, or call "
-            "logging.basicConfig(filename=...)"
+def configure_logging(
+    logname: str, level: int = logging.INFO, filename: str | None = None, env: Mapping[str, str] | None = None
+) -> str | None:
+    """Write the script's log records from `level` on to a file in ROS's log folder; return the file's path.
+
+    The folder is ROS_LOG_DIR, or ``log`` in ROS_HOME, by default ``~/.ros`` (http://wiki.ros.org/ROS/EnvironmentVariables).
+    None, with a warning, if it cannot be made. Raises ``LoggingException`` if a file is in its place.
+    """
+    env = os.environ if env is None else env
+    folder = env.get("ROS_LOG_DIR") or Path(env.get("ROS_HOME") or "~/.ros").expanduser() / "log"
+    path = Path(folder) / (filename or f"{logname or 'unknown'}-{os.getpid()}.log")
+    if path.parent.is_file():
+        raise LoggingException(f"Cannot save log files: file [{path.parent}] is in the way")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        sys.stderr.write(
+            f"WARNING: cannot create log directory [{path.parent}]. Please set ROS_LOG_DIR to a writable location.\n"
         )
-    raise AttributeError(f"module 'rosgraph.roslogging' has no attribute {name!r}")
+        return None
+    # A script has a logging of its own.
+    load = getattr(getattr(current_session().context, "importer", None), "load", importlib.import_module)
+    handler = load("logging.handlers").RotatingFileHandler(path, maxBytes=50_000_000, backupCount=4)
+    handler.setFormatter(load("logging").Formatter("[%(name)s][%(levelname)s] %(asctime)s: %(message)s"))
+    root = load("logging").getLogger()
+    root.addHandler(handler)
+    root.setLevel(level)
+    os.environ["ROS_LOG_FILENAME"] = str(path)
+    return str(path)
