@@ -6,20 +6,16 @@ else: of a message its fields and constants (and ``_type``), of a time its two n
 
 from __future__ import annotations
 
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import nearest, shown
-from rosmini.expressions import Expression, ExpressionError
-from rosmini.msgs import Message
-from rosmini.time import TVal
+from rosmini.errors import shown
+from rosmini.expressions import ExpressionError
+from rosmini.introspection.filters import message_expression
 
 from .errors import FilterError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-_METHODS: dict[type, tuple[str, ...]] = {TVal: ("to_sec", "to_nsec", "is_zero")}
 
 
 def compile_expression(text: str) -> Callable[[str, Any, Any], Any]:
@@ -30,7 +26,7 @@ def compile_expression(text: str) -> Callable[[str, Any, Any], Any]:
     long or too much memory.
     """
     try:
-        expression = Expression(text, names=("topic", "m", "t"), fields=_field, methods=_METHODS)
+        expression = message_expression(text, ("topic", "m", "t"))
     except ExpressionError as error:
         raise FilterError(f"{shown(text)}: {error}. An example: topic == '/scan' and t.secs > 5") from error
 
@@ -45,25 +41,3 @@ def compile_expression(text: str) -> Callable[[str, Any, Any], Any]:
             ) from error
 
     return evaluate
-
-
-def _field(value: Any, name: str) -> Any:
-    cls: Any = type(value)
-    names: frozenset[str] = frozenset()
-    if issubclass(cls, Message):
-        names = _names(cls)
-    elif issubclass(cls, TVal):
-        names = frozenset(("secs", "nsecs"))
-    if name in names:
-        return getattr(value, name)
-    kind = cls._type if issubclass(cls, Message) else cls.__name__
-    hint = nearest(name, names)
-    raise AttributeError(f"a {kind} has no {name!r}{f': {hint}' if hint else ''}")
-
-
-@cache
-def _names(cls: Any) -> frozenset[str]:
-    """What an expression may read of a message."""
-    return frozenset(
-        {"_type"} | {each.name for each in cls._spec.fields} | {each.name for each in cls._spec.constants}
-    )

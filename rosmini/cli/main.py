@@ -51,6 +51,10 @@ COMMANDS: dict[str, Entry] = {
     "rosnode": Entry(
         "rosmini.cli.rosnode", "nodes: which there are, what they do, whether they answer; end them"
     ),
+    "rostopic": Entry(
+        "rosmini.cli.rostopic",
+        "topics: which there are, what is published on them, how often; publish on one",
+    ),
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
     "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
     "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),

@@ -1,0 +1,48 @@
+"""Expressions on messages, confined: ``m.pose.position.x > 0``, ``topic == '/scan' and t.secs > 5``.
+
+ROS's tools hand them to Python's ``eval``. Here they are :mod:`rosmini.expressions`, which know what is listed and
+nothing else: of a message its fields and constants (and ``_type``), of a time its two numbers and what makes one
+number of it.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import nearest
+from rosmini.expressions import Expression
+from rosmini.msgs import Message
+from rosmini.time import TVal
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+_METHODS: dict[type, tuple[str, ...]] = {TVal: ("to_sec", "to_nsec", "is_zero")}
+
+
+def message_expression(text: str, names: Collection[str]) -> Expression:
+    """Return an expression of messages and times under some names. Raises ``ExpressionError``."""
+    return Expression(text, names=names, fields=_field, methods=_METHODS)
+
+
+def _field(value: Any, name: str) -> Any:
+    cls: Any = type(value)
+    names: frozenset[str] = frozenset()
+    if issubclass(cls, Message):
+        names = _names(cls)
+    elif issubclass(cls, TVal):
+        names = frozenset(("secs", "nsecs"))
+    if name in names:
+        return getattr(value, name)
+    kind = cls._type if issubclass(cls, Message) else cls.__name__
+    hint = nearest(name, names)
+    raise AttributeError(f"a {kind} has no {name!r}{f': {hint}' if hint else ''}")
+
+
+@cache
+def _names(cls: Any) -> frozenset[str]:
+    """What an expression may read of a message."""
+    return frozenset(
+        {"_type"} | {each.name for each in cls._spec.fields} | {each.name for each in cls._spec.constants}
+    )
