@@ -14,7 +14,6 @@ from rosmini.sim.gazebo import GazeboServer
 from rosmini.sim.gazebo.spawning import spawn_text
 from rosmini.sim.models import BURGER
 from rosmini.urdf.xacro import expand
-from rosmini.viz.meshcat.solid_order import painting_order
 from rosmini.viz.view import ViewError
 
 WALLS = """<sdf version="1.6"><world name="yard">
@@ -238,17 +237,6 @@ def test_what_stands_on_something_is_painted_after_it(server):
         spawn_text(server.world, text, name, (0.0, 0.0, z, 0.0, 0.0, 0.0))
     painted = re.findall(r'fill="#(..)00(..)"', server.show3d().svg)
     assert [red > blue for red, blue in painted] == [True] * 3 + [False] * 3
-
-
-def test_the_order_of_painting():
-    eye = np.array([0.0, -9.0, 9.0])
-    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], dtype=float)
-    assert painting_order([square, square], eye, [(0.3, 0.6), (0.0, 0.3)]) == [1, 0]
-    assert painting_order([square, square], eye, [(0.0, 0.3), (0.3, 0.6)]) == [0, 1]
-    far = square + (0.0, 2.0)
-    assert painting_order([square, far], eye) == [1, 0]
-    # what is apart in the picture has no order but that of its distance
-    assert painting_order([square, far], eye, None, [(0, 0, 1, 1), (2, 0, 3, 1)]) == [1, 0]
 
 
 def test_the_same_calls_give_the_same_bytes(server):

@@ -31,7 +31,6 @@ from rosmini.viz.meshcat import Camera, Recorder, Scene3D, replay_3d, robot_3d, 
 from rosmini.viz.meshcat.command_recorder import meshcat
 from rosmini.viz.meshcat.drawing import HEIGHT, WIDTH, draw
 from rosmini.viz.meshcat.scene3d import keyframes, planar, ribbon
-from rosmini.viz.meshcat.solid_order import painting_order
 from rosmini.viz.meshcat.solids import Ball, Prism, Rod, triangulate
 from rosmini.viz.meshcat.view import camera_for
 
@@ -288,13 +287,31 @@ def test_a_box_is_drawn_where_the_camera_sees_it():
 
 
 def test_what_is_near_covers_what_is_far():
-    square = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
-    wall = np.array([(-5.0, 1.0), (5.0, 1.0), (5.0, 1.2), (-5.0, 1.2)])
-    far = square + (4.5, 2.5)
-    eye = np.array([0.0, -3.0])
+    scene = Scene3D(Camera((0.0, 0.0, 0.0), 8.0, azimuth=-90.0, elevation=30.0))
     # By the distance of its middle, the long wall is nearer than the box at its end, and behind the one before it.
-    assert painting_order([square, wall, far], eye) == [2, 1, 0]
-    assert painting_order([far, square, wall], np.array([0.0, 9.0])) == [1, 2, 0]
+    for colour, x, y, length in (
+        ("green", 4.5, 2.5, 1.0),
+        ("blue", 0.0, 1.1, 10.0),
+        ("orange", 0.0, 0.0, 1.0),
+    ):
+        scene.add_obstacle(Obstacle(colour, Box(length, 0.5), (x, y, 0.0), height=1.0, colour=colour))
+    fills = [
+        p.get("fill") for p in paths(draw(scene, title="t", alt="a")) if p.get("fill", "").startswith("#")
+    ]
+    hues = [max(range(3), key=lambda i: int(fill[2 * i + 1 : 2 * i + 3], 16)) for fill in fills]
+    assert sorted(hues, key=[1, 2, 0].index) == hues
+
+
+def test_points_of_a_laser_are_drawn_where_nothing_hides_them():
+    scene = Scene3D(Camera((0.0, 0.0, 0.5), 6.0, azimuth=-90.0, elevation=0.0))
+    scene.add_obstacle(Obstacle("wall", Box(2.0, 0.2), (1.0, 0.0, 0.0), height=1.0))
+    # Before the wall, on it, within its noise, behind it, beside it, and behind the camera.
+    ys = [(0.5, -1.0), (0.5, -0.1), (0.5, -0.07), (0.5, 1.0), (-0.5, 1.0), (0.5, -9.0)]
+    scene.scans.append(np.array([(x, y, 0.5) for x, y in ys]))
+    drawn = "".join(
+        p.get("d") for p in paths(draw(scene, title="t", alt="a")) if p.get("stroke-width") == "3"
+    )
+    assert drawn.count("h0") == 4
 
 
 def test_a_wall_behind_the_camera_is_cut_not_mirrored():

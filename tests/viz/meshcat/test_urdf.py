@@ -16,8 +16,8 @@ from rosmini.sim.worlds import world
 from rosmini.urdf import UnknownJoint, load
 from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d
 from rosmini.viz.meshcat.links import link_surfaces
+from rosmini.viz.meshcat.painting import Painting
 from rosmini.viz.meshcat.scene3d import TINY
-from rosmini.viz.meshcat.triangle_order import painting_order
 from rosmini.viz.view import ViewError
 
 URDF = "package://turtlebot3_description/urdf"
@@ -140,27 +140,37 @@ def test_robots_of_which_only_outlines_are_known():
     assert "<svg" in view.svg
 
 
-def square(x, y, size, depth):
-    a, b, c, d = (x, y, depth), (x + size, y, depth), (x + size, y + size, depth), (x, y + size, depth)
-    return [[a, b, c], [a, c, d]]
+def square(x, y, size):
+    return np.array([(x, y), (x + size, y), (x + size, y + size), (x, y + size)], dtype=float)
+
+
+def painted(*faces):
+    """The order of outlines, each with the depths of its first three vertices."""
+    outlines = [np.array(outline, dtype=float) for outline, _ in faces]
+    planes = [
+        np.linalg.solve(np.column_stack([outline[:3], np.ones(3)]), 1 / np.broadcast_to(depths, 3))
+        for outline, (_, depths) in zip(outlines, faces, strict=True)
+    ]
+    return Painting(outlines, np.array(planes), 100, 100)
 
 
 def test_what_is_hidden_is_left_out_and_the_farther_is_painted_first():
-    near, far, behind = square(10, 10, 20, 1.0), square(20, 20, 40, 2.0), square(12, 12, 5, 3.0)
-    assert painting_order(np.array(near + far + behind), 100, 100) in (
-        [2, 3, 0, 1],
-        [3, 2, 0, 1],
-        [2, 3, 1, 0],
-        [3, 2, 1, 0],
-    )
-    assert painting_order(np.array(square(200, 200, 5, 1.0)), 100, 100) == []
+    near, far, behind = (square(10, 10, 20), 1.0), (square(20, 20, 40), 2.0), (square(12, 12, 5), 3.0)
+    painting = painted(near, far, behind)
+    assert painting.order == [1, 0]
+    assert painted((square(200, 200, 5), 1.0)).order == []
+    assert [painting.hides(15, 15, 1.5), painting.hides(15, 15, 0.5), painting.hides(80, 80, 9.0)] == [
+        True,
+        False,
+        False,
+    ]
 
 
 def test_a_large_floor_is_painted_before_what_stands_on_its_far_end():
     # By the distance of its middle the floor would cover the small thing.
-    floor = [[(0, 99, 1.0), (99, 99, 1.0), (50, 0, 10.0)]]
-    thing = [[(48, 5, 4.1), (52, 5, 4.1), (50, 12, 4.1)]]
-    assert painting_order(np.array(floor + thing), 100, 100) == [0, 1]
+    floor = ([(0, 99), (99, 99), (50, 0)], (1.0, 1.0, 10.0))
+    thing = ([(48, 5), (52, 5), (50, 12)], 4.1)
+    assert painted(floor, thing).order == [0, 1]
 
 
 @settings(max_examples=40)
@@ -171,27 +181,21 @@ def test_a_large_floor_is_painted_before_what_stands_on_its_far_end():
 )
 def test_painting_in_this_order_shows_what_is_nearest_everywhere(places):
     # No edge goes through the middle of a pixel.
-    squares = [(x + 0.23, y + 0.31, size, round(depth, 3)) for x, y, size, depth in places]
-    corners = np.array([triangle for each in squares for triangle in square(*each)])
-    order = painting_order(corners, 64, 64)
+    faces = [(square(x + 0.23, y + 0.31, size), round(depth, 3)) for x, y, size, depth in places]
+    order = painted(*faces).order
     assert len(order) == len(set(order))
-    painted = np.full((64, 64), np.inf)
-    depth = np.full((64, 64), np.inf)
-    for i in range(len(corners)):
-        depth = np.minimum(depth, cover(corners[i]))
+    shown = np.full((64, 64), np.inf)
     for i in order:
-        own = cover(corners[i])
-        painted[np.isfinite(own)] = own[np.isfinite(own)]
-    assert np.array_equal(painted, depth)
+        own = cover(*faces[i])
+        shown[np.isfinite(own)] = own[np.isfinite(own)]
+    assert np.array_equal(shown, np.min([cover(*face) for face in faces], axis=0))
 
 
-def cover(triangle):
-    """Its depth at the pixels that it covers, elsewhere infinity; it faces the camera."""
+def cover(outline, depth):
+    """The depth of a square at the pixels that it covers, elsewhere infinity."""
     x, y = np.meshgrid(np.arange(64) + 0.5, np.arange(64) + 0.5)
-    a, b, c = np.round(triangle[:, :2], 2)
-    sides = [(q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]) for p, q in ((a, b), (b, c), (c, a))]
-    inside = np.all([side > 1e-6 for side in sides], axis=0)
-    return np.where(inside, round(float(triangle[0, 2]), 6), np.inf)
+    (x0, y0), (x1, y1) = outline[0], outline[2]
+    return np.where((x > x0) & (x < x1) & (y > y0) & (y < y1), depth, np.inf)
 
 
 def test_a_link_has_one_surface_for_each_colour():
