@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import math
 import types
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from numbers import Real
+from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.errors import RosminiError, nearest
 
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from types import UnionType
 
     from rosmini.graph import Graph, Publisher
+    from rosmini.msgs.message import Message
 
 
 class UnknownExercise(RosminiError):
@@ -96,6 +99,28 @@ def expect_type(
 ) -> None:
     """Expect an object of one of `kinds`; else "`said` a TYPE, not `wanted`.", as "It returned a str, not a list."."""
     expect(isinstance(found, kinds), f"{said} a {type(found).__name__}, not {wanted}.", hint)
+
+
+def expect_number(found: object, what: str) -> float:
+    """The number that a function returned; expect a finite or infinite one that is not a bool."""
+    expect(
+        isinstance(found, Real) and not isinstance(found, bool) and not math.isnan(found),
+        f"It returned {found!r}, which is no {what}.",
+        "return one number",
+    )
+    return float(cast("Real", found))
+
+
+def expect_fields(found: type[Message], wanted: type[Message], what: str) -> None:
+    """Expect the fields of a message class to be those of another one; else name the first difference of `what`."""
+    given, right = ([(field.type, field.ros_name) for field in cls._spec.fields] for cls in (found, wanted))
+    for kind, name in right:
+        kinds = [other for other, field in given if field == name]
+        expect(kinds, f"There is no field {name} in the {what}.", "a field is 'type name'")
+        expect(kinds == [kind], f"The field {name} of the {what} is a {kinds[0]}, not a {kind}.")
+    extra = [name for _, name in given if name not in [field for _, field in right]]
+    expect(not extra, f"A field of the {what} was not asked for: {', '.join(extra)}.")
+    expect(given == right, f"The fields of the {what} are not in the order that was asked for.")
 
 
 def expect_node(graph: Graph, name: str) -> None:

@@ -6,17 +6,9 @@ from typing import Any
 
 from rosmini.book.checks import exercise, expect, expect_heard, expect_node, expect_type
 from rosmini.graph import Graph
-from rosmini.msgs import message_class
+from rosmini.msgs.std_msgs.msg import Int32, String
 
 ADDRESS = "http://by-hand:1/"
-
-
-def _string() -> Any:
-    return message_class("std_msgs/String")
-
-
-def _int32() -> Any:
-    return message_class("std_msgs/Int32")
 
 
 # ---- 11.1: rosnode list ----
@@ -32,7 +24,7 @@ def node_list(answer: Any) -> None:
     """The names of all nodes that a Master knows, sorted."""
     with Graph() as graph:
         master = graph.master
-        graph.node("talker").publisher("chatter", _string())
+        graph.node("talker").publisher("chatter", String)
         master.registerPublisher("/only_publishes", "/a", "std_msgs/String", ADDRESS)
         master.registerSubscriber("/only_subscribes", "/b", "std_msgs/String", ADDRESS)
         master.registerService("/only_serves", "/c", "rosrpc://by-hand:1", ADDRESS)
@@ -66,8 +58,8 @@ def doubler(answer: Any) -> None:
     with Graph() as graph:
         answer(graph)
         expect_node(graph, "/doubler")
-        sink = graph.node("sink").subscriber("doubled", _int32(), lambda message: got.append(message.data))
-        feed = graph.node("feed").publisher("number", _int32())
+        sink = graph.node("sink").subscriber("doubled", Int32, lambda message: got.append(message.data))
+        feed = graph.node("feed").publisher("number", Int32)
         graph.run(0.1)
         expect_heard(feed)
         expect(sink.num_connections(), "Nobody publishes /doubled.", "publisher(...) with the type Int32")
@@ -90,9 +82,9 @@ def introduce(answer: Any) -> None:
     got: list[str] = []
     with Graph() as graph:
         talker, listener = graph.node("crier"), graph.node("passer_by")
-        listener.subscriber("news", _string(), lambda message: got.append(message.data))
+        listener.subscriber("news", String, lambda message: got.append(message.data))
         graph.master.unregisterSubscriber("/passer_by", "/news", listener.uri)
-        news = talker.publisher("news", _string(), latch=True)
+        news = talker.publisher("news", String, latch=True)
         graph.master.unregisterPublisher("/crier", "/news", talker.uri)
         answer(talker, listener, "/news")
         news.publish("extra")
@@ -118,12 +110,12 @@ def say_hello(answer: Any) -> None:
     """A single message arrives, though the publisher was made a moment ago and the subscriber comes late."""
     got: list[str] = []
     with Graph() as graph:
-        publisher = graph.node("talker").publisher("chatter", _string(), queue_size=10)
+        publisher = graph.node("talker").publisher("chatter", String, queue_size=10)
         late = graph.node("late")
 
         def arrive() -> None:
             late.sleep(7.0)
-            late.subscriber("chatter", _string(), lambda message: got.append(message.data))
+            late.subscriber("chatter", String, lambda message: got.append(message.data))
 
         late.run(arrive)
         answer(publisher)

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import struct
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from rosmini.book.checks import exercise, expect, expect_heard, expect_node, expect_type
+from rosmini.book.checks import exercise, expect, expect_fields, expect_heard, expect_node, expect_type
 from rosmini.errors import RosminiError
 from rosmini.graph import Graph
-from rosmini.msgs import define_message, message_class
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from rosmini.msgs import define_message
+from rosmini.msgs.std_msgs.msg import String
 
 # ---- 12.1: a type of one's own ----
 
@@ -43,19 +41,7 @@ def definition(answer: Any) -> None:
             f"There is no constant {constant.name} of type {constant.type} with the value {constant.value}.",
             "a constant is 'type NAME=value'",
         )
-    fields = [(field.type, field.ros_name) for field in cls._spec.fields]
-    expected = [(field.type, field.ros_name) for field in wanted._spec.fields]
-    for kind, name in expected:
-        kinds = [found for found, other in fields if other == name]
-        expect(kinds, f"There is no field {name}.", "a field is 'type name'")
-        expect(
-            kinds == [kind],
-            f"The field {name} is a {kinds[0]}.",
-            "look at the table of the types, and at the arrays",
-        )
-    extra = [name for _, name in fields if name not in [wanted for _, wanted in expected]]
-    expect(not extra, f"A field that was not asked for: {', '.join(extra)}.")
-    expect(fields == expected, "The fields are not in the order that was asked for.")
+    expect_fields(cls, wanted, "definition")
     expect(cls._md5sum == wanted._md5sum, "There is a constant that was not asked for.")
 
 
@@ -118,31 +104,6 @@ def decode(answer: Any) -> None:
 # ---- 12.4: many writers ----
 
 
-def _string() -> Any:
-    return message_class("std_msgs/String")
-
-
-def _board(
-    *, latch: bool = True, ordered: bool = True, name: str = "board", between: str = "; ", keep: bool = True
-) -> Callable[[], Any]:
-    def start(graph: Graph) -> None:
-        node = graph.node(name)
-        board = node.publisher("board", _string(), queue_size=10, latch=latch)
-        notes: dict[str, str] = {}
-
-        def pin(message: Any) -> None:
-            if not keep:
-                notes.clear()
-            notes[message._connection_header["callerid"]] = message.data
-            board.publish(
-                between.join(f"{who}: {notes[who]}" for who in (sorted(notes) if ordered else notes))
-            )
-
-        node.subscriber("note", _string(), pin)
-
-    return lambda: start
-
-
 @exercise("12.4", praise="Latched, it never has to be asked for.")
 def board(answer: Any) -> None:
     """A node that publishes, latched, what each writer said last."""
@@ -151,14 +112,14 @@ def board(answer: Any) -> None:
     with Graph() as graph:
         answer(graph)
         expect_node(graph, "/board")
-        graph.node("reader").subscriber("board", _string(), lambda message: early.append(message.data))
-        writers = {name: graph.node(name).publisher("note", _string()) for name in ("ben", "anna")}
+        graph.node("reader").subscriber("board", String, lambda message: early.append(message.data))
+        writers = {name: graph.node(name).publisher("note", String) for name in ("ben", "anna")}
         graph.run(0.1)
         expect_heard(writers["ben"])
         for writer, note in (("ben", "here"), ("anna", "back at ten"), ("ben", "gone")):
             writers[writer].publish(note)
             graph.run(0.1)
-        graph.node("late_reader").subscriber("board", _string(), lambda message: late.append(message.data))
+        graph.node("late_reader").subscriber("board", String, lambda message: late.append(message.data))
         graph.run(0.1)
     steps = ["/ben: here", "/anna: back at ten; /ben: here", "/anna: back at ten; /ben: gone"]
     for before, after in pairwise(["", *steps]):

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosmini.book.checks import exercise, expect, expect_heard, expect_type
+from rosmini.book.checks import exercise, expect, expect_fields, expect_heard, expect_type
 from rosmini.errors import RosminiError, ServiceException
 from rosmini.graph import Graph, Node
-from rosmini.msgs import define_service, message_class, service_class
+from rosmini.msgs import define_service
+from rosmini.msgs.std_msgs.msg import String
+from rosmini.msgs.std_srvs.srv import Empty, Trigger
 
 # ---- 13.1: a service type ----
 
@@ -33,32 +35,9 @@ def definition(answer: Any) -> None:
         )
         return
     wanted = define_service("my_robot/TakePicture", PICTURE)
-    for half in ("request", "response"):
-        found, expected = (_fields(cls, half) for cls in (given, wanted))
-        for kind, name in expected:
-            kinds = [other for other, field in found if field == name]
-            expect(kinds, f"The {half} has no field {name}.", "the request stands above the line ---")
-            expect(kinds == [kind], f"The field {name} of the {half} is a {kinds[0]}, not a {kind}.")
-        extra = [name for _, name in found if name not in [field for _, field in expected]]
-        expect(not extra, f"The {half} has a field that was not asked for: {', '.join(extra)}.")
-        expect(found == expected, f"The fields of the {half} are not in the order that was asked for.")
+    expect_fields(given._request_class, wanted._request_class, "request")
+    expect_fields(given._response_class, wanted._response_class, "response")
     expect(given._md5sum == wanted._md5sum, "There is a constant that was not asked for.")
-
-
-def _fields(cls: Any, half: str) -> list[tuple[str, str]]:
-    return [(field.type, field.ros_name) for field in getattr(cls, f"_{half}_class")._spec.fields]
-
-
-def _trigger() -> Any:
-    return service_class("std_srvs/Trigger")
-
-
-def _empty() -> Any:
-    return service_class("std_srvs/Empty")
-
-
-def _string() -> Any:
-    return message_class("std_msgs/String")
 
 
 def _offered(graph: Graph, node: str, name: str, kind: Any) -> None:
@@ -79,11 +58,11 @@ def counter(answer: Any) -> None:
     """A service that counts its calls, and one that begins again."""
     with Graph(strict=False) as graph:
         answer(graph)
-        _offered(graph, "/counter", "/count", _trigger())
-        _offered(graph, "/counter", "/clear", _empty())
+        _offered(graph, "/counter", "/count", Trigger)
+        _offered(graph, "/counter", "/clear", Empty)
         client = graph.node("client")
         count, clear = (
-            client.service_client(name, kind) for name, kind in (("count", _trigger()), ("clear", _empty()))
+            client.service_client(name, kind) for name, kind in (("count", Trigger), ("clear", Empty))
         )
         answers = [count(), count(), count()]
         clear()
@@ -122,7 +101,7 @@ def who_is_it(answer: Any) -> None:
             server = graph.node("server")
 
             def offer(_: Any = None, server: Node = server, handler: Any = handler) -> None:
-                server.service("who", _trigger(), handler)
+                server.service("who", Trigger, handler)
 
             if delay:
                 server.timer(delay, offer, oneshot=True)
@@ -147,11 +126,11 @@ def secretary(answer: Any) -> None:
     """A node that keeps the last message of a topic and tells it to who asks."""
     with Graph(strict=False) as graph:
         answer(graph)
-        _offered(graph, "/secretary", "/last_status", _trigger())
-        worker = graph.node("worker").publisher("status", _string())
+        _offered(graph, "/secretary", "/last_status", Trigger)
+        worker = graph.node("worker").publisher("status", String)
         graph.run(0.1)
         expect_heard(worker)
-        ask = graph.node("boss").service_client("last_status", _trigger())
+        ask = graph.node("boss").service_client("last_status", Trigger)
         start, answers = graph.now(), [ask()]
         waited = (graph.now() - start).to_sec()
         for status in ("starting", "driving"):

@@ -6,7 +6,7 @@ from typing import Any
 
 from rosmini.book.checks import exercise, expect, expect_heard, expect_node, expect_type
 from rosmini.graph import Graph
-from rosmini.msgs import message_class
+from rosmini.msgs.std_msgs.msg import Float32
 
 # ---- 14.1: resolving names ----
 
@@ -111,15 +111,14 @@ class _Counted:
 @exercise("14.4", praise="The node asks once and is told the rest: this scales to any number of messages.")
 def limiter(answer: Any) -> None:
     """A node that limits speeds to a parameter that changes while it runs."""
-    float32 = message_class("std_msgs/Float32")
     got: list[float] = []
     with Graph() as graph:
         boss = graph.node("boss")
         boss.set_param("/limit", 1.0)
         answer(graph)
         expect_node(graph, "/limiter")
-        wanted = boss.publisher("wanted", float32)
-        boss.subscriber("allowed", float32, lambda message: got.append(message.data))
+        wanted = boss.publisher("wanted", Float32)
+        boss.subscriber("allowed", Float32, lambda message: got.append(message.data))
         graph.run(0.1)
         expect_heard(wanted)
         counted = _Counted(graph.master)

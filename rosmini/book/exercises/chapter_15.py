@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 from rosmini.bag import Bag, FilterError
 from rosmini.bag.expressions import compile_expression
 from rosmini.book.checks import exercise, expect, expect_type
-from rosmini.msgs import message_class
+from rosmini.msgs.geometry_msgs.msg import Twist, Vector3
+from rosmini.msgs.nav_msgs.msg import Odometry
+from rosmini.msgs.std_msgs.msg import String
 from rosmini.time import Time
 
 if TYPE_CHECKING:
@@ -25,18 +27,8 @@ def _bag(messages: Iterable[tuple[str, Any, float]]) -> Bag:
     return Bag(file)
 
 
-def _string(text: str = "x") -> Any:
-    return message_class("std_msgs/String")(text)
-
-
-def _twist(speed: float, turn: float = 0.0) -> Any:
-    message = message_class("geometry_msgs/Twist")()
-    message.linear.x, message.angular.z = speed, turn
-    return message
-
-
 def _odometry(x: float, y: float) -> Any:
-    message = message_class("nav_msgs/Odometry")()
+    message = Odometry()
     message.pose.pose.position.x, message.pose.pose.position.y = x, y
     return message
 
@@ -47,7 +39,7 @@ def _odometry(x: float, y: float) -> Any:
 @exercise("15.1", praise="One line of `rosbag info` for each topic.")
 def message_counts(answer: Any) -> None:
     """A dictionary from topics to numbers of messages."""
-    bag = _bag([("/chatter", _string(), float(i)) for i in range(5)] + [("/news", _string(), 2.5)])
+    bag = _bag([("/chatter", String("x"), float(i)) for i in range(5)] + [("/news", String("x"), 2.5)])
     found = answer(bag)
     expect_type(found, dict, "It returned", "a dictionary")
     expect(
@@ -68,8 +60,8 @@ def message_counts(answer: Any) -> None:
 def longest_silence(answer: Any) -> None:
     """The longest time between two messages of one topic."""
     times = (10.0, 10.5, 14.25, 15.0)
-    messages = [("/chatter", _string(), time) for time in times]
-    bag = _bag([*messages, *(("/news", _string(), float(time)) for time in range(10, 17))])
+    messages = [("/chatter", String("x"), time) for time in times]
+    bag = _bag([*messages, *(("/news", String("x"), float(time)) for time in range(10, 17))])
     found = answer(bag, "/chatter")
     expect_type(found, int | float, "It returned", "a number of seconds")
     expect(
@@ -93,11 +85,11 @@ def fast_commands(answer: Any) -> None:
     """An expression that keeps the commands to drive ahead faster than 0.1 m/s."""
     expect(isinstance(answer, str), f"The expression is text between quotes, not a {type(answer).__name__}.")
     cases = [
-        ("/cmd_vel", _twist(0.2), True, "a command of 0.2 m/s"),
-        ("/cmd_vel", _twist(0.05), False, "a command of 0.05 m/s"),
-        ("/cmd_vel", _twist(0.1), False, "a command of exactly 0.1 m/s"),
-        ("/cmd_vel", _twist(-0.2), False, "a command to drive backwards"),
-        ("/cmd_vel", _twist(0.0, 1.0), False, "a command to turn on the spot"),
+        ("/cmd_vel", Twist(linear=Vector3(x=0.2)), True, "a command of 0.2 m/s"),
+        ("/cmd_vel", Twist(linear=Vector3(x=0.05)), False, "a command of 0.05 m/s"),
+        ("/cmd_vel", Twist(linear=Vector3(x=0.1)), False, "a command of exactly 0.1 m/s"),
+        ("/cmd_vel", Twist(linear=Vector3(x=-0.2)), False, "a command to drive backwards"),
+        ("/cmd_vel", Twist(Vector3(x=0.0), Vector3(z=1.0)), False, "a command to turn on the spot"),
         ("/odom", _odometry(1.0, 1.0), False, "a message on /odom"),
     ]
     try:
@@ -123,7 +115,7 @@ def distance_driven(answer: Any) -> None:
     square = [(0, 0), (1, 0), (1, 2), (-0.5, 2), (-0.5, 0)]
     bag = _bag(
         [("/odom", _odometry(x, y), float(i)) for i, (x, y) in enumerate(square)]
-        + [("/news", _string(), 1.5)]
+        + [("/news", String("x"), 1.5)]
     )
     found = answer(bag)
     expect_type(found, int | float, "It returned", "a number of metres")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini import names
 from rosmini.book.checks import exercise, expect, expect_type
 from rosmini.graph import Graph
-from rosmini.msgs import message_class
+from rosmini.msgs.std_msgs.msg import Float32, String
 from rosmini.scripts import run_source
 
 if TYPE_CHECKING:
@@ -102,15 +102,11 @@ def start_reporter(answer: Any) -> None:
     got: list[str] = []
     robots = ["/robot1", "/robot2", "/lab/robot3"]
     with Graph() as graph:
-        graph.node("screen").subscriber(
-            "/report", message_class("std_msgs/String"), lambda message: got.append(message.data)
-        )
+        graph.node("screen").subscriber("/report", String, lambda message: got.append(message.data))
         feeds = {}
         for robot in robots:
             answer(graph, robot)
-            feeds[robot] = graph.node("driver", namespace=robot).publisher(
-                "battery", message_class("std_msgs/Float32")
-            )
+            feeds[robot] = graph.node("driver", namespace=robot).publisher("battery", Float32)
         graph.run(0.1)
         for robot, feed in feeds.items():
             expect(

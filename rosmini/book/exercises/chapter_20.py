@@ -12,7 +12,7 @@ import numpy as np
 from rosmini.book.checks import Wrong, exercise, expect, expect_type
 from rosmini.geometry.poses import arc
 from rosmini.geometry.raycast import raycast
-from rosmini.msgs import message_class
+from rosmini.msgs.sensor_msgs.msg import LaserScan
 
 if TYPE_CHECKING:
     from rosmini.sim.stage import StageRobot, StageWorld
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def _scan(ranges: list[float], low: float, high: float) -> Any:
-    scan = message_class("sensor_msgs/LaserScan")()
+    scan = LaserScan()
     scan.ranges = np.array(ranges, dtype=np.float32)
     scan.range_min, scan.range_max = low, high
     scan.angle_min, scan.angle_increment = -0.5, 0.1

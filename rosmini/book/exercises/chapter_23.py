@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from rosmini.book.checks import Wrong, exercise, expect, expect_type
+from rosmini.book.checks import Wrong, exercise, expect, expect_number, expect_type
 from rosmini.errors import RosminiError
 from rosmini.graph import Graph
-from rosmini.msgs import message_class
+from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.scripts import rosrun
 from rosmini.sim import sdf
 from rosmini.sim.gazebo import GazeboServer, ModelPlugin
@@ -26,36 +26,7 @@ def _server(graph: Graph) -> GazeboServer:
     return found
 
 
-def _number(found: Any, what: str) -> float:
-    if isinstance(found, bool) or not isinstance(found, int | float) or not math.isfinite(found):
-        raise Wrong(f"It returned {found!r}, which is no {what}.", "return one number")
-    return float(found)
-
-
 # ---- 23.1: a barrel ----
-
-
-def _barrel(
-    *,
-    low: float = 0.5,
-    along: Callable[[float, float, float], float] = lambda m, r, _h: m * r**2 / 2,
-    across: Callable[[float, float, float], float] = lambda m, r, h: m * (3 * r**2 + h**2) / 12,
-    shape: str = "<cylinder><radius>{r}</radius><length>{h}</length></cylinder>",
-    solid: str = "collision",
-    static: str = "",
-    called: str = "",
-) -> Callable[[], Any]:
-    def text(name: str, radius: float, height: float, mass: float) -> str:
-        a, b = across(mass, radius, height), along(mass, radius, height)
-        return (
-            f'<sdf version="1.6"><model name="{called or name}">{static}'
-            f'<link name="link"><pose>0 0 {low * height} 0 0 0</pose>'
-            f"<inertial><mass>{mass}</mass><inertia><ixx>{a}</ixx><iyy>{a}</iyy><izz>{b}</izz></inertia></inertial>"
-            f'<{solid} name="solid"><geometry>{shape.format(r=radius, h=height)}</geometry></{solid}>'
-            "</link></model></sdf>"
-        )
-
-    return lambda: text
 
 
 @exercise("23.1", praise="It came into a world, stood on the floor, and could be pushed.")
@@ -140,7 +111,7 @@ def _slide(mu: float, gravity: float) -> Callable[[float], float]:
 def friction(answer: Any) -> None:
     """The coefficient of friction of something that is pushed, within 2 %."""
     for mu, gravity in ((0.15, 9.8), (0.4, 9.8), (0.9, 1.6)):
-        found = _number(answer(_slide(mu, gravity), gravity), "coefficient")
+        found = expect_number(answer(_slide(mu, gravity), gravity), "coefficient")
         expect(
             abs(found - mu) <= 0.02 * mu,
             f"You found {found:.3f} where mu is {mu}, with a gravity of {gravity} m/s2.",
@@ -169,7 +140,7 @@ def look_ahead(answer: Any) -> None:
         expect("/front_scan" in types, "There is no topic /front_scan.", "<topicName> of the laser's plugin")
         expect("/scan" not in types, "The topic /scan is still there.")
         heard: list[Any] = []
-        graph.node("check").subscriber("/front_scan", message_class("sensor_msgs/LaserScan"), heard.append)
+        graph.node("check").subscriber("/front_scan", LaserScan, heard.append)
         graph.run(1.0)
     _check_scan(heard[-1])
     expect(

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from rosmini.book.checks import Wrong, exercise, expect
-from rosmini.msgs import message_class
+from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.tf import Buffer
 from rosmini.tf.messages import to_stamped
 from rosmini.tf.rigid import Rigid, compose, from_yaw
@@ -23,9 +23,7 @@ def _buffer(*told: tuple[str, str, Rigid, int]) -> Buffer:
 
 
 def _scan(*ranges: float) -> Any:
-    scan = message_class("sensor_msgs/LaserScan")(
-        angle_increment=math.pi / 2, range_min=0.1, range_max=5.0, ranges=ranges
-    )
+    scan = LaserScan(angle_increment=math.pi / 2, range_min=0.1, range_max=5.0, ranges=ranges)
     scan.header.frame_id = "front_laser"
     scan.header.stamp = Time(5)
     return scan

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.book.checks import Wrong, exercise, expect
+from rosmini.book.checks import Wrong, exercise, expect, expect_number
 from rosmini.graph import Graph
-from rosmini.msgs import message_class
+from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.scripts import rosrun
 
 if TYPE_CHECKING:
@@ -21,12 +21,6 @@ def _robot(graph: Graph, *parameters: str) -> Simulator:
         "rosmini_sim", "simulator", "_world:=empty", *parameters, graph=graph
     ).instance()
     return found
-
-
-def _number(found: Any, what: str) -> float:
-    if isinstance(found, bool) or not isinstance(found, int | float | np.number) or math.isnan(found):
-        raise Wrong(f"It returned {found!r}, which is no {what}.", "return one number")
-    return float(found)
 
 
 # ---- 40.1: a circle ----
@@ -86,7 +80,7 @@ def circle(answer: Any) -> None:
 
 def _scan(ranges: Any, first: float = 0.0) -> Any:
     """A scan of a whole turn, of which the first beam looks at `first` [rad]."""
-    scan = message_class("sensor_msgs/LaserScan")()
+    scan = LaserScan()
     scan.ranges = np.asarray(ranges, dtype=np.float32)
     scan.angle_min, scan.angle_increment = first, 2 * math.pi / len(ranges)
     scan.angle_max = first + scan.angle_increment * (len(ranges) - 1)
@@ -159,7 +153,7 @@ def front_distance(answer: Any) -> None:
         ),
     )  # fmt: skip
     for scan, half_width, right, what, hint in shown:
-        found = _number(answer(scan, half_width), "distance")
+        found = expect_number(answer(scan, half_width), "distance")
         expect(
             found == right or abs(found - right) < 1e-6,
             f"For {what} it returned {found:.2f}, not {right:.2f}.",
@@ -183,7 +177,7 @@ def wheel_separation(answer: Any) -> None:
         with Graph(seed=seed) as graph:
             sim = _robot(graph)
             wheels = sim.engine.robot(sim.name).wheels
-            found = _number(answer(graph, sim), "distance")
+            found = expect_number(answer(graph, sim), "distance")
             right = wheels.separation
         expect(
             0.1 < found < 0.25,
@@ -220,7 +214,7 @@ def safe_speed(answer: Any) -> None:
     for distance, period, acceleration in (
         (0.05, 0.2, 1.0), (0.02, 0.2, 1.0), (0.03, 0.1, 1.0), (0.04, 0.2, 0.5), (0.0, 0.2, 1.0), (1.0, 0.2, 1.0),
     ):  # fmt: skip
-        found = _number(answer(distance, period, acceleration), "speed")
+        found = expect_number(answer(distance, period, acceleration), "speed")
         right = _speed(distance, period, acceleration)
         case = f"{1000 * distance:.0f} mm, {period} s and {acceleration} m/s2"
         expect(

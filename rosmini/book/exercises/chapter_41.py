@@ -10,16 +10,16 @@ import numpy as np
 from rosmini.book.checks import Wrong, exercise, expect, expect_heard, expect_node
 from rosmini.geometry.poses import Pose, arc
 from rosmini.graph import Graph
-from rosmini.msgs import message_class
+from rosmini.msgs.geometry_msgs.msg import Twist, Vector3
+from rosmini.msgs.sensor_msgs.msg import Joy
+from rosmini.msgs.std_msgs.msg import Bool
 from rosmini.widgets.teleop import KEYS, Limits, Teleop
 
 Velocity = tuple[float, float]
 
 
 def _twist(v: float = 0.0, w: float = 0.0) -> Any:
-    twist = message_class("geometry_msgs/Twist")()
-    twist.linear.x, twist.angular.z = v, w
-    return twist
+    return Twist(Vector3(x=v), Vector3(z=w))
 
 
 def _said(velocities: list[Velocity]) -> str:
@@ -77,11 +77,11 @@ def joystick(answer: Any) -> None:
         answer(graph)
         expect_node(graph, "/joystick")
         _listen(graph, sent)
-        joy = graph.node("gamepad_driver").publisher("joy", message_class("sensor_msgs/Joy"), queue_size=10)
+        joy = graph.node("gamepad_driver").publisher("joy", Joy, queue_size=10)
         graph.run(0.1)
         expect_heard(joy)
         for axes, held in (((0.5, 1.0), 1), ((-1.0, -0.5), 1), ((0.5, 1.0), 0), ((0.0, 0.25), 1)):
-            message = message_class("sensor_msgs/Joy")()
+            message = Joy()
             message.axes, message.buttons = list(axes), [0, 0, 0, 0, held, 0]
             expected = (0.22 * axes[1], 2.84 * axes[0]) if held else (0.0, 0.0)
             got = _answers(graph, sent, joy, message)
@@ -94,9 +94,7 @@ def joystick(answer: Any) -> None:
 
 
 def _listen(graph: Graph, sent: list[Velocity]) -> None:
-    graph.node("wheels").subscriber(
-        "cmd_vel", message_class("geometry_msgs/Twist"), lambda m: sent.append((m.linear.x, m.angular.z))
-    )
+    graph.node("wheels").subscriber("cmd_vel", Twist, lambda m: sent.append((m.linear.x, m.angular.z)))
 
 
 def _answers(graph: Graph, sent: list[Velocity], publisher: Any, message: Any) -> list[Velocity]:
@@ -119,8 +117,8 @@ def lock(answer: Any) -> None:
         expect_node(graph, "/lock")
         _listen(graph, sent)
         hand = graph.node("hand")
-        pad = hand.publisher("pad_vel", message_class("geometry_msgs/Twist"), queue_size=10)
-        stop = hand.publisher("stop", message_class("std_msgs/Bool"), queue_size=10)
+        pad = hand.publisher("pad_vel", Twist, queue_size=10)
+        stop = hand.publisher("stop", Bool, queue_size=10)
         graph.run(0.1)
         expect_heard(pad)
         expect_heard(stop)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Wrong, exercise, expect
 from rosmini.graph import Graph
-from rosmini.msgs import message_class
+from rosmini.msgs.geometry_msgs.msg import Twist, Vector3
 from rosmini.packages import PackageIndex
 from rosmini.scripts import rosrun
 from rosmini.sim.simulator import Simulator
@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 
 
 def _twist(v: float, w: float = 0.0) -> Any:
-    twist = message_class("geometry_msgs/Twist")()
-    twist.linear.x, twist.angular.z = float(v), float(w)
-    return twist
+    return Twist(Vector3(x=float(v)), Vector3(z=float(w)))
 
 
 def _robots(graph: Graph, *starts: tuple[str, float, float, float], noise: float = 1.0) -> Simulator:
@@ -39,7 +37,7 @@ def _robots(graph: Graph, *starts: tuple[str, float, float, float], noise: float
 def _drive(graph: Graph, topic: str, v: float, w: float, seconds: float) -> None:
     """Repeat a command ten times a second."""
     driver = graph.node("checking_driver", anonymous=True)
-    cmd_vel = driver.publisher(topic, message_class("geometry_msgs/Twist"), queue_size=1)
+    cmd_vel = driver.publisher(topic, Twist, queue_size=1)
     cmd_vel.wait_for_subscribers()
     for _ in range(round(10 * seconds)):
         cmd_vel.publish(_twist(v, w))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from rosmini.actionlib import (
@@ -18,18 +17,11 @@ from rosmini.graph import Graph
 from rosmini.msgs import message_class
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
 
 def _type(name: str) -> Any:
     return message_class(f"actionlib/{name}")
-
-
-@contextmanager
-def _graph() -> Iterator[Graph]:
-    """A graph in which a mistake of the reader's server is raised where the check drives it."""
-    with Graph() as graph:
-        yield graph
 
 
 # ---- 91.1: where can it end? ----
@@ -106,7 +98,7 @@ def _counter(
 )
 def start_counter(answer: Any) -> None:
     """An action server that counts, tells, and stops."""
-    with _graph() as graph:
+    with Graph() as graph:
         answer(graph)
         expect_node(graph, "/counter")
         client = SimpleActionClient(graph.node("check"), "count", _type("TestAction"))
@@ -168,7 +160,7 @@ def _expect_end(client: SimpleActionClient, status: Status, number: int) -> None
 @exercise("91.3", praise="After a cancellation it waits for the end: until then the robot may still move.")
 def ask_with_patience(answer: Any) -> None:
     """A goal that is cancelled after a while."""
-    with _graph() as graph:
+    with Graph() as graph:
         _counter()()(graph)
         client = SimpleActionClient(graph.node("check"), "count", _type("TestAction"))
         client.wait_for_server(1.0)
@@ -208,7 +200,7 @@ def ask_with_patience(answer: Any) -> None:
 @exercise("91.4", praise="A rejected goal was never ACTIVE: its client knows that nothing was begun.")
 def start_adder(answer: Any) -> None:
     """A server that rejects some goals."""
-    with _graph() as graph:
+    with Graph() as graph:
         answer(graph)
         expect_node(graph, "/adder")
         client = ActionClient(graph.node("check"), "add", _type("TwoIntsAction"))

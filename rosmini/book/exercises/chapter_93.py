@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import exercise, expect, expect_heard, expect_node, expect_type
 from rosmini.graph import Graph
-from rosmini.msgs import message_class
+from rosmini.msgs.std_msgs.msg import Float32, Int32, String
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -85,7 +85,6 @@ def _examine(service: Any) -> None:
 def _worked_on(queue: int, count: int, gap: float, work: float) -> list[int]:
     """The numbers that a slow subscriber works on, found by running it."""
     arrived: list[int] = []
-    number = message_class("std_msgs/Int32")
     with Graph() as graph:
         slow = graph.node("slow")
 
@@ -93,8 +92,8 @@ def _worked_on(queue: int, count: int, gap: float, work: float) -> list[int]:
             arrived.append(message.data)
             slow.sleep(work)
 
-        slow.subscriber("number", number, look, queue_size=queue)
-        numbers = graph.node("fast").publisher("number", number, queue_size=count)
+        slow.subscriber("number", Int32, look, queue_size=queue)
+        numbers = graph.node("fast").publisher("number", Int32, queue_size=count)
         numbers.wait_for_subscribers()
         for value in range(1, count + 1):
             numbers.publish(value)
@@ -127,18 +126,17 @@ def arrived(answer: Any) -> None:
 @exercise("93.3", praise="A latch keeps one message; yours keeps as many as you like.")
 def start_history(answer: Any) -> None:
     """A node that gives the last messages to each newcomer."""
-    text = message_class("std_msgs/String")
     heard: dict[str, list[str]] = {"early": [], "late": [], "later": []}
 
     def listen(name: str) -> None:
-        graph.node(name).subscriber("history", text, lambda message: heard[name].append(message.data))
+        graph.node(name).subscriber("history", String, lambda message: heard[name].append(message.data))
         graph.run(0.1)
 
     with Graph() as graph:
         answer(graph, 3)
         expect_node(graph, "/history")
         listen("early")
-        news = graph.node("reporter").publisher("news", text, queue_size=10)
+        news = graph.node("reporter").publisher("news", String, queue_size=10)
         graph.run(0.1)
         expect_heard(news)
         for word in ("one", "two"):
@@ -186,12 +184,11 @@ def start_alarm(answer: Any) -> None:
 
 def _alarms(answer: Any, limit: float, values: Sequence[float]) -> list[float]:
     got: list[float] = []
-    number = message_class("std_msgs/Float32")
     with Graph() as graph:
         answer(graph, limit)
         expect_node(graph, "/alarm")
-        graph.node("siren").subscriber("alarm", number, lambda message: got.append(message.data))
-        temperature = graph.node("roof").publisher("temperature", number, queue_size=10)
+        graph.node("siren").subscriber("alarm", Float32, lambda message: got.append(message.data))
+        temperature = graph.node("roof").publisher("temperature", Float32, queue_size=10)
         graph.run(0.1)
         expect_heard(temperature)
         for value in values:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.book.exercises.chapter_11 import _all_registered, _int32
+from rosmini.book.exercises.chapter_11 import _all_registered
 from rosmini.graph import Graph
+from rosmini.msgs.std_msgs.msg import Int32
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,16 +26,16 @@ def _only(registry: int) -> Callable[[], Any]:
 def _doubler(factor: int = 2, topic: str = "doubled", name: str = "doubler") -> Callable[[], Any]:
     def start(graph: Graph) -> None:
         node = graph.node(name)
-        result = node.publisher(topic, _int32(), queue_size=10)
-        node.subscriber("number", _int32(), lambda message: result.publish(factor * message.data))
+        result = node.publisher(topic, Int32, queue_size=10)
+        node.subscriber("number", Int32, lambda message: result.publish(factor * message.data))
 
     return lambda: start
 
 
 def _fixed_doubler(graph: Graph) -> None:
     node = graph.node("doubler")
-    result = node.publisher("doubled", _int32(), queue_size=10)
-    node.subscriber("number", _int32(), lambda _: result.publish(6))
+    result = node.publisher("doubled", Int32, queue_size=10)
+    node.subscriber("number", Int32, lambda _: result.publish(6))
 
 
 # ---- 11.3: the reader as the Master ----

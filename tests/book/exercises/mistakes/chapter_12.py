@@ -6,11 +6,34 @@ import hashlib
 import struct
 from typing import TYPE_CHECKING, Any
 
-from rosmini.book.exercises.chapter_12 import WHEEL, _board
+from rosmini.book.exercises.chapter_12 import WHEEL
+from rosmini.graph import Graph
 from rosmini.msgs import define_message
+from rosmini.msgs.std_msgs.msg import String
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+
+def _board(
+    *, latch: bool = True, ordered: bool = True, name: str = "board", between: str = "; ", keep: bool = True
+) -> Callable[[], Any]:
+    def start(graph: Graph) -> None:
+        node = graph.node(name)
+        board = node.publisher("board", String, queue_size=10, latch=latch)
+        notes: dict[str, str] = {}
+
+        def pin(message: Any) -> None:
+            if not keep:
+                notes.clear()
+            notes[message._connection_header["callerid"]] = message.data
+            board.publish(
+                between.join(f"{who}: {notes[who]}" for who in (sorted(notes) if ordered else notes))
+            )
+
+        node.subscriber("note", String, pin)
+
+    return lambda: start
 
 
 def _wheel_but(old: str, new: str) -> Callable[[], Any]:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.book.exercises.chapter_13 import PICTURE, _empty, _string, _trigger
+from rosmini.book.exercises.chapter_13 import PICTURE
 from rosmini.errors import ROSException, ServiceException
 from rosmini.graph import Graph, Node
+from rosmini.msgs.std_msgs.msg import String
+from rosmini.msgs.std_srvs.srv import Empty, Trigger
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,17 +42,17 @@ def _counter(
             calls[0] = cleared
             return []
 
-        node.service("count", _trigger(), count)
+        node.service("count", Trigger, count)
         if clears:
-            node.service("clear", _empty(), clear)
+            node.service("clear", Empty, clear)
 
     return lambda: start
 
 
 def _number_as_message(graph: Graph) -> None:
     node = graph.node("counter")
-    node.service("count", _trigger(), lambda _: (True, 1))
-    node.service("clear", _empty(), lambda _: [])
+    node.service("count", Trigger, lambda _: (True, 1))
+    node.service("clear", Empty, lambda _: [])
 
 
 # ---- 13.3: a client that is ready for everything ----
@@ -66,7 +68,7 @@ def _careful(
             except ROSException:
                 return "nobody"
         try:
-            answer = node.service_client("who", _trigger())()
+            answer = node.service_client("who", Trigger)()
         except ServiceException:
             if catch:
                 return "no answer"
@@ -89,23 +91,23 @@ def _secretary(
         def tell(_: Any) -> tuple[bool, str]:
             return (known, heard[0 if first else -1]) if heard else (False, before)
 
-        node.subscriber(topic, _string(), lambda message: heard.append(message.data))
-        node.service("last_status", _trigger(), tell)
+        node.subscriber(topic, String, lambda message: heard.append(message.data))
+        node.service("last_status", Trigger, tell)
 
     return lambda: start
 
 
 def _waiting_secretary(graph: Graph) -> None:
     node = graph.node("secretary")
-    node.subscriber("status", _string())
+    node.subscriber("status", String)
 
     def tell(_: Any) -> tuple[bool, str]:
         try:
-            return True, node.wait_for_message("status", _string(), timeout=1.0).data
+            return True, node.wait_for_message("status", String, timeout=1.0).data
         except ROSException:
             return False, "nothing yet"
 
-    node.service("last_status", _trigger(), tell)
+    node.service("last_status", Trigger, tell)
 
 
 MISTAKES = {

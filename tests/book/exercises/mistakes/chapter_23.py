@@ -5,13 +5,35 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from rosmini.book.exercises.chapter_23 import _barrel
 from rosmini.sim.gazebo import ModelPlugin
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 # ---- 23.2: friction ----
+
+
+def _barrel(
+    *,
+    low: float = 0.5,
+    along: Callable[[float, float, float], float] = lambda m, r, _h: m * r**2 / 2,
+    across: Callable[[float, float, float], float] = lambda m, r, h: m * (3 * r**2 + h**2) / 12,
+    shape: str = "<cylinder><radius>{r}</radius><length>{h}</length></cylinder>",
+    solid: str = "collision",
+    static: str = "",
+    called: str = "",
+) -> Callable[[], Any]:
+    def text(name: str, radius: float, height: float, mass: float) -> str:
+        a, b = across(mass, radius, height), along(mass, radius, height)
+        return (
+            f'<sdf version="1.6"><model name="{called or name}">{static}'
+            f'<link name="link"><pose>0 0 {low * height} 0 0 0</pose>'
+            f"<inertial><mass>{mass}</mass><inertia><ixx>{a}</ixx><iyy>{a}</iyy><izz>{b}</izz></inertia></inertial>"
+            f'<{solid} name="solid"><geometry>{shape.format(r=radius, h=height)}</geometry></{solid}>'
+            "</link></model></sdf>"
+        )
+
+    return lambda: text
 
 
 def _friction(measure: Callable[[float, float, float], float]) -> Callable[[], Any]:
