@@ -108,7 +108,7 @@ def test_input_and_arguments(start):
         "listener.py",
         stdin=[(0.05, "1.5\n"), (0.1, "2\n")],
     )
-    assert ran.lines[-1].endswith("3.5 cm ['word'] /asker /target")
+    assert any(line.endswith("3.5 cm ['word'] /asker /target") for line in ran.lines)
     assert said_by(ran, "listener")[-1] == "done"
     assert ran.result.reason == "ended"
 
@@ -119,10 +119,16 @@ def test_spin_in_a_thread(start):
     assert ran.result.reason == "ended"
 
 
-def test_keyboard_teleoperation(start):
+def test_keyboard_teleoperation(start, simulated):
     keys = [(0.1 + 0.05 * number, key) for number, key in enumerate("i,jk\x03")]
     ran = start("teleop.py", "robot.py", stdin=keys)
-    assert said_by(ran, "robot") == ["1 0", "-1 0", "0 1", "0 0"]
+    said, typed = said_by(ran, "robot"), ["1 0", "-1 0", "0 1", "0 0"]
+    if simulated:
+        assert said == typed
+    else:  # on a busy machine two keys may have come before the first is sent
+        assert said == [line for line in typed if line in said]
+        assert len(said) > 1
+        assert said[-1] == typed[-1]
     assert ran.status == 0
     assert ran.result.reason == "ended"
 
