@@ -17,9 +17,8 @@ import warnings
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from rosmini import files
 from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage, nearest
@@ -35,7 +34,6 @@ SCHEME = "package://"
 LONGEST = 300
 """So many characters of an address an error tells."""
 SCRIPT_FOLDERS = ("scripts", "nodes", "src", "bin")  # in the order of preference
-INTERFACE_KINDS = ("msg", "srv", "action")
 
 # What `condition` attributes of a manifest (REP 149) are compared with: the ROS that rosmini is.
 ROS_CONDITIONS = {"ROS_VERSION": "1", "ROS_DISTRO": "noetic", "ROS_PYTHON_VERSION": "3"}
@@ -66,14 +64,6 @@ def package_around(path: str | os.PathLike[str]) -> Path | None:
     return next((folder for folder in Path(path).absolute().parents if (folder / MANIFEST).is_file()), None)
 
 
-class InterfaceFiles(NamedTuple):
-    """The definitions of a package by kind: from the name of a type (``Pose``) to its file, sorted by name."""
-
-    msg: dict[str, Path]
-    srv: dict[str, Path]
-    action: dict[str, Path]
-
-
 @dataclass(frozen=True)
 class Package:
     """One ROS package, as its manifest describes it."""
@@ -87,11 +77,6 @@ class Package:
     exec_depends: tuple[str, ...]
     """Packages needed to run it, in the order in which ``rospack depends1`` prints them."""
     is_metapackage: bool
-
-    @cached_property
-    def interfaces(self) -> InterfaceFiles:
-        """Its ``.msg``, ``.srv`` and ``.action`` files."""
-        return _interface_files(self.path)
 
 
 @dataclass(frozen=True)
@@ -179,10 +164,6 @@ class PackageIndex:
         if name not in self._packages:
             self._packages[name] = _read_package(folder)
         return self._packages[name]
-
-    def interface_files(self, name: str) -> InterfaceFiles:
-        """The message, service and action files of a package. Raises `UnknownPackage`."""
-        return _interface_files(self.path(name))
 
     def resolve(self, url: str) -> Path:
         """The file or folder that ``package://name/path`` means (http://wiki.ros.org/resource_retriever).
@@ -377,12 +358,6 @@ def _line_at_fault(data: bytes, reason: str) -> int:
             if match is not None:
                 return text.count("\n", 0, match.start()) + 1
     return 1
-
-
-def _interface_files(folder: Path) -> InterfaceFiles:
-    return InterfaceFiles(
-        *({path.stem: path for path in sorted((folder / kind).glob(f"*.{kind}"))} for kind in INTERFACE_KINDS)
-    )
 
 
 def _entry_points(package: str) -> dict[str, EntryPoint]:

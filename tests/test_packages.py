@@ -89,10 +89,10 @@ def test_each_type_of_the_md5_tables_comes_from_one_file(own: PackageIndex) -> N
         "action": ["Action", "ActionGoal", "ActionResult", "ActionFeedback", "Goal", "Result", "Feedback"],
     }
     made = [
-        f"{package}/{stem}{part}"
+        f"{package}/{path.stem}{part}"
         for package in own.names()
-        for kind, stems in own.interface_files(package)._asdict().items()
-        for stem in stems
+        for kind in parts
+        for path in own.path(package).glob(f"{kind}/*.{kind}")
         for part in parts[kind]
     ]
     assert len(made) == len(set(made))
@@ -102,11 +102,11 @@ def test_each_type_of_the_md5_tables_comes_from_one_file(own: PackageIndex) -> N
 def test_manifests_name_the_packages_whose_types_they_use(own: PackageIndex) -> None:
     for name in own.names():
         package = own.find(name)
-        files = package.interfaces
-        if not any(files):
+        files = [path for kind in ("msg", "srv", "action") for path in package.path.glob(f"{kind}/*.{kind}")]
+        if not files:
             continue
-        used = {"actionlib_msgs", "std_msgs"} if files.action else set()
-        for path in [*files.msg.values(), *files.srv.values(), *files.action.values()]:
+        used = {"actionlib_msgs", "std_msgs"} if any(path.suffix == ".action" for path in files) else set()
+        for path in files:
             words = [line.split("#")[0].split() for line in path.read_text(encoding="utf-8").splitlines()]
             types = [line[0] for line in words if line]
             used |= {each.partition("/")[0] for each in types if "/" in each}
@@ -368,15 +368,6 @@ def test_a_damaged_manifest_is_read_or_refused(
 
 
 # ---- files ----
-
-
-def test_interface_files_are_sorted_and_of_their_kind(tmp_path: Path) -> None:
-    folder = make(tmp_path / "p", "p")
-    for name in ("msg/B.msg", "msg/A.msg", "msg/notes.txt", "srv/S.srv", "action/Go.action", "A.msg"):
-        write(folder / name, "")
-    files = PackageIndex([tmp_path]).interface_files("p")
-    assert list(files.msg.items()) == [("A", folder / "msg" / "A.msg"), ("B", folder / "msg" / "B.msg")]
-    assert (list(files.srv), list(files.action)) == (["S"], ["Go"])
 
 
 def test_resolve_gives_the_file_of_an_address(own: PackageIndex) -> None:

@@ -184,10 +184,6 @@ class Reader:
         self.index = index
         self._chunks: OrderedDict[int, bytes] = OrderedDict()
 
-    def forget(self, position: int) -> None:
-        """Forget a chunk, which was written again."""
-        self._chunks.pop(position, None)
-
     def messages(
         self, wanted: Collection[int] | None = None, start: int | None = None, end: int | None = None
     ) -> Iterator[RawMessage]:

@@ -213,11 +213,6 @@ def get_published_topics(namespace: str = "/") -> list[list[str]]:
     return published_topics(namespace)
 
 
-def seconds(timeout: float | base.Duration | None) -> float | None:
-    """Return a time-out as seconds."""
-    return timeout.to_sec() if isinstance(timeout, base.Duration) else timeout
-
-
 def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration | None = None) -> Any:
     """Block until one message arrives on ``topic`` and return it.
 
@@ -233,7 +228,7 @@ def wait_for_message(topic: str, topic_type: Any, timeout: float | base.Duration
     subscriber = node.subscriber(
         topic, registered_class(topic_type), waiter.wake, numpy=False, receipt=receipt_of(topic_type)
     )
-    limit = seconds(timeout)
+    limit = timeout.to_sec() if isinstance(timeout, base.Duration) else timeout
     try:
         if not node.wait(waiter, limit):
             raise ROSException(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from rosmini import time as base
 from rosmini.graph import clock
+from rosmini.graph.clock import TimerEvent
 
 from .rostime import Duration, Time
 from .session import answer_interrupt, any_node, require_node
@@ -66,30 +67,8 @@ class Rate(clock.Rate):
         return Time.from_nsec(self._last)
 
 
-class TimerEvent:
-    """What a timer's callback is given: when it was due and when it ran, for this call and for the one before.
-
-    Times are ``rospy.Time`` (None before the second call), ``last_duration`` is how many seconds the last callback
-    took.
-    """
-
-    def __init__(
-        self,
-        last_expected: Time | None,
-        last_real: Time | None,
-        current_expected: Time,
-        current_real: Time,
-        last_duration: float | None,
-    ) -> None:
-        self.last_expected = last_expected
-        self.last_real = last_real
-        self.current_expected = current_expected
-        self.current_real = current_real
-        self.last_duration = last_duration
-
-
 class Timer:
-    """Calls ``callback(event)`` every ``period``, once only with ``oneshot``.
+    """Calls ``callback(event)`` every ``period``, once only with ``oneshot``; the times of an event are ``rospy.Time``.
 
     With ``reset`` a clock that jumps back restarts the cycle. Raises ``ROSInitException`` before ``init_node``.
     """
@@ -101,7 +80,7 @@ class Timer:
         oneshot: bool = False,
         reset: bool = False,
     ) -> None:
-        def call(event: clock.TimerEvent) -> None:
+        def call(event: TimerEvent) -> None:
             callback(
                 TimerEvent(
                     _own(event.last_expected),

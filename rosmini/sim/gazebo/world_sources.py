@@ -33,7 +33,7 @@ def load_world(name: str | os.PathLike[str]) -> World | SdfWorld:
     if text in worlds.names():
         return worlds.world(text)
     path = PackageIndex().resolve(text) if text.startswith("package://") else _found(text)
-    if path.suffix in (".yaml", ".yml") or not _is_xml(path):
+    if worlds.kind_of(path) in ("map", "stage"):
         return worlds.world(path)
     document = sdf.load(path)
     if not document.worlds:
@@ -58,8 +58,3 @@ def _found(text: str) -> Path:
 
 def _listed(value: str) -> list[Path]:
     return [Path(part) for part in value.split(os.pathsep) if part]
-
-
-def _is_xml(path: Path) -> bool:
-    with path.open("rb") as file:
-        return file.read(256).lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")

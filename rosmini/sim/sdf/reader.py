@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable
 from dataclasses import replace
 
 from rosmini.errors import shown
-from rosmini.files import read
 from rosmini.markup import Element, parse, parse_file
 
 from .document import Pose6, Sdf, SdfActor, SdfModel, SdfPhysics, SdfWorld
@@ -316,13 +314,3 @@ def _actor(element: Element, scope: Scope, reading: Reading) -> SdfActor:
         element.path,
         element.line,
     )
-
-
-def is_sdf(path: str | os.PathLike[str]) -> bool:
-    """Return whether a file looks like SDF: XML that begins with `<sdf>`, or `<gazebo>` as it once did."""
-    try:
-        head = read(path)[:20000].decode("utf-8", "replace")
-    except OSError:
-        return False
-    first = re.search(r"<([A-Za-z_:][\w:.-]*)", re.sub(r"<!--.*?-->|<\?.*?\?>", "", head, flags=re.DOTALL))
-    return first is not None and first[1] in ("sdf", "gazebo")

@@ -11,7 +11,7 @@ Stage is the simulator of the Player project, by Richard Vaughan: many robots, p
 
 from .errors import Place, StageError
 from .robots import StageCamera, StageLaser, StageRobot
-from .world_file import StageWindow, StageWorld, load
+from .world_file import StageWorld, load
 
 __all__ = [
     "Place",
@@ -19,7 +19,6 @@ __all__ = [
     "StageError",
     "StageLaser",
     "StageRobot",
-    "StageWindow",
     "StageWorld",
     "load",
 ]

@@ -1,6 +1,6 @@
 """A Stage world file as a world with robots: `load`.
 
-What is read: include, define, units, `resolution`, `interval_sim`, `speedup`, `paused`, `quit_time`, `window`, and
+What is read: include, define, units, `resolution`, `interval_sim`, `speedup`, `paused`, `quit_time`, and
 the models `model`, `position`, `ranger`, `laser` (of Stage 3) and `camera` with blocks, bitmaps and boundaries.
 Models with `gripper_return 1` can be pushed. What is left out is told in `StageWorld.notes`, with file and line; what
 is wrong is a `StageError`, which names them too.
@@ -24,12 +24,12 @@ from rosmini.sim.world import Obstacle, World, WorldError
 
 from .blocks import Block
 from .errors import Place, StageError
-from .parse import Entity, Parsed, parse_file
+from .parse import Parsed, parse_file
 from .robots import BASE, StageRobot, robot
 from .solids import Solid, filled, placed, solid
 from .things import UNUSED, Maker, Thing
 from .tokens import expanded
-from .values import Reader, Units, units_of
+from .values import Reader, units_of
 
 SCHEME = "package://"
 DEFAULT_RESOLUTION = 0.02
@@ -58,18 +58,6 @@ KNOWN = {
 
 
 @dataclass(frozen=True)
-class StageWindow:
-    """How Stage's window is to look at the world."""
-
-    size: tuple[float, float] = (400.0, 300.0)
-    """[px]"""
-    center: tuple[float, float] = (0.0, 0.0)
-    """What is in its middle [m]."""
-    scale: float = 1.0
-    """Pixels of a metre."""
-
-
-@dataclass(frozen=True)
 class StageWorld:
     """A world file: the world without its robots, the robots, and how time goes on."""
 
@@ -87,7 +75,6 @@ class StageWorld:
     """When it all ends [s]; 0: never."""
     resolution: float
     """Of Stage's raytracing [m]. Here rays are exact."""
-    window: StageWindow
     notes: tuple[str, ...]
     """What is left out, or not as one would think, each with file and line."""
 
@@ -141,7 +128,6 @@ class _World:
             paused=self._paused(reader),
             quit_time=reader.number("quit_time", 0.0, minimum=0.0),
             resolution=resolution,
-            window=_window(parsed.root, units),
             notes=(),
         )
         reader.done((*WORLD, *IGNORED))
@@ -298,16 +284,3 @@ class _World:
         return World(
             name, tuple(self.obstacles), walls=walls, wall_height=top, starts=starts, title=title, solid=True
         )
-
-
-def _window(root: Entity, units: Units) -> StageWindow:
-    windows = [child for child in root.children if child.kind == "window"]
-    if not windows:
-        return StageWindow()
-    if len(windows) > 1:
-        units.note(windows[1].place, "a world has one window; the others are left out")
-    reader = Reader(windows[0], units)
-    size = reader.several("size", "ff", StageWindow.size)
-    center = reader.several("center", "ll", StageWindow.center)
-    scale = reader.number("scale", StageWindow.scale, above=0.0)
-    return StageWindow((size[0], size[1]), (center[0], center[1]), scale)
