@@ -148,21 +148,25 @@ def check_bag(path: str) -> None:
 class TopicInfo(Result):
     """A topic's type, and who publishes it and subscribes to it: names with addresses."""
 
-    type: str
-    publishers: dict[str, str]
-    subscribers: dict[str, str]
+    about: topics.About
+
+    @property
+    def type(self) -> str:
+        """The topic's type."""
+        return self.about.type
+
+    @property
+    def publishers(self) -> dict[str, str]:
+        """Who publishes it: names and addresses."""
+        return self.about.publishers
+
+    @property
+    def subscribers(self) -> dict[str, str]:
+        """Who subscribes to it: names and addresses."""
+        return self.about.subscribers
 
     def __str__(self) -> str:
-        return info_text(self.type, self.publishers, self.subscribers)
-
-
-def info_text(kind: str, publishers: dict[str, str], subscribers: dict[str, str]) -> str:
-    """Return what ``rostopic info`` prints."""
-    text = f"Type: {kind}\n\n"
-    for title, nodes in (("Publishers", publishers), ("Subscribers", subscribers)):
-        listed = "".join(f" * {node} ({uri})\n" for node, uri in nodes.items())
-        text += f"{title}: \n{listed}\n" if nodes else f"{title}: None\n\n"
-    return text
+        return str(self.about)
 
 
 def info_parser() -> Parser:
@@ -177,13 +181,10 @@ def info(given: Values, call: Call) -> TopicInfo:
     if len(given.words) > 1:
         info_parser().error("you may only specify one topic name")
     name = global_name(given.words[0])
-    found = topics.topics(call.peers).named(name)
-    if not any(found):
+    about = topics.about(call.peers, name)
+    if about is None:
         raise VerbError(f"ERROR: Unknown topic {name}\n{topics.what_next(call.peers, name)}")
-    kind = next(each.type for side in found for each in side)
-    ends = (topics.addresses(call.peers, [node for each in side for node in each.nodes]) for side in found)
-    publishers, subscribers = ends
-    return TopicInfo(type=kind, publishers=publishers, subscribers=subscribers)
+    return TopicInfo(about=about)
 
 
 @dataclass(frozen=True, kw_only=True)

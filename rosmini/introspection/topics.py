@@ -39,10 +39,6 @@ class Topics(NamedTuple):
         sides = ([each for each in side if each.name == name or each.name.startswith(start)] for side in self)
         return Topics(*map(tuple, sides))
 
-    def named(self, name: str) -> Topics:
-        """Return the topic of a name only."""
-        return Topics(*(tuple(each for each in side if each.name == name) for side in self))
-
     def names(self) -> list[str]:
         """Return the names of all, sorted."""
         return sorted({each.name for side in self for each in side})
@@ -133,3 +129,28 @@ def addresses(peers: Peers, nodes: Iterable[str]) -> dict[str, str]:
     """Return the addresses of nodes; of those that the Master does not know, a text that says so."""
     master = peers.ask_as(ID)
     return {node: master.find("lookupNode", node) or f"unknown address {node}" for node in nodes}
+
+
+class About(NamedTuple):
+    """A topic's type, and who publishes it and subscribes to it: names with addresses."""
+
+    type: str
+    publishers: dict[str, str]
+    subscribers: dict[str, str]
+
+    def __str__(self) -> str:
+        text = f"Type: {self.type}\n\n"
+        for title, nodes in (("Publishers", self.publishers), ("Subscribers", self.subscribers)):
+            listed = "".join(f" * {node} ({uri})\n" for node, uri in nodes.items())
+            text += f"{title}: \n{listed}\n" if nodes else f"{title}: None\n\n"
+        return text
+
+
+def about(peers: Peers, name: str) -> About | None:
+    """Return who is on a topic; None if nobody is."""
+    found = topics(peers)
+    sides = [[each for each in side if each.name == name] for side in found]
+    if not any(sides):
+        return None
+    ends = [addresses(peers, [node for each in side for node in each.nodes]) for side in sides]
+    return About(next(each.type for side in sides for each in side), *ends)

@@ -129,15 +129,10 @@ _ABSENT = {
         "ask rosgraph.Master: the Master is in the same process here",
     ),
     "rosmsg": ("lists and shows message types", "take message._full_text"),
-    "rosnode": ("lists, pings and kills nodes", _MASTER),
     "rosserial": ("talks to Arduino boards", _ALONE),
     "rosserial_python": ("talks to Arduino boards", _ALONE),
     "rosservice": ("lists and calls services", "use rospy.wait_for_service and rospy.ServiceProxy"),
     "rostest": ("runs tests of nodes", "write tests for pytest with a rosmini.Graph, or use unittest.main()"),
-    "rostopic": (
-        "lists, echoes and publishes topics",
-        "use rospy.get_published_topics, rospy.wait_for_message and rospy.Publisher",
-    ),
     "rosunit": ("runs unit tests and writes JUnit files", "use unittest.main() or pytest --junit-xml"),
     "roswtf": ("looks for what is wrong", _MASTER),
     "smach": (
