@@ -17,6 +17,8 @@ from xml.parsers.expat import ExpatError
 from rosmini.errors import MasterUnreachable, ROSException, TransportException
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from .peers import Triple
 
 TIMEOUT_S = 5.0
@@ -91,6 +93,15 @@ class DirectWire:
         self.master_uri = master_uri
         self.timeout = timeout
         self._servers: dict[str, xmlrpc.client.ServerProxy] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        """Close the connections."""
+        for server in self._servers.values():
+            server("close")()
+        self._servers.clear()
 
     @property
     def transport(self) -> DirectWire:
