@@ -5,7 +5,7 @@ A package is a folder with a ``package.xml`` (REP 127, REP 140, REP 149). Packag
 folder with ``CATKIN_IGNORE`` or ``rospack_nosubdirs`` is not entered, and neither is a package. After them come the
 packages that rosmini brings, so that a workspace can overlay them.
 
-The crawl is ours and not rospkg's, whose order hangs on the file system, and which gives up altogether over one
+The crawl is ours and not rospkg's, whose order depends on the file system, and which gives up altogether over one
 manifest that is not XML. Manifests are read by catkin_pkg, after defusedxml has found no harm in them.
 """
 
@@ -32,7 +32,7 @@ NODES_GROUP = "rosmini.nodes"
 MANIFEST = "package.xml"
 SCHEME = "package://"
 LONGEST = 300
-"""So many characters of an address an error tells."""
+"""The largest number of characters of an address that an error shows."""
 SCRIPT_FOLDERS = ("scripts", "nodes", "src", "bin")  # in the order of preference
 
 # What `condition` attributes of a manifest (REP 149) are compared with: the ROS that rosmini is.
@@ -106,9 +106,9 @@ class Executable:
 
 
 class PackageIndex:
-    """The packages below some folders (`search_paths` by default), found when first asked for.
+    """The packages below some folders (`search_paths` by default), found when they are first needed.
 
-    A name that is not known makes the index look again, so a package that was just created is found; `refresh`
+    An unknown name makes the index search again, so a package that was just created is found; `refresh`
     makes it forget what it has seen.
     """
 
@@ -127,7 +127,7 @@ class PackageIndex:
         return f"PackageIndex([{', '.join(repr(str(path)) for path in self.paths)}])"
 
     def refresh(self) -> None:
-        """Forget all that was found; the next question looks again."""
+        """Forget all that was found; the next question searches again."""
         self._found = None
         self._broken = []
         self._packages = {}

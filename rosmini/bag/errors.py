@@ -38,7 +38,7 @@ class ROSBagUnindexedException(ROSBagException):
 
 
 class DamagedIndex(ROSBagUnindexedException, ROSBagFormatException):
-    """The index of a bag is damaged. ROS's rosbag does not tell this from a bag without one."""
+    """The index of a bag is damaged. ROS's rosbag does not distinguish this from a bag without one."""
 
 
 class ROSBagEncryptNotSupportedException(ROSBagException):

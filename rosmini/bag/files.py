@@ -30,7 +30,7 @@ class BagFiles:
     Args:
         base: the path without number and ``.bag``.
         split: number the files, from 0.
-        max_splits: have so many files at a time, the open one included; the oldest is removed.
+        max_splits: the largest number of files at a time, the open one included; the oldest is removed.
         compression: of the files.
         chunk_threshold: of the files [bytes].
 

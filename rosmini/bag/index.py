@@ -62,7 +62,7 @@ class Connection:
         return self.text("latching") == "1"
 
     def fits(self, topics: Iterable[str] | None) -> bool:
-        """Tell whether the topic is one of ``topics`` (None: all are)."""
+        """Return whether the topic is one of ``topics`` (None: all are)."""
         return topics is None or self.topic in topics
 
 

@@ -190,7 +190,7 @@ def _yaml(bag: Summaries, *, freq: bool) -> str:
 
 
 def _lookup(tree: Any, key: str) -> Any:
-    """Return what stands at a path such as ``topics[1].messages``."""
+    """Return the value at a path such as ``topics[1].messages``."""
     found = tree
     try:
         for part in key.replace("[", ".[").split("."):

@@ -1,7 +1,4 @@
-"""The keys of ``rosbag play`` in a terminal: space pauses and goes on, s publishes the next message.
-
-And its line that tells where it is.
-"""
+"""The keys of ``rosbag play`` in a terminal (space pauses and resumes, s steps), and its status line."""
 
 from __future__ import annotations
 
@@ -17,7 +14,7 @@ if TYPE_CHECKING:
     from .player import Player
 
 PERIOD_NS = 100_000_000
-"""So often the line is written."""
+"""The period of the status line."""
 
 
 class Keys:
@@ -45,7 +42,7 @@ class Keys:
         self._scheduler.on_hub(self._show)
 
     def close(self) -> None:
-        """Give the terminal back as it was. Harmless when repeated."""
+        """Restore the terminal. Harmless when repeated."""
         restore, self._restore = self._restore, _nothing
         if restore is not _nothing:
             restore()

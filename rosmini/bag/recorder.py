@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 MEGABYTE = 1024 * 1024
 SYNC_NS = 10**9
-"""What is recorded is in the file after so long, at the next message."""
+"""The period after which what was recorded is flushed to the file, at the next message."""
 
 
 class AnyMessage:
@@ -92,7 +92,7 @@ class RecordOptions:
         return self.all or self.regex or self.of_node is not None
 
     def wants(self, topic: str, subscribed: Iterable[str]) -> bool:
-        """Tell whether a topic that the Master knows is to be recorded; ``subscribed``: those of the node to follow."""
+        """Return whether a topic of the Master is to be recorded; ``subscribed``: those of the node to follow."""
         if self.excluded is not None and self.excluded.fullmatch(topic):
             return False
         if self.of_node is not None and topic in subscribed:
@@ -412,7 +412,7 @@ class Recorder:
             self._queue.clear()
 
     def _told(self, error: BagFull | OSError) -> None:
-        """Note why the end of the recording is not whole, and tell it, unless an error was told already."""
+        """Note and log why the end of the recording is incomplete, unless an error was logged already."""
         if self.error is None:
             self.error = error
             self.node.logerr(error)

@@ -34,7 +34,7 @@ HEADER_ROOM = 4096
 
 OP_MESSAGE, OP_BAG_HEADER, OP_INDEX, OP_CHUNK, OP_CHUNK_INFO, OP_CONNECTION = 2, 3, 4, 5, 6, 7
 MESSAGE_MARK = b"\x04\x00\x00\x00op=\x02"
-"""The field that tells a message's header from a connection's."""
+"""The field that distinguishes a message's header from a connection's."""
 
 LONGEST_HEADER = 16 * 1024 * 1024
 """No header of a record is as long as this: a length beyond it is not one."""
@@ -198,7 +198,7 @@ def pack_time(nanoseconds: int) -> bytes:
 
 
 def compress(data: bytes, compression: str) -> bytes:
-    """Return a chunk's data as it stands in the file."""
+    """Return a chunk's data as it is in the file."""
     if compression == Compression.BZ2:
         return bz2.compress(data)
     if compression == Compression.LZ4:
@@ -274,7 +274,7 @@ def decompress(data: bytes, compression: str, size: int, position: int) -> bytes
 
 
 def rescue(data: bytes, compression: str, most: int) -> bytes:
-    """Return as much of a chunk that was cut off as can be had, up to so many bytes."""
+    """Return what can be recovered of a chunk that was cut off, up to a number of bytes."""
     if compression == Compression.NONE:
         return data[:most]
     if compression not in COMPRESSIONS:

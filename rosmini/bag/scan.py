@@ -82,7 +82,7 @@ def scan(file: BinaryIO, name: str) -> Scan:
             if record.op == OP_BAG_HEADER:
                 encryption(record, name)
                 found.end = position = record.end
-            elif record.op != OP_CHUNK:  # the index, which is made anew
+            elif record.op != OP_CHUNK:  # the index, which is rebuilt
                 position = record.end
             elif _is_open(file, record):
                 _take_tail(file, record, found)
@@ -129,7 +129,7 @@ def _next_chunk(file: BinaryIO, position: int) -> int | None:
 
 
 def _is_open(file: BinaryIO, record: Record) -> bool:
-    """Tell whether a chunk was never finished: its length is not filled in yet, or the file ends within it."""
+    """Return whether a chunk was never finished: its length is not filled in yet, or the file ends within it."""
     file.seek(0, 2)
     return record.end > file.tell() or record.data_length == 0
 

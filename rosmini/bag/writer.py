@@ -188,7 +188,7 @@ class Writer:
         self._end = position + sum(map(len, parts))
 
     def write_index_data(self, chunk: Chunk) -> None:
-        """Write the index data of a chunk that stands at the end of the file without it."""
+        """Write the missing index data of the chunk at the end of the file."""
         self._put(self._position, b"".join(index_records(chunk, chunk.entries or {})))
         self._position = self._end
 

@@ -59,9 +59,9 @@ class ReconfigurableParameter:
     """One parameter: ``type`` is bool, int, str or double, ``level`` a bit mask.
 
     The callback is given the bitwise or of the levels of all parameters that changed: so one bit can stand for several
-    parameters, and ``level & bit`` tells whether one of them changed.
+    parameters, and ``level & bit`` is set if one of them changed.
 
-    ``edit_method`` is the text of a dictionary that tells user interfaces how to show it (an enumeration), or empty.
+    ``edit_method`` is the text of a dictionary by which user interfaces show it (an enumeration), or empty.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""The server: offers a node's parameters for change, and tells of every change."""
+"""The server: offers a node's parameters for change, and publishes every change."""
 
 from __future__ import annotations
 

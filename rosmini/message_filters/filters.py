@@ -48,7 +48,7 @@ class Subscriber(SimpleFilter):
         return self.topic
 
     def unregister(self) -> None:
-        """Stop to receive. Harmless when repeated."""
+        """Stop receiving. Harmless when repeated."""
         self.sub.unregister()
 
 

@@ -83,7 +83,7 @@ class ApproximateTime(Policy):
 
     Each message that comes looks for partners among those that wait, the nearest to its own stamp first, and takes
     the first set that is close enough: so a message is not kept for a better partner that may come later. A clock
-    that goes back empties all queues; the message that tells of it is lost with them.
+    that goes back empties all queues; the message that reveals it is lost with them.
 
     Where the stamps of each input increase by more than ``slop`` from message to message, those of the sets increase
     in each input; with a larger slop a late message may be paired with an old one that was passed over. Raises

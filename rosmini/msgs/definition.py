@@ -112,7 +112,7 @@ class Constant:
 
 @dataclass(frozen=True, slots=True)
 class MessageSpec:
-    """A parsed message definition. ``first_line`` tells where ``text`` starts in ``file``, for error messages."""
+    """A parsed message definition. ``first_line`` is where ``text`` starts in ``file``, for error messages."""
 
     name: str
     text: str

@@ -1,4 +1,4 @@
-"""What may stand in a field: the conversions that the generated code calls, and the diagnosis when one fails.
+"""What a field may hold: the conversions that the generated code calls, and the diagnosis when one fails.
 
 A value is accepted exactly if :mod:`struct` packs it, as in genpy: a bool or a numpy integer in an int field, an int
 in a float field, but no float in an int field. Two additions to genpy: numpy arrays are taken wherever lists are, and
@@ -76,7 +76,7 @@ def freeze_bytes(size: int) -> Callable[[Any], bytes]:
 
 @lru_cache(maxsize=256)
 def _packer(code: str, count: int) -> Callable[..., bytes]:
-    """What packs so many numbers."""
+    """Return what packs this many numbers."""
     return struct.Struct(f"<{count}{code}").pack
 
 

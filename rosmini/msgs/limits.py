@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from .definition import Field, MessageSpec
 
 MAX_DEPTH = 64
-"""So deep can messages be in messages."""
+"""The deepest nesting of messages."""
 MAX_FIELDS = 4096
-"""So many fields can a message have, those of the messages in it included."""
+"""The largest number of fields of a message, those of nested messages included."""
 MAX_MEMORY = 64 * 1024 * 1024
-"""So much can a message with default values need [bytes]."""
+"""The most memory that a message with default values may need [bytes]."""
 MAX_EMPTY = 16
 """How many values without bytes (empty messages) a message or array may have: no data bounds their number."""
 

@@ -283,5 +283,5 @@ def delete_param(param_name: str) -> None:
 
 
 def has_param(param_name: str) -> bool:
-    """Tell whether a parameter, or a tree of them, is set."""
+    """Return whether a parameter, or a tree of them, is set."""
     return any_node().has_param(param_name)

@@ -83,7 +83,7 @@ def get_node_uri() -> str | None:
 
 
 def is_initialized() -> bool:
-    """Tell whether the caller has a node."""
+    """Return whether the caller has a node."""
     return current_node() is not None
 
 
@@ -91,7 +91,7 @@ def is_initialized() -> bool:
 
 
 def is_shutdown() -> bool:
-    """Tell whether the node was shut down; false before ``init_node``."""
+    """Return whether the node was shut down; false before ``init_node``."""
     node = current_node()
     if node is None:
         return current_session().is_shutdown()
@@ -100,7 +100,7 @@ def is_shutdown() -> bool:
 
 
 def is_shutdown_requested() -> bool:
-    """Tell whether the shutdown has begun: true also while the ``on_shutdown`` hooks run."""
+    """Return whether the shutdown has begun: true also while the ``on_shutdown`` hooks run."""
     node = current_node()
     reason = current_session().shutdown_reason if node is None else node.shutdown_reason
     return reason is not None

@@ -137,7 +137,7 @@ class _AbsentFinder(MetaPathFinder):
 
 
 def ros_is_installed() -> bool:
-    """Tell whether Python finds the real rospy by itself."""
+    """Return whether Python finds the real rospy by itself."""
     found = PathFinder.find_spec("rospy", sys.path)
     return found is not None and found.origin is not None
 

@@ -104,7 +104,7 @@ def place() -> tuple[str, int, int]:
 
 
 def is_due(where: Any, period: float) -> bool:
-    """Tell whether ``period`` seconds of the node's time have passed since this place logged last.
+    """Return whether ``period`` seconds of the node's time have passed since this line logged last.
 
     Raises ``ROSInitException`` before ``init_node``, as rospy does.
     """
@@ -113,12 +113,12 @@ def is_due(where: Any, period: float) -> bool:
 
 
 def is_new(where: Any, text: Any) -> bool:
-    """Tell whether this place logs another text than last time."""
+    """Return whether this line logs another text than last time."""
     return current_session().log_gates.is_new(where, str(text))
 
 
 def is_first(where: Any) -> bool:
-    """Tell whether this place logs for the first time."""
+    """Return whether this line logs for the first time."""
     return current_session().log_gates.is_first(where)
 
 
@@ -144,7 +144,7 @@ def plainly(level: int) -> LogFunction:
 
 
 def internally(level: int) -> LogFunction:
-    """Make ``rospy.core.rospyinfo`` for ``level``: what the client library tells of itself."""
+    """Make ``rospy.core.rospyinfo`` for ``level``: what the client library logs about itself."""
 
     def log_internally(msg: Any, *args: Any, **kwargs: Any) -> None:
         """Log ``msg % args`` to the node's log file only."""

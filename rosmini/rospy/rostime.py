@@ -67,12 +67,12 @@ def _now_ns() -> int:
 
 
 def is_rostime_initialized() -> bool:
-    """Tell whether there is a node, and so a time."""
+    """Return whether there is a node, and so a time."""
     return current_node() is not None
 
 
 def is_wallclock() -> bool:
-    """Tell whether the node does without the topic ``/clock``."""
+    """Return whether the node does without the topic ``/clock``."""
     return not isinstance(any_node().clock, TopicClock)
 
 

@@ -132,7 +132,7 @@ class Session:
             node.guarded(reasoned, reason, what="shutdown hook")
 
     def is_shutdown(self) -> bool:
-        """Tell whether the node was shut down."""
+        """Return whether the node was shut down."""
         return self.stopped if self.node is None else self.node.is_shutdown()
 
     def restart(self) -> None:

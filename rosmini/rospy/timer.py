@@ -102,7 +102,7 @@ class Timer:
         self._timer.shutdown()
 
     def is_alive(self) -> bool:
-        """Tell whether callbacks may still come."""
+        """Return whether callbacks may still come."""
         return self._timer.is_alive()
 
     def join(self, timeout: float | None = None) -> None:

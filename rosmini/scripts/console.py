@@ -54,10 +54,10 @@ class Console:
         ScriptOutput(self.sink, lambda: name, is_error=True).write(user_traceback(error))
 
     def flush(self) -> None:
-        """Bring all output out."""
+        """Flush all output."""
         self.sink.flush()
 
     def close(self) -> None:
-        """Let go of whoever still reads, and bring all output out."""
+        """Release whoever still reads, and flush all output."""
         self.feed.close()
         self.flush()

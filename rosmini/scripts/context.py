@@ -183,7 +183,7 @@ class ScriptContext:
             self._numpy.enter()
 
     def leave(self) -> None:
-        """Put back what was there before, and keep what the script changed."""
+        """Restore what was there before, and keep what the script changed."""
         own = self._own
         own["argv"], own["stdin"] = sys.argv, sys.stdin
         own["stdout"], own["stderr"] = sys.stdout, sys.stderr
@@ -198,7 +198,7 @@ class ScriptContext:
 
     @contextmanager
     def put_aside(self) -> Iterator[None]:
-        """Give the process back to the host for a while, if this script has it and the hub's thread calls."""
+        """Return the process to the host for a while, if this script has it and the hub's thread calls."""
         if not self._entered or not self.scheduler.is_hub_thread():
             yield
             return
@@ -411,7 +411,7 @@ class ScriptContext:
             waiter.fail(LaneExit(f"{self.name} has ended"))
 
     def other_threads(self) -> bool:
-        """Tell whether a thread beside the main one may still run."""
+        """Return whether a thread beside the main one may still run."""
         return any(thread.busy for thread in self.threads.alive() if thread is not self.threads.main)
 
     def thread_ended(self) -> None:
@@ -420,7 +420,7 @@ class ScriptContext:
             self.on_threads_ended()
 
     def close(self) -> None:
-        """Forget the script's modules and give the environment back."""
+        """Forget the script's modules and restore the environment."""
         self.stdout.finish()
         self.stderr.finish()
         self._environ.give_back()

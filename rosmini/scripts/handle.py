@@ -56,7 +56,7 @@ class Handle(Protocol):
         """What it has printed so far, if that is captured."""
 
     def start(self) -> None:
-        """Start it, or start it anew after it has ended. Raises ``ScriptError`` while it runs."""
+        """Start it, or restart it after it has ended. Raises ``ScriptError`` while it runs."""
 
     def poll(self) -> int | None:
         """Return ``returncode``."""
@@ -74,7 +74,7 @@ class Handle(Protocol):
         """End it without asking."""
 
     def respawn(self, delay: float = 0.0) -> None:
-        """Start it anew with the same arguments in ``delay`` seconds. Raises ``ScriptError`` while it runs."""
+        """Restart it with the same arguments in ``delay`` seconds. Raises ``ScriptError`` while it runs."""
 
 
 def shell_status(returncode: int) -> int:
@@ -143,7 +143,7 @@ class LaneHandle(ABC):
     # -- its life ------------------------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Start it, or start it anew after it has ended. Raises ``ScriptError`` while it runs."""
+        """Start it, or restart it after it has ended. Raises ``ScriptError`` while it runs."""
         self._refuse_while_running()
         self._cancel_step()
         if self._owns_console:
@@ -157,7 +157,7 @@ class LaneHandle(ABC):
             raise
 
     def respawn(self, delay: float = 0.0) -> None:
-        """Start it anew with the same arguments in ``delay`` seconds of graph time; `terminate` and `kill` cancel that.
+        """Restart it with the same arguments in ``delay`` seconds of graph time; `terminate` and `kill` cancel that.
 
         Raises ``ScriptError`` while it runs.
         """

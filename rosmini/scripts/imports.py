@@ -151,7 +151,7 @@ class Importer:
         return bool(known.messages(package) or known.services(package))
 
     def _is_of_messages(self, name: str, parent: ModuleType) -> bool:
-        """Tell whether ``my_package.msg`` is that of the definitions: the Python package has none of its own."""
+        """Return whether ``my_package.msg`` is that of the definitions: the Python package has none of its own."""
         own = self._find(name, list(getattr(parent, "__path__", ())))
         return self._defines_messages(parent.__name__) and (own is None or own.loader is None)
 

@@ -50,7 +50,7 @@ class _Run:
         self.grace = grace
 
     def over(self) -> bool:
-        """Tell whether all scripts have ended, or, where there are only built-in nodes, all of these."""
+        """Return whether all scripts have ended, or, where there are only built-in nodes, all of these."""
         return all(each.poll() is not None for each in self.scripts or self.nodes)
 
     def drive(self, duration: float | None) -> tuple[str, RunReport | None]:
@@ -128,7 +128,7 @@ def run_scripts(
         specs: the scripts, all of which are read before the first starts, and built-in nodes, which start before the
             scripts and are shut down when these have ended.
         simulated: simulated time, or wall time (ignored with ``graph``).
-        duration: end after so many seconds of graph time; None: when all have ended, or nothing is left to happen.
+        duration: end after this many seconds of graph time; None: when all have ended, or nothing is left to happen.
         graph: run in this graph, which stays as it is afterwards; a new one if not given.
         rate: in wall time, how many seconds of graph time pass in one second (ignored with ``graph``).
         seed: what the scripts' random numbers start from in simulated time.
@@ -137,7 +137,7 @@ def run_scripts(
         stdout: where the output goes; the host's if not given.
         stderr: where errors and warnings go; the host's if not given.
         prefix: put ``[name]`` before each line.
-        grace: how many seconds of graph time a script has to end after it was asked to.
+        grace: how many seconds of graph time a script has to end once asked to.
         folders: where the scripts' modules may be, besides the folder of each.
         modules: the client library, by the names under which scripts import it; rosmini's rospy if not given.
 

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from rosmini.graph.scheduler import Scheduler
 
 KEY_S = 0.01
-"""How often the console of Windows is asked for a key."""
+"""The period at which the console of Windows is polled for a key [s]."""
 
 PRETENDED_FD = 0x7FFF_0000
 """The descriptor number of supplied input: no real file has it, so using it elsewhere fails."""
 
 
 class Blocker(Protocol):
-    """Who waits on behalf of a script: it can be ended while it does."""
+    """Waits on behalf of a script, and can be ended while it does."""
 
     def pause(self, reason: str, timeout_ns: int | None) -> bool:
         """Wait for ``timeout_ns`` of graph time; see :meth:`ScriptContext.pause`."""
@@ -53,10 +53,10 @@ class Feed:
         return self._take(len(self._text) if size < 0 else size)
 
     def ready(self, who: Blocker, timeout_ns: int | None) -> bool:
-        """Wait until something can be read (the end counts), for at most ``timeout_ns``; tell whether it can.
+        """Wait until something can be read (the end counts), for at most ``timeout_ns``; return whether it can.
 
-        Once the end was read, asking again takes the whole time-out, which a person would have taken: a loop that
-        waits for keys would else turn for ever at one instant of simulated time.
+        Once the end was read, asking again takes the whole time-out, as if nobody pressed a key: a loop that waits for
+        keys would otherwise turn for ever at one instant of simulated time.
         """
         if self._text:
             return True
@@ -78,7 +78,7 @@ class Feed:
         raise AssertionError(who, timeout_ns)
 
     def isatty(self) -> bool:
-        """Tell whether a person types."""
+        """Return whether it is a terminal."""
         return False
 
     def fileno(self) -> int:
@@ -86,11 +86,11 @@ class Feed:
         return PRETENDED_FD
 
     def close(self) -> None:
-        """Let go of whoever still reads."""
+        """Release whoever still reads."""
 
 
 class SuppliedFeed(Feed):
-    """Text that is known beforehand: all at once, or in pieces that arrive so many seconds after the start."""
+    """Text that is known beforehand: all at once, or in pieces that arrive at given times [s] after the start."""
 
     def __init__(self, scheduler: Scheduler, pieces: str | Iterable[tuple[float, str]]) -> None:
         super().__init__()
@@ -141,7 +141,7 @@ class CallableFeed(Feed):
 
 
 class HostFeed(Feed):
-    """The host's own standard input, shared by the scripts of a run: who asks first gets the next line."""
+    """The host's own standard input, shared by the scripts of a run: the first to ask gets the next line."""
 
     def __init__(self, scheduler: Scheduler, stream: TextIO) -> None:
         super().__init__()
@@ -161,7 +161,7 @@ class HostFeed(Feed):
         self._lock = threading.Lock()
 
     def isatty(self) -> bool:
-        """Tell whether a person types."""
+        """Return whether it is a terminal."""
         return self._stream.isatty()
 
     def fileno(self) -> int:
@@ -228,7 +228,7 @@ class HostFeed(Feed):
         return seconds != 0 and self._scheduler.in_thread(lambda: self._selected(seconds))
 
     def close(self) -> None:
-        """Let go of the helper threads that still read."""
+        """Release the helper threads that still read."""
         with self._lock:
             self._closed = True
             if self._stop is not None and self._selecting:
@@ -240,7 +240,7 @@ class Keyboard(Protocol):
     """What is used of the module ``msvcrt``."""
 
     def kbhit(self) -> bool:
-        """Tell whether a key waits to be read."""
+        """Return whether a key waits to be read."""
 
     def getwch(self) -> str:
         """Return the next key."""
@@ -261,7 +261,7 @@ class ConsoleFeed(HostFeed):
         while not self._closed:
             if self._keyboard.kbhit():
                 return self._keyboard.getwch()
-            time.sleep(KEY_S)  # in a thread of its own; nothing tells of a key
+            time.sleep(KEY_S)  # in a thread of its own; nothing notifies it of a key
         return ""
 
     def _await(self, who: Blocker, timeout_ns: int | None) -> bool:
@@ -300,7 +300,7 @@ class ScriptInput(io.TextIOBase):
         return True
 
     def isatty(self) -> bool:
-        """Tell whether a person types."""
+        """Return whether it is a terminal."""
         return self.feed.isatty()
 
     def fileno(self) -> int:
@@ -318,7 +318,7 @@ class ScriptInput(io.TextIOBase):
         return self.feed.read(self._who, -1 if size is None else size)
 
     def ready(self, timeout_ns: int | None) -> bool:
-        """Tell whether something can be read within ``timeout_ns`` of graph time."""
+        """Return whether something can be read within ``timeout_ns`` of graph time."""
         self._before_read()
         return self.feed.ready(self._who, timeout_ns)
 

@@ -48,7 +48,7 @@ class OutputSink:
         return f"[{owner.label()}] " if self.prefix else ""
 
     def flush(self) -> None:
-        """Bring everything out."""
+        """Flush both streams."""
         self.stdout.flush()
         self.stderr.flush()
 
@@ -82,7 +82,7 @@ class ScriptOutput(io.TextIOBase):
         return True
 
     def isatty(self) -> bool:
-        """Tell whether a person reads it."""
+        """Return whether it is a terminal."""
         return self._target().isatty()
 
     def fileno(self) -> int:

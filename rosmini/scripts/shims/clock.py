@@ -1,8 +1,8 @@
 """``time`` and ``datetime`` that follow the graph's clock in simulated time; ``sleep`` parks the lane in both.
 
-In simulated time every clock of ``time`` tells graph time: those that count from the epoch (``time``, ``localtime()``)
-tell it as it is, those that count from some start (``monotonic``, ``perf_counter``, ``process_time``) from the start of
-the script. ``datetime.now()``, ``utcnow()`` and ``date.today()`` follow too. In wall time they are the real ones.
+In simulated time every clock of ``time`` shows graph time: those that count from the epoch (``time``, ``localtime()``)
+as it is, the others (``monotonic``, ``perf_counter``, ``process_time``) since the start of the script.
+``datetime.now()``, ``utcnow()`` and ``date.today()`` follow too. In wall time they are the real ones.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def make_datetime(context: Script) -> ModuleType:
         return context.scheduler.now_ns() / 1e9
 
     class LikeReal(type):
-        """An object made by another library is a ``datetime`` too."""
+        """Counts objects made by other libraries as instances too."""
 
         def __instancecheck__(cls, instance: object) -> bool:
             return isinstance(instance, reals[cls]) if cls in reals else super().__instancecheck__(instance)
@@ -129,5 +129,5 @@ def make_datetime(context: Script) -> ModuleType:
 
 
 def _real_repr(shown: str) -> str:
-    """Python leaves the module out for a class that is not written in C."""
+    """Add the module, which Python leaves out of the repr of a class that is not written in C."""
     return shown if shown.startswith("datetime.") else f"datetime.{shown}"

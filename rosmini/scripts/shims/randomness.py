@@ -72,6 +72,6 @@ class NumpyRandom:
         self._inner.update(self._inner_own)
 
     def leave(self) -> None:
-        """Put the host's back."""
+        """Restore the host's."""
         self._namespace.update(self._host)
         self._inner.update(self._inner_host)

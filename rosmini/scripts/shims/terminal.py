@@ -1,4 +1,4 @@
-"""``select``, ``termios``, ``tty`` and ``msvcrt`` as keyboard scripts use them: to wait a tenth of a second for a key.
+"""``select``, ``termios``, ``tty`` and ``msvcrt`` as keyboard scripts use them to poll for a key.
 
 With a real terminal they act on it. With supplied input, or input from a pipe, the terminal settings are
 accepted and mean nothing, so the same script runs in a test.

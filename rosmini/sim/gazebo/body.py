@@ -26,7 +26,7 @@ TICKS = 1 << 20
 """Encoder ticks of one turn of a wheel: Gazebo's joints give their angle exactly."""
 
 CIRCLE = 24
-"""Corners in place of a round part of an outline."""
+"""Vertices of a round part of an outline."""
 
 DOT = 0.005
 """Half the side of the outline of a model without collisions [m]."""
@@ -161,7 +161,7 @@ def lowest(model: SdfModel, pose: Pose6) -> float | None:
 
 
 def obstacles_at(pose: Pose6, model: SdfModel, old: tuple[Obstacle, ...]) -> tuple[Obstacle, ...]:
-    """What a fixed model is at another pose, if it was `old` before: made anew of its collisions, if there are any."""
+    """What a fixed model is at another pose, if it was `old` before: rebuilt from its collisions, if there are any."""
     if any(link.collisions for _, link, _ in placed_links(model)):
         return to_obstacles(model, pose)
     return tuple(replace(each, pose=(pose[0], pose[1], pose[5])) for each in old)

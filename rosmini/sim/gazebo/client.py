@@ -167,7 +167,7 @@ class GazeboClient(Pictured):
         self._press(WorldControl(pause=False))
 
     def step(self, count: int = 1) -> None:
-        """Press the button for a step, so many times."""
+        """Press the step button `count` times."""
         self._press(WorldControl(multi_step=count))
 
     def reset(self) -> None:

@@ -1,4 +1,4 @@
-"""What the server tells clients of its models: their parts in Gazebo's messages, and the poses of their links.
+"""What the server sends to clients about its models: their parts in Gazebo's messages, and the poses of their links.
 
 A client draws this, and knows nothing else of the models.
 """
@@ -142,7 +142,7 @@ def _geometry(shape: SdfGeometry) -> Geometry:
 
 @dataclass(frozen=True)
 class Wheel:
-    """A link that turns, as ~/pose/info tells of it."""
+    """A link that rotates, as ~/pose/info shows it."""
 
     model: Model
     start: Pose

@@ -37,7 +37,7 @@ class Time(Message):
 
     @classmethod
     def of(cls, seconds: float) -> Time:
-        """The time so many seconds after zero."""
+        """Return the time `seconds` after zero."""
         whole, rest = divmod(round(seconds * 1e9), 1_000_000_000)
         return cls(whole, rest)
 

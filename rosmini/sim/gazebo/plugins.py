@@ -62,7 +62,7 @@ class Plugin:
         return f"<{type(self).__name__} {self.name}>"
 
     def every(self, rate: float, callback: Callable[[float], object]) -> None:
-        """Call `callback(now)` so many times a second of the world's time [s], until the plugin is closed."""
+        """Call `callback(now)` at a rate [Hz] of the world's time, which is `now` [s], until the plugin is closed."""
         name = f"{self.name}/update{len(self._endings) or ''}"
         self.add(Update(self.world.host, name, rate, callback))
 

@@ -165,7 +165,7 @@ class RunningWorld(GazeboWorld):
     # -- time ----------------------------------------------------------------------------------------------------
 
     def step(self, count: int = 1) -> None:
-        """Take so many steps of the physics, and pause. Raises `GazeboError` for less than one."""
+        """Take `count` steps of the physics, and pause. Raises `GazeboError` for less than one."""
         if count < 1:
             raise GazeboError(f"a world is stepped once or more often, not {count} times")
         self.host.pause()

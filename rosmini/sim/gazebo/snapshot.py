@@ -1,4 +1,4 @@
-"""A world at one moment, as Gazebo's messages tell of it: what a client shows."""
+"""A world at one moment, as Gazebo's messages describe it: what a client shows."""
 
 from __future__ import annotations
 

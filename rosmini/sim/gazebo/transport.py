@@ -77,7 +77,7 @@ def find_master(graph: GraphCore) -> GazeboMaster | None:
 
 
 class Network(LocalTransport):
-    """The links between Gazebo's nodes, and what their Master tells them."""
+    """The links between Gazebo's nodes, and the calls of their Master."""
 
     def attach(self, endpoint: Endpoint, uri: str | None = None) -> str:
         """Make a node reachable at the next port of this host."""
@@ -111,7 +111,7 @@ class TopicInfo:
     """Names of the nodes."""
     subscribers: tuple[str, ...]
     publisher_addresses: tuple[str, ...]
-    """Host and port of the same nodes: all that Gazebo's own Master knows, and tells, of them."""
+    """Host and port of the same nodes: all that Gazebo's own Master knows of them."""
     subscriber_addresses: tuple[str, ...]
 
 
@@ -233,7 +233,7 @@ class _Subscription:
                 self.node.lane.post(partial(callback, message))
 
     def closed(self) -> None:
-        """Do nothing: the Master tells who publishes."""
+        """Do nothing: the Master reports who publishes."""
 
     def failed(self, error: Exception) -> None:
         """Do nothing: what stays in this process does not fail."""

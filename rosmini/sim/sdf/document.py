@@ -38,7 +38,7 @@ class Note:
 
 @dataclass(frozen=True)
 class SdfPlugin:
-    """A plugin tag; what stands in it is the plugin's own business."""
+    """A plugin tag; what is in it is the plugin's own business."""
 
     name: str
     filename: str
@@ -46,7 +46,7 @@ class SdfPlugin:
 
     @property
     def line(self) -> int:
-        """Where it stands in its file."""
+        """Its line in the file."""
         return self.element.line
 
 
@@ -125,7 +125,7 @@ class SdfSensor:
 
     @property
     def line(self) -> int:
-        """Where it stands in its file."""
+        """Its line in the file."""
         return self.element.line
 
 
@@ -176,7 +176,7 @@ class SdfModel:
 
 @dataclass(frozen=True)
 class SdfActor:
-    """Somebody who walks along a path, whatever stands in the way."""
+    """Somebody who walks along a path, whatever is in the way."""
 
     name: str
     waypoints: tuple[tuple[float, Pose6], ...] = ()

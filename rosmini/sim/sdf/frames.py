@@ -17,7 +17,7 @@ from .poses import compose, from_quaternion, inverse
 
 @dataclass
 class Given:
-    """A pose as it stands in a file."""
+    """A pose as it is written in a file."""
 
     pose: Pose6 = ORIGIN
     frame: str = ""

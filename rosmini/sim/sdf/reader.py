@@ -17,7 +17,7 @@ from .poses import compose, inverse
 from .resources import Resources
 
 DEEPEST = 20
-"""How many models may stand inside one another."""
+"""The deepest nesting of models."""
 
 MODEL_TAGS = (
     "static", "self_collide", "allow_auto_disable", "include", "model", "enable_wind", "frame", "pose", "link", "joint",

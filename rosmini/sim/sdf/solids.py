@@ -25,19 +25,19 @@ from .poses import matrix, upright
 
 Floats = NDArray[np.float64]
 Triangles = NDArray[np.float64]
-"""(n, 3, 3): for each its three corners x, y, z [m]."""
+"""(n, 3, 3): for each its three vertices x, y, z [m]."""
 
 FLAT = 0.01
 """What is no higher than this above the ground [m] is a part of the ground: wheels roll over it."""
 LEVELS = (0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0, 2.0)
 """Between these heights above the ground a mesh is cut [m], if its own corners are not all at a few heights."""
 STEPS = 8
-"""So many heights of corners are few."""
+"""The largest number of heights of vertices that counts as few."""
 GRAIN = 0.002
 """How far the outline of a mesh may be from the cut [m]; more where it would keep more than `CORNERS` corners."""
 CORNERS = 60
 ROUND = 64
-"""Corners in place of a circle that stands aslant."""
+"""Vertices in place of a slanted circle."""
 
 
 @dataclass(frozen=True)

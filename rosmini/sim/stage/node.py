@@ -47,7 +47,7 @@ USAGE = "Usage: stageros [-g] [-u] <worldfile>   (-g: no window; -u: topics by t
 WATCHDOG = 0.2
 
 WINDOWLESS_RATE = 10.0
-"""Without a window stageros takes so many steps a second, however long they are and whatever `speedup` says [Hz]."""
+"""The rate of steps of stageros without a window [Hz], however long they are and whatever `speedup` says."""
 
 
 @dataclass(frozen=True)

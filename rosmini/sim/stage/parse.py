@@ -27,10 +27,10 @@ from .tokens import Token, read
 Value = float | str
 
 DEEPEST = 100
-"""So deep may entities be nested; a file that goes deeper is broken, or wants to break something."""
+"""The deepest nesting of entities; a file that goes deeper is broken, or malicious."""
 
 MOST = 100_000
-"""So many entities may a world have."""
+"""The largest number of entities of a world."""
 
 
 @dataclass(frozen=True)

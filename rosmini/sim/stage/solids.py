@@ -32,7 +32,7 @@ def filled(thing: Thing) -> tuple[tuple[Block, ...], int]:
 
 @dataclass(frozen=True)
 class Solid:
-    """A block as it stands in the world."""
+    """A block at its pose in the world."""
 
     shape: Shape
     pose: Pose

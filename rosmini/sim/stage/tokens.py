@@ -25,7 +25,7 @@ VARIABLE = "STAGEPATH"
 """The environment variable with folders of files to include, as `PATH` has them."""
 
 MOST_FILES = 1000
-"""So many files a world may include, each counted as often as it is."""
+"""The largest number of includes of a world, repeated ones counted."""
 
 _TOKEN = re.compile(
     r"""(?P<space>[ \t\r\f\v]+|\#[^\n]*)
@@ -48,7 +48,7 @@ class Token(NamedTuple):
 
 
 def tokens(text: str, path: Path) -> Iterator[Token]:
-    """The words of one text, which stands in the file `path`; includes are left as they are. Raises `StageError`."""
+    """The words of the text of the file `path`; includes are left as they are. Raises `StageError`."""
     at, line = 0, 1
     while at < len(text):
         found = _TOKEN.match(text, at)

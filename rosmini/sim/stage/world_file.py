@@ -70,7 +70,7 @@ class StageWorld:
     speedup: float
     """Seconds of the world in one second."""
     paused: bool
-    """Whether time stands at first in Stage's window; stageros here has none, and runs."""
+    """Whether time initially stands still in Stage's window; stageros here has none, and runs."""
     quit_time: float
     """When it all ends [s]; 0: never."""
     resolution: float

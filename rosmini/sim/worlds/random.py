@@ -152,7 +152,7 @@ class _Plan:
         return []
 
     def _meets_door(self, at: float, begin: float, end: float, *, upright: bool) -> bool:
-        """Tell whether a wall at x (upright) or y would end in, or beside, a door."""
+        """Return whether a wall at x (upright) or y would end in, or beside, a door."""
         return any(
             along == upright and min(abs(where - begin), abs(where - end)) < 0.01 and a - 0.3 < at < b + 0.3
             for along, where, a, b in self.doors
@@ -211,7 +211,7 @@ class _Plan:
         return None
 
     def _clear(self, way: tuple[float, float, float, float], from_walls: float, from_things: float) -> bool:
-        """Tell whether a straight way, or a place, keeps away from walls, things and the ways of walkers."""
+        """Return whether a straight path, or a position, keeps away from walls, things and the paths of walkers."""
         begin_end = np.array(way).reshape(2, 2)
         if _apart(np.array(way), self.sides) < from_walls:
             return False

@@ -155,7 +155,7 @@ def _fill_field(target: Any, name: Any, value: Any, keys: dict[str, Any], prefix
 
 
 def _filled(present: Any, value: Any, keys: dict[str, Any], path: str) -> Any:
-    """Return what stands in a field for a message or a time, which is ``present`` now."""
+    """Return the value of a field that holds a message or a time, which is ``present`` now."""
     if isinstance(value, str):
         if value not in keys:
             known = f"there are {', '.join(keys)}" if keys else "no key is given here"
@@ -172,7 +172,7 @@ def _made(fresh: Any, value: Any, keys: dict[str, Any], prefix: str) -> Any:
 
 
 def _elements(kind: str, value: Any, keys: dict[str, Any], path: str) -> Any:
-    """Return what stands in a field that is no message and no time: an array's elements, or the value as it is."""
+    """Return the value of a field that is neither a message nor a time: an array's elements, or the value as it is."""
     base, bracket, size = kind.partition("[")
     if not bracket or base in BYTES:
         return value

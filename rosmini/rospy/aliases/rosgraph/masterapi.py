@@ -40,7 +40,7 @@ class Master:
         self.master_uri = master_uri or running_graph().master_uri
 
     def is_online(self) -> bool:
-        """Tell whether there is a Master: always, in a process that has its own."""
+        """Return whether there is a Master: always, in a process that has its own."""
         return True
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
@@ -57,5 +57,5 @@ class Master:
 
 
 def is_online(master_uri: str | None = None) -> bool:
-    """Tell whether there is a Master: always, in a process that has its own."""
+    """Return whether there is a Master: always, in a process that has its own."""
     return Master("rosgraph", master_uri).is_online()

@@ -14,7 +14,7 @@ def load_manifest(package_name: str, bootstrap_version: str = "0.7") -> None:
 
 
 def set_interactive(interactive: bool) -> None:
-    """Do nothing: it would tell rospy to leave signals alone, which it does here."""
+    """Do nothing: rospy leaves signals alone here anyway."""
 
 
 def is_interactive() -> bool:

@@ -37,10 +37,10 @@ def package_resource_name(name: str) -> tuple[str, str]:
 
 
 def is_legal_resource_name(name: str) -> bool:
-    """Tell whether ``name`` may name something in a package."""
+    """Return whether ``name`` may name something in a package."""
     return bool(_RESOURCE.fullmatch(name)) and "//" not in name
 
 
 def is_legal_resource_base_name(name: str) -> bool:
-    """Tell whether ``name`` may name something, without its package."""
+    """Return whether ``name`` may name something, without its package."""
     return bool(_RESOURCE_BASE.fullmatch(name))

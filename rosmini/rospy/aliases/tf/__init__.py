@@ -66,13 +66,13 @@ class Transformer:
         self._buffer.set_transform(transform, authority)
 
     def canTransform(self, target_frame: str, source_frame: str, time: Time) -> bool:
-        """Tell whether a lookup would answer."""
+        """Return whether a lookup would succeed."""
         return self._buffer.can_transform_core(_bare(target_frame), _bare(source_frame), time)[0]
 
     def canTransformFull(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> bool:
-        """Tell whether the advanced form would answer."""
+        """Return whether the advanced form would succeed."""
         return self._buffer.can_transform_full_core(
             _bare(target_frame), target_time, _bare(source_frame), source_time, _bare(fixed_frame)
         )[0]
@@ -170,7 +170,7 @@ class Transformer:
         return self._buffer.tree.chain_full(*names, _bare(fixed_frame))
 
     def frameExists(self, frame_id: str) -> bool:
-        """Tell whether a frame is known."""
+        """Return whether a frame is known."""
         return _bare(frame_id) in self._buffer.tree
 
     def getFrameStrings(self) -> list[str]:

@@ -66,7 +66,7 @@ class BufferClient(BufferInterface):
         )
 
     def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Any = AT_ONCE) -> bool:
-        """Tell whether a lookup answers."""
+        """Return whether a lookup succeeds."""
         return _answers(lambda: self.lookup_transform(target_frame, source_frame, time, timeout))
 
     def can_transform_full(
@@ -78,7 +78,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Any = AT_ONCE,
     ) -> bool:
-        """Tell whether the advanced form answers."""
+        """Return whether the advanced form succeeds."""
         names = target_frame, target_time, source_frame, source_time, fixed_frame
         return _answers(lambda: self.lookup_transform_full(*names, timeout))
 

@@ -1,6 +1,6 @@
 """``tf2_ros.buffer_interface``: what buffers and their clients share, and the conversions between types."""
 
-# ruff: noqa: ARG002 - what derived classes are given stands in the base
+# ruff: noqa: ARG002 - the arguments are for derived classes
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ class BufferInterface:
         raise NotImplementedException
 
     def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Any = AT_ONCE) -> Any:
-        """Raise ``NotImplementedException``: derived classes tell whether a lookup would answer."""
+        """Raise ``NotImplementedException``: derived classes return whether a lookup would succeed."""
         raise NotImplementedException
 
     def can_transform_full(

@@ -77,7 +77,7 @@ class ImuSensorTags(Tags):
 
 
 class GazeboImu(ImuDevice):
-    """A unit as Gazebo's plugins tell it.
+    """A unit as Gazebo's plugins simulate it.
 
     Args:
         model: which model carries it.
