@@ -7,7 +7,8 @@ Things that only touch do not overlap: what goes in by less than `TOUCH` counts 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,6 +56,25 @@ def each_distance(points: Floats, sides: Floats) -> Floats:
     gaps = offset - along[..., None] * way
     lengths: Floats = np.hypot(gaps[..., 0], gaps[..., 1])
     return lengths
+
+
+def needed(fixed: Sequence[int], gaps: Callable[[int, int], Floats], tolerance: float) -> list[int]:
+    """The indices of points that are enough to draw a line, within `tolerance` of the others; those in `fixed` stay.
+
+    `gaps(first, last)` returns how far the points between two are from what would be drawn without them (Douglas and
+    Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line or its
+    caricature", 1973).
+    """
+    found = set(fixed)
+    waiting = [(first, last) for first, last in pairwise(fixed) if last - first > 1]
+    while waiting:
+        first, last = waiting.pop()
+        off = gaps(first, last)
+        if off[worst := int(off.argmax())] > tolerance:
+            middle = first + 1 + worst
+            found.add(middle)
+            waiting += [(a, b) for a, b in ((first, middle), (middle, last)) if b - a > 1]
+    return sorted(found)
 
 
 def crossing_sides(outline: Floats) -> tuple[int, int] | None:

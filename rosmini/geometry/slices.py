@@ -105,26 +105,17 @@ def _plain(outline: Floats) -> Floats:
 
 
 def thinned(outline: Floats, tolerance: float) -> Floats:
-    """An outline (k, 2) with fewer corners, within `tolerance` [m] of the others (Douglas and Peucker, 1973)."""
+    """An outline (k, 2) with fewer corners, within `tolerance` [m] of the others; see `polygons.needed`."""
     if len(outline) <= 4:
         return outline
     far = int(np.hypot(*(outline - outline[0]).T).argmax())
     closed = np.vstack([outline, outline[:1]])
-    keep = np.zeros(len(closed), dtype=bool)
-    keep[[0, far, -1]] = True
-    todo = [(0, far), (far, len(closed) - 1)]
-    while todo:
-        first, last = todo.pop()
-        between = closed[first + 1 : last]
-        if not len(between):
-            continue
-        gaps = polygons.distances(between, np.concatenate([closed[first], closed[last]])[None])
-        worst = int(gaps.argmax())
-        if gaps[worst] > tolerance:
-            middle = first + 1 + worst
-            keep[middle] = True
-            todo += [(first, middle), (middle, last)]
-    return closed[:-1][keep[:-1]]
+
+    def gaps(first: int, last: int) -> Floats:
+        chord = np.concatenate([closed[first], closed[last]])[None]
+        return polygons.distances(closed[first + 1 : last], chord)
+
+    return closed[polygons.needed([0, far, len(outline)], gaps, tolerance)[:-1]]
 
 
 def pieces(outlines: list[Floats]) -> list[Floats]:

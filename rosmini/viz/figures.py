@@ -17,6 +17,7 @@ from rosmini.viz.view import ViewError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
 WIDTH = 660.0
@@ -127,6 +128,12 @@ def ticks(low: float, high: float, step: float) -> list[float]:
     return [
         round(i * step, 9) for i in range(math.ceil(low / step - 1e-6), math.floor(high / step + 1e-6) + 1)
     ]
+
+
+def mark(axis: Axis, low: float, high: float, step: float) -> None:
+    """Put labelled ticks at the multiples of `step` from `low` to `high`."""
+    marks = ticks(low, high, step)
+    axis.set_ticks(marks, labels=say(marks))
 
 
 def step_of(extent: float, most: int, steps: Sequence[float] = (1, 2, 5)) -> float:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, place, say, step_of, ticks
+from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, mark, place, step_of
 from rosmini.viz.rounding import fixed, snap
 from rosmini.viz.rqt.wording import plural
 from rosmini.viz.style import LABEL_SIZE, LIGHT
@@ -59,12 +59,12 @@ def plot(
         figure = blank_figure(width, TOP + HEIGHT + BOTTOM)
         axes = place(figure, LEFT, TOP, width - LEFT - RIGHT, HEIGHT)
         _frame(axes, np.vstack(list(points.values())), x, y)
-        for (name, values), colour, mark in zip(points.items(), COLOURS, MARKS, strict=False):
+        for (name, values), colour, shape in zip(points.items(), COLOURS, MARKS, strict=False):
             box, low = axes.viewLim, axes.viewLim.min
             pixel = np.array([box.width, box.height]) / 2000.0  # a good deal finer than the screen
             drawn = snap((values - low) / pixel, 1.0) * pixel + low
             axes.plot(
-                *drawn.T, color=LIGHT[colour], linewidth=1.4, marker=mark, markersize=4.5, label=name,
+                *drawn.T, color=LIGHT[colour], linewidth=1.4, marker=shape, markersize=4.5, label=name,
                 zorder=4.0, clip_on=False,
             )  # fmt: skip
         handles, _ = axes.get_legend_handles_labels()
@@ -97,10 +97,8 @@ def _frame(axes: Axes, points: Floats, x: str, y: str) -> None:
         )
     (left, right, across), (bottom, top, up) = edges
     axes.set(xlim=(left, right), ylim=(bottom, top), xlabel=x)
-    marks = ticks(left, right, across)
-    axes.set_xticks(marks, labels=say(marks))
-    marks = ticks(bottom, top, up)
-    axes.set_yticks(marks, labels=say(marks))
+    mark(axes.xaxis, left, right, across)
+    mark(axes.yaxis, bottom, top, up)
     axes.set_title(y, loc="left", fontsize=LABEL_SIZE, color=LIGHT["ink"], pad=7.0)
 
 

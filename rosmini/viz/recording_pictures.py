@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rosmini.geometry.poses import Pose
 from rosmini.sim.recording import Drift, Moved, Recording
 from rosmini.viz.beams import beams_of
-from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, place, say, step_of, ticks
+from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, mark, place, step_of
 from rosmini.viz.rounding import degrees, fixed, kept, snap
 from rosmini.viz.rqt.wording import plural
 from rosmini.viz.style import LABEL_SIZE, LIGHT
@@ -185,11 +185,9 @@ def _frame(
     low, high = 1.06 * low, 1.06 * high  # a line along the edge would not be seen
     step = step_of(high - low, 4)
     bottom, top = math.floor(low / step + 0.0137) * step, math.ceil(high / step - 0.0137) * step
-    marks = ticks(bottom, top, step)
-    times = ticks(*span, step_of(span[1] - span[0], 6))
     axes.set(xlim=span, ylim=(bottom, top))
-    axes.set_xticks(times, labels=say(times))
-    axes.set_yticks(marks, labels=say(marks))
+    mark(axes.xaxis, *span, step_of(span[1] - span[0], 6))
+    mark(axes.yaxis, bottom, top, step)
     axes.set_title(label, loc="left", fontsize=LABEL_SIZE, color=LIGHT["ink"], pad=7.0)
     axes.axhline(0.0, color=LIGHT["group-line"], linewidth=1.0, zorder=1.5)
     if last:

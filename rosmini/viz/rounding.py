@@ -12,6 +12,8 @@ from decimal import ROUND_HALF_UP, Decimal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rosmini.geometry.polygons import needed
+
 MILLIMETRE = 1e-3
 """To what pictures of a world are rounded [m]: a tenth of a pixel, at most."""
 
@@ -42,27 +44,17 @@ def snap(values: ArrayLike, quantum: float = MILLIMETRE) -> NDArray[np.float64]:
     return np.floor(np.asarray(values, dtype=float) / quantum + 0.5371) * quantum + 0.0
 
 
-def kept(points: NDArray[np.float64], tolerance: float) -> NDArray[np.bool_]:
-    """Which points (n,) of a line (n, 2) are enough to draw it: none of the others is further away than `tolerance`.
+def kept(points: NDArray[np.float64], tolerance: float) -> list[int]:
+    """Which points of a line (n, 2) are enough to draw it: none of the others is further away than `tolerance`.
 
-    The ends stay (Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent a
-    digitized line or its caricature", 1973).
+    The ends stay; see `rosmini.geometry.polygons.needed`.
     """
-    keep = np.zeros(len(points), dtype=bool)
-    keep[[0, -1]] = True
-    open_ends = [(0, len(points) - 1)]
-    while open_ends:
-        first, last = open_ends.pop()
-        if last - first < 2:
-            continue
+
+    def gaps(first: int, last: int) -> NDArray[np.float64]:
         start, chord = points[first], points[last] - points[first]
         between = points[first + 1 : last] - start
         length = float(chord @ chord)
         along = np.clip(between @ chord / length, 0.0, 1.0) if length else np.zeros(len(between))
-        off = np.hypot(*(between - along[:, None] * chord).T)
-        furthest = int(np.argmax(off))
-        if off[furthest] > tolerance:
-            middle = first + 1 + furthest
-            keep[middle] = True
-            open_ends += [(first, middle), (middle, last)]
-    return keep
+        return np.asarray(np.hypot(*(between - along[:, None] * chord).T))
+
+    return needed([0, len(points) - 1], gaps, tolerance)

@@ -12,7 +12,7 @@ import numpy as np
 from rosmini.geometry.poses import compose
 from rosmini.sim.models import BURGER, RobotModel
 from rosmini.viz.beams import Beams, Floats, beams_of
-from rosmini.viz.figures import WIDTH, blank_figure, house_style, place, say, step_of, ticks
+from rosmini.viz.figures import WIDTH, blank_figure, house_style, mark, place, say, step_of, ticks
 from rosmini.viz.rounding import degrees, fixed, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, matplotlib_picture
@@ -138,13 +138,10 @@ def _over_angles(figure: Figure, beams: Beams, width: float) -> None:
     step = 90.0 if high - low > 180 else 45.0 if high - low > 90 else 15.0
     marks = ticks(low, high, step)
     words = {180: "behind", 90: "left", 0: "ahead", -90: "right", -180: "behind"}
-    labels = [
-        f"{label}°\n{words.get(round(mark), '')}" for label, mark in zip(say(marks), marks, strict=True)
-    ]
+    labels = [f"{label}°\n{words.get(round(at), '')}" for label, at in zip(say(marks), marks, strict=True)]
     axes.set(xlim=(high, low), ylim=(0.0, top), ylabel="range [m]")
     axes.set_xticks(marks, labels=labels)
-    heights = ticks(0.0, top, step_of(top, 5))
-    axes.set_yticks(heights, labels=say(heights))
+    mark(axes.yaxis, 0.0, top, step_of(top, 5))
     draw_dots(axes, np.column_stack([angles, snap(beams.ranges)])[beams.hits], "vermilion", 2.8)
     missed = angles[~beams.hits]
     if len(missed):

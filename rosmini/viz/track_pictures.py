@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.viz.figures import WIDTH, blank_figure, house_style, place, say, step_of, ticks
+from rosmini.viz.figures import WIDTH, blank_figure, house_style, mark, place, step_of
 from rosmini.viz.rounding import fixed, kept, snap
 from rosmini.viz.rqt.wording import plural
 from rosmini.viz.style import LABEL_SIZE, LIGHT
@@ -88,8 +88,7 @@ def _frame(axes: Axes, low: Floats, high: Floats, size: tuple[float, float]) -> 
         step_of(float(side), max(2, int(pixels / 60))) for side, pixels in zip(high - low, size, strict=True)
     )
     for i, axis in enumerate((axes.xaxis, axes.yaxis)):
-        values = ticks(float(low[i]), float(high[i]), step)
-        axis.set_ticks(values, say(values))
+        mark(axis, float(low[i]), float(high[i]), step)
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
 

@@ -21,10 +21,9 @@ from rosmini.viz.figures import (
     house_style,
     legend,
     legend_width,
+    mark,
     place,
-    say,
     step_of,
-    ticks,
 )
 from rosmini.viz.rounding import degrees, fixed
 from rosmini.viz.style import LIGHT
@@ -354,8 +353,7 @@ def map_axes(bounds: Bounds, size: tuple[float, float], legend_width: float) -> 
     axes.set(xlim=(x0, x1), ylim=(y0, y1), xlabel="x [m]", ylabel="y [m]")
     step = 1.0 if 2.0 <= extent <= 14.0 else step_of(extent, 10)
     for axis, low, high in ((axes.xaxis, x0, x1), (axes.yaxis, y0, y1)):
-        marks = ticks(low, high, step)
-        axis.set_ticks(marks, labels=say(marks))
+        mark(axis, low, high, step)
     return figure, axes, scale
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rosmini.sim.shapes import Polygon
 from rosmini.sim.world import Obstacle, Pose
 from rosmini.viz.replay.canvas_data import scene_data, shapes_of
-from rosmini.viz.world_pictures import colour_of
+from rosmini.viz.world_pictures import colour_of, pose_text
 
 if TYPE_CHECKING:
     from rosmini.sim.simulator import Simulator
@@ -113,10 +113,7 @@ class Sight:
     def describe(self) -> str:
         """Where the robot is and how much its laser sees, in a line that is the same on every machine."""
         model, world = self.simulator.model, self.simulator.world
-        x, y, theta = self.simulator.truth()
-        degrees = math.degrees(math.remainder(theta, 2 * math.pi))
-        numbers = [_plain(x, 2), _plain(y, 2), f"{_plain(degrees, 1)} deg"]
-        where = f"{model.name} at ({', '.join(numbers)}) in {world.name}"
+        where = f"{model.name} at {pose_text(self.simulator.truth())} in {world.name}"
         scan = self.ranges()
         if scan is None:
             return f"{where}; no scan yet"
@@ -130,8 +127,3 @@ class Sight:
         """The last scan's ranges (beams,) [m], or None if there is none yet."""
         scan = self.simulator.last_scan()
         return None if scan is None else np.asarray(scan.ranges, dtype=np.float64)
-
-
-def _plain(value: float, digits: int) -> str:
-    """A number without a negative zero, and whose rounding does not hang on the last bits."""
-    return f"{round(value + 1e-9, digits) + 0.0:.{digits}f}"

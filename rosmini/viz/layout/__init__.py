@@ -12,7 +12,7 @@ from rosmini.viz.layout.coordinates import GROUP_HEAD, GROUP_PAD, assign_across
 from rosmini.viz.layout.model import Direction, Edge, Layout, Rect, Route, Vertex
 from rosmini.viz.layout.ordering import order_layers
 from rosmini.viz.layout.routing import Bands, group_rectangles, rectangles, routes
-from rosmini.viz.layout.slots import make_proper
+from rosmini.viz.layout.slots import Joined, make_proper
 
 __all__ = ["Direction", "Edge", "Layout", "Rect", "Route", "Vertex", "layered"]
 
@@ -57,29 +57,18 @@ def _check(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> None:
 
 def _components(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> list[tuple[list[Vertex], list[Edge]]]:
     """What hangs together by edges or by an outermost group; the largest first, then by name."""
-    leader = {vertex.name: vertex.name for vertex in vertices}
-
-    def find(name: str) -> str:
-        while leader[name] != name:
-            leader[name] = leader[leader[name]]
-            name = leader[name]
-        return name
-
-    def join(a: str, b: str) -> None:
-        first, second = sorted((find(a), find(b)))
-        leader[second] = first
-
+    joined = Joined(vertex.name for vertex in vertices)
     first_of_group: dict[str, str] = {}
     for vertex in vertices:
         if vertex.groups:
-            join(vertex.name, first_of_group.setdefault(vertex.groups[0], vertex.name))
+            joined.join(vertex.name, first_of_group.setdefault(vertex.groups[0], vertex.name))
     for edge in edges:
-        join(edge.source, edge.target)
+        joined.join(edge.source, edge.target)
     parts: dict[str, tuple[list[Vertex], list[Edge]]] = {}
     for vertex in vertices:
-        parts.setdefault(find(vertex.name), ([], []))[0].append(vertex)
+        parts.setdefault(joined.find(vertex.name), ([], []))[0].append(vertex)
     for edge in edges:
-        parts[find(edge.source)][1].append(edge)
+        parts[joined.find(edge.source)][1].append(edge)
     return [parts[root] for root in sorted(parts, key=lambda root: (-len(parts[root][0]), root))]
 
 

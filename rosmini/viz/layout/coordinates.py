@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from math import inf
 
-from rosmini.viz.layout.slots import Proper, Slot
+from rosmini.viz.layout.slots import Proper, Slot, shared_depth
 
 VERTEX_GAP = 20.0
 BEND_GAP = 9.0
@@ -60,16 +60,9 @@ def _wish(slot: Slot, *, downward: bool, both: bool) -> float:
 
 def distance(a: Slot, b: Slot, head: float) -> float:
     """The least distance between the centre lines of two neighbours in a layer, group borders included."""
-    depth = _shared_depth(a, b)
+    depth = shared_depth(a, b)
     closing, opening = len(a.groups) - depth, len(b.groups) - depth
     return a.after + gap(a, b) + b.before + closing * GROUP_PAD + opening * head
-
-
-def _shared_depth(a: Slot, b: Slot) -> int:
-    depth = 0
-    while depth < min(len(a.groups), len(b.groups)) and a.groups[depth] == b.groups[depth]:
-        depth += 1
-    return depth
 
 
 def _pack(row: Sequence[Slot], wishes: Sequence[float], head: float) -> None:
@@ -126,7 +119,7 @@ class _Borders:
 
     def _constrain(self, row: Sequence[Slot]) -> None:
         for a, b in zip([None, *row], [*row, None], strict=True):
-            depth = _shared_depth(a, b) if a and b else 0
+            depth = shared_depth(a, b) if a and b else 0
             closing = list(range(len(a.groups), depth, -1)) if a else []
             opening = list(range(depth + 1, len(b.groups) + 1)) if b else []
             chain: list[tuple[Node, float, float]] = []  # a border or slot, its extents before and after

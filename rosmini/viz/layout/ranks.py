@@ -8,6 +8,7 @@ problem" (1993); layers come from the network simplex method of Gansner, Koutsof
 from __future__ import annotations
 
 from collections.abc import Sequence
+from graphlib import CycleError, TopologicalSorter
 
 Arc = tuple[int, int]
 """An edge as (tail, head), indices of vertices."""
@@ -167,24 +168,17 @@ class _NetworkSimplex:
 
 
 def _longest_path(count: int, arcs: Sequence[Arc], lengths: Sequence[int]) -> list[int]:
-    outgoing: list[list[tuple[int, int]]] = [[] for _ in range(count)]
-    waiting = [0] * count
+    incoming: dict[int, list[tuple[int, int]]] = {vertex: [] for vertex in range(count)}
     for (tail, head), length in zip(arcs, lengths, strict=True):
-        outgoing[tail].append((head, length))
-        waiting[head] += 1
+        incoming[head].append((tail, length))
     rank = [0] * count
-    ready = [v for v in range(count) if waiting[v] == 0]
-    done = 0
-    while ready:
-        vertex = ready.pop(0)
-        done += 1
-        for head, length in outgoing[vertex]:
-            rank[head] = max(rank[head], rank[vertex] + length)
-            waiting[head] -= 1
-            if waiting[head] == 0:
-                ready.append(head)
-    if done < count:
-        raise ValueError("a graph to be layered must have no cycle")
+    try:
+        for vertex in TopologicalSorter(
+            {v: [tail for tail, _ in of] for v, of in incoming.items()}
+        ).static_order():
+            rank[vertex] = max((rank[tail] + length for tail, length in incoming[vertex]), default=0)
+    except CycleError as error:
+        raise ValueError("a graph to be layered must have no cycle") from error
     return rank
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import pairwise, takewhile
+from typing import Generic, TypeVar
 
 from rosmini.viz.layout.model import Edge, Vertex
 from rosmini.viz.layout.ranks import feedback_arcs, layers
+
+T = TypeVar("T", int, str)
 
 LABEL_RISE = 3.0
 """Pixels between a line and the foot of the label above it."""
@@ -39,6 +42,12 @@ class Slot:
         other.previous.append((self, weight))
 
 
+def shared_depth(a: Slot, b: Slot) -> int:
+    """How many groups, from the outermost on, two slots are both in."""
+    alike = (one == other for one, other in zip(a.groups, b.groups, strict=False))
+    return sum(1 for _ in takewhile(bool, alike))
+
+
 @dataclass(eq=False)
 class Chain:
     """An edge with the slots that it passes, from the lower layer to the higher one."""
@@ -58,6 +67,26 @@ class Proper:
     chains: list[Chain]
     loops: dict[str, list[Edge]]
     groups: list[tuple[str, ...]]
+
+
+class Joined(Generic[T]):
+    """Which things belong together: sets that grow into one another, each named by its least member."""
+
+    def __init__(self, things: Iterable[T]) -> None:
+        self._leader: dict[T, T] = {thing: thing for thing in things}
+
+    def find(self, thing: T) -> T:
+        """The least member of the set of a thing."""
+        while (leader := self._leader[thing]) != thing:
+            self._leader[thing] = self._leader[leader]
+            thing = leader
+        return thing
+
+    def join(self, a: T, b: T) -> bool:
+        """Let the sets of two things be one; return whether they were two."""
+        first, second = sorted((self.find(a), self.find(b)))
+        self._leader[second] = first
+        return first != second
 
 
 def make_proper(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> Proper:
@@ -100,19 +129,12 @@ def _with_group_ties(
     vertices: Sequence[Vertex], arcs: list[tuple[int, int]], lengths: list[int]
 ) -> tuple[list[tuple[int, int]], list[int]]:
     """Connect what only a shared group holds together: a tie of length 0 where no edge does it."""
-    leader = list(range(len(vertices)))
-
-    def find(v: int) -> int:
-        while leader[v] != v:
-            v = leader[v]
-        return v
-
+    joined = Joined(range(len(vertices)))
     for tail, head in arcs:
-        leader[find(head)] = find(tail)
+        joined.join(tail, head)
     for i, vertex in enumerate(vertices):
         for j in range(i):
-            if vertex.groups and vertices[j].groups[:1] == vertex.groups[:1] and find(i) != find(j):
-                leader[find(i)] = find(j)
+            if vertex.groups and vertices[j].groups[:1] == vertex.groups[:1] and joined.join(i, j):
                 arcs, lengths = [*arcs, (j, i)], [*lengths, 0]
     return arcs, lengths
 
@@ -135,7 +157,7 @@ def _chain(edge: Edge, backward: bool, by_name: dict[str, Slot], rows: list[list
     first, last = by_name[edge.source], by_name[edge.target]
     if backward:
         first, last = last, first
-    shared = _common(first.groups, last.groups)
+    shared = first.groups[: shared_depth(first, last)]
     label_layer = (first.layer + last.layer) // 2
     slots = [first]
     label = None
@@ -153,13 +175,6 @@ def _chain(edge: Edge, backward: bool, by_name: dict[str, Slot], rows: list[list
         # Long edges are kept straighter than short ones (the weights of Gansner et al.).
         a.link(b, 8.0 if a.bend and b.bend else 2.0 if a.bend or b.bend else 1.0)
     return Chain(edge, slots, label, backward)
-
-
-def _common(a: tuple[str, ...], b: tuple[str, ...]) -> tuple[str, ...]:
-    depth = 0
-    while depth < min(len(a), len(b)) and a[depth] == b[depth]:
-        depth += 1
-    return a[:depth]
 
 
 def _fill_gaps(group: tuple[str, ...], rows: list[list[Slot]]) -> None:

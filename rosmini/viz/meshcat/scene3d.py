@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.geometry.polygons import needed
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.models import Part as SimplePart
 from rosmini.sim.sensors.scene import trapezia
@@ -168,10 +169,8 @@ class Scene3D:
             if not isinstance(solid, Rod):
                 path[str(i)].set_object(geometry.Sphere(solid.radius), material)
             else:
-                top = solid.radius if solid.top_radius is None else solid.top_radius
-                path[str(i)].set_object(
-                    geometry.Cylinder(solid.length, radiusTop=top, radiusBottom=solid.radius), material
-                )
+                rod = geometry.Cylinder(solid.length, solid.radius)
+                path[str(i)].set_object(rod, material)
                 if solid.axis == "z":
                     place[:3, :3] = [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
             path[str(i)].set_transform(rounded(place))
@@ -432,22 +431,14 @@ def ribbon(points: Floats, width: float, height: float) -> tuple[Floats, NDArray
 
 def keyframes(times: Floats, values: Floats, tolerance: float) -> list[int]:
     """Which samples (n, k) to keep so that lines between them are within `tolerance` of all others."""
-    keep = {0, len(times) - 1}
-    open_ends = [(0, len(times) - 1)]
-    while open_ends:
-        first, last = open_ends.pop()
-        if last - first < 2:
-            continue
+
+    def gaps(first: int, last: int) -> Floats:
         part = (times[first + 1 : last] - times[first]) / (times[last] - times[first])
         line = values[first] + part[:, None] * (values[last] - values[first])
         # Snapped, so that of two samples that are equally far off the same one is taken everywhere.
-        off = snap(np.abs(values[first + 1 : last] - line).max(axis=1), 1e-7)
-        worst = int(np.argmax(off))
-        if off[worst] > tolerance:
-            middle = first + 1 + worst
-            keep.add(middle)
-            open_ends += [(first, middle), (middle, last)]
-    return sorted(keep)
+        return snap(np.abs(values[first + 1 : last] - line).max(axis=1), 1e-7)
+
+    return needed([0, len(times) - 1], gaps, tolerance)
 
 
 def simplified(points: Floats, tolerance: float = 0.002) -> Floats:

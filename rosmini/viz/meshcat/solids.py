@@ -74,21 +74,18 @@ class Facets:
 
 @dataclass(frozen=True)
 class Rod:
-    """A cylinder, or a cone without its tip, around its centre; its axis is z, or y from right to left."""
+    """A cylinder around its centre; its axis is z, or y from right to left."""
 
     centre: tuple[float, float, float]
     radius: float
     length: float
     axis: Literal["y", "z"] = "z"
-    top_radius: float | None = None
-    """At the end where the axis points to; None: like the other."""
 
     def faces(self) -> Iterator[Face]:
         """The two ends, then the sides: the thinner, the fewer."""
         corners = next(n for n, below in ((6, 0.006), (14, 0.05), (18, math.inf)) if self.radius < below)
-        top = self.radius if self.top_radius is None else self.top_radius
-        circle = regular(corners, 1.0)
-        low, high = _at(circle * self.radius, -self.length / 2), _at(circle * top, self.length / 2)
+        circle = regular(corners, 1.0) * self.radius
+        low, high = _at(circle, -self.length / 2), _at(circle, self.length / 2)
         for face in (
             high,
             low[::-1],

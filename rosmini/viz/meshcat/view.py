@@ -17,9 +17,10 @@ from rosmini.sim.recording import Recording
 from rosmini.sim.world import Pose, World
 from rosmini.viz import style
 from rosmini.viz.embed import MESHCAT, embed
-from rosmini.viz.rounding import degrees, fixed, snap
+from rosmini.viz.replay.player import beside
+from rosmini.viz.rounding import fixed, snap
 from rosmini.viz.view import SVG_MIME, View, ViewError
-from rosmini.viz.world_pictures import colour_of
+from rosmini.viz.world_pictures import colour_of, pose_text
 
 from .drawing import draw
 from .scene3d import ROBOT, Camera, Scene3D, obstacle_node
@@ -197,7 +198,7 @@ def replay_3d(
     off = fixed(float(recording.drift().position[-1]), 2)
     text = (
         f"3D replay: {model.name} in {world.name}, {driven}\n"
-        f"from {_pose(start)} to {_pose(tuple(truth[-1].tolist()))}; odometry ends {off} m off"
+        f"from {pose_text(start)} to {pose_text(tuple(truth[-1].tolist()))}; odometry ends {off} m off"
         + "".join(
             f"\n{each.name} ({each.model.name}): {fixed(each.distance, 2)} m" for each in recording.others
         )
@@ -205,7 +206,7 @@ def replay_3d(
     alt = (
         f"A player with {model.title or model.name} in {_title(world)}, in three dimensions: it drives {driven}. "
         f"Lines on the ground show its way and, {off} m off at its end, the way that odometry believes in."
-        f"{_beside(recording)}"
+        f"{beside(recording)}"
     )
     view = MeshcatView(
         scene, label=label, text=text, alt=alt, title=title, height=height,
@@ -262,7 +263,7 @@ def robot_3d(
     beside = []
     for other, its_model, where in others:
         scene.add_robot(its_model, where, _node(other))
-        beside.append(f"{other} ({its_model.name}) at {_pose(where)}")
+        beside.append(f"{other} ({its_model.name}) at {pose_text(where)}")
     hits = ""
     if ranges is not None:
         if ranges.shape != (model.laser.beams,):
@@ -270,8 +271,8 @@ def robot_3d(
         scene.add_scan(model, ranges, scan_from)
         hits = f"; {int(np.isfinite(ranges).sum())} of {len(ranges)} beams hit"
     name = model.title or model.name
-    text = "\n".join([f"3D: {model.name} at {_pose(pose)}{hits}", *beside, _contents(world)])
-    alt = f"{name} in {_title(world)}, in three dimensions, at {_pose(pose)}{hits}."
+    text = "\n".join([f"3D: {model.name} at {pose_text(pose)}{hits}", *beside, _contents(world)])
+    alt = f"{name} in {_title(world)}, in three dimensions, at {pose_text(pose)}{hits}."
     alt += f" Beside it {', '.join(beside)}." if beside else ""
     return MeshcatView(
         scene, label=f"{name} in {_title(world)}, in 3D", text=text, alt=alt, title=title, height=height
@@ -282,10 +283,6 @@ def _title(world: World) -> str:
     return world.title[:1].lower() + world.title[1:] if world.title else f"the world {world.name!r}"
 
 
-def _pose(pose: Pose) -> str:
-    return f"({fixed(pose[0], 2)}, {fixed(pose[1], 2)}, {degrees(pose[2])} deg)"
-
-
 def _contents(world: World) -> str:
     counts = [(len(world.walls), "wall"), (len(world.obstacles), "obstacle")]
     return f"{world.name} with " + ", ".join(f"{n} {what}{'s' * (n != 1)}" for n, what in counts)
@@ -294,12 +291,6 @@ def _contents(world: World) -> str:
 def _node(name: str) -> str:
     """Where in the scene another robot is."""
     return "others/" + name.replace("/", " ")
-
-
-def _beside(recording: Recording) -> str:
-    names = ", ".join(each.name for each in recording.others[:6])
-    more = f" and {len(recording.others) - 6} more" if len(recording.others) > 6 else ""
-    return f" Beside it drive {names}{more}." if names else ""
 
 
 def _all_tracks(scene: Scene3D, recording: Recording) -> list[tuple[str, str, Floats]]:

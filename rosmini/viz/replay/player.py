@@ -35,7 +35,7 @@ class ReplayView(View):
         return (
             f"Player of a run of {run.model.name} in the world {run.world.name}, {fixed(run.duration, 1)} seconds "
             f"long. The robot drives {fixed(run.distance, 2)} m; at the end its odometry is off by "
-            f"{fixed(float(run.drift().position[-1]), 2)} m.{_beside(run)}"
+            f"{fixed(float(run.drift().position[-1]), 2)} m.{beside(run)}"
         )
 
     @cached_property
@@ -74,7 +74,8 @@ class ReplayView(View):
         return self.title or f"Replay of {self.recording.model.name} in {self.recording.world.name}"
 
 
-def _beside(run: Recording) -> str:
+def beside(run: Recording) -> str:
+    """A sentence about the other robots of a run; empty if there are none."""
     others = ", ".join(each.name for each in run.others[:6])
     more = f" and {len(run.others) - 6} more" if len(run.others) > 6 else ""
     return f" Beside it drive {others}{more}." if others else ""

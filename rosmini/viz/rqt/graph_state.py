@@ -23,8 +23,6 @@ class GraphState:
         subscribers: the subscribing nodes of each topic.
         types: the message type of each topic, where the Master knows one.
         nodes: nodes that may be on no topic (the Master knows them by their services).
-        connections: the connections that exist, if they are known; None counts every publisher of a topic as
-            connected to every subscriber, which is what the Master brings about.
         unreachable: nodes that are registered but do not answer.
 
     """
@@ -33,7 +31,6 @@ class GraphState:
     subscribers: Mapping[str, frozenset[str]] = field(default_factory=dict)
     types: Mapping[str, str] = field(default_factory=dict)
     nodes: frozenset[str] = frozenset()
-    connections: frozenset[Connection] | None = None
     unreachable: frozenset[str] = frozenset()
 
     @property
@@ -53,13 +50,12 @@ class GraphState:
         return sorted(found)
 
     def edges(self) -> list[Connection]:
-        """Every (publisher, topic, subscriber), sorted; only those that are connected, where that is known."""
+        """Every (publisher, topic, subscriber), sorted: the Master brings all of them together."""
         return [
             (publisher, topic, subscriber)
             for topic in self.topics
             for publisher in sorted(self.publishers.get(topic, ()))
             for subscriber in sorted(self.subscribers.get(topic, ()))
-            if self.connections is None or (publisher, topic, subscriber) in self.connections
         ]
 
     @classmethod
@@ -68,7 +64,6 @@ class GraphState:
         system_state: Sequence[Iterable[Sequence[Any]]],
         types: Iterable[Sequence[str]] = (),
         *,
-        connections: Iterable[Connection] | None = None,
         unreachable: Iterable[str] = (),
     ) -> GraphState:
         """From the answers of the Master's `getSystemState` and `getTopicTypes` (ROS Master API).
@@ -76,7 +71,6 @@ class GraphState:
         Args:
             system_state: `[publishers, subscribers, services]`, each a list of `[name, [node, ...]]`.
             types: a list of `[topic, type]`.
-            connections: (publisher, topic, subscriber) triples, if known.
             unreachable: names of nodes that do not answer.
 
         Raises:
@@ -97,7 +91,6 @@ class GraphState:
             subscribers=dict(subscribers),
             types={topic: kind for topic, kind in types if kind != "*"},
             nodes=frozenset(node for _, nodes in services for node in nodes),
-            connections=None if connections is None else frozenset(connections),
             unreachable=frozenset(unreachable),
         )
 

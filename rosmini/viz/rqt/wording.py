@@ -68,27 +68,20 @@ def _type(selection: Selection, topic: str) -> str:
 
 
 def _flows(selection: Selection) -> list[tuple[tuple[str, ...], str, tuple[str, ...]]]:
-    """(publishers, topic, subscribers), sorted by topic. Publishers whose subscribers differ are apart."""
-    flows: set[tuple[tuple[str, ...], str, tuple[str, ...]]] = set()
-    for topic in selection.topics:
-        members = (topic, *selection.groups.get(topic, ()))
-        publishers = [n for n, t in selection.publications if t == topic]
-        subscribers = [n for n, t in selection.subscriptions if t == topic]
-        pairs = {(p, s) for p, t, s in selection.connections if t in members}
-        if selection.mode == "nodes_only":
-            publishers, subscribers = sorted({p for p, _ in pairs}), sorted({s for _, s in pairs})
-        elif not pairs or topic in selection.groups:
-            flows.add((tuple(publishers), topic, tuple(subscribers)))
-            continue
-        by_sinks: dict[tuple[str, ...], list[str]] = {}
-        for publisher in publishers:
-            by_sinks.setdefault(tuple(sorted(s for p, s in pairs if p == publisher)), []).append(publisher)
-        flows |= {(tuple(sources), topic, sinks) for sinks, sources in by_sinks.items()}
-        reached = {s for _, s in pairs}
-        waiting = tuple(s for s in subscribers if s not in reached)
-        if waiting:
-            flows.add(((), topic, waiting))
-    return sorted(flows, key=lambda flow: (flow[1], flow[0], flow[2]))
+    """(publishers, topic, subscribers), sorted by topic."""
+    ends: dict[str, tuple[set[str], set[str]]] = {topic: (set(), set()) for topic in selection.topics}
+    if selection.mode == "nodes_only":
+        for publisher, topic, subscriber in selection.connections:
+            ends[topic][0].add(publisher)
+            ends[topic][1].add(subscriber)
+    else:
+        for role, pairs in enumerate((selection.publications, selection.subscriptions)):
+            for node, topic in pairs:
+                ends[topic][role].add(node)
+    return [
+        (tuple(sorted(sources)), topic, tuple(sorted(sinks)))
+        for topic, (sources, sinks) in sorted(ends.items())
+    ]
 
 
 def _clause(publishers: Collection[str], topic: str, subscribers: Collection[str]) -> str:

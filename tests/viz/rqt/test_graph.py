@@ -144,18 +144,6 @@ def test_active_shows_only_topics_with_a_connection():
     assert drawn(active, "rm-topic") == ["/chatter"]
 
 
-def test_known_connections_are_the_only_ones_drawn():
-    graph = state(
-        "/a /b -> /t std_msgs/String -> /c /d", connections=[("/a", "/t", "/c"), ("/b", "/t", "/d")]
-    )
-    view = rqt_graph(graph)
-    assert view.text.splitlines()[1:] == [
-        "/a -> /t [std_msgs/String] -> /c",
-        "/b -> /t [std_msgs/String] -> /d",
-    ]
-    assert drawn(view, "rm-edge") == ["/t", "/t"]
-
-
 @pytest.mark.parametrize(
     ("switch", "kept"),
     [
