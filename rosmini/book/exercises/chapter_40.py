@@ -194,18 +194,6 @@ def wheel_separation(answer: Any) -> None:
 # ---- 40.4: not faster than it can see ----
 
 
-def _speed(
-    distance: float,
-    period: float = 0.2,
-    acceleration: float = 1.0,
-    *,
-    halves: float = 2.0,
-    most: float = 0.22,
-) -> float:
-    a, t = acceleration, period
-    return min(most, a * (math.sqrt(t * t + halves * distance / a) - t))
-
-
 @exercise(
     "40.4",
     praise="At full speed a TurtleBot3 needs 68 mm: 44 until it knows, and 24 to brake.")  # fmt: skip
@@ -215,7 +203,7 @@ def safe_speed(answer: Any) -> None:
         (0.05, 0.2, 1.0), (0.02, 0.2, 1.0), (0.03, 0.1, 1.0), (0.04, 0.2, 0.5), (0.0, 0.2, 1.0), (1.0, 0.2, 1.0),
     ):  # fmt: skip
         found = expect_number(answer(distance, period, acceleration), "speed")
-        right = _speed(distance, period, acceleration)
+        right = min(0.22, acceleration * (math.sqrt(period**2 + 2 * distance / acceleration) - period))
         case = f"{1000 * distance:.0f} mm, {period} s and {acceleration} m/s2"
         expect(
             found <= 0.22 + 1e-9,

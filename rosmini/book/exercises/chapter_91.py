@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosmini.actionlib import (
     SERVER_TRANSITIONS,
@@ -14,15 +14,14 @@ from rosmini.actionlib import (
 )
 from rosmini.book.checks import exercise, expect, expect_node, expect_type
 from rosmini.graph import Graph
-from rosmini.msgs import message_class
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-
-def _type(name: str) -> Any:
-    return message_class(f"actionlib/{name}")
-
+from rosmini.msgs.actionlib.msg import (
+    TestAction,
+    TestFeedback,
+    TestGoal,
+    TestResult,
+    TwoIntsAction,
+    TwoIntsGoal,
+)
 
 # ---- 91.1: where can it end? ----
 
@@ -70,27 +69,20 @@ def possible_ends(answer: Any) -> None:
 # ---- 91.2: count ----
 
 
-def _counter(
-    *, period: float = 1.0, first: int = 1, heeds: bool = True, says: bool = True, ends: str = "set_preempted"
-) -> Callable[[], Any]:
-    def start(graph: Graph) -> None:
-        node = graph.node("counter")
+def _count(graph: Graph) -> None:
+    """Start a server that counts as the exercise asks."""
+    node = graph.node("counter")
 
-        def count(goal: Any) -> None:
-            number = first - 1
-            while number < goal.goal:
-                node.sleep(period)
-                if heeds and server.is_preempt_requested():
-                    getattr(server, ends)(_type("TestResult")(number))
-                    return
-                number += 1
-                if says:
-                    server.publish_feedback(_type("TestFeedback")(number))
-            server.set_succeeded(_type("TestResult")(number))
+    def count(goal: Any) -> None:
+        for number in range(1, goal.goal + 1):
+            node.sleep(1.0)
+            if server.is_preempt_requested():
+                server.set_preempted(TestResult(number - 1))
+                return
+            server.publish_feedback(TestFeedback(number))
+        server.set_succeeded(TestResult(goal.goal))
 
-        server = SimpleActionServer(node, "count", _type("TestAction"), count)
-
-    return lambda: start
+    server = SimpleActionServer(node, "count", TestAction, count)
 
 
 @exercise(
@@ -101,7 +93,7 @@ def start_counter(answer: Any) -> None:
     with Graph() as graph:
         answer(graph)
         expect_node(graph, "/counter")
-        client = SimpleActionClient(graph.node("check"), "count", _type("TestAction"))
+        client = SimpleActionClient(graph.node("check"), "count", TestAction)
         expect(
             client.wait_for_server(1.0),
             "No action server answers on /count.",
@@ -113,7 +105,7 @@ def start_counter(answer: Any) -> None:
         def note(feedback: Any) -> None:
             heard.append((round((graph.now() - begin).to_sec()), feedback.feedback))
 
-        client.send_goal(_type("TestGoal")(3), feedback_cb=note)
+        client.send_goal(TestGoal(3), feedback_cb=note)
         expect(client.wait_for_result(20.0), "A goal of 3 has not ended after 20 s.", "set_succeeded(...)")
         numbers = [number for _, number in heard]
         expect(
@@ -128,7 +120,7 @@ def start_counter(answer: Any) -> None:
             "node.sleep(1.0) before each",
         )
         _expect_end(client, Status.SUCCEEDED, 3)
-        client.send_goal(_type("TestGoal")(100))
+        client.send_goal(TestGoal(100))
         expect(not client.wait_for_result(4.5), "A goal of 100 ended within 4.5 s.", "one number each second")
         client.cancel_goal()
         expect(
@@ -161,15 +153,15 @@ def _expect_end(client: SimpleActionClient, status: Status, number: int) -> None
 def ask_with_patience(answer: Any) -> None:
     """A goal that is cancelled after a while."""
     with Graph() as graph:
-        _counter()()(graph)
-        client = SimpleActionClient(graph.node("check"), "count", _type("TestAction"))
+        _count(graph)
+        client = SimpleActionClient(graph.node("check"), "count", TestAction)
         client.wait_for_server(1.0)
         for far, seconds, status, number, took in (
             (2, 10.0, "SUCCEEDED", 2, 2.0),
             (9, 3.5, "PREEMPTED", 3, 4.0),
         ):
             begin = graph.now()
-            found = answer(client, _type("TestGoal")(far), seconds)
+            found = answer(client, TestGoal(far), seconds)
             spent = (graph.now() - begin).to_sec()
             expect(
                 isinstance(found, tuple) and len(found) == 2,
@@ -203,7 +195,7 @@ def start_adder(answer: Any) -> None:
     with Graph() as graph:
         answer(graph)
         expect_node(graph, "/adder")
-        client = ActionClient(graph.node("check"), "add", _type("TwoIntsAction"))
+        client = ActionClient(graph.node("check"), "add", TwoIntsAction)
         expect(
             client.wait_for_server(1.0),
             "No action server answers on /add.",
@@ -215,7 +207,7 @@ def start_adder(answer: Any) -> None:
 
 def _check_sum(graph: Graph, client: ActionClient, a: int, b: int) -> None:
     states: list[CommState] = []
-    goal = _type("TwoIntsGoal")(a, b)
+    goal = TwoIntsGoal(a, b)
     handle = client.send_goal(goal, lambda one: states.append(one.get_comm_state()))
     graph.run(1.0)
     text = f"The goal a={a}, b={b}"

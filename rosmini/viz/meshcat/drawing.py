@@ -19,7 +19,6 @@ from rosmini.viz.svg import document, element
 
 from .painting import Painting
 from .scene3d import Camera, Scene3D, grid
-from .surfaces import triangles_in_world
 
 Floats = NDArray[np.float64]
 
@@ -162,9 +161,10 @@ def _polygons(scene: Scene3D) -> Iterator[tuple[Floats, str]]:
         for solid in () if part.fine else part.solids:
             for face in solid.faces():
                 yield face @ place[:3, :3].T + place[:3, 3], part.colour
-    for surface in scene.surfaces:
-        for triangle in triangles_in_world(surface, scene.transform(surface.node)):
-            yield triangle, surface.colour
+    for link in scene.surfaces:
+        place = scene.transform(link.node)
+        for triangle in link.surface.triangles @ place[:3, :3].T + place[:3, 3]:
+            yield triangle, link.colour
 
 
 def _painted(faces: list[_Face]) -> Iterator[str]:

@@ -14,8 +14,7 @@ from rosmini.urdf import Box, Cylinder, Geometry, Material, Mesh, Robot, Sphere,
 from rosmini.urdf.meshes import Surface, read
 from rosmini.viz.view import ViewError
 
-from .solids import Facets, Floats, Prism, mesh, regular, triangulate
-from .surfaces import LinkPart
+from .solids import Facets, Floats, LinkPart, Prism, mesh, regular, triangulate
 
 GREY = "#98a3ad"
 ROUND, BALL = 28, 12

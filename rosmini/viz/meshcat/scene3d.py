@@ -26,8 +26,7 @@ from rosmini.viz.rounding import snap
 from . import burger
 from .command_recorder import Recorder, meshcat
 from .links import link_parts, link_surfaces, turtlebot3
-from .solids import Ball, Facets, Part, Prism, Rod, Solid, mesh, rounded
-from .surfaces import LinkPart
+from .solids import Ball, Facets, LinkPart, Part, Prism, Rod, Solid, mesh, rounded
 
 Floats = NDArray[np.float64]
 Colour = tuple[float, float, float]

@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.urdf.meshes import Surface
 from rosmini.viz.rounding import snap
 
 Floats = NDArray[np.float64]
@@ -133,6 +134,17 @@ class Part:
     """How bright the lights are mirrored, 0 to 1."""
     fine: bool = False
     """Left out of the drawing."""
+
+
+@dataclass(frozen=True)
+class LinkPart:
+    """A surface of one colour, read from a mesh, in the frame of its node."""
+
+    node: str
+    name: str
+    colour: str
+    """`#rrggbb`"""
+    surface: Surface
 
 
 def box(x: float, y: float, z: float, length: float, width: float, height: float) -> Prism:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rosmini.geometry.polygons import area
 from rosmini.geometry.poses import Pose
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.shapes import ROUND, outline_at, simple_parts
@@ -90,11 +91,9 @@ def shapes_of(obstacle: Obstacle, pose: Pose | None = None) -> list[dict[str, An
 
 
 def _counter_clockwise(corners: ArrayLike) -> ArrayLike:
-    """The corners (n, 2) of a simple polygon, turned round if they go clockwise (the shoelace formula tells)."""
+    """The vertices (n, 2) of a simple polygon, reversed if they go clockwise."""
     points = np.asarray(corners, dtype=float)
-    x, y = points[:, 0], points[:, 1]
-    area = float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
-    return points[::-1] if area < 0 else points
+    return points[::-1] if area(points) < 0 else points
 
 
 def _metres(values: ArrayLike) -> Any:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rosmini.book.exercises.chapter_40 import _speed
 from rosmini.graph import Graph
 from rosmini.msgs import message_class
 
@@ -15,6 +14,18 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rosmini.sim.simulator import Simulator
+
+
+def _speed(
+    distance: float,
+    period: float = 0.2,
+    acceleration: float = 1.0,
+    *,
+    halves: float = 2.0,
+    most: float = 0.22,
+) -> float:
+    a, t = acceleration, period
+    return min(most, a * (math.sqrt(t * t + halves * distance / a) - t))
 
 
 def _twist(v: float, w: float) -> Any:

@@ -10,11 +10,35 @@ from rosmini.actionlib import (
     SimpleActionServer,
     Status,
 )
-from rosmini.book.exercises.chapter_91 import _counter, _ends, _type
+from rosmini.book.exercises.chapter_91 import _ends
 from rosmini.graph import Graph
+from rosmini.msgs.actionlib.msg import TestAction, TestFeedback, TestResult, TwoIntsAction, TwoIntsResult
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+
+def _counter(
+    *, period: float = 1.0, first: int = 1, heeds: bool = True, says: bool = True, ends: str = "set_preempted"
+) -> Callable[[], Any]:
+    def start(graph: Graph) -> None:
+        node = graph.node("counter")
+
+        def count(goal: Any) -> None:
+            number = first - 1
+            while number < goal.goal:
+                node.sleep(period)
+                if heeds and server.is_preempt_requested():
+                    getattr(server, ends)(TestResult(number))
+                    return
+                number += 1
+                if says:
+                    server.publish_feedback(TestFeedback(number))
+            server.set_succeeded(TestResult(number))
+
+        server = SimpleActionServer(node, "count", TestAction, count)
+
+    return lambda: start
 
 
 def _one_step(status: Status) -> set[Status]:
@@ -30,13 +54,13 @@ def _jumper(graph: Graph) -> None:
 
     def count(goal: Any) -> None:
         node.sleep(float(goal.goal))
-        server.set_succeeded(_type("TestResult")(goal.goal))
+        server.set_succeeded(TestResult(goal.goal))
 
-    server = SimpleActionServer(node, "count", _type("TestAction"), count)
+    server = SimpleActionServer(node, "count", TestAction, count)
 
 
 def _named_otherwise(graph: Graph) -> None:
-    SimpleActionServer(graph.node("count"), "counter", _type("TestAction"), lambda _: None)
+    SimpleActionServer(graph.node("count"), "counter", TestAction, lambda _: None)
 
 
 # ---- 91.3: patience ----
@@ -83,15 +107,15 @@ def _adder(
                 return
             if accept:
                 handle.set_accepted()
-            handle.set_succeeded(_type("TwoIntsResult")(goal.a + goal.b))
+            handle.set_succeeded(TwoIntsResult(goal.a + goal.b))
 
-        ActionServer(graph.node("adder"), "add", _type("TwoIntsAction"), on_goal)
+        ActionServer(graph.node("adder"), "add", TwoIntsAction, on_goal)
 
     return lambda: start
 
 
 def _accepts_only(graph: Graph) -> None:
-    ActionServer(graph.node("adder"), "add", _type("TwoIntsAction"), lambda handle: handle.set_accepted())
+    ActionServer(graph.node("adder"), "add", TwoIntsAction, lambda handle: handle.set_accepted())
 
 
 MISTAKES = {
