@@ -75,36 +75,46 @@ class Publication:
     def _connections_changed(self) -> None:
         self._list = tuple(self.senders.values())
         self.send = self._send
-        if len(self._list) == 1 and not self._latch and not self._stamp:
-            receiver = self._list[0].receiver
-            if receiver is not None:
-                self.send = self._way_to(receiver, self._queue_size or maxsize)
+        if len(self._list) == 1 and not self._latch:
+            sender = self._list[0]
+            if sender.receiver is not None:
+                self.send = self._way_to(sender, sender.receiver)
 
-    def _way_to(self, receiver: DirectReceiver, size: int) -> Callable[[Any], None]:
+    def _way_to(self, sender: Sender, receiver: DirectReceiver) -> Callable[[Any], None]:
         """Return what sends a message to one receiver in this process: all that publishing most messages costs."""
-        freeze, dispatch, scheduler = self._freeze, self._dispatch, self._scheduler
-        incoming, join = receiver.incoming, receiver.incoming.append
+        freeze, dispatch, scheduler, header = self._freeze, self._dispatch, self._scheduler, receiver.header
+        incoming, join, hand_over = receiver.incoming, receiver.incoming.append, sender.send
+        size, room = self._queue_size, self._queue_size or maxsize
+        number = self._number if self._stamp else None
 
         def send(message: Any) -> None:
-            frozen = freeze(message)
-            if receiver.pending and len(incoming) < size and get_ident() == scheduler.thread:
+            if number is not None:
+                number(message)
+            frozen = freeze(message, header)
+            if get_ident() != scheduler.thread:
+                dispatch(frozen)
+            elif receiver.pending and len(incoming) < room:
                 join(frozen)
             else:
-                dispatch(frozen)
+                hand_over(frozen, size)
 
         return send
 
     def _send(self, message: Any) -> None:
         if self._stamp:
-            header = message.header
-            if header.frame_id is None:
-                header.frame_id = "0"
-            if self._list:  # rospy numbers only what somebody gets
-                if header.__class__ is self._header_class:
-                    self._set_number(header, self._next_number())
-                else:
-                    header.seq = self._next_number()
+            self._number(message)
         self._dispatch(self._freeze(message))
+
+    def _number(self, message: Any) -> None:
+        """Fill in a header's number, and the frame that was never given, as rospy does."""
+        header = message.header
+        if header.frame_id is None:
+            header.frame_id = "0"
+        if self._list:  # rospy numbers only what somebody gets
+            if header.__class__ is self._header_class:
+                self._set_number(header, self._next_number())
+            else:
+                header.seq = self._next_number()
 
     def send_frozen(self, frozen: Any) -> None:
         """Send a frozen message that nobody else holds, with the next number in its header. In the hub's thread."""

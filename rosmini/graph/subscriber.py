@@ -47,8 +47,9 @@ class _Callback(NamedTuple):
 
 
 class _Way(NamedTuple):
-    """How a frozen message reaches the callbacks: what thaws it, what adds the header, what calls each."""
+    """How a frozen message reaches the callbacks: its class, what thaws it, what adds the header, what calls each."""
 
+    own: Any
     thaw: Callable[[Any], Any] | None
     label: Callable[[Any, Header], None]
     callbacks: tuple[tuple[Callable[[Any], object], _Callback], ...]
@@ -66,15 +67,12 @@ class Connection(DirectReceiver):
         self.peer = ""
         self.protocol = ""
         self.message_class = subscription.message_class
-        self.header: Header = {}
         self.way: _Way | None = None
         self.is_open = False
         self._gone = False
         self._draining = False
         self._last: Any = None
         self._keep = False
-        cls = subscription.message_class
-        self._own_class = None if cls._type == "*" else cls
         self._drain_ref = self._drain
         self._close_link: Callable[[], None] | None = None
         self._lane = node.spawn(f"{node.name} <- {subscription.topic}", self._open)
@@ -95,9 +93,8 @@ class Connection(DirectReceiver):
                 return
             if code != 1:
                 raise TransportInitError(status)
-            self.header, self._close_link = transport.connect_topic(
-                node.uri, parameters, self._request(), self
-            )
+            header, self._close_link = transport.connect_topic(node.uri, parameters, self._request(), self)
+            self.header.update(header)
         except TransportInitError as error:
             self._refused(error)
             return
@@ -159,7 +156,9 @@ class Connection(DirectReceiver):
         """Queue frozen messages for the callbacks; beyond the queue size the oldest are dropped."""
         if self._gone:
             return
-        self.incoming.extend(messages)
+        for message in messages:
+            set_header(message, self.header)
+            self.incoming.append(message)
         self._trim()
         if not self.pending and not self._draining:
             self.pending = True
@@ -178,28 +177,30 @@ class Connection(DirectReceiver):
 
     def _drain(self) -> None:
         """Call the callbacks for what is queued. In the connection's lane."""
-        incoming, take, header, own = self.incoming, self.incoming.popleft, self.header, self._own_class
+        incoming, take, header = self.incoming, self.incoming.popleft, self.header
         self.pending, self._draining = False, True
         if self.subscription.queue_size:
             self._trim()
-        way: _Way | None = None
         try:
             while incoming:
-                self.received += 1
-                frozen = take()
-                if way is None or self.way is not way:
-                    thaw, label, callbacks = way = self.way or self._find_way()
-                if own is not None and frozen.__class__ is not own:
-                    frozen = recast(frozen, own)
-                message = frozen if thaw is None else thaw(frozen)
-                label(message, header)
-                if self._keep:
-                    self._last = message
-                for call, callback in callbacks:
-                    try:
-                        call(message)
-                    except Exception as error:
-                        self._failed(error, callback, message)
+                way = self.way or self._find_way()
+                own, thaw, label, callbacks = way
+                while incoming and self.way is way:  # until a callback changes who subscribes
+                    self.received += 1
+                    message = take()
+                    if message.__class__ is not own and own is not None:
+                        message = recast(message, own)
+                        set_header(message, header)
+                    if thaw is not None:
+                        message = thaw(message)
+                        label(message, header)
+                    if self._keep:
+                        self._last = message
+                    for call, callback in callbacks:
+                        try:
+                            call(message)
+                        except Exception as error:
+                            self._failed(error, callback, message)
         finally:
             self._draining = False
             if incoming and not self._gone:
@@ -340,6 +341,7 @@ class Subscription:
         first = self._first
         callbacks = [handle.callback for handle in self.handles if handle.callback is not None]
         return _Way(
+            None if self.message_class._type == "*" else self.message_class,
             None if first is None else first.thaw_for(message_class),
             set_header if first is None or first.receipt is None else _assign_header,
             tuple((callback.caller(), callback) for callback in callbacks),

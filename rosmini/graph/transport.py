@@ -95,6 +95,8 @@ class DirectReceiver(ABC):
     message_class: Any
 
     def __init__(self) -> None:
+        self.header: Header = {}
+        """The publisher's connection header, which every message carries; it stays the same dictionary."""
         self.incoming: deque[Any] = deque()
         """The frozen messages that wait for the callbacks, oldest first."""
         self.pending = False
@@ -312,11 +314,11 @@ class LocalSender(QueuedSender):
             if size is not None and len(incoming) >= size:
                 incoming.popleft()
                 self.dropped += 1
-            incoming.append(frozen)
-        elif not self._queue and receiver.begin():
-            self._incoming.append(frozen)
-        else:
+        elif self._queue or not receiver.begin():
             super().send(frozen, size)
+            return
+        set_header(frozen, receiver.header)
+        self._incoming.append(frozen)
 
 
 class LocalServiceLink:

@@ -276,10 +276,11 @@ class Generator:
         )
 
     def _freeze(self) -> None:
-        self.emit("def freeze(m):", 0)
+        self.emit("def freeze(m, header=None):", 0)
         self.emit("try:")
         self.emit_sources(2)
         self.emit_targets(2)
+        self.emit(f"o.{self.slot('_connection_header')} = header", 2)
         numbers = [leaf for leaf in self.leaves if self.is_number(leaf)]
         if numbers:
             packer, _struct = self.struct_for(numbers)
