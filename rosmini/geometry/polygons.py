@@ -36,7 +36,8 @@ def inside(points: Floats, sides: Floats) -> Bools:
     x, y = points[:, :1], points[:, 1:]
     x1, y1, x2, y2 = sides.T
     crossing = (y1 > y) != (y2 > y)
-    at = x1 + (y - y1) * (x2 - x1) / np.where(y1 == y2, 1.0, y2 - y1)
+    with np.errstate(over="ignore"):  # a side that rises by next to nothing
+        at = x1 + (y - y1) * (x2 - x1) / np.where(y1 == y2, 1.0, y2 - y1)
     odd: Bools = np.count_nonzero(crossing & (x < at), axis=1) % 2 == 1
     return odd
 
@@ -91,37 +92,6 @@ def crossing_sides(outline: Floats) -> tuple[int, int] | None:
             if _meet(outline[first], ends[first], outline[second], ends[second]):
                 return first, second
     return None
-
-
-def enters(sides: Floats, outline: Floats) -> Bools:
-    """Which of `sides` (n, 4) have a part inside the outline of a polygon (k, 2)."""
-    edges = sides_of(outline)
-    begin, way = sides[:, None, :2], (sides[:, 2:] - sides[:, :2])[:, None]
-    corner, edge = edges[:, :2], edges[:, 2:] - edges[:, :2]
-    slope = _cross(way, edge)
-    meets = slope != 0
-    divisor = np.where(meets, slope, 1.0)
-    along = np.where(meets, _cross(corner - begin, edge) / divisor, 0.0)
-    # Between two crossings that follow one another a side is inside or outside as a whole.
-    cuts = np.sort(np.clip(np.pad(along, ((0, 0), (1, 1)), constant_values=(0.0, 1.0)), 0.0, 1.0), axis=1)
-    middles = (begin + ((cuts[:, 1:] + cuts[:, :-1]) / 2)[..., None] * way).reshape(-1, 2)
-    deep = inside(middles, edges) & (distances(middles, edges) > TOUCH)
-    return np.asarray(deep.reshape(len(sides), len(edges) + 1).any(axis=1))
-
-
-def overlap(a: Floats, b: Floats) -> bool:
-    """Tell whether two polygons, each by its outline, share more than their borders."""
-    if (a.min(axis=0) > b.max(axis=0)).any() or (b.min(axis=0) > a.max(axis=0)).any():
-        return False
-    if enters(sides_of(a), b).any() or enters(sides_of(b), a).any():
-        return True
-    return bool(inside(_inner_point(a), sides_of(b))[0])  # alike
-
-
-def overlaps_disc(outline: Floats, x: float, y: float, radius: float) -> bool:
-    """Tell whether a polygon and a disc share more than their borders."""
-    centre, edges = np.array([[x, y]]), sides_of(outline)
-    return bool(distances(centre, edges)[0] < radius - TOUCH or inside(centre, edges)[0])
 
 
 def convex_parts(outline: Floats) -> list[Floats]:
@@ -188,16 +158,6 @@ def _join(parts: list[list[int]], corners: Sequence[Sequence[float]]) -> bool:
                     one[:] = ring
                     return True
     return False
-
-
-def _inner_point(outline: Floats) -> Floats:
-    """A point (1, 2) inside a polygon: the middle of its leftmost part at a height where there is no corner."""
-    heights = np.unique(outline[:, 1])
-    y = (heights[0] + heights[1]) / 2
-    x1, y1, x2, y2 = sides_of(outline).T
-    cut = (y1 > y) != (y2 > y)
-    across = np.sort(x1[cut] + (y - y1[cut]) * (x2[cut] - x1[cut]) / (y2[cut] - y1[cut]))
-    return np.array([[(across[0] + across[1]) / 2, y]])
 
 
 def _cross(a: Floats, b: Floats) -> Floats:

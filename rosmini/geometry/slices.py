@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import polygons
+from .overlaps import Outline, Overlaps
 
 Floats = NDArray[np.float64]
 
@@ -118,6 +119,18 @@ def thinned(outline: Floats, tolerance: float) -> Floats:
     return closed[polygons.needed([0, far, len(outline)], gaps, tolerance)[:-1]]
 
 
+def _overlapping(outlines: list[Floats]) -> bool:
+    """Return whether any of some simple polygons overlap."""
+    if len(outlines) < 2:
+        return False
+    seen = Overlaps()
+    for number, outline in enumerate(outlines):
+        if seen.find(Outline(outline)):
+            return True
+        seen.insert(number, Outline(outline))
+    return False
+
+
 def pieces(outlines: list[Floats]) -> list[Floats]:
     """Simple polygons, corners counter-clockwise, that together cover what outlines go around by the even-odd rule.
 
@@ -126,8 +139,9 @@ def pieces(outlines: list[Floats]) -> list[Floats]:
     another.
     """
     crossed = any(polygons.crossing_sides(outline) for outline in outlines)
-    if not crossed and not any(polygons.overlap(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
-        return [outline if polygons.area(outline) > 0 else outline[::-1] for outline in outlines]
+    turned = [outline if polygons.area(outline) > 0 else outline[::-1] for outline in outlines]
+    if not crossed and not _overlapping(turned):
+        return turned
     sides = np.vstack([polygons.sides_of(outline) for outline in outlines])
     heights = np.unique(np.concatenate([sides[:, 1], _crossing_heights(sides)]))
     found = []
@@ -174,7 +188,8 @@ def within(centres: Floats, half: float, sides: Floats) -> NDArray[np.bool_]:
             if way == 0:
                 miss |= np.abs(begin - middle) >= half
                 continue
-            a, b = (middle - half - begin) / way, (middle + half - begin) / way
+            with np.errstate(over="ignore"):  # a side that goes this way by next to nothing
+                a, b = (middle - half - begin) / way, (middle + half - begin) / way
             enter, leave = np.maximum(enter, np.minimum(a, b)), np.minimum(leave, np.maximum(a, b))
         hit |= ~miss & (enter < leave)
     return hit

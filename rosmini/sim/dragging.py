@@ -8,7 +8,6 @@ from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose
 
 from .engine.engine import Engine, RobotGone
-from .models import hull
 from .shapes import ROUND, outline_at, simple_parts
 from .world import Obstacle, WorldError
 
@@ -37,12 +36,12 @@ def drag(engine: Engine, name: str, pose: Pose) -> None:
 
 def check_room(engine: Engine, thing: Obstacle, pose: Pose) -> None:
     """Raise `WorldError` if a wall, or something else that is fixed, is where a thing is to be."""
+    fixtures = engine.contacts.ground.fixtures
     for shape, place in simple_parts(thing.shape, pose):
         if isinstance(shape, ROUND):
-            hindrance = engine.world.blocked(place, shape.radius, thing.height)
+            hindrance = fixtures.blocked(place, shape.radius, thing.height)
         else:
-            corners = hull([(float(x), float(y)) for x, y in outline_at(shape, place)])
-            hindrance = engine.world.blocked((0.0, 0.0, 0.0), corners, thing.height)
+            hindrance = fixtures.blocked((0.0, 0.0, 0.0), outline_at(shape, place), thing.height)
         if hindrance is not None:
             x, y, theta = pose
             where = f"({x:.2f}, {y:.2f}) with heading {theta:.2f}"

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any
@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry import polygons
-from rosmini.geometry.poses import Pose, transform_points
+from rosmini.geometry.poses import Pose
 from rosmini.geometry.raycast import raycast
 from rosmini.graph.show import show
 
+from .fixtures import Fixtures, Footprint
 from .motion import Door, Motion, Walk
 from .shapes import (
     COLOURS,
@@ -171,10 +172,6 @@ class Obstacle:
         )
 
 
-Footprint = Sequence[tuple[float, float]] | NDArray[np.float64] | float
-"""Corners (n, 2), counter-clockwise, seen from a pose, or the radius of a disc around it [m]."""
-
-
 def edges(outline: NDArray[np.float64]) -> NDArray[np.float64]:
     """The sides (n, 4) of a closed outline (n, 2), each as x1, y1, x2, y2."""
     return polygons.sides_of(outline)
@@ -315,28 +312,29 @@ class World:
         extent = f"from ({x0:.2f}, {y0:.2f}) to ({x1:.2f}, {y1:.2f})"
         return f"({pose[0]:.6g}, {pose[1]:.6g}) is outside of the world {self.name!r}, which goes {extent}"
 
-    def blocked(
-        self,
-        pose: Pose,
-        footprint: Footprint,
-        height: float = 0.0,
-        among: Iterable[Obstacle] | None = None,
-    ) -> str | None:
+    def blocked(self, pose: Pose, footprint: Footprint, height: float = 0.0) -> str | None:
         """What of the fixed things a footprint at `pose` overlaps with, in words that fit into a sentence.
 
         None if it is free. The footprint is corners (n, 2), counter-clockwise, seen from the pose, or the radius of a
         disc around it [m]; `height` is how high it reaches [m], which matters for what it may pass under. What only
-        touches is free, and so is what is movable or moves. With `among` only these obstacles are looked at, and the
-        walls. Raises `WorldError` for a pose that is not finite.
+        touches is free, and so is what is movable or moves. Raises `WorldError` for a pose that is not finite.
         """
         problem = pose_problem("pose", pose)
         if problem:
             raise WorldError(f"nothing can be placed there: {problem}")
-        place = _Place(pose, footprint)
-        for obstacle in self.obstacles if among is None else among:
-            if obstacle.fixed and obstacle.bottom <= height and place.overlaps(obstacle):
-                return f"the obstacle {obstacle.name!r}"
-        return place.wall(self.walls, solid=self.solid)
+        return self._fixtures.blocked(pose, footprint, height)
+
+    @cached_property
+    def _fixtures(self) -> Fixtures:
+        found = Fixtures(self.walls, solid=self.solid)
+        for obstacle in self.obstacles:
+            if obstacle.fixed:
+                found.insert(obstacle.name, obstacle.bottom, obstacle.parts())
+        return found
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a copy is made from; the index of what is fixed is made again."""
+        return {name: value for name, value in vars(self).items() if name != "_fixtures"}
 
     def free_place(
         self,
@@ -407,57 +405,6 @@ class World:
             height=420: of the viewer [CSS px]
         """
         return show("world_3d", self, **options)
-
-
-class _Place:
-    """A footprint at a pose."""
-
-    def __init__(self, pose: Pose, footprint: Footprint) -> None:
-        self.centre = np.array([pose[:2]])
-        if isinstance(footprint, (int, float)):
-            self.radius = float(footprint)
-            self.outline = None
-        else:
-            self.radius = 0.0
-            self.outline = transform_points(pose, np.asarray(footprint, dtype=np.float64))
-
-    def overlaps(self, obstacle: Obstacle) -> bool:
-        return any(self._overlaps(shape, pose) for shape, pose in obstacle.parts())
-
-    def _overlaps(self, shape: Simple, pose: Pose) -> bool:
-        x, y = pose[:2]
-        if isinstance(shape, ROUND):
-            if self.outline is not None:
-                return polygons.overlaps_disc(self.outline, x, y, shape.radius)
-            gap = math.dist(self.centre[0], (x, y)) - self.radius - shape.radius
-            return gap < -polygons.TOUCH
-        outline = outline_at(shape, pose)
-        if self.outline is not None:
-            return polygons.overlap(self.outline, outline)
-        return polygons.overlaps_disc(outline, self.centre[0, 0], self.centre[0, 1], self.radius)
-
-    def wall(self, walls: NDArray[np.float64], *, solid: bool) -> str | None:
-        """Which of the walls it overlaps with."""
-        if not len(walls):
-            return None
-        if self.outline is None:
-            hit = polygons.each_distance(self.centre, walls)[0] < self.radius - polygons.TOUCH
-        else:
-            x, y = walls[:, ::2], walls[:, 1::2]
-            low, high = self.outline.min(axis=0), self.outline.max(axis=0)
-            hit = (
-                (x.max(axis=1) >= low[0])
-                & (x.min(axis=1) <= high[0])
-                & (y.max(axis=1) >= low[1])
-                & (y.min(axis=1) <= high[1])
-            )
-            hit[hit] = polygons.enters(walls[hit], self.outline)
-        if hit.any():
-            x1, y1, x2, y2 = walls[np.flatnonzero(hit)[0]]
-            return f"the wall from ({x1:.2f}, {y1:.2f}) to ({x2:.2f}, {y2:.2f})"
-        if solid and polygons.inside(self.centre if self.outline is None else self.outline[:1], walls)[0]:
-            return "the inside of a wall"
-        return None
 
 
 # ---- what is possible ----

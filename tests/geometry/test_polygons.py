@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rosmini.geometry import polygons
@@ -79,55 +79,3 @@ def test_a_convex_polygon_crosses_itself_once_two_corners_are_exchanged(corners)
     assert polygons.crossing_sides(outline) is None
     outline[[1, 2]] = outline[[2, 1]]
     assert polygons.crossing_sides(outline) == (0, 2)
-
-
-@settings(max_examples=60, deadline=None)
-@given(stars, stars)
-def test_polygons_overlap_if_they_have_a_point_in_common(a, b):
-    grid = np.stack(np.meshgrid(np.linspace(-2.5, 2.5, 101), np.linspace(-2.5, 2.5, 101)), -1).reshape(-1, 2)
-    common = polygons.inside(grid, polygons.sides_of(a)) & polygons.inside(grid, polygons.sides_of(b))
-    found = polygons.overlap(a, b)
-    assert found == polygons.overlap(b, a)
-    if common.any():
-        assert found
-    elif found:  # then less than what lies between the points of the grid
-        gap = polygons.distances(a, polygons.sides_of(b)).min()
-        other = polygons.distances(b, polygons.sides_of(a)).min()
-        assume(min(gap, other) > 0.1)
-        pytest.fail("they overlap, but no point of the grid is in both")
-
-
-def test_touching_alike_within_and_around():
-    assert not polygons.overlap(SQUARE, SQUARE + (1, 0))
-    assert not polygons.overlap(SQUARE, SQUARE + (1, 1))
-    assert not polygons.overlap(SQUARE, SQUARE + (1 - 1e-7, 0.3))
-    assert polygons.overlap(SQUARE, SQUARE + (1 - 1e-5, 0.3))
-    assert polygons.overlap(SQUARE, SQUARE)
-    assert polygons.overlap(SQUARE, SQUARE * 3 - 1)
-    assert polygons.overlap(SQUARE * 3 - 1, SQUARE)
-    assert not polygons.overlap(SQUARE + (1, 1), ELL)  # in the corner of the L
-    assert polygons.overlap(SQUARE * 2, ELL)
-
-
-def test_a_side_enters_where_a_part_of_it_is_inside():
-    sides = np.array(
-        [(-1, -1, 2, 2), (0, 0, 1, 1), (0, 0, 1, 0), (-1, 0, 2, 0), (1, 1, 2, 2), (0.4, 0.4, 0.6, 0.6), (-1, 2, 2, 2)]
-    )  # fmt: skip
-    assert polygons.enters(sides.astype(float), SQUARE).tolist() == [
-        True,
-        True,
-        False,
-        False,
-        False,
-        True,
-        False,
-    ]
-
-
-def test_discs_overlap_polygons():
-    assert polygons.overlaps_disc(SQUARE, 0.5, 0.5, 0.1)
-    assert polygons.overlaps_disc(SQUARE, 1.5, 0.5, 0.51)
-    assert not polygons.overlaps_disc(SQUARE, 1.5, 0.5, 0.5)
-    assert not polygons.overlaps_disc(SQUARE, 2, 2, 1.41)
-    assert polygons.overlaps_disc(SQUARE, 2, 2, 1.42)
-    assert not polygons.overlaps_disc(ELL, 2, 2, 1.0)

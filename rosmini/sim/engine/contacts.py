@@ -153,16 +153,15 @@ class Contacts:
     # -- what is in the way --------------------------------------------------------------------------------------
 
     def hindrance(self, model: RobotModel, pose: Pose, ignoring: str = "") -> str | None:
-        """Return what a robot of this model would overlap with at `pose`, in words; None if it has room there."""
+        """Return what a robot of this model overlaps at `pose` that is not fixed, in words; None if it has room."""
         pieces = [Piece(np.array(model.footprint, dtype=float), 0.0)]
-        found = self._in_the_way(pieces, pose, ignoring, 0.0, model.height, model.reach, fixed=True)
-        return next(found, None)
+        return next(self._in_the_way(pieces, pose, ignoring, 0.0, model.height, model.reach), None)
 
     def hindrance_of(self, obstacle: Obstacle, pose: Pose) -> str | None:
         """The same of a thing; fixed things and walls do not count."""
         pieces, reach = pieces_of(obstacle.shape), self.reach_of(obstacle)
         bottom, top = obstacle.bottom, obstacle.height
-        return next(self._in_the_way(pieces, pose, obstacle.name, bottom, top, reach, fixed=False), None)
+        return next(self._in_the_way(pieces, pose, obstacle.name, bottom, top, reach), None)
 
     @staticmethod
     def reach_of(obstacle: Obstacle) -> float:
@@ -170,22 +169,10 @@ class Contacts:
         return Crate(obstacle, Instant()).reach
 
     def _in_the_way(
-        self,
-        pieces: list[Piece],
-        pose: Pose,
-        ignoring: str,
-        bottom: float,
-        top: float,
-        reach: float,
-        *,
-        fixed: bool,
+        self, pieces: list[Piece], pose: Pose, ignoring: str, bottom: float, top: float, reach: float
     ) -> Iterator[str]:
         placed = [_at(piece, pose) for piece in pieces]
         x, y, _ = pose
-        if fixed:
-            for each in self.ground.near(x, y, reach):
-                if each.bottom <= top and bottom <= each.top and _overlap([each.piece], placed) > OVERLAP:
-                    yield each.words()
         for body in self.near(x, y, reach):
             if body.name != ignoring and body.meets(bottom, top):
                 there = body.owner.pose

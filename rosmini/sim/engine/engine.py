@@ -272,10 +272,8 @@ class Engine:
         corners = np.array(model.footprint)
         middle = corners.mean(axis=0)
         within = middle + (corners - middle) * PLAY  # where a robot only touches, it may stand
-        near = {each.name for each in self.contacts.ground.near(pose[0], pose[1], model.reach)}
-        fixed = [self._obstacles[each] for each in near if each in self._obstacles]
-        blocked = self._plain.blocked(pose, within, model.height, among=fixed)
-        return blocked or self.contacts.hindrance(model, pose, name)
+        fixtures = self.contacts.ground.fixtures
+        return fixtures.blocked(pose, within, model.height) or self.contacts.hindrance(model, pose, name)
 
     def _start(self, model: RobotModel) -> Pose:
         starts = self.world.starts

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.sim.fixtures import Fixtures
 from rosmini.sim.world import Obstacle, World
 
 from .bodies import Piece, pieces_of
@@ -87,13 +88,6 @@ class FixedPiece(NamedTuple):
     piece: Piece
     box: Box
 
-    def words(self) -> str:
-        """What it is, in words that fit into a sentence."""
-        if self.order[0]:
-            return f"the obstacle {self.name!r}"
-        (x1, y1), (x2, y2) = self.piece.corners.tolist()
-        return f"the wall from ({x1:.2f}, {y1:.2f}) to ({x2:.2f}, {y2:.2f})"
-
 
 def box_of(piece: Piece) -> Box:
     """The box around a piece."""
@@ -112,6 +106,8 @@ class Ground:
         self.cells = Cells()
         self._pieces: dict[str, list[FixedPiece]] = {}
         self._number = 0
+        self.fixtures = Fixtures(world.walls, solid=world.solid)
+        """The same, for who asks what is in the way."""
         self.version = 0
         """How often anything came or went."""
 
@@ -120,6 +116,7 @@ class Ground:
         self.version += 1
         self._number += 1
         name = obstacle.name
+        self.fixtures.insert(obstacle.name, obstacle.bottom, obstacle.parts())
         pieces = self._pieces[name] = [
             FixedPiece((self._number, i), name, obstacle.bottom, obstacle.height, piece, box_of(piece))
             for i, piece in enumerate(pieces_of(obstacle.shape, obstacle.pose))
@@ -132,6 +129,7 @@ class Ground:
         if self._pieces.pop(name, None) is not None:
             self.version += 1
             self.cells.remove(name)
+            self.fixtures.remove(name)
 
     def near(self, x: float, y: float, reach: float) -> list[FixedPiece]:
         """The pieces that meet the square of half-width `reach` [m] around a place, in insertion order."""

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rosmini.geometry import polygons
+from rosmini.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.engine import Engine
 from rosmini.sim.engine.stepper import VIEW
 from rosmini.sim.models import BURGER, WAFFLE
@@ -201,6 +202,12 @@ def test_to_insert_a_thing_looks_at_no_other_that_is_far_away(monkeypatch):
 # -- crowds ----------------------------------------------------------------------------------------------------------
 
 
+def robot_overlaps(corners, x, y, radius):
+    disc = Overlaps()
+    disc.insert("disc", Outline(np.array([[x, y]]), radius))
+    return disc.find(Outline(corners))
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_a_crowd_goes_through_nothing(seed):
     engine = crowded(pen(1.6, *PILLARS, *CRATES), 30, seed)
@@ -212,9 +219,9 @@ def test_a_crowd_goes_through_nothing(seed):
         for robot in engine.robots.values():
             assert abs(robot.corners()).max() < 1.6 + 1e-3
             corners = robot.corners()
-            assert not polygons.overlaps_disc(corners, 0.4, 0.3, 0.095)
+            assert not robot_overlaps(corners, 0.4, 0.3, 0.095)
             x, y, _ = engine.pose("ball")
-            assert not polygons.overlaps_disc(corners, x, y, 0.075)
+            assert not robot_overlaps(corners, x, y, 0.075)
     assert touched > 8
 
 

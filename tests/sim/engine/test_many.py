@@ -9,11 +9,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rosmini.geometry import polygons
+from rosmini.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.engine import Engine, RobotGone
 from rosmini.sim.engine.scene import Near
 from rosmini.sim.models import BURGER, WAFFLE
 from rosmini.sim.world import Box, Cylinder, Obstacle, World, WorldError
+
+
+def overlap(one, other):
+    there = Overlaps()
+    there.insert("one", Outline(one))
+    return there.find(Outline(other))
 
 
 def generator(name: str) -> np.random.Generator:
@@ -47,7 +53,7 @@ def deepest(engine: Engine) -> float:
                 middle = one.corners().mean(axis=0)
                 for shrink in (0.0, 0.002, 0.005, 0.01, 0.02):
                     corners = middle + (one.corners() - middle) * (1 - shrink / 0.1)
-                    if not polygons.overlap(corners, other.corners()):
+                    if not overlap(corners, other.corners()):
                         worst = max(worst, shrink)
                         break
                 else:

@@ -17,7 +17,7 @@ from rosmini.geometry import polygons
 from rosmini.geometry.contours import edge_loops
 from rosmini.geometry.raycast import raycast
 from rosmini.navigation.map_server import MapError, load_map
-from rosmini.sim.world import Cylinder, WorldError, edges
+from rosmini.sim.world import Cylinder, World, WorldError, edges
 from rosmini.sim.worlds import names, source, world, world_from_map
 
 # The corners of a TurtleBot3 Burger: 138 mm by 178 mm, its axle 32 mm ahead of the middle, and 2 cm more.
@@ -77,11 +77,13 @@ def test_things_in_the_room_do_not_stand_in_one_another():
         for other in things[:i]:
             if isinstance(one.shape, Cylinder) and isinstance(other.shape, Cylinder):
                 assert math.dist(one.pose[:2], other.pose[:2]) > one.shape.radius + other.shape.radius
-            elif isinstance(one.shape, Cylinder) or isinstance(other.shape, Cylinder):
-                disc, solid = (one, other) if isinstance(one.shape, Cylinder) else (other, one)
-                assert not polygons.overlaps_disc(solid.outline(), *disc.pose[:2], disc.shape.radius)
             else:
-                assert not polygons.overlap(one.outline(), other.outline()), (one.name, other.name)
+                solid, rest = (other, one) if isinstance(one.shape, Cylinder) else (one, other)
+                alone, footprint = World("alone", (solid,)), rest.outline()
+                if isinstance(rest.shape, Cylinder):
+                    assert alone.blocked(rest.pose, rest.shape.radius, 1.0) is None, (one.name, other.name)
+                else:
+                    assert alone.blocked((0.0, 0.0, 0.0), footprint, 1.0) is None, (one.name, other.name)
 
 
 def test_a_laser_sees_something_everywhere_in_the_room_and_no_way_leads_out():

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rosmini.geometry import polygons
+from rosmini.geometry.overlaps import Outline, Overlaps
 from rosmini.sim.sdf import SdfError, load
 from rosmini.sim.shapes import ROUND, outline_at
 from rosmini.sim.world import Door, Walk
@@ -133,13 +134,17 @@ def test_fixed_things_do_not_stand_in_one_another(name):
 
 
 def overlap(shape, pose, other, place):
-    if isinstance(shape, ROUND) and isinstance(other, ROUND):
-        return math.dist(pose[:2], place[:2]) < shape.radius + other.radius - 1e-6
-    if isinstance(shape, ROUND):
-        shape, pose, other, place = other, place, shape, pose
-    if isinstance(other, ROUND):
-        return polygons.overlaps_disc(outline_at(shape, pose), *place[:2], other.radius)
-    return polygons.overlap(outline_at(shape, pose), outline_at(other, place))
+    there = Overlaps()
+    there.insert("other", outline(other, place))
+    return there.find(outline(shape, pose))
+
+
+def outline(shape, pose):
+    return (
+        Outline(np.array([pose[:2]]), shape.radius)
+        if isinstance(shape, ROUND)
+        else Outline(outline_at(shape, pose))
+    )
 
 
 def test_what_moves_in_the_office_meets_nothing_that_stands():

@@ -1,0 +1,74 @@
+"""What is fixed in a world, and which of it is in the way of a footprint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.overlaps import Outline, Overlaps
+from rosmini.geometry.polygons import inside
+from rosmini.geometry.poses import Pose, transform_points
+
+from .shapes import ROUND, Simple, outline_at
+
+Floats = NDArray[np.float64]
+Footprint = Sequence[tuple[float, float]] | Floats | float
+"""Vertices (n, 2), counter-clockwise, seen from a pose, or the radius of a disc around it [m]."""
+
+
+class Fixtures:
+    """Walls (n, 4), and fixed obstacles, which may come and go; `solid`: the walls go around what is solid."""
+
+    def __init__(self, walls: Floats, *, solid: bool) -> None:
+        self._walls, self._solid = walls, solid
+        self._boxes = np.hstack(
+            [np.minimum(walls[:, :2], walls[:, 2:]), np.maximum(walls[:, :2], walls[:, 2:])]
+        )
+        self._overlaps = Overlaps()
+        self._bottoms: dict[str, float] = {}
+
+    def insert(self, name: str, bottom: float, parts: Iterable[tuple[Simple, Pose]]) -> None:
+        """Insert a fixed obstacle: its name, how high above the ground it begins [m], its shapes and their poses."""
+        self._bottoms[name] = bottom
+        for shape, pose in parts:
+            if isinstance(shape, ROUND):
+                self._overlaps.insert(name, Outline(np.array([pose[:2]]), shape.radius))
+            else:
+                self._overlaps.insert(name, Outline(outline_at(shape, pose)))
+
+    def remove(self, name: str) -> None:
+        """Remove an obstacle, if it is there."""
+        if self._bottoms.pop(name, None) is not None:
+            self._overlaps.remove(name)
+
+    def blocked(self, pose: Pose, footprint: Footprint, height: float) -> str | None:
+        """Return what is in the way of a footprint of this height at `pose`, as `World.blocked` does."""
+        if isinstance(footprint, (int, float)):
+            outline = Outline(np.array([pose[:2]], dtype=np.float64), float(footprint))
+        else:
+            outline = Outline(transform_points(pose, np.asarray(footprint, dtype=np.float64)))
+        found = self._overlaps.find(outline)
+        for name, bottom in self._bottoms.items() if found else ():
+            if name in found and bottom <= height:
+                return f"the obstacle {name!r}"
+        return self._wall(outline)
+
+    def _wall(self, outline: Outline) -> str | None:
+        vertices, radius = outline
+        low, high = vertices.min(axis=0) - radius, vertices.max(axis=0) + radius
+        near = (self._boxes[:, :2] <= high).all(axis=1) & (self._boxes[:, 2:] >= low).all(axis=1)
+        rows = np.flatnonzero(near).tolist()
+        if rows:
+            walls = Overlaps()
+            for row in rows:
+                walls.insert(row, Outline(self._walls[row].reshape(2, 2)))
+            found = walls.find(outline)
+            for row in rows:
+                if row in found:
+                    x1, y1, x2, y2 = self._walls[row]
+                    return f"the wall from ({x1:.2f}, {y1:.2f}) to ({x2:.2f}, {y2:.2f})"
+        if self._solid and len(self._walls) and inside(vertices[:1], self._walls)[0]:
+            return "the inside of a wall"
+        return None
