@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rosmini.errors import nearest
 from rosmini.geometry.poses import Pose
 from rosmini.sim.devices import DifferentialDrive
-from rosmini.sim.engine import Engine, RobotGone
+from rosmini.sim.engine import Engine
 from rosmini.sim.engine.robot import Robot
 from rosmini.sim.models import RobotModel
 from rosmini.sim.simulation import Simulation
@@ -118,14 +118,11 @@ class Chosen:
 
     def truth(self, robot: str = "") -> Pose:
         """Where it, or another one, is now: x [m], y [m], heading [rad]. Raises `RobotGone`."""
-        if self.node.is_shutdown():
-            raise RobotGone(f"the node {self.node.name} was shut down")
-        now = self.simulation.host.engine_now
-        return self.node.scheduler.on_hub(lambda: self.engine.peek(robot or self.name, now))
+        return self.simulation.truth(robot or self.name)
 
     def last_scan(self) -> Any:
         """The last `sensor_msgs/LaserScan`; None before the first."""
-        return self.node.scheduler.on_hub(lambda: self._laser.message)
+        return self.simulation.last_scan(self.name)
 
     def reset(self) -> None:
         """Put all back to where it began."""

@@ -131,7 +131,7 @@ class Link:
         self._timer = pad.node.timer(1 / FRAME_HZ, self._frame)
         if pad.sight is not None and self._scans is None:
             self._scans = pad.node.subscriber(
-                pad.sight.scan_topic, message_class("sensor_msgs/LaserScan"), self._seen
+                pad.sight.simulator.scan_topic, message_class("sensor_msgs/LaserScan"), self._seen
             )
 
     def _seen(self, scan: Any) -> None:

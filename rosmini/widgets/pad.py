@@ -20,7 +20,7 @@ wanted 0.00 m/s and 0.0 rad/s; sent 0.00 m/s and 0.0 rad/s; 5 messages
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ROSException, ROSInterruptException, RosminiError
 from rosmini.graph import Graph, Node
@@ -28,9 +28,11 @@ from rosmini.graph.graph_core import GraphCore
 from rosmini.graph.notebook import kernel_shell
 from rosmini.msgs import message_class
 from rosmini.names import resolve
+from rosmini.sim.simulation import Simulation
 from rosmini.viz.book_form import book_form
 from rosmini.viz.view import MimeBundle, View
 
+from .chosen import Chosen
 from .sight import Sight
 from .teleop import PERIOD, Limits, Teleop, TeleopError, key_named
 
@@ -38,10 +40,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
     from rosmini.graph.clock import Timer
-    from rosmini.sim.simulation import Simulation
-    from rosmini.sim.simulator import Simulator
-
-    from .chosen import Chosen
 
 CONNECT_S = 1.0
 """So long a new pad waits for those who listen already, so that its first message is not lost."""
@@ -64,7 +62,8 @@ class TeleopPad(View):
         driven: a simulator, stageros or gzserver, whose robot is driven and shown; or a graph, and then only the
             messages are shown.
         robot: which robot; without it the first. One without a laser is driven, but not shown: `view()` shows all.
-        topic: where to publish, as the simulator's node calls it: in its namespace, remapped as it is there.
+        topic: where to publish, resolved and remapped as by the simulation's node; by default where the robot
+            listens, and on a graph ``cmd_vel``.
         name: the name of the node.
         limits: how fast at most; those of the simulator's robot by default, and of a Burger without one.
         title: a caption under the pad, and the first line of its text form.
@@ -79,7 +78,7 @@ class TeleopPad(View):
         driven: Simulation | Graph,
         *,
         robot: str = "",
-        topic: str = "cmd_vel",
+        topic: str | None = None,
         name: str = "teleop_pad",
         limits: Limits | None = None,
         title: str | None = None,
@@ -88,17 +87,12 @@ class TeleopPad(View):
         namespace = "/"
         if isinstance(driven, Graph):
             self.graph: GraphCore = driven
-        elif isinstance(getattr(driven, "node", None), Node):
+        elif isinstance(driven, Simulation):
             self.graph = driven.node.graph
-            chosen = _chosen(driven, robot)
-            if chosen is None:
-                simulator = cast("Simulator", driven)
-                self.sight = Sight(simulator)
-                namespace, topic = driven.node.namespace, driven.node.resolve(topic)
-                limits = limits or Limits(simulator.model.max_linear, simulator.model.max_angular)
-            else:
-                self.sight = Sight(chosen) if chosen.sees else None
-                namespace, topic, limits = chosen.namespace, chosen.topic, limits or chosen.limits
+            chosen = Chosen(driven, robot)
+            self.sight = Sight(chosen) if chosen.sees else None
+            namespace, limits = chosen.namespace, limits or chosen.limits
+            topic = chosen.topic if topic is None else driven.node.resolve(topic)
         else:
             raise TeleopError(
                 f"a pad drives the robot of a simulator, or what listens on a graph, not a {type(driven).__name__}. "
@@ -113,7 +107,7 @@ class TeleopPad(View):
         if isinstance(before, PadNode):
             before.shutdown("a new pad took its place")
         self.node = PadNode(name, self.graph, namespace=namespace)
-        self._publisher = self.node.publisher(topic, self.twist_class, queue_size=10)
+        self._publisher = self.node.publisher(topic or "cmd_vel", self.twist_class, queue_size=10)
         self._twist = self.twist_class()
         self._timer: Timer | None = None
         self._listeners: list[Callable[[Any], object]] = []
@@ -267,14 +261,3 @@ class TeleopPad(View):
 
             self._link = Link(self)
         return self._link
-
-
-def _chosen(driven: Simulation, robot: str) -> Chosen | None:
-    """One robot of several, or of another simulation; None for the first of `rosmini_sim/simulator`."""
-    from rosmini.sim.simulator import Simulator
-
-    if isinstance(driven, Simulator) and robot in ("", driven.name):
-        return None
-    from .chosen import Chosen
-
-    return Chosen(driven, robot)

@@ -97,7 +97,7 @@ def static_html(pad: Pad, *, caption: str | None = None) -> str:
     What is not driven by two wheels (a car, or what goes sideways) would move otherwise there: of that it is a
     picture of how things stand.
     """
-    if pad.sight is not None and not pad.sight.stands_alone:
+    if pad.sight is not None and not pad.sight.simulator.simple:
         return _still(pad)
     return embed(
         SCRIPTS,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +14,7 @@ from rosmini.sim.world import Obstacle, Pose
 from rosmini.viz.replay.canvas_data import scene_data, shapes_of
 from rosmini.viz.world_pictures import colour_of, pose_text
 
-if TYPE_CHECKING:
-    from rosmini.sim.simulator import Simulator
-
-    from .chosen import Chosen
+from .chosen import Chosen
 
 Floats = NDArray[np.float64]
 
@@ -31,7 +28,7 @@ TRAIL_POINTS = 3000
 class Sight:
     """Looks at one robot of a simulation and remembers its way."""
 
-    def __init__(self, simulator: Simulator | Chosen) -> None:
+    def __init__(self, simulator: Chosen) -> None:
         self.simulator = simulator
         self.trail: list[tuple[float, float]] = []
         self._poses: list[Pose] = []
@@ -40,17 +37,6 @@ class Sight:
     def rate(self) -> float:
         """Scans a second."""
         return self.simulator.model.laser.rate
-
-    @property
-    def scan_topic(self) -> str:
-        """Where its laser's messages are."""
-        topic = getattr(self.simulator, "scan_topic", None)
-        return self.simulator.node.resolve("scan") if topic is None else str(topic)
-
-    @property
-    def stands_alone(self) -> bool:
-        """Whether a page without a kernel can drive such a robot by itself, as it really moves."""
-        return getattr(self.simulator, "simple", True)
 
     def moving(self) -> list[Obstacle]:
         """All that need not stay where it is: what can be pushed, what moves by itself, and other robots."""
