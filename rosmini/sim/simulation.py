@@ -301,7 +301,7 @@ class Simulation(ABC):
         """A pad to drive a robot with, the first if none is named.
 
         Options, with what they are unless given:
-            topic=None: where to publish: resolved, and remapped, as by the simulation's node; None: where the robot listens
+            topic=None: where to publish, as the simulation's node resolves it; None: where the robot listens
             name='teleop_pad': the name of the pad's node
             limits=None: how fast at most; None: as fast as the robot may
             title=None: a caption under the pad, and the first line of its text form

@@ -131,13 +131,13 @@ class Link:
         self._timer = pad.node.timer(1 / FRAME_HZ, self._frame)
         if pad.sight is not None and self._scans is None:
             self._scans = pad.node.subscriber(
-                pad.sight.simulator.scan_topic, message_class("sensor_msgs/LaserScan"), self._seen
+                pad.sight.scan_topic, message_class("sensor_msgs/LaserScan"), self._seen
             )
 
     def _seen(self, scan: Any) -> None:
         sight = self.pad.sight
         if sight is not None and self.pad.gone is None:
-            self._scan = np.array([*scan.ranges, *sight.simulator.scan_pose], dtype=np.float32)
+            self._scan = np.array([*scan.ranges, *sight.scan_pose], dtype=np.float32)
 
     def _hello(self) -> None:
         sight = self.pad.sight

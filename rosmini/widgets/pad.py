@@ -33,7 +33,6 @@ from rosmini.viz.book_form import book_form
 from rosmini.viz.view import MimeBundle, View
 
 from .chosen import Chosen
-from .sight import Sight
 from .teleop import PERIOD, Limits, Teleop, TeleopError, key_named
 
 if TYPE_CHECKING:
@@ -83,14 +82,14 @@ class TeleopPad(View):
         limits: Limits | None = None,
         title: str | None = None,
     ) -> None:
-        self.sight: Sight | None = None
+        self.sight: Chosen | None = None
         namespace = "/"
         if isinstance(driven, Graph):
             self.graph: GraphCore = driven
         elif isinstance(driven, Simulation):
             self.graph = driven.node.graph
             chosen = Chosen(driven, robot)
-            self.sight = Sight(chosen) if chosen.sees else None
+            self.sight = chosen if chosen.sees else None
             namespace, limits = chosen.namespace, limits or chosen.limits
             topic = chosen.topic if topic is None else driven.node.resolve(topic)
         else:
@@ -161,7 +160,7 @@ class TeleopPad(View):
                 "this pad has no simulator, so it cannot put a robot back; give it one: TeleopPad(simulator)"
             )
         self.stop()
-        self.sight.simulator.reset()
+        self.sight.reset()
         self.sight.trail.clear()
 
     def on_publish(self, callback: Callable[[Any], object]) -> None:
@@ -196,7 +195,7 @@ class TeleopPad(View):
             return f"the node {self.node.name} was shut down."
         if self.sight is not None:
             try:
-                self.sight.simulator.truth()
+                self.sight.truth()
             except RosminiError as error:
                 return str(error)
         return None
@@ -231,7 +230,7 @@ class TeleopPad(View):
     @property
     def alt(self) -> str:
         """The pad in a sentence or two."""
-        drives = "" if self.sight is None else f" the {self.sight.simulator.model.name} in its world and"
+        drives = "" if self.sight is None else f" the {self.sight.model.name} in its world and"
         return f"A pad with the keys w, a, s, d and x that shows{drives} the messages on {self.topic}. {self._state()}"
 
     def _images(self) -> dict[str, bytes]:

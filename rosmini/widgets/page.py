@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from rosmini.graph import Node
 
-    from .sight import Sight
+    from .chosen import Chosen
     from .teleop import Teleop
 
 STEP = 0.005
@@ -28,7 +28,7 @@ HEIGHT = 420
 class Pad(Protocol):
     """A teleoperation pad, as its pages see it: :class:`~rosmini.widgets.pad.TeleopPad`."""
 
-    sight: Sight | None
+    sight: Chosen | None
     teleop: Teleop
     sent: int
 
@@ -79,7 +79,7 @@ def pad_data(pad: Pad) -> dict[str, Any]:
     if pad.sight is not None and pad.gone is None:
         x, y, theta = pad.sight.look()
         pose = [round(x + 1e-8, 3) + 0.0, round(y + 1e-8, 3) + 0.0, round(theta + 1e-8, 4) + 0.0]
-        data |= {"scene": pad.sight.scene(), "pose": pose, "scan_rate": pad.sight.rate}
+        data |= {"scene": pad.sight.scene(), "pose": pose, "scan_rate": pad.sight.model.laser.rate}
     return data
 
 
@@ -87,8 +87,8 @@ def title(pad: Pad) -> str:
     """What the pad drives, in a few words."""
     if pad.sight is None:
         return f"Drive on {pad.topic}"
-    simulator = pad.sight.simulator
-    return f"Drive the {simulator.model.title or simulator.model.name} in the world {simulator.world.name}"
+    model = pad.sight.model
+    return f"Drive the {model.title or model.name} in the world {pad.sight.world.name}"
 
 
 def static_html(pad: Pad, *, caption: str | None = None) -> str:
@@ -97,7 +97,7 @@ def static_html(pad: Pad, *, caption: str | None = None) -> str:
     What is not driven by two wheels (a car, or what goes sideways) would move otherwise there: of that it is a
     picture of how things stand.
     """
-    if pad.sight is not None and not pad.sight.simulator.simple:
+    if pad.sight is not None and not pad.sight.simple:
         return _still(pad)
     return embed(
         SCRIPTS,
@@ -125,5 +125,5 @@ def _still(pad: Pad) -> str:
         return words
     from rosmini.graph.show import show
 
-    picture = show("simulation", pad.sight.simulator)
+    picture = show("simulation", pad.sight)
     return f"{picture.html or ''}{words}"
