@@ -169,9 +169,10 @@ class HostFeed(Feed):
         return self._fd
 
     def _fill(self, who: Blocker) -> None:
+        known = self._text
         while self._reading:  # another script is at it
             who.pause("standard input, which another script reads", 10_000_000)
-        if self._text or self._ended:
+        if self._text != known or self._ended:
             return
         self._reading = True
         try:

@@ -108,6 +108,15 @@ def test_a_real_pipe_parks_only_the_reader(run):
     assert ran.lines == ["[late] late", "[tell] tell", "[ask] got one", "[ask] 'ä'"]
 
 
+def test_a_line_longer_than_a_read_arrives_whole(run):
+    read, write = os.pipe()
+    os.write(write, b"x" * 9000 + b"\nshort\n")
+    os.close(write)
+    with os.fdopen(read, encoding="utf-8") as stream:
+        ran = run("print(len(input()), input())", stdin=stream)
+    assert ran.lines == ["[script] 9000 short"]
+
+
 @pytest.mark.skipif(os.name == "nt", reason="pipes cannot be waited for on Windows")
 def test_a_reader_that_gets_nothing_is_ended(run):
     read, write = os.pipe()
