@@ -30,20 +30,20 @@ if TYPE_CHECKING:
 
 MAGIC = b"#ROSBAG V2.0\n"
 HEADER_ROOM = 4096
-"""So long are header and padding of the first record, which is written again when the bag is closed."""
+"""The length of header and padding of the first record, which is rewritten when the bag is closed [bytes]."""
 
 OP_MESSAGE, OP_BAG_HEADER, OP_INDEX, OP_CHUNK, OP_CHUNK_INFO, OP_CONNECTION = 2, 3, 4, 5, 6, 7
 MESSAGE_MARK = b"\x04\x00\x00\x00op=\x02"
 """The field that distinguishes a message's header from a connection's."""
 
 LONGEST_HEADER = 16 * 1024 * 1024
-"""No header of a record is as long as this: a length beyond it is not one."""
+"""The longest header of a record: a length beyond it is damage [bytes]."""
 LONGEST_CHUNK = 2**30
-"""So long can a chunk be that is compressed, when it is not [bytes]: a file of a few kilobytes may claim anything."""
+"""The longest that a compressed chunk may be when unpacked [bytes]: a file of a few kilobytes may claim anything."""
 FAR = 2**32
-"""From this position on it is looked up whether the file has it: systems refuse to go too far beyond a file's end."""
+"""From this position on the end of the file is checked first: systems refuse to seek too far beyond it."""
 PIECE = 1024 * 1024
-"""So much is asked of the disk, or of a decompressor, without knowing that it is there [bytes]."""
+"""The most that is asked of the disk, or of a decompressor, without knowing that it is there [bytes]."""
 
 NSECS = 1_000_000_000
 LATEST = 2**32 * NSECS - 1

@@ -29,8 +29,8 @@ class Server:
 
     ``type`` is whatever :meth:`Description.of` takes. Values are those on the Parameter Server, else the defaults,
     limited to their ranges. ``callback(config, level)`` is called with all values, at once and then for each change,
-    and returns the configuration that is to
-    hold: ``level`` is the bitwise or of the levels of the parameters that changed, 0 if none did, and -1 (all bits set)
+    and returns the configuration to hold:
+    ``level`` is the bitwise or of the levels of the parameters that changed, 0 if none did, and -1 (all bits set)
     in the first call. What holds is written to the Parameter Server and published on ``parameter_updates``;
     ``parameter_descriptions`` has the description, and the service ``set_parameters`` takes changes. Callbacks come one
     after another. One that fails changes nothing.

@@ -22,8 +22,7 @@ GONE = {
 class JointStatePublisher:
     """Publishes `joint_states` (sensor_msgs/JointState) for the robot in `robot_description`, which has no motors.
 
-    Joints stand at 0, or in the middle of their limits where 0 is beyond them. Parameters, private or else in the
-    node's
+    Joints are at 0, or in the middle of their limits where 0 is beyond them. Parameters, private or else in the node's
     namespace: `rate` (10 Hz), `zeros` (positions by joint), `dependent_joints` (`parent`, `factor`, `offset` by joint),
     `use_mimic_tags`, `source_list` (topics whose positions are taken over), `delta` (how far free joints move each
     time), `publish_default_positions`, `publish_default_velocities`, `publish_default_efforts`.

@@ -1,9 +1,8 @@
 """Filters of messages: bring together what several topics say of one moment (http://wiki.ros.org/message_filters).
 
 The object API, on a :class:`rosmini.graph.Node`. What scripts import as ``message_filters`` is the same in rospy's
-style,
-:mod:`rosmini.rospy.aliases.message_filters`. :mod:`~rosmini.message_filters.policies` decides, apart from nodes, which
-messages belong together.
+style, :mod:`rosmini.rospy.aliases.message_filters`. :mod:`~rosmini.message_filters.policies` decides, apart from
+nodes, which messages belong together.
 """
 
 from __future__ import annotations

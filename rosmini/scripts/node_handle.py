@@ -1,8 +1,8 @@
-"""The handle of a built-in node, as often as it is started.
+"""The handle of a built-in node, which may be started several times.
 
 A built-in node is an entry point of the group `rosmini.nodes`: a callable that takes the started
 :class:`~rosmini.graph.Node` (and the arguments that are no remappings, as strings), sets itself up, and returns the
-which the node's topics, services and timers belong. It may block meanwhile, as a node does that waits for a service.
+object to which the node's topics, services and timers belong. It may block meanwhile, as if it waited for a service.
 """
 
 from __future__ import annotations

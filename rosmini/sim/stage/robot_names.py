@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rosmini.sim.devices import prefixed, within
+
 from .robots import StageRobot
 
 
@@ -29,13 +31,13 @@ class Names:
 
     def topic(self, name: str, device: int | None = None) -> str:
         """A topic; of the sensor with this number, if there are several of its kind."""
-        if self.prefix:
-            return f"/{self.prefix}/{_numbered(name, device)}"
-        return name if device is None else f"/{_numbered(name, device)}"
+        return (
+            name if device is None and not self.prefix else within(f"/{self.prefix}", _numbered(name, device))
+        )
 
     def frame(self, name: str, device: int | None = None) -> str:
         """A frame; of the sensor with this number, if there are several of its kind."""
-        return f"{self.prefix}/{_numbered(name, device)}" if self.prefix else _numbered(name, device)
+        return prefixed(self.prefix, _numbered(name, device))
 
 
 def _numbered(name: str, device: int | None) -> str:

@@ -1,8 +1,7 @@
 """What scripts import as ``message_filters``: http://wiki.ros.org/message_filters.
 
 Names and signatures are those of message_filters 1.15; the clock and the log are those of the script's node. The work
-is done in
-:mod:`rosmini.message_filters`.
+is done in :mod:`rosmini.message_filters`.
 """
 
 from __future__ import annotations

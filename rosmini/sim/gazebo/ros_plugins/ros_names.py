@@ -5,6 +5,7 @@ from __future__ import annotations
 from rosmini.graph import Node
 from rosmini.markup import Element
 from rosmini.names import check_name
+from rosmini.sim.devices import prefixed, within
 from rosmini.sim.gazebo.model import Model
 
 
@@ -22,17 +23,11 @@ class RosNames:
 
     def topic(self, name: str) -> str:
         """The whole name of a topic or a service; one that begins with a slash stays as it is. Raises `IllegalName`."""
-        name = name.strip()
-        if not name.startswith("/"):
-            name = f"/{self.namespace}/{name}" if self.namespace else f"/{name}"
-        return check_name(name, "topic")
+        return check_name(within(f"/{self.namespace}", name.strip()), "topic")
 
     def frame(self, name: str) -> str:
         """The whole name of a frame; one that begins with a slash has no prefix."""
-        name = name.strip()
-        if name.startswith("/") or not self.prefix:
-            return name.lstrip("/")
-        return f"{self.prefix}/{name}"
+        return prefixed(self.prefix, name.strip())
 
 
 def tf_prefix(node: Node, namespace: str) -> str:
