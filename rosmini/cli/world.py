@@ -22,7 +22,7 @@ TOOL = Tool("world", "list worlds, and check files of worlds, maps and robots")
 add_parser, main = TOOL.add_parser, TOOL.main
 
 LONG = 1e6
-"""From so many metres on decimals say nothing."""
+"""Lengths above this [m] are printed without decimals."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -67,7 +67,7 @@ class Budget:
         return value
 
     def room(self, size: int) -> None:
-        """Pay for a value of so many elements before it is made. Raises `NotAllowed` if it would be too large."""
+        """Pay for a value of `size` elements before it is made. Raises `NotAllowed` if it would be too large."""
         if size > LARGEST:
             raise NotAllowed(f"a value of more than {LARGEST} elements")
         self.spend(size)

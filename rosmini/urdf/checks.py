@@ -20,8 +20,8 @@ def check_tree(
 ) -> str:
     """The root of the tree that joints make of links. `elements` are where the joints were written.
 
-    Raises `UrdfError`: a joint names a link or joint that is not there, a link hangs on two joints, joints go round in
-    a circle, or there are several trees.
+    Raises `UrdfError`: a joint names a link or joint that is not there, a link is the child of two joints, joints
+    form a circle, or there are several trees.
     """
     above: dict[str, Joint] = {}
     for joint in joints.values():
@@ -31,11 +31,11 @@ def check_tree(
                 hint = nearest(name, links) or f"the links are: {', '.join(links)}"
                 raise here.error(f"the {role} of the joint {joint.name!r} is no link: {name!r}; {hint}")
         if joint.parent == joint.child:
-            raise here.error(f"the joint {joint.name!r} hangs the link {joint.child!r} on itself")
+            raise here.error(f"the joint {joint.name!r} connects the link {joint.child!r} to itself")
         if joint.child in above:
             other = above[joint.child]
             raise here.error(
-                f"the link {joint.child!r} hangs on two joints: on {joint.name!r} and, in line {other.line}, on "
+                f"the link {joint.child!r} is the child of two joints: of {joint.name!r} and, in line {other.line}, of "
                 f"{other.name!r}; in a tree every link has one parent"
             )
         above[joint.child] = joint
@@ -61,7 +61,7 @@ def _check_circles(robot: Element, links: Mapping[str, Link], above: Mapping[str
             if at in way:
                 circle = way[way.index(at) :]
                 joints = ", ".join(f"{above[link].name!r} (line {above[link].line})" for link in circle)
-                raise robot.error(f"joints go round in a circle: {joints}; a tree has a root")
+                raise robot.error(f"joints form a circle: {joints}; a tree has a root")
             way.append(at)
             at = above[at].parent
         good.update(way)

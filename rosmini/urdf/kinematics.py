@@ -40,7 +40,7 @@ def origin(xyz: Sequence[float], rpy: Sequence[float]) -> Floats:
 
 
 def motion(axis: Sequence[float], position: float, *, slides: bool) -> Floats:
-    """What a joint adds to its origin (4, 4): a turn by `position` [rad] about its axis, or a slide along it [m]."""
+    """What a joint adds to its origin (4, 4): rotation about its axis by `position` [rad], or a shift along it [m]."""
     result = np.eye(4)
     if slides:
         result[:3, 3] = np.asarray(axis) * position

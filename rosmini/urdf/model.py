@@ -171,7 +171,7 @@ class Dynamics:
 
 @dataclass(frozen=True)
 class Joint:
-    """How a child link hangs on its parent: `origin` is the child's frame in the parent's while the joint is at 0."""
+    """How a child link is connected to its parent: `origin` is the child's frame in the parent's at position 0."""
 
     name: str
     type: JointType
@@ -248,12 +248,12 @@ class Robot:
 
     @cached_property
     def above(self) -> dict[str, Joint]:
-        """From the name of each link but the root to the joint on which it hangs."""
+        """From the name of each link but the root to the joint of which it is the child."""
         return {joint.child: joint for joint in self.joints.values()}
 
     @cached_property
     def order(self) -> tuple[Joint, ...]:
-        """The joints from the root outwards: each after the one that its parent hangs on."""
+        """The joints from the root outwards: each after the joint of its parent."""
         below: dict[str, list[Joint]] = {}
         for joint in self.joints.values():
             below.setdefault(joint.parent, []).append(joint)
@@ -266,7 +266,7 @@ class Robot:
         return tuple(found)
 
     def children(self, link: str) -> list[str]:
-        """The links that hang on a link, in the order in which their joints were written."""
+        """The child links of a link, in the order in which their joints were written."""
         return [joint.child for joint in self.joints.values() if joint.parent == link]
 
     @property

@@ -176,7 +176,7 @@ class _Reader:
         )
         found = Inertial(value, ixx, ixy, ixz, iyy, iyz, izz, self.origin(element))
         for problem in inertia_notes(found):
-            self.note(tensor, f"the inertia of the link {link!r} is none of a body: {problem}")
+            self.note(tensor, f"no body has the inertia of the link {link!r}: {problem}")
         return found
 
     def visual(self, element: Element) -> Visual:

@@ -79,7 +79,7 @@ def house_style() -> Iterator[None]:
 
 
 def blank_figure(width: float, height: float) -> Figure:
-    """An empty figure of so many CSS pixels; make it inside of `house_style`.
+    """An empty figure of this size in CSS pixels; make it inside of `house_style`.
 
     Raises:
         ViewError: it would be too small to draw in, or larger than a screen.

@@ -19,7 +19,7 @@ MILLIMETRE = 1e-3
 
 
 def fixed(value: float, digits: int) -> str:
-    """`value` with so many decimals: half rounded away from zero, and no negative zero.
+    """`value` with this number of decimals: half rounded away from zero, and no negative zero.
 
     >>> fixed(0.125 - 1e-15, 2), fixed(-0.0001, 2)
     ('0.13', '0.00')

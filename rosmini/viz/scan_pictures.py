@@ -44,7 +44,7 @@ def scan_picture(
         width: of the picture [CSS px].
 
     Raises:
-        ViewError: the scan is none, or its angles and its ranges do not fit.
+        ViewError: the scan is invalid, or its angles and its ranges do not match.
 
     """
     beams = beams_of(scan)

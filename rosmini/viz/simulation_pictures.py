@@ -32,7 +32,7 @@ def simulation_picture(
         size: the largest width and height [CSS px].
 
     Raises:
-        ViewError: the trail is none.
+        ViewError: the trail is invalid.
         RobotGone: the robot was removed, or the node shut down.
 
     """

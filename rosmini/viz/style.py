@@ -1,6 +1,6 @@
 """The house style: one palette for light and dark, one font stack, a few line widths.
 
-The hues are those of Okabe and Ito, "Color Universal Design" (2008), told apart with every kind of colour vision and
+The hues are those of Okabe and Ito, "Color Universal Design" (2008), distinguished with every kind of colour vision and
 in print; each is paired with a fill that keeps text on it above a contrast of 4.5:1. Pictures name colours through
 CSS custom properties (`--rosmini-ink`), with the light colour as fallback, so they follow the theme of the page.
 """

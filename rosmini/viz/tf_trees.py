@@ -1,4 +1,4 @@
-"""`rqt_tf_tree`: the tree of frames as a picture, each edge with who tells of it, how often, and what is buffered."""
+"""`rqt_tf_tree`: the tree of frames as a picture, each edge with its broadcaster, its rate, and what is buffered."""
 
 from __future__ import annotations
 

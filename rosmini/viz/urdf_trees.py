@@ -19,7 +19,7 @@ COLOURS = [
 
 
 def urdf_tree(robot: Robot, *, title: str | None = None) -> Picture:
-    """Draw the links of a robot, each under the one on which it hangs; at the lines stand the joints.
+    """Draw the links of a robot, each under its parent, with the joints beside the lines.
 
     Links with a mass are filled; the root is round. A joint that moves has a thick line, with its type and limits.
 

@@ -404,7 +404,7 @@ def length_of(line: Floats) -> float:
 
 
 def pose_of(given: Sequence[float], what: str) -> Pose:
-    """A pose as a tuple. Raises `ViewError` if it is none."""
+    """A pose as a tuple. Raises `ViewError` if it is invalid."""
     try:
         x, y, heading = (float(v) for v in given)
     except (TypeError, ValueError) as error:

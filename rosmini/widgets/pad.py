@@ -137,7 +137,7 @@ class TeleopPad(View):
         return self._twist
 
     def press(self, key: str, times: int = 1) -> None:
-        """Take a key (`w`, `x`, `a`, `d`, `s`, `space`, or an arrow: `up`, `down`, `left`, `right`) so many times, now.
+        """Take a key (`w`, `x`, `a`, `d`, `s`, `space`, or an arrow: `up`, `down`, `left`, `right`) `times` times, now.
 
         Raises `TeleopError` for another key and when the robot has been removed, `ROSException` when the node was
         shut down.

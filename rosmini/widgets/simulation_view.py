@@ -45,7 +45,7 @@ class SimulationView(View):
         title: a caption under the view, and the first line of its text form.
 
     Raises:
-        ViewError: `simulation` is none of them.
+        ViewError: `simulation` is not one of them.
 
     """
 

@@ -54,7 +54,7 @@ _NAMES: Mapping[str, str] = MappingProxyType(
 
 
 class TeleopError(RosminiError, ValueError):
-    """A key that the pad does not know, limits that are none, or a robot that is no longer there."""
+    """A key that the pad does not know, invalid limits, or a robot that is no longer there."""
 
 
 @dataclass(frozen=True)

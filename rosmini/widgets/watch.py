@@ -112,7 +112,7 @@ class Watch:
         return None
 
     def bodies(self) -> list[Body]:
-        """All that is in the world and need not stay where it is: robots first, in the sequence of their coming."""
+        """All that is in the world and need not stay where it is: robots first, in insertion order."""
         axle = getattr(self.simulation, "axle", None)
         found = [
             Body(

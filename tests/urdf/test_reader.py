@@ -175,17 +175,17 @@ A, B, C = ('<link name="a"/>', '<link name="b"/>', '<link name="c"/>')
         (robot(f"{A}\n{joint('j', 'x', 'a')}"), "f:3: the parent of the joint 'j' is no link: 'x'"),
         (
             robot(f"{A}{B}\n{joint('j', 'a', 'b')}\n{joint('k', 'a', 'b')}"),
-            "f:4: the link 'b' hangs on two joints: on 'k' and, in line 3, on 'j'",
+            "f:4: the link 'b' is the child of two joints: of 'k' and, in line 3, of 'j'",
         ),
         (
             robot(f"{A}{B}{C}\n{joint('j', 'b', 'c')}\n{joint('k', 'c', 'b')}"),
-            "f:1: joints go round in a circle: 'k' (line 4), 'j' (line 3)",
+            "f:1: joints form a circle: 'k' (line 4), 'j' (line 3)",
         ),
         (
             robot(f"{A}{B}\n{joint('j', 'a', 'b')}\n{joint('k', 'b', 'a')}"),
-            "f:1: joints go round in a circle",
+            "f:1: joints form a circle",
         ),
-        (robot(f"{A}\n{joint('j', 'a', 'a')}"), "f:3: the joint 'j' hangs the link 'a' on itself"),
+        (robot(f"{A}\n{joint('j', 'a', 'a')}"), "f:3: the joint 'j' connects the link 'a' to itself"),
         (robot(f"{A}\n{A}"), "f:3: there are two links 'a': the other one is in line 2"),
         (
             robot(f"{A}{B}{C}\n{joint('j', 'a', 'b')}\n{joint('j', 'b', 'c')}"),

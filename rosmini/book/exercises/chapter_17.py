@@ -31,7 +31,7 @@ CASES = [
 ]
 
 
-@exercise("17.1", praise="Three cases, told apart by the first character, and that is all there is to it.")
+@exercise("17.1", praise="Three cases, distinguished by the first character, and that is all there is to it.")
 def resolve(answer: Any) -> None:
     """The full name that a name stands for."""
     for name, namespace, node in CASES:

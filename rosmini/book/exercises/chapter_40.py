@@ -279,7 +279,7 @@ def mast(answer: Any) -> None:
             kind = robot.above[link].type
             expect(
                 kind == "fixed",
-                f"{link} hangs on a {kind} joint.",
+                f"{link} is the child of a {kind} joint.",
                 "nothing moves: the type of the joint is fixed",
             )
         _places(robot, height, asked)

@@ -195,7 +195,7 @@ def _indices(piece: Element, stride: int) -> tuple[NDArray[np.int64], list[int]]
     else:
         sizes = [3] * (len(index) // 3)
     if sum(sizes) != len(index) or min(sizes, default=3) < 3:
-        raise piece.error(f"<{piece.tag}> tells of {sum(sizes)} corners, but <p> has {len(index)}")
+        raise piece.error(f"<{piece.tag}> has polygons of {sum(sizes)} vertices, but <p> has {len(index)}")
     return index, sizes
 
 

@@ -80,7 +80,7 @@ def _stl(file: Path) -> Floats:
         return _finite(rows["corners"].astype(np.float64), file)
     if not data.lstrip().startswith(b"solid"):
         raise MeshError(
-            f"this is no STL: it tells of {max(count, 0)} triangles, which would be {84 + 50 * max(count, 0)} bytes, "
+            f"this is not an STL file: {max(count, 0)} triangles would be {84 + 50 * max(count, 0)} bytes, "
             f"not {len(data)}",
             file,
         )
@@ -110,7 +110,7 @@ def _obj(file: Path, part: str) -> Floats:
             places = [place - 1 if place > 0 else len(points) + place for place in places]
             if len(places) < 3 or not all(0 <= place < len(points) for place in places):
                 raise MeshError(
-                    f"the face {shown(' '.join(words[1:]))} is none: there are {len(points)} corners",
+                    f"the face {shown(' '.join(words[1:]))} is invalid: there are {len(points)} vertices",
                     file,
                     number,
                 )

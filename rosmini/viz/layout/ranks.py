@@ -23,7 +23,7 @@ def feedback_arcs(count: int, arcs: Sequence[Arc]) -> set[int]:
         if position[tail] < position[head]:
             successors[tail].append(head)
     reversed_arcs = set()
-    for i in backward:  # the greedy order may put back an arc that lies on no cycle
+    for i in backward:  # the greedy order may reverse an arc that lies on no cycle
         tail, head = arcs[i]
         if _reaches(successors, head, tail):
             reversed_arcs.add(i)

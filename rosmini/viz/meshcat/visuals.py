@@ -1,4 +1,4 @@
-"""What Gazebo's messages tell of a model's looks, as surfaces: the visuals or the collisions of its links."""
+"""How Gazebo's messages describe the looks of a model, as surfaces: the visuals or the collisions of its links."""
 
 from __future__ import annotations
 

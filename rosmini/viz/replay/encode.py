@@ -132,7 +132,7 @@ def pack(values: NDArray[np.int64]) -> str:
 def _track(
     times: NDArray[np.float64], poses: NDArray[np.float64], at: NDArray[np.float64]
 ) -> NDArray[np.int64]:
-    """Poses (n, 3), sampled anew: all x, all y, all headings."""
+    """Poses (n, 3), resampled: all x, all y, all headings."""
     return np.concatenate(
         [
             whole(np.interp(at, times, column), quantum)

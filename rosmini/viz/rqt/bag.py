@@ -75,8 +75,8 @@ def rqt_bag(
     Args:
         source: a bag, or its path.
         topics: only these; all if not given.
-        gap: a time without a message is a gap if it is so many times what is usual between two,
-            and a hundredth of the bag.
+        gap: a time without a message is a gap if it is longer than this factor times the usual period,
+            and than a hundredth of the bag.
         title: a caption under the picture, and the first words of its text form.
         width: of the picture [CSS px].
 

@@ -251,4 +251,4 @@ def test_a_mesh_that_is_broken_is_left_out_of_its_world_with_a_warning(tmp_path)
     made = world_of(tmp_path / "m.stl")
     assert to_world(made).obstacles == ()
     (note,) = made.warnings
-    assert re.fullmatch(r"<text>:\d+: this mesh is left out: .*m\.stl: this is no STL.*", str(note))
+    assert re.fullmatch(r"<text>:\d+: this mesh is left out: .*m\.stl: this is not an STL file.*", str(note))
