@@ -20,7 +20,7 @@ import numpy as np
 from rosmini.errors import RosminiError
 from rosmini.msgs import message_class
 
-from .page import Pad, module, pad_data
+from .page import SCRIPTS, Pad, module, pad_data
 from .teleop import TeleopError
 
 try:
@@ -51,8 +51,8 @@ SHORTEST_S = 0.015
 """No two frames follow one another faster: a graph that runs ahead of the clock sends no more than a page can show."""
 
 
-class PadWidget(anywidget.AnyWidget):
-    """The pad's page, as Jupyter knows it."""
+class PageWidget(anywidget.AnyWidget):
+    """The page of a pad or of a view, as Jupyter knows it."""
 
     data = traitlets.Dict().tag(sync=True)
 
@@ -76,7 +76,9 @@ class Link:
         if pad.sight is not None and pad.gone is None:
             # It also has the laser's code loaded now, while the cell runs, and not at the first key.
             data["ranges"] = np.array(pad.sight.survey(), dtype=np.float32).tobytes()
-        self.widget = PadWidget(_esm=module(), data=data)
+        self.widget = PageWidget(
+            _esm=module((*SCRIPTS, "rosmini-pad-kernel.js"), "rosminiPadKernel"), data=data
+        )
         answer_in_subshells(self.widget.comm)
         self.widget.on_msg(self.receive)
         pad.on_publish(self._published)

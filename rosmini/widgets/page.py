@@ -11,7 +11,7 @@ from rosmini.viz.svg import element, escape
 from .teleop import table
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from rosmini.graph import Node
 
@@ -112,10 +112,10 @@ def static_html(pad: Pad, *, caption: str | None = None) -> str:
 
 
 @cache
-def module() -> str:
-    """The same scripts as one module for anywidget, with the driver that talks to a kernel."""
-    texts = [asset_path(name).read_text(encoding="utf-8") for name in (*SCRIPTS, "rosmini-pad-kernel.js")]
-    return "\n".join([*texts, "export default { render: globalThis.rosminiPadKernel.render };\n"])
+def module(names: Sequence[str], driver: str) -> str:
+    """Scripts as one module for anywidget, in which `driver` talks to the kernel."""
+    texts = [asset_path(name).read_text(encoding="utf-8") for name in names]
+    return "\n".join([*texts, f"export default {{ render: globalThis.{driver}.render }};\n"])
 
 
 def _still(pad: Pad) -> str:

@@ -8,26 +8,26 @@ keep a graph going that would have nothing else to do.
 from __future__ import annotations
 
 import time
-from functools import cache, partial
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.errors import RosminiError
-from rosmini.viz.embed import asset_path
 from rosmini.viz.view import MimeBundle, ViewError
 
+from .teleop import TeleopError
+
 try:
-    import anywidget
-    import traitlets
-except ImportError as error:
+    from .live import FRAME_HZ, LEFT_S, QUIET_S, SHORTEST_S, PageWidget, answer_in_subshells
+except TeleopError as error:
     raise ViewError(
         "a view in a live notebook needs anywidget, which is not installed here: `pip install 'rosmini[book]'`. "
         "view.drag() and view.turn() work without it."
     ) from error
 
-from .live import FRAME_HZ, LEFT_S, QUIET_S, SHORTEST_S, answer_in_subshells
+from .page import module
 from .watch import STEP_S
 
 if TYPE_CHECKING:
@@ -74,19 +74,6 @@ class LinkedView(Protocol):
         """Put everything back."""
 
 
-class ViewWidget(anywidget.AnyWidget):
-    """The view's page, as Jupyter knows it."""
-
-    data = traitlets.Dict().tag(sync=True)
-
-
-@cache
-def module() -> str:
-    """The view's scripts as one module for anywidget."""
-    texts = [asset_path(name).read_text(encoding="utf-8") for name in SCRIPTS]
-    return "\n".join([*texts, "export default { render: globalThis.rosminiViewKernel.render };\n"])
-
-
 class _Same:
     """Equal to nothing but what holds the very same thing."""
 
@@ -113,7 +100,9 @@ class ViewLink:
         self._last: tuple[Any, ...] = ()
         self._last_sent = self._last_looked = 0.0
         self._seen: list[Pose] = []
-        self.widget = ViewWidget(_esm=module(), data=self.watch.node.scheduler.on_hub(self._data))
+        self.widget = PageWidget(
+            _esm=module(SCRIPTS, "rosminiViewKernel"), data=self.watch.node.scheduler.on_hub(self._data)
+        )
         answer_in_subshells(self.widget.comm)
         self.widget.on_msg(self.receive)
 

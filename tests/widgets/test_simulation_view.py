@@ -401,7 +401,8 @@ def test_an_ended_simulation_is_told(stage):
 
 
 def test_without_anywidget_the_twin_works_and_the_page_says_what_to_install(stage, monkeypatch):
-    monkeypatch.delitem(sys.modules, "rosmini.widgets.view_link")
+    for name in ("view_link", "live"):
+        monkeypatch.delitem(sys.modules, f"rosmini.widgets.{name}", raising=False)
     monkeypatch.setitem(sys.modules, "anywidget", None)
     view = stage.view()
     view.drag("robot_0", (-1.0, 0.0))
