@@ -151,7 +151,7 @@ class _Echo:
         self._read: Callable[[Any], Any] = lambda message: message
         self._kind: str | None = None
         self._kept: list[Any] = []
-        self._problem: VerbError | None = None
+        self._problem: Exception | None = None
         self._tell: Callable[[], None] = lambda: None
         self._clear = CLEAR if given.clear and call.in_terminal else ""
 
@@ -202,15 +202,15 @@ class _Echo:
         self.count += 1
         try:
             self._print(value, when)
-        except BrokenPipeError:  # what reads the output, such as `head`, has had enough
-            self._end(None)
+        except BrokenPipeError as error:  # what reads the output, such as `head`, has had enough
+            self._end(error)
             return
         if not self.call.in_terminal:
             self._kept.append(value)
         if self._options.count is not None and self.count >= self._options.count:
             self._end(None)
 
-    def _end(self, problem: VerbError | None) -> None:
+    def _end(self, problem: Exception | None) -> None:
         self._problem = problem
         self.is_done = True
         self._tell()

@@ -32,6 +32,8 @@ SETTLE_S = 0.1
 """How long the nodes after a `+` run before the verb acts [s]."""
 
 
+_NODES = "rosmini_sim/simulator"
+
 NOT_A_VERB = 64
 """The exit status of ROS's tools where the first word is none of their commands."""
 
@@ -135,8 +137,8 @@ class Verb:
     parser: Callable[[], Parser]
     act: Callable[[Any, Call], Result]
     needs_graph: bool = False
-    only_asks: bool = False
-    """True if the verb needs no node of its own: it only asks the Master and the nodes."""
+    only_asks: bool | Callable[[Any], bool] = False
+    """Whether the verb needs no node of its own, with these options: it only asks the Master and the nodes."""
     in_terminal: Callable[[Sequence[str]], int] | None = None
     """What a terminal does instead: for verbs that run nodes there until Ctrl-C."""
 
@@ -155,7 +157,7 @@ class Tool:
     summary: str
     usage_status: int = 2
     elsewhere: tuple[str, ...] = ()
-    example: str = "rosmini_sim/simulator"
+    example: str = _NODES
     purpose: str = ""
     verbs: dict[str, Verb] = field(default_factory=dict)
 
@@ -166,7 +168,7 @@ class Tool:
         parser: Callable[[], Parser],
         name: str | None = None,
         needs_graph: bool = False,
-        only_asks: bool = False,
+        only_asks: bool | Callable[[Any], bool] = False,
         in_terminal: Callable[[Sequence[str]], int] | None = None,
     ) -> Callable[[Callable[[Any, Call], Result]], Callable[[Any, Call], Result]]:
         """Add the decorated function, under its own name if none is given."""
@@ -273,7 +275,7 @@ class Tool:
         except MasterUnreachable as error:
             if not self.purpose:
                 raise
-            print(f"ERROR: Unable to communicate with master!\n{_no_master(error)}", file=sys.stderr)
+            print(f"ERROR: Unable to communicate with master!\n{error}", file=sys.stderr)
             return 1
         except BrokenPipeError:  # what reads the output, such as `head`, has had enough
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -313,22 +315,34 @@ class Tool:
 
     def _on_wire(self, verb: Verb, given: Any) -> Result:
         """Act on the graph of the Master that the environment names."""
-        from rosmini.net.addresses import addresses
-
         say = partial(print, flush=True)
-        if verb.only_asks:
+        only_asks = verb.only_asks(given) if callable(verb.only_asks) else verb.only_asks
+        if only_asks:
             from rosmini.introspection.direct import DirectWire
+            from rosmini.net.addresses import addresses
 
-            return verb.act(
-                given, Call(DirectWire(addresses().master_uri), say, read_line=sys.stdin.readline)
+            with DirectWire(addresses().master_uri) as wire:
+                return verb.act(given, Call(wire, say, read_line=sys.stdin.readline))
+        with self._connected() as graph:
+            graph.ask_as(f"/{self.name}").ask("getPid")
+            return verb.act(given, Call(graph, say, read_line=sys.stdin.readline))
+
+    def _connected(self) -> Graph:
+        """Return a graph of this process at the Master that the environment names; signals end it in order."""
+        import signal
+        from importlib import import_module
+        from importlib.util import find_spec
+
+        if find_spec("rosmini.net.connecting") is None:
+            raise RosminiError(
+                "this verb needs a node in a terminal, which this version cannot connect with others. Name the nodes "
+                f"that it acts on after a +: `rosmini {self.name} ... + {_NODES}`"
             )
-        raise RosminiError("there is no wire yet")
-
-
-def _no_master(error: MasterUnreachable) -> str:
-    return (
-        f"{error}\nIs it running? `rosmini roscore` starts one; ROS_MASTER_URI says where it is looked for."
-    )
+        # As in rospy: what ends a node, also in the background, lets it take its registrations back.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.signal(signal.SIGTERM, lambda _number, _frame: signal.raise_signal(signal.SIGINT))
+        graph: Graph = import_module("rosmini.net.connecting").connect()
+        return graph
 
 
 @dataclass(frozen=True)

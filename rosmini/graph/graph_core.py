@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import zlib
 from abc import ABC, abstractmethod
@@ -88,7 +89,7 @@ class GraphCore(ABC):
         self.log_class = message_class("rosgraph_msgs/Log")
         self.clock_class = message_class("rosgraph_msgs/Clock")
         self._live: Drive | None = None
-        self._anonymous = AnonymousNames()
+        self._anonymous = AnonymousNames() if simulated else AnonymousNames(os.getpid())
         self.keeps_time = False
         """True while this graph publishes its time on ``/clock``: its own nodes do not follow that topic then."""
         parameters = ROSCORE_PARAMETERS | ({} if run_id is None else {"/run_id": run_id})

@@ -145,7 +145,11 @@ class DirectMaster:
         try:
             return self._wire.call(self._wire.master_uri, method, self._caller_id, *arguments)
         except TransportException as error:
-            raise MasterUnreachable(f"the Master does not answer: {error}") from error.__cause__
+            why = _reason(error.__cause__ or error)
+            raise MasterUnreachable(
+                f"the Master at {self._wire.master_uri} does not answer: {why}. Start it with `rosmini roscore`, or "
+                "set ROS_MASTER_URI to the address of one that runs"
+            ) from error.__cause__
 
     def ask(self, method: str, *arguments: Any) -> Any:
         """Return the value of the answer. Raises ``ROSException`` for any code but 1, and ``MasterUnreachable``."""
@@ -172,7 +176,7 @@ class WallClock:
         time.sleep(max(when_ns - time.perf_counter_ns(), 0) / 1e9)
 
 
-def _reason(error: Exception) -> str:
+def _reason(error: BaseException) -> str:
     if isinstance(error, OSError) and error.errno is not None and error.strerror:
         return os.strerror(error.errno) if error.errno > 0 else str(error.strerror)
     return str(error) or type(error).__name__
