@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from rosmini.errors import DefinitionError, UnknownPackage
+from rosmini.errors import DefinitionError
 from rosmini.files import read
-from rosmini.packages import PackageIndex, search_paths
+from rosmini.packages import PackageIndex, assets_dir, search_paths
 
 from .definition import LONGEST_TEXT
 
@@ -55,8 +55,7 @@ class PackageSource:
 
     def has_package(self, package: str) -> bool:
         """As :meth:`Source.has_package`."""
-        index = self.index
-        return package in index and any((index.path(package) / kind).is_dir() for kind in KINDS)
+        return self._folder(package) is not None
 
     def names(self, package: str, kind: str) -> list[str]:
         """As :meth:`Source.names`."""
@@ -79,11 +78,23 @@ class PackageSource:
             raise DefinitionError("the file is not UTF-8 text", path, line) from error
         return text.replace("\r\n", "\n").replace("\r", "\n"), str(path)
 
+    def _folder(self, package: str) -> Path | None:
+        """The folder of a package that defines something.
+
+        Where the package that is found defines nothing (Debian's libstd-msgs-dev has headers only), rosmini's own.
+        """
+        index = self.index
+        if package not in index:
+            return None
+        found = [index.path(package)]
+        found += [own / package for own in (assets_dir() / "ros",) if own in index.paths]
+        return next((path for path in found if any((path / kind).is_dir() for kind in KINDS)), None)
+
     def _files(self, package: str, kind: str) -> dict[str, Path]:
-        try:
-            folder = self.index.path(package) / kind
-        except UnknownPackage:
+        base = self._folder(package)
+        if base is None:
             return {}
+        folder = base / kind
         if not folder.is_dir():
             return {}
         return {path.stem: path for path in folder.iterdir() if path.suffix == f".{kind}" and path.is_file()}

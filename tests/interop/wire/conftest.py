@@ -1,0 +1,53 @@
+"""The Masters and the nodes that the tests of a module share."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from ..conftest import need_ros
+from .harness import Stage
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .harness import Peer
+
+WIRE = ("rosmini.net.tcp_transport", "rosmini.cli.roscore", "rosmini.cli.rosrun")
+collect_ignore_glob = [] if all(map(find_spec, WIRE)) else [f"{Path(__file__).parent}/test_*.py"]
+"""These tests begin to count with the commit that brings the last part of the wire; take this out then."""
+
+PROGRAMS = ["roscore", "rosnode", "rostopic", "rosservice", "rosparam", "rosbag", "roslaunch"]
+
+
+@pytest.fixture
+def stage(tmp_path: Path) -> Iterator[Stage]:
+    """An empty stage of one test."""
+    need_ros(*PROGRAMS, modules="rospy, actionlib, tf2_ros, dynamic_reconfigure")
+    with Stage(tmp_path) as found:
+        yield found
+
+
+@pytest.fixture(scope="module", params=["ours", "real"])
+def core(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stage]:
+    """A stage with a roscore that the tests of a module share, ours or the real one."""
+    need_ros(*PROGRAMS, modules="rospy, actionlib, tf2_ros, dynamic_reconfigure")
+    with Stage(tmp_path_factory.mktemp(f"roscore_{request.param}")) as found:
+        found.roscore(request.param)
+        yield found
+
+
+@pytest.fixture(scope="module")
+def pair(core: Stage) -> tuple[Peer, Peer]:
+    """Our node and their node under that roscore."""
+    peers = core.peer("ours", "ours"), core.peer("real", "theirs")
+    return peers[0].ready(), peers[1].ready()
+
+
+@pytest.fixture(params=["ours_first", "theirs_first"])
+def first_second(pair: tuple[Peer, Peer], request: pytest.FixtureRequest) -> tuple[Peer, Peer]:
+    """The two nodes: who publishes, serves or broadcasts, and who hears, calls or looks up."""
+    return pair if request.param == "ours_first" else pair[::-1]

@@ -1,0 +1,200 @@
+"""Processes that die, stop and come back: Masters, publishers, subscribers, servers; ours and real ones, in turn."""
+
+from __future__ import annotations
+
+import signal
+from typing import TYPE_CHECKING
+
+import pytest
+
+from ...processes import wait_until
+
+if TYPE_CHECKING:
+    from .harness import Peer, Stage
+
+pytestmark = pytest.mark.ros
+
+Peers = tuple["Peer", "Peer"]
+STRING = "std_msgs/String"
+INFO = "sensor_msgs/SetCameraInfo"
+ANSWER = {"success": True, "status_message": "set"}
+OTHER = {"ours": "real", "real": "ours"}
+KINDS = pytest.mark.parametrize("kind", ["ours", "real"])
+"""Which of the two dies or stops."""
+
+
+def test_two_nodes_of_one_name(core: Stage) -> None:
+    """The Master has the older one shut down, with the reason."""
+    for older, newer in (("ours", "real"), ("real", "ours"), ("ours", "ours")):
+        first = core.peer(older, "twin").ready()
+        second = core.peer(newer, "twin").ready()
+        first.wait_for("new node registered with same name")
+        first.process.stdin.close()
+        assert first.ended() == 0
+        assert core.master("lookupNode", "/twin") == second.uri
+        second.ask("subscribe", "/twin_topic", STRING)
+        core.wait_for("/twin_topic", "subscribers", "/twin")
+        second.interrupt()
+        wait_until(lambda: "/twin" not in core.nodes(), "the end of /twin")
+
+
+@KINDS
+def test_a_publisher_is_killed_and_returns(core: Stage, kind: str) -> None:
+    topic = f"/news_{kind}"
+    reader = core.peer(OTHER[kind], f"reader_{kind}").ready()
+    reader.ask("subscribe", topic, STRING)
+    for text in ("first", "second"):
+        writer = core.peer(kind, f"writer_{kind}").ready()
+        writer.ask("advertise", topic, STRING, latch=True)
+        writer.ask("publish", topic, [text])
+        assert reader.ask("hear", topic) == [{"data": text}]
+        writer.kill()
+    core.wait_for(topic, "publishers", writer.node)  # it did not take leave
+    writer = core.peer(OTHER[kind], f"writer_{kind}").ready()
+    writer.ask("advertise", topic, STRING, latch=True)
+    writer.ask("publish", topic, ["third"])
+    assert reader.ask("hear", topic) == [{"data": "third"}]
+    for peer in (writer, reader):
+        peer.interrupt()
+
+
+@KINDS
+def test_a_subscriber_is_killed_and_returns(core: Stage, kind: str) -> None:
+    topic = f"/news_of_{kind}"
+    writer = core.peer(OTHER[kind], f"source_{kind}").ready()
+    writer.ask("advertise", topic, STRING)
+    for text in ("first", "second"):
+        reader = core.peer(kind, f"sink_{kind}").ready()
+        reader.ask("subscribe", topic, STRING)
+        writer.ask("connected", topic, 1)
+        writer.ask("publish", topic, [text])
+        assert reader.ask("hear", topic) == [{"data": text}]
+        reader.kill()
+        writer.ask("publish_until_alone", topic)
+    writer.interrupt()
+
+
+@KINDS
+def test_a_server_is_killed_and_returns(core: Stage, kind: str) -> None:
+    service = f"/mend_{kind}"
+    client = core.peer(OTHER[kind], f"client_{kind}").ready()
+    for _ in range(2):
+        server = core.peer(kind, f"server_{kind}").ready()
+        server.ask("serve", service, INFO, ANSWER)
+        assert client.ask("call", service, INFO, {}) == ANSWER
+        assert client.ask("call", service, INFO, {}, persistent=True) == ANSWER
+        server.kill()
+        gone = client.ask("call_now", service, INFO)
+        assert "error" in gone, gone
+        client.ask("forget_proxy", service)
+    client.interrupt()
+
+
+@KINDS
+def test_a_stopped_subscriber_does_not_block_the_publisher(core: Stage, kind: str) -> None:
+    """What does not go through is dropped, the oldest first; who still listens gets all of it."""
+    topic = f"/flood_{kind}"
+    writer = core.peer(OTHER[kind], f"flooder_{kind}").ready()
+    stopped, awake = (core.peer(kind, f"{name}_{kind}").ready() for name in ("stopped", "awake"))
+    for reader in (stopped, awake):
+        reader.ask("subscribe", topic, STRING, what="size")
+    writer.ask("advertise", topic, STRING, queue_size=5)
+    writer.ask("connected", topic, 2)
+    stopped.pause()
+    for _ in range(30):  # 12 MB: more than the system keeps for a connection
+        writer.ask("flood", topic, 400_000, 1)
+        assert awake.ask("hear", topic) == [[400_000, 1]]
+    stopped.resume()
+    heard = stopped.ask("hear", topic)
+    assert heard[0] == [400_000, 1]
+    writer.ask("flood", topic, 7, 1)
+    while heard[-1] != [7, 1]:
+        heard += stopped.ask("hear", topic)
+    assert len(heard) <= 31
+    for peer in (stopped, awake, writer):
+        peer.interrupt()
+
+
+@KINDS
+def test_a_stopped_publisher_does_not_hang_its_subscribers(core: Stage, kind: str) -> None:
+    """A node that stands answers nobody: the others go on, and connect to it when it wakes."""
+    asleep = core.peer(kind, f"asleep_{kind}").ready()
+    other = core.peer(OTHER[kind], f"busy_{kind}").ready()
+    third = core.peer("ours", f"third_{kind}").ready()
+    asleep.ask("advertise", f"/from_asleep_{kind}", STRING, latch=True)
+    asleep.ask("publish", f"/from_asleep_{kind}", ["good morning"])
+    asleep.pause()
+    for peer in (other, third):
+        peer.ask("subscribe", f"/from_asleep_{kind}", STRING)
+    other.ask("advertise", f"/from_busy_{kind}", STRING, latch=True)
+    other.ask("publish", f"/from_busy_{kind}", ["hello"])
+    third.ask("subscribe", f"/from_busy_{kind}", STRING)
+    assert third.ask("hear", f"/from_busy_{kind}") == [{"data": "hello"}]
+    asleep.resume()
+    for peer in (other, third):
+        assert peer.ask("hear", f"/from_asleep_{kind}") == [{"data": "good morning"}]
+    for peer in (asleep, other, third):
+        peer.interrupt()
+
+
+def test_a_stopped_node_does_not_hang_the_master(core: Stage) -> None:
+    """Its notices wait for it; the other nodes' do not."""
+    asleep, reader = (core.peer(kind, f"{kind}_hears").ready() for kind in ("real", "ours"))
+    for peer in (asleep, reader):
+        peer.ask("subscribe", "/notices", STRING)
+    asleep.pause()
+    writer = core.peer("ours", "notice").ready()
+    writer.ask("advertise", "/notices", STRING, latch=True)
+    writer.ask("publish", "/notices", ["now"])
+    assert reader.ask("hear", "/notices") == [{"data": "now"}]
+    asleep.resume()
+    assert asleep.ask("hear", "/notices") == [{"data": "now"}]
+    for peer in (asleep, reader, writer):
+        peer.interrupt()
+
+
+@KINDS
+def test_a_master_dies_and_returns(stage: Stage, kind: str) -> None:
+    """Connections go on without it; our nodes say so once and register again at the one that returns."""
+    master = stage.roscore(kind, "--core")
+    writer, reader = stage.peer("ours", "writer").ready(), stage.peer("ours", "reader").ready()
+    reader.ask("subscribe", "/news", STRING)
+    writer.ask("advertise", "/news", STRING)
+    writer.ask("serve", "/mend", INFO, ANSWER)
+    writer.ask("connected", "/news")
+    master.kill()
+    for child in stage.survivors():
+        if child not in {writer.process.pid, reader.process.pid}:
+            stage.kill(child)
+    writer.ask("publish", "/news", ["without a master"])
+    assert reader.ask("hear", "/news") == [{"data": "without a master"}]
+    stage.roscore(OTHER[kind], "--core")
+    stage.wait_for("/news", "publishers", "/writer")
+    stage.wait_for("/news", "subscribers", "/reader")
+    stage.wait_for("/mend", "services", "/writer")
+    late = stage.peer("real", "late").ready()
+    late.ask("subscribe", "/news", STRING)
+    writer.ask("connected", "/news", 2)
+    writer.ask("publish", "/news", ["again"])
+    for peer in (reader, late):
+        assert peer.ask("hear", "/news") == [{"data": "again"}]
+    assert late.ask("call", "/mend", INFO, {}) == ANSWER
+
+
+def test_a_second_roscore_is_refused(core: Stage) -> None:
+    for kind in ("ours", "real"):
+        second = core.second_roscore(kind)
+        assert second.ended() == 1
+        assert core.uri.rstrip("/") in second.output
+    assert core.answers()
+
+
+def test_ctrl_c_ends_roscore_and_nodes_and_leaves_nothing(stage: Stage) -> None:
+    core = stage.roscore("ours")
+    peer = stage.peer("ours", "node").ready()
+    peer.ask("advertise", "/news", STRING)
+    assert peer.interrupt() in {0, 130, -signal.SIGINT}
+    wait_until(lambda: "/node" not in stage.nodes(), "unregistering")
+    assert core.interrupt() in {0, 130, -signal.SIGINT}
+    wait_until(lambda: not stage.survivors(), "the end of all")
+    assert "Traceback" not in core.output + peer.output, core.tail + peer.tail
