@@ -6,6 +6,7 @@ times a second.
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any
@@ -22,6 +23,7 @@ from .status_tracker import StatusTracker
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from contextlib import AbstractContextManager
 
     from rosmini.graph import Node, Publisher
 
@@ -87,6 +89,8 @@ class ActionServer:
         self.goal_callback = goal_cb
         self.cancel_callback = cancel_cb
         self._numpy = numpy
+        self.lock: AbstractContextManager[Any] = nullcontext()
+        """Held while a goal or a cancellation that arrives is taken; scripts get a lock here (actionlib's ``lock``)."""
         self.status_list: list[StatusTracker] = []
         self._by_id: dict[str, StatusTracker] = {}
         self._unpublished = 0
@@ -251,6 +255,10 @@ class ActionServer:
 
     def internal_goal_callback(self, action_goal: Any) -> None:
         """Take what arrives on ``goal``."""
+        with self.lock:
+            self._take(action_goal)
+
+    def _take(self, action_goal: Any) -> None:
         known = self._by_id.get(action_goal.goal_id.id)
         if known is not None:
             self._take_again(known)
@@ -279,6 +287,10 @@ class ActionServer:
 
     def internal_cancel_callback(self, request: Any) -> None:
         """Take what arrives on ``cancel``."""
+        with self.lock:
+            self._cancel(request)
+
+    def _cancel(self, request: Any) -> None:
         everything = not request.id and not request.stamp
         found = False
         named = self._by_id.get(request.id)

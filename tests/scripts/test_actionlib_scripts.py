@@ -71,3 +71,28 @@ def test_before_init_node(run):
         "an action client of fibonacci needs a node",
         "Header is not an action type, such as FibonacciAction",
     ]
+
+
+def test_no_goal_is_taken_while_a_script_holds_the_servers_lock(run):
+    source = """
+        import actionlib, rospy
+        from actionlib_tutorials.msg import FibonacciAction, FibonacciGoal
+
+        rospy.init_node("locked")
+        taken = []
+        server = actionlib.SimpleActionServer("work", FibonacciAction, auto_start=False)
+        server.register_goal_callback(lambda: taken.append(server.accept_new_goal().order))
+        server.start()
+        client = actionlib.SimpleActionClient("work", FibonacciAction)
+        client.wait_for_server()
+        with server.action_server.lock, server.lock:
+            client.send_goal(FibonacciGoal(3))
+            rospy.sleep(1.0)
+            with server.action_server.lock:
+                print("held", taken)
+        rospy.sleep(0.1)
+        print("free", taken)
+        with server.execute_condition:
+            server.execute_condition.notify_all()
+    """
+    assert run(source, prefix=False, duration=5).lines[-2:] == ["held []", "free [3]"]

@@ -8,6 +8,7 @@ one; the node is that of the script. What is wrong is logged, not raised, as the
 from __future__ import annotations
 
 import sys
+import threading
 from typing import TYPE_CHECKING, Any
 
 from rosmini import actionlib, rospy
@@ -114,6 +115,11 @@ def _node_of_server(ns: str, auto_start: bool) -> Node:
     return node
 
 
+def _locks(node: Node) -> dict[str, Any]:
+    """Return the lock classes of the node's script, by their names in ``threading``."""
+    return getattr(node.context, "thread_classes", None) or vars(threading)
+
+
 class ActionServer(actionlib.ActionServer):
     """Takes goals on ``ns`` and hands each to ``goal_cb(handle)``. Raises ``ROSInitException`` before ``init_node``."""
 
@@ -127,6 +133,7 @@ class ActionServer(actionlib.ActionServer):
     ) -> None:
         node = _node_of_server(ns, auto_start)
         super().__init__(node, ns, ActionSpec, goal_cb, cancel_cb, auto_start, **_OPTIONS)
+        self.lock = _locks(node)["RLock"]()
 
 
 class SimpleActionServer(actionlib.SimpleActionServer):
@@ -141,3 +148,7 @@ class SimpleActionServer(actionlib.SimpleActionServer):
     ) -> None:
         node = _node_of_server(name, auto_start)
         super().__init__(node, name, ActionSpec, execute_cb, auto_start, **_OPTIONS)
+        locks = _locks(node)
+        self.action_server.lock = locks["RLock"]()
+        self.lock = locks["RLock"]()  # what extends the server uses it, and the condition, for its own ends
+        self.execute_condition = locks["Condition"](self.lock)
