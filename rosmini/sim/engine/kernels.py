@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -455,9 +454,12 @@ def clearances(lookers: Ints, view: float, scene: Scene, rooms: Floats) -> None:
         rooms[i] = free
 
 
-@cache
-def compiled() -> dict[str, Callable[..., Any]]:
-    """`make_way`, `slide` and `clearances` as machine code. Raises `ImportError` without numba."""
+PLAIN: dict[str, Callable[..., Any]] = {each.__name__: each for each in (make_way, slide, clearances)}
+"""The loops without numba."""
+
+
+def compiled(name: str) -> Callable[..., Any]:
+    """Compile one of `PLAIN` to machine code. Raises `ImportError` without numba."""
     import numba
 
     pairs = (parting, facing, height, nearest_side, contact_disc, contact, gap)
@@ -468,16 +470,9 @@ def compiled() -> dict[str, Callable[..., Any]]:
     scene = types.Tuple(
         (table, table, table, table, ways, ways, vector, ways, ways, table, ways, table, ways, ways)
     )
-    signatures = (
-        (make_way, numba.void(ways, scene, ways)),
-        (slide, numba.int64(number, number, scene, table, table)),
-        (clearances, numba.void(ways, number, scene, vector)),
-    )
-    return {
-        function.__name__: machine_code(function, signature, (*pairs, *pushes, *blows))
-        for function, signature in signatures
+    signatures = {
+        "make_way": numba.void(ways, scene, ways),
+        "slide": numba.int64(number, number, scene, table, table),
+        "clearances": numba.void(ways, number, scene, vector),
     }
-
-
-PLAIN: dict[str, Callable[..., Any]] = {each.__name__: each for each in (make_way, slide, clearances)}
-"""The same without numba."""
+    return machine_code(PLAIN[name], signatures[name], (*pairs, *pushes, *blows))

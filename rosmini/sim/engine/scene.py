@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -25,31 +25,35 @@ MARGIN = 0.5
 
 
 WORTH = 5000
-"""The loops run as plain Python over so many bodies first; beyond that compiling them pays."""
+"""A loop runs as plain Python over this number of bodies first; beyond that compiling it pays."""
 
 
-@cache
-def kernels() -> dict[str, Callable[..., Any]]:
-    """The loops as machine code, or, without numba, as plain Python: which does the same, to the last bit."""
+def _fastest(name: str) -> Callable[..., Any]:
+    """Return a loop as machine code, or, without numba, as plain Python: which does the same, to the last bit."""
     try:
-        return compiled()
+        return compiled(name)
     except ImportError as error:
         logging.getLogger(__name__).info("numba cannot be used, so contacts are slower: %s", error)
-        return PLAIN
+        return PLAIN[name]
+
+
+KERNELS = {name: cache(partial(_fastest, name)) for name in PLAIN}
+"""The loops; each is compiled when it is called for the first time."""
 
 
 class Loops:
-    """The loops of one engine: those who touch little need not wait until they are compiled."""
+    """The loops of one engine, which does not wait for the compiler while it has little for them to do."""
 
     def __init__(self) -> None:
-        self._done = 0
+        self._done = dict.fromkeys(PLAIN, 0)
 
     def run(self, name: str, size: int, *args: Any) -> Any:
-        """Run a loop over so many bodies."""
-        if self._done < WORTH and not kernels.cache_info().currsize:  # else they are compiled already
-            self._done += size
+        """Run a loop over this number of bodies."""
+        kernel = KERNELS[name]
+        if self._done[name] < WORTH and not kernel.cache_info().currsize:  # else it is compiled already
+            self._done[name] += size
             return PLAIN[name](*args)
-        return kernels()[name](*args)
+        return kernel()(*args)
 
 
 class Near:

@@ -173,7 +173,8 @@ def test_who_looks_or_saves_changes_nothing(scenery, seed, look):
 @pytest.mark.parametrize("scenery", SCENES)
 def test_with_numba_and_without_everything_is_equal_to_the_last_bit(scenery, monkeypatch):
     pytest.importorskip("numba")
-    scene.kernels()  # from now on they are used at once
+    for kernel in scene.KERNELS.values():
+        kernel()  # from now on it is used at once
     expected = run(scenery(), 1)
     assert any(robot[4] for robots, _, _ in expected for robot in robots)  # something touched
     monkeypatch.setattr(scene.Loops, "run", lambda self, name, size, *args: PLAIN[name](*args))
