@@ -25,7 +25,7 @@ MARGIN = 0.5
 
 
 WORTH = 5000
-"""A loop runs as plain Python over this number of bodies first; beyond that compiling it pays."""
+"""The loops run as plain Python over this number of bodies first; beyond that compiling those that are called pays."""
 
 
 def _fastest(name: str) -> Callable[..., Any]:
@@ -45,13 +45,13 @@ class Loops:
     """The loops of one engine, which does not wait for the compiler while it has little for them to do."""
 
     def __init__(self) -> None:
-        self._done = dict.fromkeys(PLAIN, 0)
+        self._done = 0
 
     def run(self, name: str, size: int, *args: Any) -> Any:
         """Run a loop over this number of bodies."""
         kernel = KERNELS[name]
-        if self._done[name] < WORTH and not kernel.cache_info().currsize:  # else it is compiled already
-            self._done[name] += size
+        if self._done < WORTH and not kernel.cache_info().currsize:  # else it is compiled already
+            self._done += size
             return PLAIN[name](*args)
         return kernel()(*args)
 
