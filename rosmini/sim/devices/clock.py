@@ -11,10 +11,10 @@ FIELDS = ("clock.secs", "clock.nsecs")
 
 
 class ClockDevice(Device):
-    """`rosgraph_msgs/Clock`: the time that the host's messages bear. Nodes live on it that have /use_sim_time set.
+    """`rosgraph_msgs/Clock`: the time of the host's stamps, for nodes with /use_sim_time.
 
     Args:
-        host: whose time; it has to be one that counts `from_zero`, for another lives on the graph's time itself.
+        host: whose time; one that counts `from_zero`, because any other follows the graph's own time.
         rate: how often [Hz].
         topic: where it is published.
 
@@ -27,12 +27,12 @@ class ClockDevice(Device):
         self._outlet = Outlet(host.node, topic, message_class("rosgraph_msgs/Clock")(), FIELDS)
 
     def due(self, stamp: Stamp, _: int, /) -> None:
-        """Tell what time it is."""
+        """Publish the time."""
         if self._outlet.heard():
             self._outlet.publish(stamp, stamp)
 
     def tell(self) -> None:
-        """Tell it at once: after time was set back, or stepped while it stands."""
+        """Publish it immediately: after time was reset, or stepped while paused."""
         now = self.host.stamp
         self.due((now.secs, now.nsecs), 0)
 

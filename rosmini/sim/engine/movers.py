@@ -11,11 +11,11 @@ from .instant import SECOND, Instant
 from .trails import Leg
 
 DELTA = 1e-4
-"""Over so long a time [s] a velocity is measured."""
+"""The period [s] over which a velocity is measured."""
 
 
 class Mover:
-    """A walker or a door, with a clock of its own that stands while something is in its way."""
+    """A walker or a door, whose own clock stops while something is in its way."""
 
     def __init__(self, obstacle: Obstacle, motion: Walk | Door, instant: Instant) -> None:
         self.obstacle = obstacle
@@ -24,12 +24,12 @@ class Mover:
         """How fast any point of it can move [m/s]."""
         speed = motion.max_speed + (self.reach * motion.max_turn if isinstance(motion, Door) else 0.0)
         self.ahead = motion.keep / speed if speed else 0.0
-        """So far ahead of time [s] it looks for what is in its way."""
+        """How far ahead [s] it checks for obstacles in its path."""
         self._instant = instant
         self.start()
 
     def start(self) -> None:
-        """Be where it began."""
+        """Return to its initial pose."""
         self._since_ns, self._clock, self.waiting = self._instant.ns, 0.0, False
         self.room = 0.0
         """How far it could move [m] at `room_ns` before its clearance must be measured again."""
@@ -56,7 +56,7 @@ class Mover:
         return (vx, vy, w)
 
     def wait(self, *, waiting: bool) -> None:
-        """Stand from now on, or go on."""
+        """Stop from now on, or continue."""
         if waiting != self.waiting:
             self._clock, self._since_ns, self.waiting = self.clock, self._instant.ns, waiting
 
@@ -65,19 +65,19 @@ class Mover:
         return self.room - self.haste * (ns - self.room_ns) / SECOND
 
     def leg(self) -> tuple[float, Pose, float, bool]:
-        """Since when [s] it goes or waits, from where, at which time of its own: a leg of its trail."""
+        """Return the current leg of its trail: start time [s], pose, its own clock, and whether it waits."""
         return (self._since_ns / SECOND, self.obstacle.at(self._clock), self._clock, self.waiting)
 
     def later(self, leg: Leg, dt: float) -> Pose:
-        """Where it was so long [s] after the begin of a leg of its trail."""
+        """Return its pose `dt` seconds after the start of a leg of its trail."""
         _, _, clock, waiting = leg
         return self.obstacle.at(clock if waiting else clock + dt)
 
     def state(self) -> tuple[int, float, bool]:
-        """Since when it goes or waits, at which time of its own, and which of the two."""
+        """Return when it last started or stopped [ns], its own clock then [s], and whether it waits."""
         return (self._since_ns, self._clock, self.waiting)
 
     def restore(self, state: tuple[int, float, bool]) -> None:
-        """Be as it was then."""
+        """Restore what `state` returned."""
         self._since_ns, self._clock, self.waiting = state
         self.room = 0.0

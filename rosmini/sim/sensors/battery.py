@@ -36,11 +36,11 @@ CURVE = (
 """The open-circuit voltage [V] of a cell by how full it is."""
 
 STEP = 1.0
-"""The charge is followed in steps of this at most [s]."""
+"""The largest step of integration [s]."""
 
 
 class BatteryError(RosminiError, ValueError):
-    """A battery cannot be so full, or drained so; the message says what is wrong."""
+    """An impossible charge level or load; the message says what is wrong."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class BatteryModel:
     resistance: float = 0.12
     """Of the whole battery and its leads [ohm]."""
     rest: float = 6.4
-    """What a robot draws that stands: its computers, its laser, its motors [W]."""
+    """What a robot at rest draws: its computers, its laser, its motors [W]."""
     motor: float = 0.8
     """What each of its two motors draws in addition at its full speed [W]."""
     efficiency: float = 0.3
@@ -108,7 +108,7 @@ class Charge:
 
 
 class Battery:
-    """One battery. It begins full, or with `level` (0 to 1) of its charge."""
+    """One battery, initially full, or at `level` (0 to 1) of its charge."""
 
     def __init__(self, model: BatteryModel = BURGER_BATTERY, level: float = 1.0) -> None:
         self.model = model
@@ -120,7 +120,7 @@ class Battery:
     def level(self) -> float:
         """How much of its charge is left, 0 to 1.
 
-        To set it is to charge it, or to put in another one. Raises `BatteryError`.
+        Setting it charges or replaces the battery. Raises `BatteryError`.
         """
         return self._level
 

@@ -26,12 +26,12 @@ Floats = NDArray[np.float64]
 
 
 class NoiseError(RosminiError, ValueError):
-    """A noise has a number that is none, or one that is negative and must not be; the message names it."""
+    """A noise has a parameter that is not finite, or negative where it must not be; the message names it."""
 
 
 @dataclass(frozen=True)
 class NoiseModel:
-    """A noise by its numbers, in the unit of what is measured; with all of them 0 there is none.
+    """The parameters of a noise, in the unit of the measurement; all 0: no noise.
 
     Raises:
         NoiseError: a number is not finite, a deviation is negative, or the chance of a gap is not between 0 and 1.
@@ -68,7 +68,7 @@ class NoiseModel:
             )
 
     def scaled(self, factor: float) -> NoiseModel:
-        """The same noise, `factor` times as strong; resolution and gaps stay."""
+        """Return the same noise, `factor` times as strong, with the same resolution and dropout."""
         return NoiseModel(
             self.stddev * factor,
             self.mean * factor,
