@@ -1,0 +1,141 @@
+"""`rosmini rostopic` in a terminal, on the wire: it hears real publishers, and real subscribers hear it."""
+
+from __future__ import annotations
+
+import re
+import signal
+import subprocess
+import sys
+import xmlrpc.client
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from ..processes import run, start, wait_until
+from .conftest import SYSTEM_PYTHON, need_ros
+
+pytest.importorskip("rosmini.net.connecting", reason="graphs do not connect over the network yet")
+need_ros("rostopic", modules="rospy, std_msgs.msg, geometry_msgs.msg, sensor_msgs.msg")
+
+PUBLISHER = """
+import rospy
+from std_msgs.msg import String
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from sensor_msgs.msg import LaserScan, Image
+rospy.init_node("publisher")
+def latched(topic, message):
+    made = rospy.Publisher(topic, type(message), latch=True, queue_size=1)
+    if message._has_header:
+        message.header.stamp, message.header.frame_id = rospy.Time(1234, 5678), "map"
+    made.publish(message)
+    return made
+kept = [latched("/word", String("caf\\u00e9 \\"x\\"")),
+        latched("/odom", PoseWithCovarianceStamped()),
+        latched("/scan", LaserScan(ranges=[1.5, float("inf"), float("nan"), 1e-7], range_max=3.5)),
+        latched("/image", Image(height=1, width=2, encoding="mono8", data=b"\\x00\\xff"))]
+chatter = rospy.Publisher("/chatter", String, queue_size=5)
+rospy.set_param("/ready", True)
+while not rospy.is_shutdown():
+    chatter.publish("x" * 29)
+    rospy.sleep(0.05)
+"""
+
+
+def ask(env: dict[str, str], method: str, *words: str) -> Any:
+    """What the Master answers."""
+    with xmlrpc.client.ServerProxy(env["ROS_MASTER_URI"]) as server:
+        answer: Any = getattr(server, method)("/test", *words)
+    return answer[2]
+
+
+@pytest.fixture(scope="module")
+def graph(master: dict[str, str]) -> Iterator[dict[str, str]]:
+    """A real publisher at a real Master."""
+    with start([SYSTEM_PYTHON, "-c", PUBLISHER], env=master) as process:
+        wait_until(lambda: ask(master, "hasParam", "/ready"), "publisher", process)
+        yield master
+
+
+def tool(*words: str) -> list[str]:
+    return [sys.executable, "-m", "rosmini", "rostopic", *words]
+
+
+ECHO = [
+    ["/word"], ["/word/data"], ["/odom"], ["--noarr", "/odom"], ["--nostr", "/odom"], ["-p", "/odom"],
+    ["-p", "--noarr", "--nostr", "/odom"], ["-w", "8", "/odom"], ["/odom/pose/pose/orientation"],
+    ["/odom/header/stamp"], ["/scan"], ["-p", "/scan"], ["/scan/ranges"], ["/scan/ranges[0:2]"], ["/scan/ranges[-1]"],
+    ["/image"], ["--filter", "m.range_max > 3", "/scan/range_max"],
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("words", ECHO, ids=" ".join)
+def test_it_echoes_what_the_real_one_does(graph: dict[str, str], words: list[str]) -> None:
+    real = run(["rostopic", "echo", "-n", "1", *words], env=graph | {"LANG": "C.UTF-8"}, check=True)
+    ours = run(tool("echo", "-n", "1", *words), env=graph, check=True)
+    assert unnumbered(ours.stdout) == unnumbered(real.stdout)
+    assert ours.stderr == ""
+
+
+def unnumbered(text: str) -> str:
+    """The text without ``header.seq``: rospy numbers a latched message anew for each subscriber."""
+    return re.sub(r"^(  seq: +|[1-9]\d*,)\d+", r"\1N", text, flags=re.MULTILINE)
+
+
+@pytest.mark.parametrize("verb", ["hz", "bw"])
+def test_it_measures_real_publishers(graph: dict[str, str], verb: str) -> None:
+    ours = run(tool(verb, "--duration", "3.5", "/chatter"), env=graph, check=True)
+    first, *rest = ours.stdout.splitlines()
+    assert first == "subscribed to [/chatter]"
+    form = {
+        "hz": r"average rate: [\d.]+ \tmin: [\d.]+s max: [\d.]+s std dev: [\d.]+s window: \d+",
+        "bw": r"average: [\d.]+K?B/s \tmean: 33.00B min: 33.00B max: 33.00B window: \d+",
+    }[verb]
+    printed = " ".join(rest).replace("no new messages ", "")
+    assert re.match(form, printed), ours.stdout
+
+
+def test_a_real_subscriber_hears_ours(graph: dict[str, str]) -> None:
+    pipes = {"stdout": subprocess.PIPE, "env": graph}
+    words = "-r", "10", "/cmd", "geometry_msgs/Twist", "{linear: {x: 0.25}}"
+    with (
+        start(tool("pub", *words), env=graph) as ours,
+        start(["rostopic", "echo", "-n", "2", "/cmd/linear/x"], **pipes) as real,
+    ):
+        assert real.communicate()[0] == "0.25\n---\n" * 2
+        ours.send_signal(signal.SIGTERM)
+        assert ours.wait() == 0
+    assert "/cmd" not in dict(ask(graph, "getSystemState")[0])
+
+
+def test_ours_hears_a_real_publisher_that_comes_later(graph: dict[str, str]) -> None:
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "env": graph}
+    with (
+        start(tool("echo", "-n", "1", "/later/data"), **pipes) as ours,
+        start(["rostopic", "pub", "-r", "10", "/later", "std_msgs/String", "here"], env=graph),
+    ):
+        out, err = ours.communicate()
+    assert out == '"here"\n---\n'
+    assert ours.returncode == 0, err
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_and_nothing_is_left_at_the_master(
+    graph: dict[str, str], number: signal.Signals
+) -> None:
+    def subscribers() -> list[str]:
+        return list(dict(ask(graph, "getSystemState")[1]).get("/odom", []))
+
+    with start(tool("echo", "/odom"), env=graph) as ours:
+        wait_until(subscribers, "subscription", ours)
+        (name,) = subscribers()
+        assert re.fullmatch(rf"/rostopic_{ours.pid}_\d+", name)
+        ours.send_signal(number)
+        assert ours.wait() == 0
+    assert name not in str(ask(graph, "getSystemState"))
+
+
+def test_it_ends_with_what_reads_its_output(graph: dict[str, str]) -> None:
+    words = "set -o pipefail; " + " ".join(tool("echo", "/chatter")) + " | head -n 1"
+    done = run(["bash", "-c", words], env=graph)
+    assert (done.returncode, done.stdout, done.stderr) == (0, f'data: "{"x" * 29}"\n', "")
