@@ -27,7 +27,7 @@ from .master_port import METHODS, MasterPort
 from .parameters import ParameterTree, closed, updates, wire_copy
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     Check = Callable[[Any, str], Any]
 
@@ -240,6 +240,30 @@ class Master(MasterPort):
             return [-1, f'method "{method}" is not supported', 0]
         answer: Triple = getattr(self, method)(caller_id, *arguments)
         return answer
+
+    def move(self, addresses: Mapping[str, str]) -> None:
+        """Take up new addresses of nodes and of their services, by the old ones; nobody else is told."""
+
+        def now(entry: tuple[str, str]) -> tuple[str, str]:
+            return entry[0], addresses.get(entry[1], entry[1])
+
+        with self._lock:
+            for node in self._nodes.values():
+                node.api = addresses.get(node.api, node.api)
+            for registry in (self._publishers, self._subscribers, self._services, self._param_subscribers):
+                registry.entries = {
+                    key: [now(each) for each in entries] for key, entries in registry.entries.items()
+                }
+            if self._service_apis is not None:
+                self._service_apis = {key: now(entry) for key, entry in self._service_apis.items()}
+
+    def forget_nodes(self) -> None:
+        """Forget all nodes and what they registered; parameters stay, and nobody is told."""
+        with self._lock:
+            self._nodes.clear()
+            self._service_apis = None
+            for registry in (self._publishers, self._subscribers, self._services, self._param_subscribers):
+                registry.entries.clear()
 
     # ---- the Master itself ----
 

@@ -14,20 +14,28 @@ from rosmini.errors import RosminiError, nearest
 GROUP = "rosmini.renderers"
 
 
-class UnknownRenderer(RosminiError):
-    """No installed package says that it can draw this kind of thing."""
+class UnknownExtension(RosminiError):
+    """No installed package says that it has what was asked for."""
+
+
+def find_extension(group: str, name: str) -> Any:
+    """Return what an installed package registered under a name in a group of entry points.
+
+    Raises `UnknownExtension` if none has.
+    """
+    found = entry_points(group=group)
+    if name not in found.names:
+        hint = nearest(name, found.names)
+        raise UnknownExtension(
+            f"nothing is registered as {name!r}{': ' + hint if hint else ''} among the entry points of the group "
+            f"{group!r}; if rosmini was installed before it had this one, install it again (`uv sync`)."
+        )
+    return found[name].load()
 
 
 def show(kind: str, thing: object, **options: Any) -> Any:
     """The view of a thing, made by the renderer that is registered for its kind; `options` go to that renderer.
 
-    Raises `UnknownRenderer` if no installed package has one.
+    Raises `UnknownExtension` if no installed package has one.
     """
-    found = entry_points(group=GROUP)
-    if kind not in found.names:
-        hint = nearest(kind, found.names)
-        raise UnknownRenderer(
-            f"nothing is registered to show a {kind!r}{': ' + hint if hint else ''}. Renderers are entry points of "
-            f"the group {GROUP!r}; if rosmini was installed before it had this one, install it again (`uv sync`)."
-        )
-    return found[kind].load()(thing, **options)
+    return find_extension(GROUP, kind)(thing, **options)

@@ -17,7 +17,7 @@ from .mismatch import describe_mismatch, recast
 from .transport import DirectReceiver, set_header
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Mapping
 
     from .node_port import NodePort
     from .transport import Header
@@ -292,6 +292,13 @@ class Subscription:
         for uri in wanted:
             if uri not in self.connections:
                 self.connections[uri] = Connection(self, uri)
+
+    def publishers_moved(self, uris: Mapping[str, str]) -> None:
+        """Take up new addresses of publishers in this process, by the old ones; connections stay as they are."""
+        for connection in self.connections.values():
+            connection.uri = uris.get(connection.uri, connection.uri)
+        self.connections = {connection.uri: connection for connection in self.connections.values()}
+        self._wanted = {uris.get(uri, uri): None for uri in self._wanted}
 
     def forget(self, connection: Connection) -> None:
         """Drop a connection that is closed or was refused."""

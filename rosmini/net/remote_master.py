@@ -41,14 +41,15 @@ class RemoteMaster(MasterPort):
 
         Raises ``MasterUnreachable``, which says what to do, when there is none.
         """
-        if self._watch is not None and method.startswith("register"):
-            self._watch.begin()
         timeout = LEAVE_S if method.startswith(("unregister", "unsubscribe")) else TIMEOUT_S
         try:
             answer = self._client.call(self.uri, method, caller_id, *arguments, timeout=timeout)
         except TransportException as error:
             raise unreachable(self.uri, error) from error
-        return checked(self.uri, method, answer)
+        triple = checked(self.uri, method, answer)
+        if self._watch is not None and method.startswith("register"):
+            self._watch.begin()
+        return triple
 
 
 def checked(uri: str, method: str, answer: Any) -> Triple:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.errors import MasterUnreachable, ROSException, TransportException
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Future
 
     from rosmini.graph import Graph, Node
+    from rosmini.graph.transport import Triple
 
     from .io_thread import IoThread
     from .xmlrpc_client import XmlRpcClient
@@ -46,12 +47,13 @@ class Watch:
         self._client = client
         self._task: Future[None] | None = None
         self._turn = 0
+        self._pid: int | None = None
         self._is_lost = False
 
     def begin(self) -> None:
         """Begin to watch. Harmless when repeated."""
         if self._task is None or self._task.done():
-            self._is_lost = False
+            self._is_lost, self._pid = False, None
             self._task = self._io.start(self._run())
 
     def end(self) -> None:
@@ -70,32 +72,32 @@ class Watch:
                 await self._look(nodes)
 
     async def _look(self, nodes: list[_Seen]) -> None:
-        """Ask for one node, another one each time; for all where something is wrong."""
+        """Ask whether it is the same Master, and for one node, another one each time."""
         self._turn += 1
         chosen = nodes[self._turn % len(nodes)]
         scheduler = self._graph.scheduler
         try:
-            found = [(chosen, await self._address(chosen))]
-            if self._is_lost or found[0][1] != chosen.uri:
-                found = [(seen, await self._address(seen)) for seen in nodes]
+            pid = (await self._ask("getPid", chosen.node.name))[2]
+            code, _, uri = await self._ask("lookupNode", chosen.node.name, chosen.node.name)
         except TransportException as error:
             if not self._is_lost:
                 self._is_lost = True
                 scheduler.call_soon_threadsafe(partial(self._say_lost, error))
             return
-        forgotten = [seen for seen, uri in found if uri is None]
-        replaced = [seen for seen, uri in found if uri is not None and uri != seen.uri]
-        was_lost, self._is_lost = self._is_lost, False
-        if was_lost or forgotten or replaced:
-            await self._io.on_hub(scheduler, partial(self._catch_up, forgotten, replaced, was_lost=was_lost))
+        is_new = self._is_lost or self._pid not in (None, pid)
+        self._is_lost, self._pid = False, pid
+        if is_new:
+            await self._io.on_hub(scheduler, partial(self._register_again, nodes, "is back"))
+        elif code != 1:
+            await self._io.on_hub(scheduler, partial(self._register_again, [chosen], "has forgotten"))
+        elif uri != chosen.uri:
+            await self._io.on_hub(scheduler, partial(self._end_replaced, chosen))
 
-    async def _address(self, seen: _Seen) -> str | None:
-        """Return what the Master holds for the address of a node; None if it does not know it."""
-        name = seen.node.name
-        answer = await self._client.request(self._uri, "lookupNode", (name, name), TIMEOUT_S)
-        if not (isinstance(answer, list) and len(answer) == 3):
+    async def _ask(self, method: str, caller_id: str, *arguments: Any) -> Triple:
+        answer = await self._client.request(self._uri, method, (caller_id, *arguments), TIMEOUT_S)
+        if not isinstance(answer, list) or len(answer) != 3:
             raise TransportException(f"{self._uri} answers, but not as a Master does")
-        return str(answer[2]) if answer[0] == 1 else None
+        return answer
 
     # -- in the hub's thread -------------------------------------------------------------------------------------
 
@@ -114,25 +116,20 @@ class Watch:
         for node in nodes[:1]:
             node.spawn(f"{node.name} tells of the Master", partial(node.logwarn, text))
 
-    def _catch_up(self, forgotten: list[_Seen], replaced: list[_Seen], *, was_lost: bool) -> None:
-        """Register forgotten nodes again, and end those whose name another one has."""
+    def _end_replaced(self, seen: _Seen) -> None:
+        """End a node whose name another one has."""
+        if seen in self._nodes():
+            seen.node.shutdown_requested(
+                "/master", f"[{seen.node.name}] Reason: new node registered with same name"
+            )
+
+    def _register_again(self, forgotten: list[_Seen], what: str) -> None:
         present = set(self._nodes())
-        for node, _ in [seen for seen in replaced if seen in present]:
-            node.shutdown_requested("/master", f"[{node.name}] Reason: new node registered with same name")
-        again = [seen.node for seen in forgotten if seen in present]
-        if not again and not was_lost:
-            return
-        for node in again:
+        nodes = [seen.node for seen in forgotten if seen in present]
+        for node in nodes:
             node.spawn(f"{node.name} registers again", partial(_register, node))
-        names = (
-            f", and has forgotten {', '.join(node.name for node in again)}: registering again"
-            if again
-            else ""
-        )
-        self._say(
-            f"the Master at {self._uri} {'is back' if was_lost else 'answers'}{names}",
-            again or [seen.node for seen in present],
-        )
+        names = ", ".join(node.name for node in nodes)
+        self._say(f"the Master at {self._uri} {what}: {names} registers again", nodes)
 
 
 def _register(node: Node) -> None:

@@ -12,7 +12,7 @@ import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ROSInterruptException, ScriptError
+from rosmini.errors import ROSException, ROSInterruptException, ScriptError
 from rosmini.graph import Graph, LaneExit, Node
 from rosmini.names import Remappings
 
@@ -102,7 +102,9 @@ class NodeHandle(LaneHandle):
         try:
             self._instance = self._entry(node, *self._others)
         except BaseException as error:
-            gone = isinstance(error, LaneExit | ROSInterruptException)
+            gone = isinstance(error, LaneExit | ROSInterruptException) or (
+                isinstance(error, ROSException) and node.shutdown_reason is not None
+            )
             self._problem = error
             if gone:
                 self._problem = ROSInterruptException(f"the node {node.name} was ended before it was set up")

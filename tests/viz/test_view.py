@@ -178,7 +178,7 @@ def test_a_thing_is_shown_by_the_renderer_of_its_kind(monkeypatch):
     assert show_module.show("computation_graph", SYSTEM, mode="nodes_topics_all").text.startswith(
         "rqt_graph: 2 nodes"
     )
-    with pytest.raises(show_module.UnknownRenderer, match="did you mean computation_graph"):
+    with pytest.raises(show_module.UnknownExtension, match="did you mean computation_graph"):
         show_module.show("computation_graf", SYSTEM)
 
 
