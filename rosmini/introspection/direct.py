@@ -21,8 +21,11 @@ if TYPE_CHECKING:
 
     from .peers import Triple
 
-TIMEOUT_S = 5.0
-"""How long an answer may take [s]."""
+MASTER_S = 10.0
+"""How long an answer of the Master may take [s]."""
+
+NODE_S = 3.0
+"""How long an answer of a node may take [s]: what ``rosnode ping`` says."""
 
 LONGEST = 64 * 1024 * 1024
 """How many bytes an answer may have."""
@@ -89,9 +92,9 @@ _FAILURES = (OSError, http.client.HTTPException, xmlrpc.client.Error, ExpatError
 class DirectWire:
     """The Master at an address, and its nodes; see :class:`~rosmini.introspection.peers.Peers`."""
 
-    def __init__(self, master_uri: str, timeout: float = TIMEOUT_S) -> None:
+    def __init__(self, master_uri: str, *, master_s: float = MASTER_S, node_s: float = NODE_S) -> None:
         self.master_uri = master_uri
-        self.timeout = timeout
+        self._master_s, self._node_s = master_s, node_s
         self._servers: dict[str, xmlrpc.client.ServerProxy] = {}
 
     def __enter__(self) -> Self:
@@ -122,7 +125,8 @@ class DirectWire:
         try:
             server = self._servers.get(uri)
             if server is None:
-                server = self._servers[uri] = xmlrpc.client.ServerProxy(uri, _Transport(self.timeout))
+                patience = self._master_s if uri == self.master_uri else self._node_s
+                server = self._servers[uri] = xmlrpc.client.ServerProxy(uri, _Transport(patience))
             answer: Any = getattr(server, method)(*arguments)
         except _FAILURES as error:
             raise TransportException(f"no answer from {uri}: {_reason(error)}") from error

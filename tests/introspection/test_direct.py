@@ -116,7 +116,7 @@ def test_a_node_that_hangs_times_out() -> None:
     with answering(hang) as uri:
         try:
             with pytest.raises(TransportException, match="timed out") as caught:
-                DirectWire(uri, timeout=0.05).call(uri, "getPid", "/me")
+                DirectWire("http://localhost:1/", node_s=0.05).call(uri, "getPid", "/me")
         finally:
             free.set()
     assert nodes.why_silent(caught.value, "/n", uri) == "connection to [/n] timed out"
