@@ -243,7 +243,7 @@ class Tool:
     def add_parser(self, subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
         """Add the tool to the parser of `rosmini`: no word of it is an option for that one."""
         parser = subparsers.add_parser(self.name, help=self.summary, add_help=False, prefix_chars="\0")
-        parser.add_argument("words", nargs="*")
+        parser.add_argument("words", nargs=argparse.REMAINDER)
         return parser
 
     def main(self, args: argparse.Namespace) -> int:

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+import rosmini.cli.main as cli
 from rosmini import Graph
 from rosmini.cli.rostopic import TOOL
 from rosmini.cli.verbs import Call, VerbError
@@ -169,3 +170,9 @@ def test_messages_from_standard_input(graph: Graph, monkeypatch: pytest.MonkeyPa
     assert [message.data for _, message in heard] == ["one", "two"]
     assert vars(result)["count"] == 2
     assert [text for text in said if text.startswith("Invalid YAML")] != []
+
+
+def test_values_below_zero_come_after_two_dashes(capsys: pytest.CaptureFixture[str]) -> None:
+    words = "rostopic pub -1 --duration 0.2 -v /x std_msgs/Float64 -- -1.5 + rosmini_sim/simulator"
+    assert cli.main(words.split()) == 0
+    assert capsys.readouterr().out == "publishing and latching [data: -1.5] for 3.0 seconds\n"
