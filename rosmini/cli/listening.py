@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rosmini.introspection.topics import look_up, what_next
+from rosmini.introspection.topics import ID, look_up, what_next
 
 from .verbs import VerbError
 
@@ -67,7 +67,11 @@ class Span(NamedTuple):
 
 @contextmanager
 def tool_node(graph: Graph) -> Iterator[Node]:
-    """Start the node of a tool, under a name of its own, and shut it down in the end."""
+    """Start the node of a tool, under a name of its own, and shut it down in the end.
+
+    Raises ``MasterUnreachable`` where a node would wait for the Master: a tool says so at once.
+    """
+    graph.ask_as(ID).ask("getPid")
     node = graph.node("rostopic", anonymous=True)
     try:
         yield node

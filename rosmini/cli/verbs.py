@@ -324,7 +324,6 @@ class Tool:
             with DirectWire(addresses().master_uri) as wire:
                 return verb.act(given, Call(wire, say, read_line=sys.stdin.readline))
         with self._connected() as graph:
-            graph.ask_as(f"/{self.name}").ask("getPid")
             return verb.act(given, Call(graph, say, read_line=sys.stdin.readline))
 
     def _connected(self) -> Graph:
