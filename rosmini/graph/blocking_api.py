@@ -92,9 +92,12 @@ class BlockingApi:
 
     # -- blocking ------------------------------------------------------------------------------------------------
 
-    def waiter(self, reason: str) -> Waiter:
-        """Return something to wait for; ``reason`` completes "... was waiting for"."""
-        return self.scheduler.waiter(reason)
+    def waiter(self, reason: str, *, remote: bool = False) -> Waiter:
+        """Return something to wait for; ``reason`` completes "... was waiting for".
+
+        ``remote``: what wakes it comes from another process.
+        """
+        return self.scheduler.waiter(reason, remote=remote)
 
     def wait(
         self,

@@ -9,59 +9,20 @@ stands still.
 from __future__ import annotations
 
 import queue
-import struct
 import threading
 import xmlrpc.client
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
-from rosmini.errors import DeserializationError, TransportException, TransportInitError
+from rosmini.errors import TransportException, TransportInitError
 
+from .headers import decode_header, encode_header
 from .transport import QueuedSender, slave_uri
 
 if TYPE_CHECKING:
     from .scheduler import Scheduler
     from .transport import Endpoint, Header, Receiver, ServiceSession, Triple
-
-
-def encode_header(fields: Header) -> bytes:
-    """Return a TCPROS connection header: length-prefixed ``key=value`` fields.
-
-    See http://wiki.ros.org/ROS/Connection%20Header.
-    """
-    parts = [f"{key}={value}".encode() for key, value in fields.items()]
-    body = b"".join(struct.pack("<I", len(part)) + part for part in parts)
-    return struct.pack("<I", len(body)) + body
-
-
-def decode_header(data: bytes) -> Header:
-    """Return the fields of a TCPROS connection header. Raises ``DeserializationError`` when the bytes are none."""
-    if len(data) < 4 or struct.unpack_from("<I", data)[0] != len(data) - 4:
-        msg = f"these {len(data)} bytes are not a connection header: the total length at the start is wrong"
-        raise DeserializationError(msg)
-    fields: Header = {}
-    offset = 4
-    while offset < len(data):
-        if offset + 4 > len(data):
-            msg = f"the connection header ends in the middle of a field's length, at byte {offset}"
-            raise DeserializationError(msg)
-        (length,) = struct.unpack_from("<I", data, offset)
-        field = data[offset + 4 : offset + 4 + length]
-        if len(field) != length:
-            msg = f"at byte {offset} a field of the connection header claims {length} bytes; {len(field)} are left"
-            raise DeserializationError(msg)
-        try:
-            key, separator, value = field.decode().partition("=")
-        except UnicodeDecodeError as error:
-            msg = f"a field of the connection header is not UTF-8 text (at byte {offset})"
-            raise DeserializationError(msg) from error
-        if not separator:
-            msg = f"a field of the connection header has no '=': {key!r} (at byte {offset})"
-            raise DeserializationError(msg)
-        fields[key] = value
-        offset += 4 + length
-    return fields
 
 
 OnFailure = Callable[[Exception], None]
@@ -149,6 +110,8 @@ class _ByteSender(QueuedSender):
 
 class _ByteServiceLink:
     """The client's end of a service connection."""
+
+    is_remote = False
 
     def __init__(
         self, transport: ByteTransport, wire: _Wire, session: ServiceSession, service_class: Any
@@ -242,6 +205,13 @@ class ByteTransport:
 
         reply = self._ask(uri, serve, on_hub=False)
         return cast("Triple", xmlrpc.client.loads(reply)[0][0])
+
+    def retry(self, seconds: float, function: Callable[[], object]) -> bool:  # noqa: ARG002 - the seam's
+        """Tell that who has gone stays away."""
+        return False
+
+    def close(self) -> None:
+        """Do nothing: each node's thread ends with the node."""
 
     def connect_topic(
         self, caller: str, parameters: list[Any], header: Header, receiver: Receiver

@@ -135,7 +135,7 @@ class Graph(GraphCore):
         if scheduler.current() is scheduler.root:
             steps.append(lambda: scheduler.run(until_ns=scheduler.now_ns()))
         problems: list[Exception] = []
-        for step in [*steps, scheduler.close]:
+        for step in [*steps, scheduler.close, self.transport.close]:
             try:
                 step()
             except Exception as error:  # what one node does at its end must not keep another up

@@ -22,6 +22,12 @@ _NOTHING: Any = object()
 """What was not given."""
 
 
+def _packet(frozen: Any) -> bytes:
+    """Return a message as it goes over a wire, its length in front."""
+    body = frozen._encode(frozen)
+    return b"".join((len(body).to_bytes(4, "little"), body))
+
+
 class Publication:
     """A node's side of a topic that it publishes: the connections, the latched message, the sequence number."""
 
@@ -38,6 +44,7 @@ class Publication:
         self._next_number = count(1).__next__
         self._scheduler = node.scheduler
         self._list: tuple[Sender, ...] = ()
+        self._wires: tuple[Sender, ...] = ()
         self.send: Callable[[Any], None] = self._send
         """Sends a message to every connection: a snapshot, taken now. From any thread.
 
@@ -74,6 +81,7 @@ class Publication:
 
     def _connections_changed(self) -> None:
         self._list = tuple(self.senders.values())
+        self._wires = tuple(sender for sender in self._list if sender.wants_bytes)
         self.send = self._send
         if len(self._list) == 1 and not self._latch:
             sender = self._list[0]
@@ -142,6 +150,13 @@ class Publication:
                 self._warn_unheard()
             return
         size = self._queue_size
+        if self._wires:  # encoded once for all of them
+            packet = _packet(frozen)
+            for wire in self._wires:
+                wire.send(packet, size)
+            senders = tuple(sender for sender in senders if not sender.wants_bytes)
+            if not senders:
+                return
         senders[0].send(frozen, size)
         if len(senders) > 1:
             for sender in senders[1:]:
@@ -151,7 +166,10 @@ class Publication:
         """Send ``message`` to the node ``destination`` only, as rospy's ``peer_publish`` does."""
         frozen = self._freeze(message)
         for sender in [sender for sender in self._list if sender.destination == destination]:
-            sender.send(self._copy(frozen), self.queue_size)
+            self._give(sender, frozen, self.queue_size)
+
+    def _give(self, sender: Sender, frozen: Any, size: int | None) -> None:
+        sender.send(_packet(frozen) if sender.wants_bytes else self._copy(frozen), size)
 
     def _copy(self, frozen: Any) -> Any:
         """Return a frozen message of which one receiver may become the owner."""
@@ -213,7 +231,7 @@ class Publication:
             if self._stamp:
                 latched = self._freeze(latched)
                 latched.header.seq = self._next_number()
-            sender.send(self._copy(latched), None)
+            self._give(sender, latched, None)
         self.node.connections_changed()
         for handle in self.handles:
             handle.connected(sender.destination)

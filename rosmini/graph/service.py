@@ -156,6 +156,7 @@ class Session:
     def __init__(self, server: ServiceServer, client_header: Header) -> None:
         node = server.node
         self.server = server
+        self.service_class = server.service_class
         self._client_header = client_header
         self.header: Header = {
             "callerid": node.name,
@@ -250,7 +251,7 @@ class ServiceClient:
 
     def _call(self, frozen: Any) -> Any:
         link = self._link or self._connect()
-        waiter = self.node.waiter(f"the service {self.name}")
+        waiter = self.node.waiter(f"the service {self.name}", remote=link.is_remote)
         try:
             link.call(frozen, lambda response, problem: waiter.wake((response, problem)))
             self.node.wait(waiter)

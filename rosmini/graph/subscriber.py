@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.errors import (
@@ -21,6 +22,11 @@ if TYPE_CHECKING:
 
     from .node_port import NodePort
     from .transport import Header
+
+
+RETRY_S = 0.5
+LONGEST_RETRY_S = 32.0
+"""After how many seconds a connection is tried again: twice as many each time, as in rospy."""
 
 
 def _assign_header(message: Any, header: Header) -> None:
@@ -100,7 +106,7 @@ class Connection(DirectReceiver):
             return
         except TransportException as error:
             if error.__cause__ is None:  # the publisher went away meanwhile; the Master will say so
-                subscription.forget(self)
+                subscription.lost(self, None)
             else:
                 self.failed(error)
             return
@@ -146,6 +152,11 @@ class Connection(DirectReceiver):
             )
         problem.__cause__ = error
         node.graph.report(problem, node)
+
+    @property
+    def queue_size(self) -> int | None:
+        """How many messages may wait for the callbacks."""
+        return self.subscription.queue_size
 
     def begin(self) -> bool:
         """Post a turn of the callbacks, unless something of this connection is under way."""
@@ -206,6 +217,8 @@ class Connection(DirectReceiver):
             if incoming and not self._gone:
                 self.pending = True
                 self._lane.post(self._drain_ref)
+            elif self.on_drained is not None:
+                self.on_drained()
 
     def _find_way(self) -> _Way:
         self.way = self.subscription.way(self.message_class)
@@ -234,13 +247,10 @@ class Connection(DirectReceiver):
 
     def failed(self, error: Exception) -> None:
         """Learn that the transport failed and closed the connection."""
+        if self._gone:
+            return
         self._shut()
-        subscription = self.subscription
-        subscription.forget(self)
-        subscription.node.logwarn(
-            f"the connection of {subscription.node.name} to {self.peer or self.uri} on {subscription.topic} failed "
-            f"and was closed: {type(error).__name__}: {error}. It is made again when a publisher registers."
-        )
+        self.subscription.lost(self, error)
 
     def close(self) -> None:
         """Close the connection: callbacks that have not started do not come."""
@@ -273,6 +283,9 @@ class Subscription:
         """How many times the Master has told who publishes the topic."""
         self._first: Subscriber | None = None
         self._wanted: dict[str, None] = {}
+        self._is_closed = False
+        self._attempts: dict[str, int] = {}
+        """How many times in a row a connection to a publisher came to nothing."""
 
     def disagrees_with(self, message_class: Any) -> bool:
         """Tell whether a further subscriber of this node cannot be one with ``message_class``."""
@@ -285,8 +298,11 @@ class Subscription:
         As in rospy an open connection outlives its registration: the publisher closes it after its last message,
         which may still be on its way.
         """
+        if self._is_closed:
+            return
         self.updates += 1
         self._wanted = wanted = dict.fromkeys(uris)
+        self._attempts = {uri: count for uri, count in self._attempts.items() if uri in wanted}
         for uri in [uri for uri, link in self.connections.items() if uri not in wanted and not link.is_open]:
             self.connections.pop(uri).close()
         for uri in wanted:
@@ -308,8 +324,36 @@ class Subscription:
     def closed(self, connection: Connection) -> None:
         """Learn that a publisher closed a connection; if it is on the topic again meanwhile, connect to it anew."""
         self.forget(connection)
+        if not self._try_again(connection):
+            self._connect(connection.uri)
+
+    def lost(self, connection: Connection, error: Exception | None) -> None:
+        """Learn that a connection failed, or could not be made; say so once, and try again if the way allows it."""
+        self.forget(connection)
+        is_first = connection.received > 0 or connection.uri not in self._attempts
+        again = self._try_again(connection)
+        if error is not None and is_first:
+            node, who = self.node, connection.peer or connection.uri
+            hope = (
+                "tried again while the Master lists it" if again else "made again when a publisher registers"
+            )
+            node.logwarn(
+                f"the connection of {node.name} to {who} on {self.topic} failed and was closed: "
+                f"{type(error).__name__}: {error}. It is {hope}."
+            )
+
+    def _try_again(self, connection: Connection) -> bool:
+        """Connect again later; each time without a message in between later still, as in rospy."""
         uri = connection.uri
-        if self.handles and uri in self._wanted and uri not in self.connections:
+        if self._is_closed or not self.handles or uri not in self._wanted:
+            return False
+        attempt = 0 if connection.received else self._attempts.get(uri, 0)
+        self._attempts[uri] = attempt + 1
+        delay = min(RETRY_S * 2 ** (attempt - 1), LONGEST_RETRY_S) if attempt else 0.0
+        return self.node.graph.transport.retry(uri, delay, partial(self._connect, uri))
+
+    def _connect(self, uri: str) -> None:
+        if not self._is_closed and self.handles and uri in self._wanted and uri not in self.connections:
             self.connections[uri] = Connection(self, uri)
 
     def add(self, handle: Subscriber) -> None:
@@ -361,7 +405,8 @@ class Subscription:
         self.close()
 
     def close(self) -> None:
-        """Close all connections."""
+        """Close all connections; none is made again, whatever news of publishers is still on its way."""
+        self._is_closed = True
         for connection in list(self.connections.values()):
             connection.close()
         self.connections.clear()

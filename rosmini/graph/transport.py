@@ -57,6 +57,8 @@ class Sender(Protocol):
     """The publisher's end of a topic connection."""
 
     protocol: str
+    wants_bytes: bool
+    """True where it sends bytes: these are made once for all such connections of a publication."""
     destination: str
     on_closed: Callable[[], None]
     """Set by the publisher; called in the hub's thread when the subscriber has closed the connection."""
@@ -68,7 +70,10 @@ class Sender(Protocol):
         """How many messages were sent."""
 
     def send(self, frozen: Any, size: int | None) -> None:
-        """Send a frozen message that now belongs to the connection; ``size`` bounds the queue (None: no bound)."""
+        """Send a frozen message that now belongs to the connection; ``size`` bounds the queue (None: no bound).
+
+        One that :attr:`wants_bytes` is given the message's bytes with their length in front.
+        """
 
     def close(self) -> None:
         """Close the connection after what was sent."""
@@ -105,6 +110,13 @@ class DirectReceiver(ABC):
         """How many messages the callbacks got."""
         self.dropped = 0
         """How many messages were dropped because too many waited."""
+        self.on_drained: Callable[[], None] | None = None
+        """Called when the callbacks have taken all that waited: a sender that holds more back goes on then."""
+
+    @property
+    @abstractmethod
+    def queue_size(self) -> int | None:
+        """How many messages may wait for the callbacks; None or 0: no bound."""
 
     @abstractmethod
     def begin(self) -> bool:
@@ -127,6 +139,7 @@ class ServiceSession(Protocol):
     """The server's end of a service connection."""
 
     header: Header
+    service_class: Any
 
     def handle(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
         """Answer a frozen request by ``reply(frozen_response, None)`` or ``reply(None, error_text)``, now or later."""
@@ -139,6 +152,8 @@ class ServiceLink(Protocol):
     """The client's end of a service connection."""
 
     header: Header
+    is_remote: bool
+    """True where the server is in another process: waiting for it holds no simulated time."""
 
     def call(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
         """Send a frozen request; ``reply`` is called in the hub's thread, as in :meth:`ServiceSession.handle`."""
@@ -197,6 +212,15 @@ class Transport(Protocol):
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
         """Call a method of a node's slave API; may block. Raises ``TransportException`` when nobody answers."""
 
+    def retry(self, seconds: float, function: Callable[[], object]) -> bool:
+        """Call a function in the hub's thread after some seconds on the wall, to try a connection again.
+
+        Return False, and do nothing, where a node that has gone never comes back to its address.
+        """
+
+    def close(self) -> None:
+        """Give up what is open, for the graph has been shut down; it may be used again."""
+
     def connect_topic(
         self, caller: str, parameters: list[Any], header: Header, receiver: Receiver
     ) -> tuple[Header, Callable[[], None]]:
@@ -228,6 +252,7 @@ class QueuedSender:
     """Collects messages until the next event of the queue, and then flushes them."""
 
     protocol = "INPROC"
+    wants_bytes = False
     __slots__ = (
         "_closed",
         "_queue",
@@ -324,6 +349,7 @@ class LocalSender(QueuedSender):
 class LocalServiceLink:
     """Hands requests to a session in the same process."""
 
+    is_remote = False
     __slots__ = ("_session", "header")
 
     def __init__(self, session: ServiceSession) -> None:
@@ -390,6 +416,13 @@ class LocalTransport:
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
         """Call a method of a node's slave API."""
         return self.endpoint(uri).slave_call(method, *arguments)
+
+    def retry(self, seconds: float, function: Callable[[], object]) -> bool:  # noqa: ARG002 - the seam's
+        """Tell that who has gone stays away."""
+        return False
+
+    def close(self) -> None:
+        """Do nothing: there is nothing open."""
 
     def connect_topic(
         self,

@@ -21,6 +21,8 @@ class Transports:
 
     def __init__(self, scheduler: Scheduler, makers: Sequence[Callable[[Scheduler], Transport]]) -> None:
         self.ways = [make(scheduler) for make in makers]
+        self._here: dict[str, str] = {}
+        """The nodes of this process: their URIs by those of their services."""
 
     def attach(self, endpoint: Endpoint) -> str:
         """Make a node reachable in every way; return the URI of its slave API."""
@@ -29,10 +31,12 @@ class Transports:
             uri = way.attach(endpoint, uri)
         if uri is None:
             raise TransportException("a graph needs a transport")
+        self._here[self.service_uri(uri)] = uri
         return uri
 
     def detach(self, uri: str) -> None:
         """Make a node unreachable."""
+        self._here.pop(self.service_uri(uri), None)
         for way in self.ways:
             way.detach(uri)
 
@@ -66,7 +70,20 @@ class Transports:
         self, caller: str, service_uri: str, header: Header, service_class: Any
     ) -> ServiceLink:
         """Open a service connection; see :class:`~rosmini.graph.transport.Transport`."""
+        here = self._here.get(service_uri)
+        if here is not None:
+            way = self._way_to(here)
+            return way.connect_service(caller, way.service_uri(here), header, service_class)
         return self._way_to(service_uri).connect_service(caller, service_uri, header, service_class)
+
+    def retry(self, uri: str, seconds: float, function: Callable[[], object]) -> bool:
+        """Call a function later, to connect again to the node at ``uri``; False where it cannot have come back."""
+        return self._way_to(uri).retry(seconds, function)
+
+    def close(self) -> None:
+        """Give up what is open, for the graph has been shut down."""
+        for way in self.ways:
+            way.close()
 
     def _way_to(self, uri: str) -> Transport:
         """Return the first way to a node; the last one tells best why there is none."""

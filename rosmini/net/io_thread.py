@@ -24,6 +24,9 @@ T = TypeVar("T")
 LEAVE_S = 2.0
 """How long ending may take."""
 
+TURNS = 6
+"""So many turns of the loop it takes to close a connection."""
+
 
 class IoThread:
     """Starts when it is first needed. After :meth:`close` it can be used again, with a new loop."""
@@ -60,9 +63,16 @@ class IoThread:
         """Run a coroutine in the loop's thread. From any thread."""
         return asyncio.run_coroutine_threadsafe(coroutine, self.loop)
 
-    def ask(self, scheduler: Scheduler, coroutine: Coroutine[Any, Any, T], reason: str) -> T:
+    def ask(
+        self,
+        scheduler: Scheduler,
+        coroutine: Coroutine[Any, Any, T],
+        reason: str,
+        discard: Callable[[T], object] | None = None,
+    ) -> T:
         """Return the result of a coroutine; the calling lane is parked, and simulated time goes on meanwhile.
 
+        ``discard`` gets the result, in any thread, when the caller was interrupted and nobody else will.
         Raises what the coroutine raises, and ``TransportException`` when the network is closed meanwhile.
         """
         waiter = scheduler.waiter(reason, remote=True)
@@ -70,8 +80,12 @@ class IoThread:
         future.add_done_callback(lambda done: _pass_on(done, waiter))
         try:
             waiter.wait()
-        finally:
-            future.cancel()
+        except BaseException:
+            if discard is None:
+                future.cancel()
+            else:  # what is cancelled now may have its result already
+                future.add_done_callback(partial(_throw_away, discard))
+            raise
         return cast("T", waiter.value)
 
     def on_hub(self, scheduler: Scheduler, function: Callable[[], T]) -> asyncio.Future[T]:
@@ -108,6 +122,11 @@ class IoThread:
             thread.join(LEAVE_S)
 
 
+def _throw_away(discard: Callable[[Any], object], done: Future[Any]) -> None:
+    if not done.cancelled() and done.exception() is None:
+        discard(done.result())
+
+
 def _pass_on(done: Future[Any], waiter: Any) -> None:
     if done.cancelled():
         waiter.fail(TransportException("the network of this graph was closed"))
@@ -129,15 +148,18 @@ def _run(loop: asyncio.AbstractEventLoop, closers: dict[Callable[[], object], No
 
 
 async def _end(closers: dict[Callable[[], object], None]) -> None:
-    for closer in list(closers):
-        closer()
-    closers.clear()
-    tasks = asyncio.all_tasks() - {asyncio.current_task()}
-    for task in tasks:
-        task.cancel()
-    if tasks:
-        await asyncio.wait(tasks, timeout=LEAVE_S / 2)
-    for _ in range(3):  # what they closed is closed some turns later
+    """Close and cancel until nothing is left: what was asked for last is only opened in one of the next turns."""
+    loop, quiet = asyncio.get_running_loop(), 0
+    deadline = loop.time() + LEAVE_S / 2
+    while quiet < TURNS and loop.time() < deadline:
+        found = list(closers)
+        closers.clear()
+        for closer in found:
+            closer()
+        tasks = asyncio.all_tasks() - {asyncio.current_task()}
+        for task in tasks:
+            task.cancel()
+        quiet = 0 if tasks or found else quiet + 1
         await asyncio.sleep(0)
 
 

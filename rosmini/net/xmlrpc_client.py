@@ -106,7 +106,11 @@ class XmlRpcClient:
             if answer is not None:
                 return answer
         made = await connect(host, port)
-        reader, writer = await asyncio.open_connection(sock=made)
+        try:
+            reader, writer = await asyncio.open_connection(sock=made)
+        except BaseException:
+            made.close()
+            raise
         fresh = _Open(h11.Connection(h11.CLIENT, max_incomplete_event_size=HEAD_LIMIT), reader, writer)
         answer = await self._post(fresh, host, port, path, body)
         if answer is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import inspect
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import h11
@@ -16,11 +17,15 @@ from .sockets import listen
 from .xmlrpc_text import XmlRpcFault, decode, encode_answer, encode_fault
 
 if TYPE_CHECKING:
+    import socket
     from collections.abc import Awaitable, Callable
 
     from .io_thread import IoThread
 
     Handler = Callable[[str, tuple[Any, ...]], Any | Awaitable[Any]]
+
+PAUSE_S = 1.0
+"""How long no connection is accepted after the machine has refused one."""
 
 IDLE_S = 300.0
 """How long a connection may be silent before it is closed."""
@@ -46,15 +51,16 @@ class XmlRpcServer:
         self._io = io
         self._socket = listen(bind, port)
         self.port: int = self._socket.getsockname()[1]
-        self._server: asyncio.Server | None = None
-        self._writers: set[asyncio.StreamWriter] = set()
+        self._tasks: set[asyncio.Task[None]] = set()
         self._closed = False
-        io.start(self._begin())
+        io.call(self._begin)
 
-    async def _begin(self) -> None:
-        self._io.closers[self._end] = None
+    def _begin(self) -> None:
         if not self._closed:
-            self._server = await asyncio.start_server(self._serve, sock=self._socket)
+            self._io.closers[self._end] = None
+            asyncio.get_running_loop().add_reader(self._socket, self._accept)
+        else:
+            self._socket.close()
 
     def close(self) -> None:
         """Stop listening, and close all connections. From any thread; harmless when repeated."""
@@ -64,24 +70,44 @@ class XmlRpcServer:
                 self._io.call(self._end)
 
     def _end(self) -> None:
+        self._closed = True
         self._io.closers.pop(self._end, None)
-        if self._server is not None:
-            self._server.close()
-        self._socket.close()
-        for writer in self._writers:
-            writer.close()
+        if self._socket.fileno() >= 0:
+            asyncio.get_running_loop().remove_reader(self._socket)
+            self._socket.close()
+        for task in self._tasks:
+            task.cancel()
 
-    async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        """Answer the calls of one connection, one after another."""
-        self._writers.add(writer)
-        connection = h11.Connection(h11.SERVER, max_incomplete_event_size=HEAD_LIMIT)
+    def _accept(self) -> None:
         try:
-            with suppress(OSError, TimeoutError):
+            sock, _ = self._socket.accept()
+        except (BlockingIOError, InterruptedError, ConnectionAbortedError):
+            return
+        except OSError:  # no descriptors are left: those who wait are taken later
+            loop = asyncio.get_running_loop()
+            loop.remove_reader(self._socket)
+            loop.call_later(PAUSE_S, self._begin)
+            return
+        sock.setblocking(False)
+        task = asyncio.get_running_loop().create_task(self._serve(sock))
+        self._tasks.add(task)
+        task.add_done_callback(partial(self._forget, sock))
+
+    def _forget(self, sock: socket.socket, task: asyncio.Task[None]) -> None:
+        self._tasks.discard(task)
+        sock.close()  # for one whose task was ended before it began
+
+    async def _serve(self, sock: socket.socket) -> None:
+        """Answer the calls of one connection, one after another."""
+        connection = h11.Connection(h11.SERVER, max_incomplete_event_size=HEAD_LIMIT)
+        with suppress(OSError, TimeoutError):
+            reader, writer = await asyncio.open_connection(sock=sock)
+            try:
                 while await self._serve_one(connection, reader, writer):
                     connection.start_next_cycle()
-        finally:
-            self._writers.discard(writer)
-            writer.close()
+            finally:
+                writer.close()
+                await writer.wait_closed()
 
     async def _serve_one(
         self, connection: h11.Connection, reader: asyncio.StreamReader, writer: asyncio.StreamWriter

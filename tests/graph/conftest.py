@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import threading
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ import pytest
 from rosmini.graph import Graph
 from rosmini.graph.byte_transport import ByteTransport
 from rosmini.graph.transport import LocalTransport
+from rosmini.net.network import tcp
 
 from ..processes import PATIENCE
 from .restless_master import RestlessMaster
@@ -27,13 +29,17 @@ LONG = PATIENCE * WALL_RATE
 RESTLESS = "restless-master"
 """The kind of graph whose Master takes its time and does not always answer."""
 
-KINDS = {
+KINDS: dict[str, tuple[Any, bool]] = {
     "local-simulated": (LocalTransport, True),
     "local-wall": (LocalTransport, False),
     "bytes-simulated": (ByteTransport, True),
     "bytes-wall": (ByteTransport, False),
     RESTLESS: (LocalTransport, True),
 }
+
+if "ROSMINI_TEST_TCP" in os.environ:
+    # Not by default: settle() cannot know what is under way on a real wire, so tests that trust it fail now and then.
+    KINDS["tcp-wall"] = (tcp(), False)
 
 
 def until(graph: Graph, condition: Callable[[], object]) -> None:

@@ -15,6 +15,7 @@ from rosmini.msgs.nav_msgs.msg import Path
 from rosmini.msgs.sensor_msgs.msg import Image, JointState, LaserScan
 from rosmini.msgs.std_msgs.msg import Int32, String
 from rosmini.msgs.template import template
+from rosmini.net.tcp_transport import TcpTransport
 
 from .conftest import KINDS, LONG, close, make, settle, until
 
@@ -334,7 +335,10 @@ def test_a_publishers_queue_drops_the_oldest(graph: Graph) -> None:
     for number in range(10):
         publisher.publish(number)
     settle(graph)
-    assert heard == [7, 8, 9]
+    if isinstance(graph.transport.ways[0], TcpTransport):  # drops only what the network does not take
+        until(graph, lambda: len(heard) == 10)
+    assert heard[-3:] == [7, 8, 9]
+    assert len(heard) == (10 if isinstance(graph.transport.ways[0], TcpTransport) else 3)
 
 
 @pytest.mark.parametrize("size", [None, 0])
@@ -537,8 +541,9 @@ def test_waiting_for_subscribers_gives_up_with_what_is_there(graph: Graph) -> No
 
 def test_what_was_published_before_unregistering_still_arrives(graph: Graph) -> None:
     heard: list[str] = []
-    graph.node("listener").subscriber("t", String, lambda message: heard.append(message.data))
+    subscriber = graph.node("listener").subscriber("t", String, lambda message: heard.append(message.data))
     publisher = connected(graph.node("talker"), "t", String)
+    until(graph, subscriber.num_connections)
     publisher.publish("last words")
     publisher.unregister()
     publisher.unregister()
@@ -845,8 +850,9 @@ def test_a_graph_can_be_used_again_after_it_was_shut_down(build: Callable[..., G
 def test_an_open_connection_outlives_its_registration_and_is_not_doubled(graph: Graph) -> None:
     talker, listener = graph.node("talker"), graph.node("listener")
     heard: list[str] = []
-    listener.subscriber("chatter", String, lambda message: heard.append(message.data))
+    subscriber = listener.subscriber("chatter", String, lambda message: heard.append(message.data))
     publisher = connected(talker, "chatter", String)
+    until(graph, subscriber.num_connections)
     for uris in ([], [talker.uri], [talker.uri]):
         listener.slave.publisherUpdate("/master", "/chatter", uris)
         settle(graph)

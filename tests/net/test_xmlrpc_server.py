@@ -173,8 +173,8 @@ def test_a_thousand_connections_are_forgotten(server: XmlRpcServer, client: XmlR
                 raw.sendall(b"POST / HT")
     assert client.call(uri_of(server), "getPid")
     for _ in range(1000):
-        if not server._writers:
+        if not server._tasks:
             break
         client.call(uri_of(server), "getPid")
         client.close()
-    assert len(server._writers) <= 1
+    assert len(server._tasks) <= 1

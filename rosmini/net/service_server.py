@@ -1,0 +1,98 @@
+"""The server's end of a service on TCPROS: requests come in; an ok byte and a response, or an error, go out."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rosmini.graph.scheduler import Scheduler
+    from rosmini.graph.transport import Header, ServiceSession
+
+    from .tcp_stream import Stream
+
+
+class TcpClient:
+    """One client of a service, as its server sees it: one request after another."""
+
+    def __init__(
+        self,
+        scheduler: Scheduler,
+        stream: Stream,
+        session: ServiceSession,
+        header: Header,
+        first: list[bytes],
+    ) -> None:
+        self._scheduler = scheduler
+        self._stream = stream
+        self._session = session
+        self._is_persistent = header.get("persistent", "").lower() in ("1", "true")
+        self._requests = deque(first)
+        self._answers: deque[bytes] = deque()
+        self._is_busy = False
+        self._is_over = False
+        stream.source = self._next
+        stream.on_frames = self._arrived
+        stream.on_end = self._ended
+
+    def open(self, header: bytes, *, is_probe: bool) -> None:
+        """Send the header, and then answer; one who only probes learns the header."""
+        self._answers.append(header)
+        self._stream.flush()
+        if is_probe:
+            self._close()
+        elif self._requests:
+            self._handle()
+
+    # -- in the I/O thread ---------------------------------------------------------------------------------------
+
+    def _arrived(self, frames: list[bytes]) -> None:
+        self._requests.extend(frames)
+        self._stream.pause()  # until these are answered
+        self._scheduler.call_soon_threadsafe(self._handle)
+
+    def _ended(self, _error: Exception | None) -> None:
+        self._scheduler.call_soon_threadsafe(self._gone)
+
+    # -- in the hub's thread -------------------------------------------------------------------------------------
+
+    def _handle(self) -> None:
+        if self._is_busy or self._is_over:
+            return
+        if not self._requests:
+            self._stream.resume()
+            return
+        self._is_busy = True
+        request_class = self._session.service_class._request_class
+        try:
+            request = request_class._decode(self._requests.popleft())
+        except Exception as error:
+            self._answer(None, f"error processing request: these bytes are no {request_class._type}: {error}")
+        else:
+            self._session.handle(request, self._answer)
+
+    def _answer(self, response: Any, problem: str | None) -> None:
+        self._is_busy = False
+        if self._is_over:
+            return
+        body = problem.encode() if problem is not None else response._encode(response)
+        lead = b"\x00" if problem is not None else b"\x01"
+        with self._stream.lock:
+            self._answers.append(b"".join((lead, len(body).to_bytes(4, "little"), body)))
+        self._stream.flush()
+        if self._is_persistent:
+            self._scheduler.ready.append(self._handle)
+        else:
+            self._close()
+
+    def _close(self) -> None:
+        self._stream.close()
+        self._gone()
+
+    def _gone(self) -> None:
+        if not self._is_over:
+            self._is_over = True
+            self._session.close()
+
+    def _next(self) -> bytes:
+        return self._answers.popleft() if self._answers else b""

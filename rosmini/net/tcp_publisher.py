@@ -1,0 +1,116 @@
+"""The publisher's end of a topic on TCPROS (http://wiki.ros.org/ROS/TCPROS)."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.graph.scheduler import Scheduler
+    from rosmini.graph.transport import DirectReceiver
+
+    from .tcp_stream import Stream
+
+BATCH = 64 * 1024
+"""About so many bytes are written at once."""
+
+UNBOUNDED = 64 * 1024 * 1024
+"""So many bytes wait for a slow subscriber of a publisher without a queue size; then the oldest are dropped."""
+
+
+class TcpSender:
+    """Sends the bytes of messages to one subscriber, in batches; one that reads slowly loses the oldest."""
+
+    protocol = "TCPROS"
+    wants_bytes = True
+    receiver: DirectReceiver | None = None
+
+    def __init__(
+        self, scheduler: Scheduler, stream: Stream, destination: str, warn: Callable[[str], None]
+    ) -> None:
+        self._scheduler = scheduler
+        self._stream = stream
+        self._warn = warn
+        self._header: bytes | None = None
+        self._is_open = False
+        self._is_closed = False
+        self._waiting: deque[bytes] = deque()
+        self._bytes = 0
+        self._is_due = False
+        self.destination = destination
+        self.on_closed: Callable[[], None] = _nothing
+        self.sent = 0
+        """How many messages were sent, dropped ones included."""
+        self.dropped = 0
+        """How many of them were dropped because the subscriber reads too slowly."""
+        stream.source = self._next
+
+    def open(self, header: bytes) -> None:
+        """Send the header, and then what has been queued."""
+        self._header = header
+        self._is_open = True
+        self._stream.on_end = self._ended
+        self._stream.flush()
+
+    def send(self, packet: Any, size: int | None) -> None:
+        """Queue a message; what waits is written in the next event, or now where the oldest would have to go."""
+        if self._is_closed:
+            return
+        self.sent += 1
+        is_full = len(self._waiting) >= size if size is not None else self._bytes >= BATCH
+        if is_full and self._is_open:
+            self._stream.flush()
+        with self._stream.lock:
+            while self._waiting and (len(self._waiting) >= size if size else self._bytes > UNBOUNDED):
+                self._bytes -= len(self._waiting.popleft())
+                self.dropped += 1
+                if self.dropped == 1 and size is None:
+                    self._warn(
+                        f"{self.destination} reads more slowly than is published, and the publisher has no queue_size: "
+                        f"{UNBOUNDED // 2**20} MiB wait, so the oldest messages are dropped. Give it a queue_size."
+                    )
+            self._waiting.append(packet)
+            self._bytes += len(packet)
+        if not self._is_due:
+            self._is_due = True
+            self._scheduler.ready.append(self._flush)
+
+    def _flush(self) -> None:
+        self._is_due = False
+        if self._is_open:
+            self._stream.flush()
+
+    def _next(self) -> bytes:
+        """Return the next bytes for the socket: about a batch. With the stream's lock held."""
+        if self._header is not None:
+            header, self._header = self._header, None
+            return header
+        if not self._is_open or not self._waiting:
+            return b""
+        packets, length = [], 0
+        while self._waiting and length < BATCH:
+            packets.append(self._waiting.popleft())
+            length += len(packets[-1])
+        self._bytes -= length
+        return packets[0] if len(packets) == 1 else b"".join(packets)
+
+    def close(self) -> None:
+        """Close from the publisher's side, after what was sent."""
+        self._is_closed = True
+        self._stream.close()
+
+    def _ended(self, _error: Exception | None) -> None:
+        """The subscriber has closed the connection, or it broke. In the I/O thread."""
+        self._scheduler.call_soon_threadsafe(self._tell)
+
+    def _tell(self) -> None:
+        if not self._is_closed:
+            self._is_closed = True
+            self._waiting.clear()
+            self.on_closed()
+
+
+def _nothing() -> None:
+    """Do nothing: what is called when nobody has asked to be."""

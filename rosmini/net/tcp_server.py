@@ -1,0 +1,169 @@
+"""The port of a node at which subscribers and clients of services arrive."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from typing import TYPE_CHECKING
+
+from rosmini.errors import DeserializationError, TransportInitError
+from rosmini.graph.headers import decode_fields, encode_header
+
+from .frames import FrameReader
+from .service_server import TcpClient
+from .sockets import listen
+from .tcp_publisher import TcpSender
+from .tcp_stream import Stream
+
+if TYPE_CHECKING:
+    import socket
+    from collections.abc import Callable
+
+    from rosmini.graph.scheduler import Scheduler
+    from rosmini.graph.transport import Endpoint, Header
+
+    from .io_thread import IoThread
+
+HANDSHAKE_S = 30.0
+"""So long whoever connects may take to say what for."""
+
+PAUSE_S = 1.0
+"""How long no connection is accepted after the machine has refused one."""
+
+
+class TcpServer:
+    """Listens for one node, from when it is made. Raises ``OSError`` at once when it cannot."""
+
+    def __init__(
+        self,
+        io: IoThread,
+        scheduler: Scheduler,
+        endpoint: Endpoint,
+        warn: Callable[[str], None],
+        *,
+        bind: str,
+        port: int = 0,
+    ) -> None:
+        self.io = io
+        self.scheduler = scheduler
+        self.endpoint = endpoint
+        self.warn = warn
+        self._socket = listen(bind, port)
+        self.port: int = self._socket.getsockname()[1]
+        self._is_closed = False
+        self._warned = False
+        io.call(self._begin)
+
+    def _begin(self) -> None:
+        self.io.closers[self._end] = None
+        if not self._is_closed:
+            asyncio.get_running_loop().add_reader(self._socket, self._accept)
+
+    def close(self) -> None:
+        """Stop listening; connections stay. From any thread; harmless when repeated."""
+        if not self._is_closed:
+            self._is_closed = True
+            if self.io.runs:
+                self.io.call(self._end)
+
+    def _end(self) -> None:
+        self.io.closers.pop(self._end, None)
+        self._is_closed = True
+        if self._socket.fileno() >= 0:
+            asyncio.get_running_loop().remove_reader(self._socket)
+            self._socket.close()
+
+    def _accept(self) -> None:
+        try:
+            sock, _ = self._socket.accept()
+        except (BlockingIOError, InterruptedError, ConnectionAbortedError):
+            return
+        except OSError as error:
+            loop = asyncio.get_running_loop()
+            loop.remove_reader(self._socket)
+            loop.call_later(PAUSE_S, self._begin)
+            if not self._warned:
+                self._warned = True
+                self.warn(f"{self.endpoint.name} takes no connections for a moment: {error}")
+            return
+        _Arrival(self, sock)
+
+
+class _Arrival:
+    """A connection whose header is awaited."""
+
+    def __init__(self, server: TcpServer, sock: socket.socket) -> None:
+        self._server = server
+        self._stream = stream = Stream(server.io, sock, FrameReader())
+        self._peer = sock.getpeername() if sock.fileno() >= 0 else None
+        self._answer: deque[bytes] = deque()
+        stream.source = self._next
+        stream.on_frames = self._arrived
+        stream.on_end = self._ended
+        self._timer = asyncio.get_running_loop().call_later(HANDSHAKE_S, stream.abort)
+        stream.start()
+
+    def _next(self) -> bytes:
+        return self._answer.popleft() if self._answer else b""
+
+    def _ended(self, error: Exception | None) -> None:
+        self._timer.cancel()
+        if isinstance(error, DeserializationError):
+            self._server.warn(f"{self._server.endpoint.name} closed a connection from {self._who}: {error}")
+
+    @property
+    def _who(self) -> str:
+        return "somewhere" if self._peer is None else f"{self._peer[0]}:{self._peer[1]}"
+
+    def _arrived(self, frames: list[bytes]) -> None:
+        self._timer.cancel()
+        self._stream.pause()
+        try:
+            header = decode_fields(frames[0])
+        except DeserializationError as error:
+            self._garbled(str(error))
+            return
+        if "topic" in header:
+            take = self._take_subscriber
+        elif "service" in header:
+            take = self._take_client
+        else:
+            self._garbled("no topic or service name detected")
+            return
+        self._server.scheduler.call_soon_threadsafe(lambda: take(header, frames[1:]))
+
+    def _garbled(self, reason: str) -> None:
+        server = self._server
+        server.warn(f"{server.endpoint.name} closed a connection from {self._who}: {reason}")
+        self._refuse({"error": reason})
+
+    def _refuse(self, answer: Header) -> None:
+        with self._stream.lock:
+            self._answer.append(encode_header(answer))
+        self._stream.close()
+
+    # -- in the hub's thread -------------------------------------------------------------------------------------
+
+    def _take_subscriber(self, header: Header, more: list[bytes]) -> None:  # noqa: ARG002 - it ought to be silent
+        server, stream = self._server, self._stream
+        sender = TcpSender(server.scheduler, stream, header.get("callerid", "unknown"), server.warn)
+        try:
+            reply = server.endpoint.accept_subscriber(header, sender)
+        except TransportInitError as error:
+            stream.source = self._next
+            self._refuse({**error.header, "error": str(error)})
+            return
+        stream.on_frames = lambda _: None  # a subscriber has nothing more to say
+        sender.open(encode_header(reply))
+        stream.resume()
+
+    def _take_client(self, header: Header, more: list[bytes]) -> None:
+        server, stream = self._server, self._stream
+        try:
+            session = server.endpoint.accept_client(header)
+        except TransportInitError as error:
+            self._refuse({"error": str(error)})
+            return
+        client = TcpClient(server.scheduler, stream, session, header, more)
+        client.open(encode_header(session.header), is_probe=header.get("probe") == "1")
+        stream.resume()
