@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
-import signal
 import sys
-import threading
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +12,7 @@ from rosmini.errors import RosminiError
 from rosmini.packages import PackageIndex
 
 from .collector import seldom
+from .signals import end_as_ctrl_c
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -145,9 +144,7 @@ def main(args: argparse.Namespace) -> int:
     specs = nodes_in(words)
     from rosmini.scripts import run_scripts
 
-    if threading.current_thread() is threading.main_thread():
-        # roslaunch and process managers end a node with SIGTERM; rospy shuts down on it as on Ctrl-C.
-        signal.signal(signal.SIGTERM, lambda _number, _frame: signal.raise_signal(signal.SIGINT))
+    end_as_ctrl_c()
     simulated = not args.wall_time and (args.sim_time or args.duration is not None)
     with seldom():
         result = run_scripts(specs, simulated=simulated, duration=args.duration)

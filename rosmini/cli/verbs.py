@@ -22,6 +22,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, cast
 from rosmini.errors import MasterUnreachable, RosminiError, UsageError, nearest
 from rosmini.names import is_remapping
 
+from .signals import end_as_ctrl_c
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -328,7 +330,6 @@ class Tool:
 
     def _connected(self) -> Graph:
         """Return a graph of this process at the Master that the environment names; signals end it in order."""
-        import signal
         from importlib import import_module
         from importlib.util import find_spec
 
@@ -337,9 +338,7 @@ class Tool:
                 "this verb needs a node in a terminal, which this version cannot connect with others. Name the nodes "
                 f"that it acts on after a +: `rosmini {self.name} ... + {_NODES}`"
             )
-        # As in rospy: what ends a node, also in the background, lets it take its registrations back.
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        signal.signal(signal.SIGTERM, lambda _number, _frame: signal.raise_signal(signal.SIGINT))
+        end_as_ctrl_c()
         graph: Graph = import_module("rosmini.net.connecting").connect()
         return graph
 

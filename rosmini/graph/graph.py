@@ -5,17 +5,20 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from rosmini.errors import RosminiError
+
 from .console import Console
 from .graph_core import GraphCore
 from .live import Errand, LiveDrive
+from .master_port import LEAVE_NS
 from .node import Node
 from .notebook import kernel_loop
-from .show import show
+from .show import find_extension, show
 from .transport import LocalTransport
 from .workers import running_scheduler
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
     from types import TracebackType
     from typing import Self
@@ -75,8 +78,9 @@ class Graph(GraphCore):
         if self.notebook:
             self.scheduler.ask_driver = self._run_errand
         self._nodes_started = 0
+        self._online: Any = None
         if rosout and self.master.is_local:
-            self._start_rosout()
+            self.start_rosout()
 
     def __repr__(self) -> str:
         kind = "simulated" if self.simulated else "wall"
@@ -90,7 +94,8 @@ class Graph(GraphCore):
     ) -> None:
         self.shutdown("the graph was closed")
 
-    def _start_rosout(self) -> None:
+    def start_rosout(self) -> None:
+        """Start the node ``/rosout``."""
         node = Node("rosout", self)
         aggregate = node.publisher("/rosout_agg", self.log_class, queue_size=None)
 
@@ -114,6 +119,30 @@ class Graph(GraphCore):
         self._live = live = LiveDrive(self, loop, rate=rate)
         return live
 
+    def online(self, master_uri: str | None = None, environ: Mapping[str, str] | None = None) -> Any:
+        """Connect this graph with the nodes of other processes and machines, until :meth:`offline`.
+
+        Where a Master answers at ``master_uri`` (by default, what ``ROS_MASTER_URI`` names), the graph joins it: its
+        nodes register there, and the parameters that it has go there. Else the graph's own Master is served there.
+        Others reach the nodes at ``ROS_IP`` or ``ROS_HOSTNAME`` of ``environ`` (by default ``os.environ``); only this
+        machine does if neither is set. In simulated time ``/clock`` is published and ``/use_sim_time`` set; in a
+        notebook the graph goes on by itself, as after :meth:`live`; elsewhere drive it with :meth:`run`.
+
+        Raises ``MasterUnreachable`` where no Master answers and none of this machine's can be served, and
+        ``RosminiError`` if the graph is online already or has its Master elsewhere anyway.
+        """
+        if self._online is not None:
+            raise RosminiError(f"this graph is online already, at {self.master_uri}; offline() ends that")
+        begin = find_extension("rosmini.wires", "online")
+        self._online = self.scheduler.on_hub(lambda: begin(self, master_uri, environ))
+        return self._online
+
+    def offline(self) -> None:
+        """Leave the nodes of other processes; those of this one go on among themselves. Harmless when repeated."""
+        online, self._online = self._online, None
+        if online is not None:
+            self.scheduler.on_hub(online.end)
+
     def _run_errand(self, waiter: Waiter) -> Callable[[], None]:
         return Errand(self, waiter).complain
 
@@ -133,7 +162,8 @@ class Graph(GraphCore):
             partial(node.shutdown, reason) for node in reversed(list(self.nodes.values()))
         ]
         if scheduler.current() is scheduler.root:
-            steps.append(lambda: scheduler.run(until_ns=scheduler.now_ns()))
+            steps.append(self._let_leave)
+        steps.append(self.offline)
         problems: list[Exception] = []
         for step in [*steps, scheduler.close, self.transport.close]:
             try:
@@ -146,6 +176,13 @@ class Graph(GraphCore):
             self.report(problem, None, raise_strict=False)
         if problems:
             raise problems[0]
+
+    def _let_leave(self) -> None:
+        """Let nodes whose end is under way in lanes of theirs take their registrations back."""
+        scheduler = self.scheduler
+        scheduler.run(until_ns=scheduler.now_ns())
+        if self.nodes and not self.master.is_local:
+            scheduler.run(until_ns=scheduler.now_ns() + LEAVE_NS, until=lambda: not self.nodes)
 
     # -- nodes ---------------------------------------------------------------------------------------------------
 

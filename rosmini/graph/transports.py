@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import TransportException, TransportInitError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from .scheduler import Scheduler
     from .transport import Endpoint, Header, Receiver, ServiceLink, Transport, Triple
@@ -39,6 +39,31 @@ class Transports:
         self._here.pop(self.service_uri(uri), None)
         for way in self.ways:
             way.detach(uri)
+
+    def add(self, way: Transport, here: Mapping[str, Endpoint]) -> dict[str, str]:
+        """Take up a further way, which gives the addresses from now on.
+
+        ``here`` has the nodes of this process by their URIs; return their new URIs, and those of their services, by the
+        old ones. Connections stay.
+        """
+        return self._change([*self.ways, way], here)
+
+    def remove(self, way: Transport, here: Mapping[str, Endpoint]) -> dict[str, str]:
+        """Do without a way again; what is open in it is closed. Returns addresses as :meth:`add` does."""
+        moved = self._change([each for each in self.ways if each is not way], here)
+        way.close()
+        return moved
+
+    def _change(self, ways: list[Transport], here: Mapping[str, Endpoint]) -> dict[str, str]:
+        services = {uri: self.service_uri(uri) for uri in here}
+        for uri in here:
+            self.detach(uri)
+        self.ways = ways
+        moved: dict[str, str] = {}
+        for uri, endpoint in here.items():
+            moved[uri] = self.attach(endpoint)
+            moved[services[uri]] = self.service_uri(moved[uri])
+        return moved
 
     def service_uri(self, uri: str) -> str:
         """Return the URI under which the node with slave API ``uri`` serves its services."""

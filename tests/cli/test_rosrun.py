@@ -1,0 +1,265 @@
+"""`rosmini rosrun` as programs: nodes in processes of their own under `rosmini roscore`."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+from xmlrpc.client import ServerProxy
+
+import pytest
+
+from ..processes import PATIENCE, free_port, run, start, wait_until
+
+pytestmark = pytest.mark.processes
+
+ROSMINI = [sys.executable, "-m", "rosmini"]
+
+TALKER = """#!/usr/bin/env python3
+import rospy
+from std_msgs.msg import String
+rospy.init_node("talker")
+rospy.on_shutdown(lambda: print("the talker ends", flush=True))
+publisher = rospy.Publisher("chatter", String, queue_size=10, latch=True)
+publisher.publish("hello from " + rospy.get_name() + " " + str(rospy.get_param("~greeting", "")))
+rospy.loginfo("said it")
+rospy.spin()
+"""
+
+LISTENER = """#!/usr/bin/env python3
+import sys
+import rospy
+from std_msgs.msg import String
+rospy.init_node("listener", anonymous=len(sys.argv) > 1)
+rospy.Subscriber("chatter", String, lambda message: rospy.loginfo("heard %s", message.data))
+rospy.spin()
+"""
+
+FAILING = """#!/usr/bin/env python3
+import sys
+print(sys.argv[1:])
+sys.exit(7)
+"""
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Path:
+    """A folder with the package `speaking`."""
+    package = tmp_path / "src" / "speaking"
+    (package / "scripts").mkdir(parents=True)
+    (package / "package.xml").write_text(
+        "<package format='2'><name>speaking</name><version>1.0.0</version><description>-</description>"
+        "<maintainer email='a@b.c'>-</maintainer><license>BSD</license></package>",
+        encoding="utf-8",
+    )
+    for name, text in (("talker.py", TALKER), ("listener.py", LISTENER), ("failing.py", FAILING)):
+        path = package / "scripts" / name
+        path.write_text(text, encoding="utf-8")
+        path.chmod(0o755)
+    return tmp_path
+
+
+class Session:
+    """Programs on one Master, each with what it prints in a file."""
+
+    def __init__(self, workspace: Path, stack: ExitStack) -> None:
+        self.port = free_port()
+        self.folder = workspace
+        self._stack = stack
+        kept = {name: text for name, text in os.environ.items() if not name.startswith("ROS_")}
+        self.env = {
+            **kept,
+            "PYTHONUNBUFFERED": "1",
+            "ROS_PACKAGE_PATH": str(workspace / "src"),
+            "ROS_MASTER_URI": f"http://localhost:{self.port}",
+        }
+
+    def start(self, name: str, *words: str, **variables: str) -> Any:
+        """Start a program; what it prints goes to the file `name`."""
+        file = self._stack.enter_context((self.folder / name).open("w", encoding="utf-8"))
+        return self._stack.enter_context(
+            start([*ROSMINI, *words], stdout=file, stderr=file, env=self.env | variables)
+        )
+
+    def core(self, name: str = "core") -> Any:
+        """Start a roscore, and wait until it answers."""
+        process = self.start(name, "roscore")
+        wait_until(lambda: "started core service" in self.said(name), "roscore", process)
+        return process
+
+    def said(self, name: str) -> str:
+        """What a program has printed so far."""
+        return (self.folder / name).read_text(encoding="utf-8")
+
+    def until_said(self, name: str, text: str, process: Any = None) -> None:
+        """Wait until a program has printed a text."""
+        wait_until(lambda: text in self.said(name), f"{text!r} of {name}", process)
+
+    def ask(self, method: str, *arguments: Any) -> Any:
+        """Ask the Master."""
+        with ServerProxy(self.env["ROS_MASTER_URI"]) as proxy:
+            answer: Any = getattr(proxy, method)("/test", *arguments)
+        return answer
+
+    def nodes(self) -> set[str]:
+        """The nodes that the Master knows."""
+        return {name for part in self.ask("getSystemState")[2] for _, names in part for name in names}
+
+
+@pytest.fixture
+def session(workspace: Path) -> Iterator[Session]:
+    """Programs that end with the test."""
+    with ExitStack() as stack:
+        yield Session(workspace, stack)
+
+
+def test_two_nodes_in_processes_of_their_own_talk(session: Session) -> None:
+    core = session.core()
+    listener = session.start("listener", "rosrun", "speaking", "listener.py")
+    talker = session.start(
+        "talker", "rosrun", "speaking", "talker.py", "__name:=speaker", "_greeting:=[1, 2]"
+    )
+    session.until_said("listener", "heard hello from /speaker [1, 2]", listener)
+    assert re.fullmatch(r"\[INFO\] \[\d+\.\d{6}\]: said it\n", session.said("talker"))
+    assert session.nodes() == {"/rosout", "/listener", "/speaker"}
+    talker.send_signal(signal.SIGINT)
+    assert talker.wait(PATIENCE) == 0
+    assert session.said("talker").endswith("said it\nthe talker ends\n")
+    listener.send_signal(signal.SIGTERM)
+    assert listener.wait(PATIENCE) == 0
+    assert session.nodes() == {"/rosout"}
+    core.send_signal(signal.SIGINT)
+    assert core.wait(PATIENCE) == 0
+
+
+def test_a_built_in_node_runs_in_a_process_of_its_own(session: Session) -> None:
+    session.core()
+    simulator = session.start("sim", "rosrun", "rosmini_sim", "simulator", "_world:=house", "__ns:=/robot1")
+    wait_until(
+        lambda: session.ask("lookupService", "/robot1/reset_positions")[0] == 1, "its set-up", simulator
+    )
+    wait_until(lambda: ["/robot1/scan", "sensor_msgs/LaserScan"] in session.ask("getPublishedTopics", "")[2],
+               "the simulator", simulator)  # fmt: skip
+    assert session.ask("getParam", "/robot1/simulator/world")[2] == "house"
+    simulator.send_signal(signal.SIGINT)
+    assert simulator.wait(PATIENCE) == 0
+    assert session.nodes() == {"/rosout"}
+
+
+def test_without_a_master_a_node_says_so_once_and_waits_for_it(session: Session) -> None:
+    listener = session.start("listener", "rosrun", "speaking", "listener.py")
+    complaint = (
+        f"Unable to register with master node [http://localhost:{session.port}]: master may not be running yet. "
+        "Will keep trying."
+    )
+    session.until_said("listener", complaint, listener)
+    session.core()
+    session.start("talker", "rosrun", "speaking", "talker.py")
+    session.until_said("listener", "heard hello from /talker", listener)
+    assert session.said("listener").count("Unable to register") == 1
+    assert re.match(r"\[ERROR\] \[\d+\.\d{6}\]: Unable", session.said("listener"))
+
+
+def test_a_node_without_a_master_ends_when_it_is_told_to(session: Session) -> None:
+    listener = session.start("listener", "rosrun", "speaking", "listener.py")
+    session.until_said("listener", "Unable to register", listener)
+    listener.send_signal(signal.SIGINT)
+    assert listener.wait(PATIENCE) in (0, 1, 130, -signal.SIGINT)
+
+
+def test_a_master_that_comes_back_is_told_everything_again(session: Session) -> None:
+    core = session.core()
+    listener = session.start("listener", "rosrun", "speaking", "listener.py")
+    wait_until(lambda: "/listener" in session.nodes(), "the listener", listener)
+    core.kill()
+    core.wait(PATIENCE)
+    session.until_said("listener", "does not answer any more", listener)
+    session.core("second core")
+    wait_until(lambda: "/listener" in session.nodes(), "the listener's return", listener)
+    session.start("talker", "rosrun", "speaking", "talker.py")
+    session.until_said("listener", "heard hello from /talker", listener)
+    said = session.said("listener")
+    assert said.count("does not answer any more") == 1
+    assert said.count("is back: /listener registers again") == 1
+
+
+def test_the_older_of_two_nodes_of_one_name_ends_with_the_reason(session: Session) -> None:
+    session.core()
+    first = session.start("first", "rosrun", "speaking", "listener.py")
+    wait_until(lambda: "/listener" in session.nodes(), "the first", first)
+    address = session.ask("lookupNode", "/listener")[2]
+    second = session.start("second", "rosrun", "speaking", "listener.py")
+    assert first.wait(PATIENCE) == 0
+    assert "shutdown request: [/listener] Reason: new node registered with same name" in session.said("first")
+    session.start("talker", "rosrun", "speaking", "talker.py")
+    session.until_said("second", "heard hello from /talker", second)
+    assert session.ask("lookupNode", "/listener")[2] != address
+
+
+def test_a_node_that_dies_without_a_word_stays_listed(session: Session) -> None:
+    session.core()
+    listener = session.start("listener", "rosrun", "speaking", "listener.py")
+    wait_until(lambda: "/listener" in session.nodes(), "the listener", listener)
+    listener.kill()
+    listener.wait(PATIENCE)
+    assert "/listener" in session.nodes()
+
+
+def test_each_process_has_its_own_anonymous_names_and_log_files(session: Session) -> None:
+    session.core()
+    logs = session.folder / "logs"
+    for name in ("one", "two"):
+        session.start(
+            name,
+            "rosrun",
+            "speaking",
+            "listener.py",
+            "any",
+            ROS_LOG_DIR=str(logs / name),
+            ROS_NAMESPACE="deep",
+        )
+    wait_until(lambda: len(session.nodes()) == 3, "two listeners")
+    assert sum(name.startswith("/deep/listener_") for name in session.nodes()) == 2
+    for name in ("one", "two"):
+        wait_until(lambda name=name: list((logs / name).glob("deep-listener_*.log")), "the log file")
+
+
+def test_the_exit_status_is_the_script_s(session: Session) -> None:
+    ended = run([*ROSMINI, "rosrun", "speaking", "failing.py", "a", "b:=c"], env=session.env)
+    assert ended.returncode == 7
+    assert ended.stdout == "['a', 'b:=c']\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["nowhere", "x"], "nowhere"),
+        (["speaking", "talke.py"], "talker.py"),
+        (
+            ["speaking", "talker.py", "__master:=robot"],
+            "__master:= is 'robot', which is no address of a Master",
+        ),
+        (["speaking", "talker.py", "__ip:=0.0.0.0"], "__ip:= is 0.0.0.0, which nobody can connect to"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(session: Session, words: list[str], says: str) -> None:
+    ended = run([*ROSMINI, "rosrun", *words], env=session.env)
+    assert ended.returncode == 1
+    assert says in ended.stderr
+
+
+def test_a_host_that_does_not_resolve_and_one_that_cannot_reach_back_are_told(session: Session) -> None:
+    uri = "http://no-such-host.invalid:11311"
+    listener = session.start("listener", "rosrun", "speaking", "listener.py", f"__master:={uri}")
+    session.until_said("listener", "Unable to register", listener)
+    said = session.said("listener")
+    assert "the Master is on another machine (no-such-host.invalid)" in said
+    assert "Set ROS_IP" in said
+    assert "'no-such-host.invalid' does not resolve" in said
+    listener.send_signal(signal.SIGINT)
+    listener.wait(PATIENCE)
