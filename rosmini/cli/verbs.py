@@ -34,8 +34,6 @@ SETTLE_S = 0.1
 """How long the nodes after a `+` run before the verb acts [s]."""
 
 
-_NODES = "rosmini_sim/simulator"
-
 NOT_A_VERB = 64
 """The exit status of ROS's tools where the first word is none of their commands."""
 
@@ -159,7 +157,7 @@ class Tool:
     summary: str
     usage_status: int = 2
     elsewhere: tuple[str, ...] = ()
-    example: str = _NODES
+    example: str = "rosmini_sim/simulator"
     purpose: str = ""
     verbs: dict[str, Verb] = field(default_factory=dict)
 
@@ -325,22 +323,11 @@ class Tool:
 
             with DirectWire(addresses().master_uri) as wire:
                 return verb.act(given, Call(wire, say, read_line=sys.stdin.readline))
-        with self._connected() as graph:
-            return verb.act(given, Call(graph, say, read_line=sys.stdin.readline))
+        from rosmini.net.connecting import connect
 
-    def _connected(self) -> Graph:
-        """Return a graph of this process at the Master that the environment names; signals end it in order."""
-        from importlib import import_module
-        from importlib.util import find_spec
-
-        if find_spec("rosmini.net.connecting") is None:
-            raise RosminiError(
-                "this verb needs a node in a terminal, which this version cannot connect with others. Name the nodes "
-                f"that it acts on after a +: `rosmini {self.name} ... + {_NODES}`"
-            )
         end_as_ctrl_c()
-        graph: Graph = import_module("rosmini.net.connecting").connect()
-        return graph
+        with connect() as graph:
+            return verb.act(given, Call(graph, say, read_line=sys.stdin.readline))
 
 
 @dataclass(frozen=True)

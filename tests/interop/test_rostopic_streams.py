@@ -15,7 +15,6 @@ import pytest
 from ..processes import run, start, wait_until
 from .conftest import SYSTEM_PYTHON, need_ros
 
-pytest.importorskip("rosmini.net.connecting", reason="graphs do not connect over the network yet")
 need_ros("rostopic", modules="rospy, std_msgs.msg, geometry_msgs.msg, sensor_msgs.msg")
 
 PUBLISHER = """
