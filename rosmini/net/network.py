@@ -53,7 +53,7 @@ def tcp(host: str = "localhost", bind: str = "127.0.0.1") -> Callable[[Scheduler
 def network_of(graph: GraphCore) -> Network:
     """Return the network of a graph. Raises ``RosminiError`` if it has none."""
     for way in graph.transport.ways:
-        if isinstance(way, TcpTransport):
+        if isinstance(way, TcpTransport) and isinstance(way.network, Network):
             return way.network
     msg = "this graph has no network: make it with Graph(transports=[LocalTransport, rosmini.net.network.tcp()])"
     raise RosminiError(msg)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
 
 from rosmini.errors import DeserializationError, TransportException, TransportInitError
 from rosmini.graph.headers import decode_fields, encode_header
@@ -23,9 +23,10 @@ if TYPE_CHECKING:
     import socket
     from collections.abc import Callable
 
+    from rosmini.graph.scheduler import Scheduler
     from rosmini.graph.transport import DirectReceiver, Endpoint, Header, Receiver, Triple
 
-    from .network import Network
+    from .xmlrpc_client import XmlRpcClient
 
 CONNECT_S = 30.0
 """How long a connection may take until the other end has shown its header, by the clock on the wall."""
@@ -39,12 +40,28 @@ class _Place(NamedTuple):
     topics: TcpServer
 
 
+class NetworkPort(Protocol):
+    """What the transport needs of its graph's :class:`~rosmini.net.network.Network`."""
+
+    scheduler: Scheduler
+    io: IoThread
+    client: XmlRpcClient
+    host: str
+    bind: str
+
+    def warn(self, text: str) -> None:
+        """Say what went wrong with a peer. From any thread."""
+
+    def close(self) -> None:
+        """End the I/O thread and close what is open."""
+
+
 class TcpTransport:
     """Each node has one port for its slave API, and one for topics and services: roscpp needs them apart."""
 
     protocol = "TCPROS"
 
-    def __init__(self, network: Network) -> None:
+    def __init__(self, network: NetworkPort) -> None:
         self.network = network
         self._places: dict[str, _Place] = {}
 
