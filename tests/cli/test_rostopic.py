@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import shlex
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -19,6 +21,7 @@ from rosmini.msgs.std_msgs.msg import String
 from rosmini.time import Time
 
 from ..processes import free_port
+from ..processes import run as process
 from .transcripts import masked, read, talkers
 
 REAL = read("rostopic")
@@ -166,3 +169,13 @@ WRONG = [
 def test_words_that_make_no_sense(graph: Graph, line: str, says: str) -> None:
     with pytest.raises(UsageError, match=says):
         run(graph, *shlex.split(line))
+
+
+def test_a_tool_that_only_asks_starts_without_a_graph() -> None:
+    code = (
+        "import sys, rosmini.cli.main as m\n"
+        "m.main(['rostopic', 'list'])\n"
+        "print([name for name in ('numpy', 'rosmini.graph', 'rosmini.msgs', 'asyncio') if name in sys.modules])\n"
+    )
+    env = os.environ | {"ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}"}
+    assert process([sys.executable, "-c", code], env=env).stdout == "[]\n"
