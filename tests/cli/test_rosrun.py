@@ -175,12 +175,17 @@ def test_a_node_without_a_master_ends_when_it_is_told_to(session: Session) -> No
 def test_a_master_that_comes_back_is_told_everything_again(session: Session) -> None:
     core = session.core()
     listener = session.start("listener", "rosrun", "speaking", "listener.py")
-    wait_until(lambda: "/listener" in session.nodes(), "the listener", listener)
+    wait_until(
+        lambda: ["/chatter", ["/listener"]] in session.ask("getSystemState")[2][1], "the listener", listener
+    )
     core.kill()
     core.wait(PATIENCE)
     session.until_said("listener", "does not answer any more", listener)
     session.core("second core")
-    wait_until(lambda: "/listener" in session.nodes(), "the listener's return", listener)
+    session.until_said("listener", "is back: /listener registers again", listener)
+    wait_until(
+        lambda: ["/chatter", ["/listener"]] in session.ask("getSystemState")[2][1], "its return", listener
+    )
     session.start("talker", "rosrun", "speaking", "talker.py")
     session.until_said("listener", "heard hello from /talker", listener)
     said = session.said("listener")
@@ -191,7 +196,7 @@ def test_a_master_that_comes_back_is_told_everything_again(session: Session) -> 
 def test_the_older_of_two_nodes_of_one_name_ends_with_the_reason(session: Session) -> None:
     session.core()
     first = session.start("first", "rosrun", "speaking", "listener.py")
-    wait_until(lambda: "/listener" in session.nodes(), "the first", first)
+    wait_until(lambda: ["/chatter", ["/listener"]] in session.ask("getSystemState")[2][1], "the first", first)
     address = session.ask("lookupNode", "/listener")[2]
     second = session.start("second", "rosrun", "speaking", "listener.py")
     assert first.wait(PATIENCE) == 0
