@@ -52,8 +52,10 @@ def complete(cls: Any, base: type[MessageContract]) -> None:
         if not hasattr(cls, name):
             setattr(cls, name, default)
 
-    def copied(message: Any) -> Any:
-        return _read(cls, _written(cls, message))
+    def copied(message: Any, header: dict[str, str] | None = None) -> Any:
+        copy = _read(cls, _written(cls, message))
+        copy._connection_header = header
+        return copy
 
     cls._freeze = cls._thaw = cls._thaw_numpy = cls._thaw_genpy_numpy = staticmethod(copied)
     cls._encode = staticmethod(lambda message: _written(cls, message))

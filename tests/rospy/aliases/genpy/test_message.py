@@ -85,19 +85,21 @@ def test_a_class_written_by_hand():
         Pair(third=1)
 
 
-def test_it_is_published_as_its_own_bytes_say():
+@pytest.mark.parametrize("names", [("one",), ("one", "two")])
+def test_it_is_published_as_its_own_bytes_say(names):
     graph = Graph()
     heard = []
-    for name in ("one", "two"):
+    for name in names:
         graph.node(name).subscriber("pairs", Pair, heard.append)
     publisher = graph.node("sender").publisher("pairs", Pair, queue_size=1)
-    publisher.wait_for_subscribers(2)
+    publisher.wait_for_subscribers(len(names))
     pair = Pair(1, 2)
     publisher.publish(pair)
     pair.first = 99
     graph.run(0.1)
-    assert heard == [Pair(1, 2)] * 2
-    assert heard[0] is not heard[1]
+    assert heard == [Pair(1, 2)] * len(names)
+    assert len({id(pair) for pair in heard}) == len(names)
+    assert heard[0]._connection_header["callerid"] == "/sender"
     with pytest.raises(SerializationError, match="field first must be an integer type"):
         publisher.publish(Pair("x", 2))
     with pytest.raises(SerializationError, match=r"Half is written by hand and has no serialize\(\)"):
