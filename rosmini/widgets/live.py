@@ -70,7 +70,7 @@ class Link:
         self._last: tuple[Any, ...] = ()
         self._last_sent = 0.0
         self._scan: NDArray[np.float32] | None = None
-        """A scan that the page has not got: ranges, and the robot's pose at its stamp (a sweeping laser's is bent)."""
+        """A scan that the page has not got: ranges (beams,), then the robot's pose at each beam (beams, 3)."""
         self._scans: Subscriber | None = None
         data = pad_data(pad)
         if pad.sight is not None and pad.gone is None:
@@ -139,7 +139,9 @@ class Link:
     def _seen(self, scan: Any) -> None:
         sight = self.pad.sight
         if sight is not None and self.pad.gone is None:
-            self._scan = np.array([*scan.ranges, *sight.scan_pose], dtype=np.float32)
+            ranges = np.asarray(scan.ranges, dtype=np.float32)
+            poses = np.broadcast_to(sight.scan_poses, (len(ranges), 3)).astype(np.float32)
+            self._scan = np.concatenate([ranges, poses.ravel()])
 
     def _hello(self) -> None:
         sight = self.pad.sight

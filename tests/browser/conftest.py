@@ -9,7 +9,14 @@ import sys
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from rosmini import Graph
+from rosmini.msgs.geometry_msgs.msg import Twist
+from rosmini.sim.recorder import Recorder
+from rosmini.sim.simulator import Simulator
+from rosmini.sim.world import World
 
 from ..processes import PATIENCE, free_port, listens, start, wait_until
 
@@ -163,3 +170,30 @@ def webgl(chromium):
     flags += ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
     with launched(chromium.browser_type, flags) as browser:
         yield browser
+
+
+SQUARE = World(
+    "square", walls=np.array([(-2, -2, 2, -2), (2, -2, 2, 2), (2, 2, -2, 2), (-2, 2, -2, -2)], dtype=float)
+)
+
+
+@pytest.fixture(scope="session")
+def turning():
+    """Four seconds of a Burger that turns as fast as it can in a square of 4 m; from 1 s on it has its full speed."""
+    with Graph() as graph:
+        for name, value in (("noise", 0.0), ("x", 0.4), ("y", -0.3)):
+            graph.master.setParam("/test", f"/simulator/{name}", value)
+        recorder = Recorder(graph, Simulator(graph.node("simulator"), world=SQUARE))
+        publisher = graph.node("driver").publisher("cmd_vel", Twist)
+        for _ in range(40):
+            message = Twist()
+            message.angular.z = 2.84
+            publisher.publish(message)
+            graph.run(0.1)
+        return recorder.recording()
+
+
+@pytest.fixture(scope="session")
+def off_the_walls():
+    """How far points (n, 2) are from the walls of that square [m]."""
+    return lambda points: np.abs(np.abs(np.asarray(points)[:, :2]).max(axis=1) - 2)

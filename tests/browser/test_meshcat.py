@@ -198,7 +198,7 @@ def test_a_run_plays_and_the_robot_moves(open_page, shared_tmp):
 
 def test_a_played_scan_is_the_recorded_one(open_page):
     page = open_page("deep/er/replay.html")
-    page.get_by_role("slider", name="Time").fill("5.1")
+    page.get_by_role("slider", name="Time").fill("5")
     points = viewer(
         page, f"Array.from({node('meshcat/robots/robot/scan/<object>')}.geometry.attributes.position.array)"
     )
@@ -206,6 +206,27 @@ def test_a_played_scan_is_the_recorded_one(open_page):
     assert points.shape == (180, 3)
     assert np.hypot(*points[:, :2].T) == pytest.approx(1.5, abs=0.002)
     assert points[45, :2] == pytest.approx([0, 1.5], abs=0.01)
+
+
+def test_what_a_sweeping_laser_hit_lies_on_the_walls(open_page, site, turning, off_the_walls, shared_tmp):
+    """Also between two scans, while the robot turns on."""
+    (site / "turning.html").write_text(
+        f"<!DOCTYPE html><title>t</title>{replay_3d(turning).page}", encoding="utf-8"
+    )
+    page = open_page("turning.html")
+    cloud, root = node("meshcat/robots/robot/scan/<object>"), node("meshcat")
+    for time in (1.5, 2.25, 3.1):
+        page.get_by_role("slider", name="Time").fill(str(time))
+        points = viewer(
+            page,
+            f"((cloud, root) => {{ cloud.updateWorldMatrix(true, false); const at = cloud.geometry.attributes.position;"
+            "return Array.from({ length: at.count }, (_, i) => root.worldToLocal(cloud.localToWorld("
+            f"cloud.position.clone().fromBufferAttribute(at, i))).toArray()); }})({cloud}, {root})",
+        )
+        hits = np.array([point for point in points if point[2] > 0])
+        assert len(hits) > 150
+        assert off_the_walls(hits).max() < 0.02
+    page.screenshot(path=shared_tmp / "meshcat-turning.png")
 
 
 def test_a_run_ends_and_begins_anew(open_page):

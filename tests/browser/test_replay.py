@@ -19,6 +19,7 @@ from rosmini.sim.recording import Moved
 from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Cylinder, Obstacle
 from rosmini.viz import style
+from rosmini.viz.replay.encode import replay_data
 
 pytestmark = pytest.mark.browser
 
@@ -542,3 +543,40 @@ def colour_count(page, canvas, colour):
     """How many pixels of a canvas are near a colour."""
     rgb = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
     return page.evaluate(COUNT, [canvas.element_handle(), rgb])
+
+
+# What the player draws as hits, in metres.
+HITS = """() => {
+  const draw = rosminiCanvas.scan;
+  rosminiCanvas.scan = (view, ...seen) => {
+    globalThis.hits = [];
+    const arc = (x, y) => hits.push([x, y]);
+    const context = new Proxy({}, {get: (_, name) => (name === "arc" ? arc : () => {}), set: () => true});
+    draw({context, theme: view.theme, scale: view.scale, x: (x) => x, y: (y) => y}, ...seen);
+    draw(view, ...seen);
+  };
+}"""
+
+
+def test_what_a_sweeping_laser_hit_lies_on_the_walls(write, opened, turning, off_the_walls, shared_tmp):
+    assert turning.time_increment != 0
+    page = opened(write(turning))
+    page.evaluate(HITS)
+    for time in (1.5, 2.3, 3.1):
+        scrub(page, time)
+        hits = page.evaluate("hits")
+        assert len(hits) > 300
+        assert off_the_walls(hits).max() < 0.02
+    page.screenshot(path=shared_tmp / "replay-turning.png")
+
+
+def test_each_beam_is_drawn_from_where_the_recording_puts_it(write, opened, turning):
+    page = opened(write(turning))
+    beams = turning.scans.shape[1]
+    for which in (2, 9, -1):
+        poses = page.evaluate(
+            "([data, time, beams]) => { const run = rosminiReplay.decode(data);"
+            "return Array.from({length: beams}, (_, i) => rosminiReplay.beamPose(run, time, i)); }",
+            [replay_data(turning), turning.scan_times[which], beams],
+        )
+        assert np.array(poses) == pytest.approx(turning.scan_poses(which), abs=0.005)

@@ -128,14 +128,16 @@ def test_a_frame_holds_what_is_wanted_and_sent_and_where_the_robot_is(page, pad,
     assert messages[:3] == [[0.005, 0.0], [0.01, 0.05], [0.01, 0.1]]
 
 
-def test_scans_come_with_the_pose_that_they_were_taken_from(page, simulator):
+def test_scans_come_with_the_poses_that_their_beams_were_taken_from(page, simulator):
     page.say("key", key="a")
     page.run(1.15)
     scans = [buffers[1] for content, buffers in page.sent if content.get("scan")]
     assert len(scans) == 5
     last = np.frombuffer(scans[-1], dtype=np.float32)
     assert last[:360] == pytest.approx(np.asarray(simulator.last_scan().ranges, dtype=np.float32))
-    assert last[360:] == pytest.approx(simulator.scan_pose)
+    poses = last[360:].reshape(360, 3)
+    assert poses == pytest.approx(simulator.scan_poses)
+    assert np.ptp(poses[:, 2]) > 0.005  # it turned while the laser swept
 
 
 def test_without_a_word_from_the_page_the_robot_stops(page, pad):

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.geometry.polygons import needed
+from rosmini.geometry.poses import compose, inverse
 from rosmini.sim.models import LidarModel, RobotModel
 from rosmini.sim.models import Part as SimplePart
 from rosmini.sim.sensors.scene import trapezia
@@ -287,11 +288,11 @@ class Scene3D:
         return Part(node, name, colour_of(part.colour), solids, shine=0.2)
 
     def add_scan(
-        self, model: RobotModel, ranges: Floats, pose: Pose | None = None, name: str = ROBOT
+        self, model: RobotModel, ranges: Floats, pose: Pose | Floats | None = None, name: str = ROBOT
     ) -> None:
         """Add what the laser of a robot that is there saw: ranges (beams,) [m], not finite where nothing was hit.
 
-        It saw that at `pose`; by default where the robot is.
+        It saw that at `pose`, or at each beam at one of these (beams, 3); by default where the robot is.
         """
         points = scan_points(ranges, model.laser)
         mount = np.eye(4)
@@ -299,7 +300,13 @@ class Scene3D:
         if model.laser.yaw:
             mount = mount @ planar((0.0, 0.0, model.laser.yaw))
         if pose is not None:
-            mount = np.linalg.inv(self.nodes[name]) @ planar(pose) @ mount
+            poses = np.atleast_2d(pose)
+            lasers = compose(poses, (*model.laser.mount[:2], model.laser.yaw))
+            ends = compose(
+                compose(inverse(lasers[:1]), lasers), np.column_stack([points[:, :2], np.zeros(len(points))])
+            )
+            points = rounded(np.column_stack([ends[:, :2], points[:, 2]]))
+            mount = np.linalg.inv(self.nodes[name]) @ planar(poses[0]) @ mount
         self.place(f"{name}/scan", mount)
         place = self.transform(f"{name}/scan")
         self.scans.append(points[np.isfinite(ranges)] @ place[:3, :3].T + place[:3, 3])

@@ -171,8 +171,8 @@ def replay_3d(
 ) -> MeshcatView:  # fmt: skip
     """A recorded run to play: the robot on its way, its wheels turning, its trail and where odometry saw it.
 
-    The camera follows the robot, or stands still if the focus is the world. `scans` shows what the laser saw from the
-    robot's pose at the stamp of the scan: that of a sweeping laser is distorted while the robot turns.
+    The camera follows the robot, or stands still if the focus is the world. `scans` shows what the laser saw,
+    each beam from where the robot was when it was measured.
     """
     world, model, truth = recording.world, recording.model, recording.truth
     start: Pose = tuple(truth[0].tolist())
@@ -238,19 +238,21 @@ def simulation_3d(
     scan = simulator.last_scan()
     return robot_3d(
         world, simulator.model, simulator.truth(), None if scan is None else np.asarray(scan.ranges, dtype=float),
-        scan_from=simulator.scan_pose, others=others, focus=focus, distance=distance, azimuth=azimuth,
+        scan_from=simulator.scan_poses, others=others, focus=focus, distance=distance, azimuth=azimuth,
         elevation=elevation, title=title, height=height,
     )  # fmt: skip
 
 
 def robot_3d(
-    world: World, model: RobotModel, pose: Pose, ranges: Floats | None = None, *, scan_from: Pose | None = None,
-    others: Iterable[tuple[str, RobotModel, Pose]] = (), focus: Focus = "robot", distance: float | None = None,
-    azimuth: float | None = None, elevation: float | None = None, title: str | None = None, height: int = HEIGHT,
+    world: World, model: RobotModel, pose: Pose, ranges: Floats | None = None, *,
+    scan_from: Pose | Floats | None = None, others: Iterable[tuple[str, RobotModel, Pose]] = (),
+    focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
+    elevation: float | None = None, title: str | None = None, height: int = HEIGHT,
 ) -> MeshcatView:  # fmt: skip
     """A robot in a world at a pose, with what its laser saw: ranges (beams,) [m], not finite where nothing was hit.
 
-    It saw that from `scan_from`, by default the pose of the robot. `others` are more robots: name, model and pose.
+    It saw that from the pose `scan_from`, or at each beam from one of them (beams, 3); by default from the pose of the
+    robot. `others` are more robots: name, model and pose.
 
     Raises:
         ViewError: the focus or the distance is impossible, or there is a wrong number of ranges.
@@ -341,6 +343,7 @@ def _scan_track(recording: Recording) -> dict[str, Any]:
         **(
             {"start": round(lidar.angle_min, 8), "step": round(BEAM_STEP * lidar.increment, 8)} if fan else {}
         ),
+        **({"increment": round(BEAM_STEP * recording.time_increment, 9)} if recording.time_increment else {}),
         "path": f"/meshcat/{ROBOT}/scan",
         "beams": ranges.shape[1],
         "times": [round(t, 3) for t in times.tolist()],

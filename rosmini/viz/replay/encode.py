@@ -4,8 +4,7 @@ Numbers become whole ones (millimetres, tenths of a milliradian, milliseconds), 
 then bytes, mostly one for each number, then base64. A run of a minute with five scans of 360 beams a second takes about
 170 kB. It could be compressed further, but another zlib writes other bytes, and nbval compares HTML to the byte.
 
-The player draws a scan from the robot's pose at its stamp, so that of a sweeping laser is distorted while the robot
-turns, as the message is. The still picture of a recording draws each beam from where it was measured.
+The player draws each beam of a scan from where the robot was when it was measured.
 """
 
 from __future__ import annotations
@@ -28,6 +27,8 @@ ANGLE = 1e-4
 """[rad], also [rad/s]"""
 TIME = 1e-3
 """[s]"""
+NANOSECOND = 1e-9
+"""[s]"""
 RATE = 30.0
 """Poses a second, at most."""
 MOST_POSES = 3600
@@ -47,11 +48,12 @@ def replay_data(recording: Recording) -> dict[str, Any]:
     | `commands` | times [ms], then linear [mm/s], then angular velocities [0.1 mrad/s], whenever these change |
     | `scan_times` | [ms] |
     | `scans` | ranges [mm], scan by scan; 0 where a beam hit nothing, -1 where it hit what was too near |
+    | `time_increment` | [ns] from one beam of a scan to the next, if a laser sweeps |
     | `things` | of each thing that moved its name, its shapes in its own frame, and its `track`, as `truth` |
     | `others` | of each other robot its name, colour and numbers, and its `track`; `name` is the first one's |
 
-    All but the first two are packed. Both tracks are in the frame `map`: odometry starts at the robot's true pose.
-    Poses are resampled at even times; between them the player goes in straight lines.
+    All but `start`, `duration` and `time_increment` are packed. Both tracks are in the frame `map`: odometry starts at
+    the robot's true pose. Poses are resampled at even times; between them the player goes in straight lines.
     """
     start, duration = float(recording.times[0]), recording.duration
     samples = 1 + min(int(np.ceil(duration * RATE)), MOST_POSES)
@@ -83,6 +85,8 @@ def replay_data(recording: Recording) -> dict[str, Any]:
             whole(np.where(np.isfinite(scans), scans, np.where(scans < 0, -LENGTH, 0.0)), LENGTH).ravel()
         ),
     }
+    if recording.time_increment:
+        data["time_increment"] = whole(recording.time_increment, NANOSECOND).item()
     if moved:
         data["scene"]["bounds"] = scene_data(recording.world)["bounds"]
         data["things"] = [

@@ -11,10 +11,10 @@
      clear(view)                               empties it and paints the ground with a line each metre.
      world(view, scene)                        walls and obstacles, with the ground: clear() is not needed. Kept as a
                                                bitmap in the view, so that each further call is one copy.
-     scan(view, robot, pose, ranges)           laser hits and what the laser sees, from the robot at `pose`. A beam
-                                               that hit nothing is Infinity, null or 0; one that hit what is too near to
-                                               be measured is negative: -Infinity (REP 117). `robot.lidar` has where it
-                                               sits, x and y, its range max, and the first beam's angle, start, and the
+     scan(view, robot, poseOf, ranges)         laser hits and what the laser sees; poseOf(i) is where the robot was at
+                                               beam i, which in a sweep differs from beam to beam. A beam that hit nothing
+                                               is Infinity, null or 0; one that hit what is too near to be measured is
+                                               negative: -Infinity (REP 117). `robot.lidar` has where it sits, x and y, its range max, and the first beam's angle, start, and the
                                                step between beams, where that is not a full turn from 0 on.
      trail(view, points, {colour, dashed, count})   a line through [x, y, ...] points, the first `count` of them.
      robot(view, robot, pose, {ghost, colour}) the robot from above; a ghost is an outline: where odometry puts it.
@@ -209,20 +209,25 @@
     }
   }
 
-  function scan(view, robot, pose, ranges) {
+  function scan(view, robot, poseOf, ranges) {
     const { context, theme: colours, scale } = view;
     const { x: ahead, y: aside = 0, max, start = 0, step = TURN / ranges.length } = robot.lidar;
-    const [x, y, theta] = pose;
-    const [c, s] = [Math.cos(theta), Math.sin(theta)];
-    const [originX, originY] = [x + c * ahead - s * aside, y + s * ahead + c * aside];
+    const laserAt = ([x, y, theta]) => {
+      const [c, s] = [Math.cos(theta), Math.sin(theta)];
+      return [x + c * ahead - s * aside, y + s * ahead + c * aside, theta];
+    };
     const hits = [];
     context.beginPath();
-    if (ranges.length === 1 || ranges.length * step < TURN - 1.5 * step) context.lineTo(view.x(originX), view.y(originY)); // a fan
+    if (ranges.length === 1 || ranges.length * step < TURN - 1.5 * step) { // a fan
+      const [x, y] = laserAt(poseOf(0));
+      context.lineTo(view.x(x), view.y(y));
+    }
     for (let i = 0; i < ranges.length; i += 1) {
       const hit = ranges[i] > 0 && Number.isFinite(ranges[i]);
       const range = hit ? ranges[i] : ranges[i] < 0 ? 0 : max;
+      const [x, y, theta] = laserAt(poseOf(i));
       const angle = theta + start + step * i;
-      const [px, py] = [view.x(originX + range * Math.cos(angle)), view.y(originY + range * Math.sin(angle))];
+      const [px, py] = [view.x(x + range * Math.cos(angle)), view.y(y + range * Math.sin(angle))];
       context.lineTo(px, py);
       if (hit) hits.push(px, py);
     }

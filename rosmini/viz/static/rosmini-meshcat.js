@@ -193,21 +193,38 @@
     return viewer.scene_tree.find(path.split("/").filter(Boolean)).object;
   }
 
-  /* Put the points of the last scan before `time` in their places. */
+  /* Put the points of the last scan before `time` in their places: each where the laser was when it measured it, while
+     the robot, to which the cloud of points belongs, goes on. */
   function showScan(viewer, scan, time) {
     let last = -1;
     while (last + 1 < scan.times.length && scan.times[last + 1] <= time) last += 1;
-    if (scan.shown === last && scan.viewer === viewer) return;
-    scan.shown = last;
-    scan.viewer = viewer;
+    const cloud = find(viewer, scan.path);
+    if (scan.shown !== last || scan.viewer !== viewer) {
+      Object.assign(scan, { shown: last, viewer, points: last < 0 ? [] : measured(viewer, scan, last) });
+      viewer.animator.seek(time);
+    }
+    cloud.updateWorldMatrix(true, false);
     const positions = find(viewer, `${scan.path}/<object>`).geometry.attributes.position;
-    const ranges = new DataView((scan.bytes ??= bytes(scan.ranges)).buffer);
     for (let i = 0; i < scan.beams; i += 1) {
-      const range = last < 0 ? 0 : ranges.getUint16(2 * (last * scan.beams + i), true) / 1000;
-      const angle = (scan.start ?? 0) + (scan.step ?? (2 * Math.PI) / scan.beams) * i;
-      positions.setXYZ(i, range * Math.cos(angle), range * Math.sin(angle), range > 0 ? 0 : -100);
+      const { x, y, z } = scan.points[i] ? cloud.worldToLocal(scan.points[i].clone()) : { x: 0, y: 0, z: -100 };
+      positions.setXYZ(i, x, y, z);
     }
     positions.needsUpdate = true;
+  }
+
+  /* Where the beams of a scan hit something in the viewer's world, or null; it moves the robot there and leaves it. */
+  function measured(viewer, scan, which) {
+    const cloud = find(viewer, scan.path);
+    const ranges = new DataView((scan.bytes ??= bytes(scan.ranges)).buffer);
+    viewer.animator.seek(scan.times[which]);
+    return Array.from({ length: scan.beams }, (_, i) => {
+      const range = ranges.getUint16(2 * (which * scan.beams + i), true) / 1000;
+      if (!range) return null;
+      const angle = (scan.start ?? 0) + (scan.step ?? (2 * Math.PI) / scan.beams) * i;
+      if (scan.increment) viewer.animator.seek(scan.times[which] + i * scan.increment);
+      cloud.updateWorldMatrix(true, false);
+      return cloud.localToWorld(cloud.position.clone().set(range * Math.cos(angle), range * Math.sin(angle), 0));
+    });
   }
 
   function playerBar(state, data, options) {

@@ -4,7 +4,7 @@
    To the kernel:  {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "key", key}, {type: "stop"} it is left,
                    {type: "reset"}, {type: "start"}.
    From the kernel: {type: "frame", messages, sent, at_rest, blocked, scan, pushed?} with a buffer of seven float64 (target and command, each linear and
-                   angular, and x, y, theta), and one of float32 (ranges, then the pose of the scan) if `scan` is true;
+                   angular, and x, y, theta), and one of float32 (ranges, then x, y, theta of the robot at each beam) if `scan` is true;
                    {type: "trail"} with one of float32 (x, y, ...); {type: "still"} nobody drives the graph; {type: "gone", text} and
                    {type: "error", text}. */
 
@@ -25,7 +25,7 @@
       this.frames = 0;
       this.rates = [];
       this.state = {
-        pose: data.pose, ranges: data.ranges ? floats(Float32Array, data.ranges) : null, scanPose: null, trail: [], target: [0, 0], command: [0, 0], messages: [], sent: 0,
+        pose: data.pose, ranges: data.ranges ? floats(Float32Array, data.ranges) : null, scanFrom: null, trail: [], target: [0, 0], command: [0, 0], messages: [], sent: 0,
         mood: "ready", note: "press a key to start", startable: true,
       };
       this.receive = (content, buffers) => this.hear(content, buffers ?? []);
@@ -110,8 +110,9 @@
       }
       if (content.scan) {
         const all = floats(Float32Array, buffers[1]);
-        state.ranges = all.subarray(0, all.length - 3);
-        state.scanPose = [...all.subarray(all.length - 3)];
+        const beams = all.length / 4;
+        state.ranges = all.subarray(0, beams);
+        state.scanFrom = (beam) => all.subarray(beams + 3 * beam, beams + 3 * beam + 3);
       }
       const mood = content.blocked ? "blocked" : content.at_rest ? "ready" : "driving";
       const driving = state.pose ? `driving, ${this.rates.length} frames/s` : "driving";

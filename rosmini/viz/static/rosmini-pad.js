@@ -11,7 +11,7 @@
    `scene` and `pose` are null, and only the messages are shown.
 
    A driver is what stands behind the page: press(key), reset(), close(), and `state`, which the page draws whenever
-   the driver calls `changed()`: {pose, ranges, scanPose, scene, trail, target, command, messages, sent, mood, note, startable}. */
+   the driver calls `changed()`: {pose, ranges, scanFrom, scene, trail, target, command, messages, sent, mood, note, startable}. */
 
 (() => {
   "use strict";
@@ -289,7 +289,7 @@
         world(this.view, state.scene ?? scene);
         trail(this.view, [...state.trail, ...(state.pose ? [state.pose] : [])]);
         if (state.pose) {
-          if (state.ranges) scan(this.view, scene.robot, state.scanPose ?? state.pose, state.ranges);
+          if (state.ranges) scan(this.view, scene.robot, state.scanFrom ?? (() => state.pose), state.ranges);
           robot(this.view, scene.robot, state.pose);
         }
         scaleBar(this.view);
@@ -382,7 +382,7 @@
       if (pose) extend(this.trail, pose);
       const still = run.atRest;
       this.state = {
-        pose, ranges: run.ranges, scanPose: run.scanPose, trail: this.trail,
+        pose, ranges: run.ranges, scanFrom: () => run.scanPose, trail: this.trail,
         target: run.teleop.target, command: run.teleop.command, messages: run.messages, sent: run.sent,
         mood: blocked ? "blocked" : still ? "ready" : "driving",
         note: blocked ? "something is in the way" : still ? "ready" : "driving",

@@ -5,6 +5,7 @@
      mount(host, data, options)   puts a player into an empty element; `data` is what `rosmini.viz.replay.encode`
                                   made, `options` has `title` and `alt`.
      decode(data)                 the run in metres, radians and seconds.
+     beamPose(run, time, beam)    where the robot of a decoded run was at a beam of the scan that has this time.
 
    It plays when it is told to. Its root element says how it is: data-state (playing, paused), data-time, data-speed. */
 
@@ -98,6 +99,7 @@ margin:0;padding:.2rem .7rem .6rem}
   const LENGTH = 1e-3;
   const ANGLE = 1e-4;
   const TIME = 1e-3;
+  const NANOSECOND = 1e-9;
 
   /* Three columns that lie one after another, as rows. */
   function rows(text, ...units) {
@@ -120,6 +122,7 @@ margin:0;padding:.2rem .7rem .6rem}
       name: data.name ?? "",
       others: tracked(data.others),
       things: tracked(data.things),
+      increment: (data.time_increment ?? 0) * NANOSECOND,
       scans: unpack(data.scan_times, TIME).map((time, i) => [time, ranges.slice(i * beams, (i + 1) * beams)]),
     };
   }
@@ -166,6 +169,10 @@ margin:0;padding:.2rem .7rem .6rem}
     const [from, to] = [track[i], track[i + 1] ?? track[i]];
     return from.map((value, axis) => value + (position - i) * (to[axis] - value));
   }
+
+  /* Where the robot was at a beam of the scan of a time: the beams of a sweep are measured one after another. */
+  const beamPose = (run, time, beam) =>
+    poseAt(run, run.truth, Math.min(run.end, Math.max(run.start, time + beam * run.increment)));
 
   const sampleAt = (run, time) =>
     run.end > run.start ? ((time - run.start) / (run.end - run.start)) * (run.truth.length - 1) : 0;
@@ -343,7 +350,7 @@ margin:0;padding:.2rem .7rem .6rem}
       const scan = layers.scan && latest(run.scans, time);
       draw.world(view, run.scene);
       for (const thing of run.things) draw.thing(view, thing.shapes, poseAt(run, thing.track, time));
-      if (scan) draw.scan(view, robot, poseAt(run, run.truth, Math.max(run.start, scan[0])), scan[1]);
+      if (scan) draw.scan(view, robot, (beam) => beamPose(run, scan[0], beam), scan[1]);
       view.context.globalAlpha = 0.3; // the whole way, faintly
       if (layers.truth) draw.trail(view, run.truth);
       if (layers.odom) draw.trail(view, run.odom, dashed);
@@ -373,5 +380,5 @@ margin:0;padding:.2rem .7rem .6rem}
     new Player(host, data, options);
   }
 
-  globalThis.rosminiReplay = { mount, decode };
+  globalThis.rosminiReplay = { mount, decode, beamPose };
 })();

@@ -276,7 +276,7 @@
       const gone = state.mood === "gone";
       for (const { name, pose, ranges } of gone ? [] : state.scans) {
         const body = this.body(name);
-        if (body?.laser) scan(view, { lidar: body.laser }, pose, ranges);
+        if (body?.laser) scan(view, { lidar: body.laser }, () => pose, ranges);
       }
       const several = state.bodies.filter((body) => body.robot).length > 1;
       state.bodies.forEach((body, i) => { if (!body.robot) this.drawBody(body, state.poses[i]); });

@@ -177,6 +177,12 @@ def test_a_scan_is_where_the_laser_saw_it():
     )
     moved = robot_3d(SMALL, BURGER, (0.5, 0.75, math.pi / 2), ranges, scan_from=POSE)
     assert moved.scene.scans[0] == pytest.approx(view.scene.scans[0], abs=1e-4)
+    # of a sweep, each beam from its own pose
+    poses = np.tile(POSE, (360, 1))
+    poses[90] = (0.6, -0.25, 0.0)
+    ahead, left = robot_3d(SMALL, BURGER, (0.5, 0.75, math.pi / 2), ranges, scan_from=poses).scene.scans[0]
+    assert ahead == pytest.approx(view.scene.scans[0][0], abs=1e-4)
+    assert left == pytest.approx([0.6 - 0.032, -0.25 + 2.0, 0.182], abs=1e-4)
     with pytest.raises(ViewError, match=r"has 360 ranges, not \(10,\)"):
         robot_3d(SMALL, BURGER, POSE, np.ones(10))
 

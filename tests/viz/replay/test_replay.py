@@ -167,6 +167,9 @@ def test_the_run_comes_back_to_the_millimetre():
     assert np.abs(scans - recording.scans)[hit].max() <= 0.55 * LENGTH
     assert (scans[~hit] == 0).all()
     assert np.abs(unpack(data["scan_times"]) * TIME - recording.scan_times).max() <= 0.55 * TIME
+    assert "time_increment" not in data
+    swept = replay_data(replace(recording, time_increment=-0.2 / 360))
+    assert swept == {**data, "time_increment": -555556}
     commands = unpack(data["commands"]).reshape(3, -1).T * (TIME, LENGTH, ANGLE)
     assert commands == pytest.approx(recording.commands, abs=1e-3)
 
