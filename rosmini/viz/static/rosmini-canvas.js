@@ -14,7 +14,8 @@
      scan(view, robot, poseOf, ranges)         laser hits and what the laser sees; poseOf(i) is where the robot was at
                                                beam i, which in a sweep differs from beam to beam. A beam that hit nothing
                                                is Infinity, null or 0; one that hit what is too near to be measured is
-                                               negative: -Infinity (REP 117). `robot.lidar` has where it sits, x and y, its range max, and the first beam's angle, start, and the
+                                               negative: -Infinity (REP 117). `robot.lidar` has where it
+                                               sits, x and y, its range max, and the first beam's angle, start, and the
                                                step between beams, where that is not a full turn from 0 on.
      trail(view, points, {colour, dashed, count})   a line through [x, y, ...] points, the first `count` of them.
      robot(view, robot, pose, {ghost, colour}) the robot from above; a ghost is an outline: where odometry puts it.
