@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,10 +14,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from .harness import Peer
-
-WIRE = ("rosmini.net.tcp_transport", "rosmini.cli.roscore", "rosmini.cli.rosrun")
-collect_ignore_glob = [] if all(map(find_spec, WIRE)) else [f"{Path(__file__).parent}/test_*.py"]
-"""These tests begin to count with the commit that brings the last part of the wire; take this out then."""
 
 PROGRAMS = ["roscore", "rosnode", "rostopic", "rosservice", "rosparam", "rosbag", "roslaunch"]
 

@@ -252,8 +252,12 @@ class Stage:
         return child
 
     def roscore(self, kind: str, *arguments: str, within: list[str] | None = None, **env: str) -> Child:
-        """Start a real roscore or ours, and wait until its Master answers and /rosout is there."""
-        words = ["/usr/bin/roscore"] if kind == "real" or ALL_REAL else [*ROSMINI, "roscore"]
+        """Start a real roscore or ours, and wait until its Master answers and /rosout is there.
+
+        With --core there is only the Master, which real ROS has as a program of its own.
+        """
+        real = "/usr/bin/rosmaster" if "--core" in arguments else "/usr/bin/roscore"
+        words = [real] if kind == "real" or ALL_REAL else [*ROSMINI, "roscore"]
         child: Child = self.start(
             f"roscore_{kind}", [*words, "-p", self.port, *arguments], env, within=within
         )
