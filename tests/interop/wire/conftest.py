@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from .harness import Peer
+
+if "ROSMINI_TEST_WIRE" not in os.environ:
+    collect_ignore_glob = [f"{Path(__file__).parent}/test_*.py"]
+    """Not part of every run yet: on a busy machine one of these tests may wait for ever."""
 
 PROGRAMS = ["roscore", "rosnode", "rostopic", "rosservice", "rosparam", "rosbag", "roslaunch"]
 
