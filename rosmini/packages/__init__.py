@@ -1,0 +1,36 @@
+"""ROS packages: where they are, what their manifests say, which files and executables they hold.
+
+A package is a folder with a ``package.xml`` (REP 127, REP 140, REP 149) or, of the time before catkin, with a
+``manifest.xml``; a stack is a folder with a ``stack.xml``. Packages are looked for as rospack does
+(http://wiki.ros.org/rospack): below each folder of ``ROS_PACKAGE_PATH`` in turn, the first package of a name wins, a
+folder with ``CATKIN_IGNORE`` or ``rospack_nosubdirs`` is not entered, and neither is a package. After them come the
+packages that rosmini brings, so that a workspace can overlay them.
+
+The crawl is ours and not rospkg's, whose order depends on the file system, and which gives up altogether over one
+manifest that is not XML. Manifests are read by catkin_pkg, after defusedxml has found no harm in them.
+"""
+
+from .executables import NODES_GROUP, SCRIPT_FOLDERS, Executable
+from .folders import MANIFEST, Crawled, assets_dir, crawl, package_around, search_paths
+from .index import LONGEST, SCHEME, PackageIndex
+from .manifest import Export, Package, Stack, read_package, read_stack
+
+__all__ = [
+    "LONGEST",
+    "MANIFEST",
+    "NODES_GROUP",
+    "SCHEME",
+    "SCRIPT_FOLDERS",
+    "Crawled",
+    "Executable",
+    "Export",
+    "Package",
+    "PackageIndex",
+    "Stack",
+    "assets_dir",
+    "crawl",
+    "package_around",
+    "read_package",
+    "read_stack",
+    "search_paths",
+]
