@@ -1,0 +1,98 @@
+"""Three computers, one Master: a teleop on the first drives a simulator on each of the others."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from ..conftest import SYSTEM_PYTHON, need_ros
+from .harness import ROSMINI, Stage
+from .hosts import three_hosts
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .harness import Child, Peer
+    from .hosts import Host, Hosts
+
+pytestmark = pytest.mark.ros
+
+ODOMETRY, FAR = "nav_msgs/Odometry", 0.05
+TELEOP = Path(__file__).parents[3] / "assets/ros/turtlebot3_teleop/nodes/turtlebot3_teleop_key"
+TELEOPS = {
+    "ours": [*ROSMINI, "rosrun", "turtlebot3_teleop", "turtlebot3_teleop_key"],
+    "real": [SYSTEM_PYTHON, TELEOP],
+}
+
+
+class Site(Stage):
+    """A stage whose Master runs on the first of the computers."""
+
+    kind = "ours"
+    """Whose roscore it is: "ours", or the "real" one."""
+
+
+@pytest.fixture(scope="module")
+def hosts() -> Iterator[Hosts]:
+    """Three computers."""
+    need_ros("roscore", "rostopic", modules="rospy")
+    with three_hosts() as found:
+        yield found
+
+
+@pytest.fixture(scope="module", params=["ours", "real"])
+def site(
+    hosts: Hosts, request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Site]:
+    """A roscore on the first host, ours or the real one."""
+    with Site(tmp_path_factory.mktemp(f"hosts_{request.param}"), host=hosts.a.address) as found:
+        found.roscore(request.param, within=hosts.a.within)
+        found.kind = request.param
+        yield found
+
+
+@pytest.fixture(scope="module")
+def watcher(site: Site, hosts: Hosts) -> Peer:
+    """A node on the first host, which sees all robots, and through which the tests ask the Master."""
+    return site.peer("ours", "watcher", within=hosts.a.within).ready()
+
+
+def simulator(site: Site, host: Host, name: str) -> Child:
+    """Start a simulator on a host: its topics in a namespace of its own, but for the commands that all share."""
+    words = [*ROSMINI, "rosrun", "rosmini_sim", "simulator", f"__name:={name}", f"__ns:=/{name}"]
+    words += [f"/{name}/cmd_vel:=/cmd_vel", "_world:=room", "_noise:=0"]
+    child: Child = site.start(name, words, {"ROS_IP": host.address}, within=host.within)
+    return child
+
+
+def x_of(watcher: Peer, topic: str) -> Any:
+    """Return the position on the newest message of a topic with odometry."""
+    watcher.ask("forget", topic)
+    return watcher.ask("hear", topic)[-1]["pose"]["pose"]["position"]["x"]
+
+
+def test_one_teleop_drives_two_simulators_on_two_hosts(site: Site, hosts: Hosts, watcher: Peer) -> None:
+    names = {"second": hosts.b, "third": hosts.c}
+    children = [simulator(site, host, name) for name, host in names.items()]
+    topics = [f"/{name}/{topic}" for name in names for topic in ("odom", "base_pose_ground_truth")]
+    for topic in topics:
+        watcher.ask("subscribe", topic, ODOMETRY)
+    before = {topic: x_of(watcher, topic) for topic in topics}
+    for name, host in names.items():
+        uri = watcher.ask("state", "lookupNode", f"/{name}/{name}")[2]
+        assert uri.startswith(f"http://{host.address}:")
+    env = {"ROS_IP": hosts.a.address, "TURTLEBOT3_MODEL": "burger"}
+    teleop: Child = site.start("teleop", TELEOPS[site.kind], env, within=hosts.a.within)
+    for speed in range(1, 11):
+        teleop.process.stdin.write("w")
+        teleop.process.stdin.flush()
+        teleop.wait_for(rf"linear vel {speed / 100}\t")
+    for topic in topics:
+        while x_of(watcher, topic) < before[topic] + FAR:
+            pass
+    drivers = dict(watcher.ask("state", "getSystemState")[2][0])["/cmd_vel"]
+    assert drivers == ["/turtlebot3_teleop"]
+    for child in (*children, teleop):
+        child.interrupt()
