@@ -86,7 +86,7 @@ def main(args: argparse.Namespace) -> int:
         simulated=False,
         strict=False,
         rosout=not args.core,
-        transports=[LocalTransport, tcp(where.host, where.bind)],
+        transports=[LocalTransport, tcp(where)],
         run_id=str(uuid.uuid1()),
     )
     try:
@@ -121,6 +121,7 @@ def serve(graph: Graph, where: Addresses, port: int, *, verbose: bool) -> Master
         port,
         on_shutdown=lambda _: graph.scheduler.stop(),
         on_call=show_call if verbose else None,
+        warn=lambda text: print(f"[WARN] {text}", file=sys.stderr, flush=True),
     )
 
 

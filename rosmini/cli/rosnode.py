@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from rosmini.errors import TransportException, nearest
 from rosmini.introspection import nodes
 from rosmini.introspection.options import Parser
+from rosmini.introspection.peers import host_of
 
 from .arguments import global_name
 from .verbs import Call, Lines, Result, Tool, VerbError
@@ -108,7 +109,8 @@ def _ping(call: Call, name: str, count: int | None) -> Pings:
             clock.sleep_until(clock.now_ns() + 1_000_000_000)
     except TransportException as error:
         found = nodes.uri_of(call.peers, name)
-        moved = f"it is at {found} now: ping it again" if found not in (None, uri) else _WAY_OUT
+        is_moved = found not in (None, uri)
+        moved = f"it is at {found} now: ping it again" if is_moved else _way_out(uri, error)
         said = (nodes.why_silent(error, name, uri), moved)
         return Pings(times={name: tuple(times)}, complaints=said)
     except KeyboardInterrupt:
@@ -118,10 +120,12 @@ def _ping(call: Call, name: str, count: int | None) -> Pings:
     return Pings(times={name: tuple(times)})
 
 
-_WAY_OUT = (
-    "The Master still lists it. If it has crashed, `rosnode cleanup` takes it off the list; if it runs on another "
-    "machine, look at ROS_IP or ROS_HOSTNAME there: this machine must be able to reach that address."
-)
+def _way_out(uri: str, error: TransportException) -> str:
+    """Return what to do about a node that the Master lists and that does not answer."""
+    from rosmini.net.addresses import addresses
+
+    reason = error.__cause__ or ConnectionRefusedError()  # nobody has an address in this process any more
+    return f"The Master lists it at {uri}. {addresses().advice(host_of(uri), reason)}."
 
 
 # -- list ------------------------------------------------------------------------------------------------------------
@@ -217,9 +221,9 @@ def info(given: Values, call: Call) -> NodeInfos:
             continue
         try:
             found.append(NodeInfo(about, uri, nodes.contact(call.peers, uri), was_asked=True))
-        except TransportException:
+        except TransportException as error:
             found.append(NodeInfo(about, uri, was_asked=True))
-            complaints += [f"ERROR: Communication with node[{uri}] failed!", _WAY_OUT]
+            complaints += [f"ERROR: Communication with node[{uri}] failed!", _way_out(uri, error)]
             return NodeInfos(nodes=tuple(found), complaints=tuple(complaints), status=1)
     return NodeInfos(nodes=tuple(found), complaints=tuple(complaints))
 

@@ -108,6 +108,8 @@ class Connection(DirectReceiver):
             if error.__cause__ is None:  # the publisher went away meanwhile; the Master will say so
                 subscription.lost(self, None)
             else:
+                if subscription.is_first_failure(self):
+                    self.peer = node.master.publisher_at(subscription.topic, self.uri)
                 self.failed(error)
             return
         self.protocol = parameters[0]
@@ -330,17 +332,22 @@ class Subscription:
     def lost(self, connection: Connection, error: Exception | None) -> None:
         """Learn that a connection failed, or could not be made; say so once, and try again if the way allows it."""
         self.forget(connection)
-        is_first = connection.received > 0 or connection.uri not in self._attempts
+        is_first, was_open = self.is_first_failure(connection), connection.protocol
         again = self._try_again(connection)
         if error is not None and is_first:
             node, who = self.node, connection.peer or connection.uri
             hope = (
                 "tried again while the Master lists it" if again else "made again when a publisher registers"
             )
-            node.logwarn(
-                f"the connection of {node.name} to {who} on {self.topic} failed and was closed: "
-                f"{type(error).__name__}: {error}. It is {hope}."
-            )
+            what = f"{node.name} cannot connect to {who}, which publishes {self.topic} at {connection.uri}"
+            if was_open:
+                what = f"the connection of {node.name} to {who} on {self.topic} failed and was closed"
+                what += f": {type(error).__name__}"
+            node.logwarn(f"{what}: {error}. It is {hope}.")
+
+    def is_first_failure(self, connection: Connection) -> bool:
+        """Tell whether the attempts before this connection to its publisher, if there were any, had no success."""
+        return connection.received > 0 or connection.uri not in self._attempts
 
     def _try_again(self, connection: Connection) -> bool:
         """Connect again later; each time without a message in between later still, as in rospy."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from ipaddress import ip_address
+from socket import gaierror
 from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import urlsplit
 
@@ -18,6 +19,11 @@ if TYPE_CHECKING:
 
 MASTER_URI = "http://localhost:11311"
 """The Master's address where nothing else is said."""
+
+_SET_THERE = (
+    "set ROS_IP there to an address of that machine which this one reaches (`hostname -I` prints those it has), and "
+    "start the node again"
+)
 
 LOOPBACK = "127.0.0.1"
 EVERYWHERE = "0.0.0.0"  # noqa: S104 - bound only when an address of the network was given
@@ -49,6 +55,36 @@ class Addresses(NamedTuple):
         return f"{scheme}://{_in_uri(self.host)}:{port}{'/' if scheme == 'http' else ''}"
 
     @property
+    def is_alone(self) -> bool:
+        """True where all nodes of the graph are on this machine: nothing of another one finds its Master."""
+        return is_loopback(self.host) and is_loopback(self.master[0])
+
+    def advice(self, host: str, reason: BaseException | None) -> str:
+        """Return what to do about a node that advertises an address at which it is not reached from here.
+
+        ``host`` is the one in that address; ``reason`` is what the system said: ``socket.gaierror`` for a name that
+        does not resolve, ``ConnectionRefusedError`` where nobody listens.
+        """
+        if isinstance(reason, ConnectionRefusedError):
+            ended = (
+                "it has been shut down, or it was killed (`rosnode cleanup` takes it off the Master's list)"
+            )
+            if self.is_alone:
+                return f"No node listens there: {ended}"
+            if is_loopback(host):
+                return (
+                    f"{host} always means the machine that asks. If the node runs on another machine, {_SET_THERE}. "
+                    f"If it ran on this one, {ended}"
+                )
+            return f"No node listens there: {ended}. If {host} is not its machine, {_SET_THERE}"
+        if isinstance(reason, gaierror):
+            return f"On the machine that calls itself {host}, {_SET_THERE}; or add {host} to /etc/hosts here"
+        return (
+            f"If {host} is not the address by which this machine reaches the node's, {_SET_THERE}; if it is, look for "
+            "a firewall, or for a network that is down"
+        )
+
+    @property
     def announcement(self) -> str | None:
         """A line that says where this process listens, or None if only this machine can reach it."""
         if not self.is_open:
@@ -66,6 +102,10 @@ class Addresses(NamedTuple):
                 "or ROS_HOSTNAME to a name that resolves to it there."
             )
         return None
+
+
+HERE = Addresses(MASTER_URI, LOCALHOST, LOOPBACK)
+"""The addresses of a process of whose network nothing is said: only this machine reaches it."""
 
 
 def addresses(

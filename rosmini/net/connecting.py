@@ -52,7 +52,7 @@ def connect(
         rate=rate,
         seed=seed,
         strict=False,
-        transports=[LocalTransport, tcp(where.host, where.bind)],
+        transports=[LocalTransport, tcp(where)],
         log_dir=log_dir,
         master=way,
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import RosminiError
 from rosmini.graph.master_port import METHODS
 
+from .advertised import Advertised
 from .xmlrpc_server import XmlRpcServer
 from .xmlrpc_text import XmlRpcFault
 
@@ -37,6 +38,7 @@ class MasterServer:
         port: 0 for any that is free.
         on_shutdown: called in the I/O thread with the reason when somebody shuts the Master down.
         on_call: called there with the method's name, the arguments and the answer of each call.
+        warn: called there with a line about a node that registers under an address at which others do not find it.
 
     Raises ``AddressInUse`` when another process listens there, and ``RosminiError`` when the address is not this
     machine's.
@@ -52,6 +54,7 @@ class MasterServer:
         *,
         on_shutdown: Callable[[str], object] | None = None,
         on_call: Callable[[str, tuple[Any, ...], Any], object] | None = None,
+        warn: Callable[[str], object] | None = None,
     ) -> None:
         self._master = master
         self._on_shutdown = on_shutdown
@@ -60,6 +63,7 @@ class MasterServer:
             self._server = XmlRpcServer(io, self._answer, bind=where.bind, port=port)
         except OSError as error:
             raise _refusal(where, port, error) from error
+        self._advertised = None if warn is None else Advertised(warn)
         self._before, master.uri = master.uri, where.uri(self._server.port)
 
     @property
@@ -78,6 +82,8 @@ class MasterServer:
         if method not in METHODS:
             raise XmlRpcFault(1, f"<class 'Exception'>:method \"{method}\" is not supported")
         answer = getattr(self._master, method)(*arguments)
+        if self._advertised is not None and method.startswith("register"):
+            self._advertised.look(self._server.caller, str(arguments[0]), str(arguments[-1]))
         if self._on_call is not None:
             self._on_call(method, arguments, answer)
         reason = self._master.shutdown_reason

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError
 
+from .addresses import HERE
 from .io_thread import IoThread
 from .tcp_transport import TcpTransport
 from .xmlrpc_client import XmlRpcClient
@@ -17,21 +18,21 @@ if TYPE_CHECKING:
     from rosmini.graph.graph_core import GraphCore
     from rosmini.graph.scheduler import Scheduler
 
+    from .addresses import Addresses
+
 
 class Network:
     """The network of one graph. Nothing runs until a node, or a call, needs it.
 
     Args:
         scheduler: the graph's.
-        host: the name or address that others are told.
-        bind: the address at which nodes listen. Both may be changed: nodes that come later have the new ones.
+        where: the addresses of this process: under which one others find its nodes, and where these listen.
 
     """
 
-    def __init__(self, scheduler: Scheduler, *, host: str = "localhost", bind: str = "127.0.0.1") -> None:
+    def __init__(self, scheduler: Scheduler, where: Addresses = HERE) -> None:
         self.scheduler = scheduler
-        self.host = host
-        self.bind = bind
+        self.where = where
         self.io = IoThread()
         self.client = XmlRpcClient(self.io, scheduler)
         self.transport = TcpTransport(self)
@@ -45,9 +46,9 @@ class Network:
         self.io.close()
 
 
-def tcp(host: str = "localhost", bind: str = "127.0.0.1") -> Callable[[Scheduler], TcpTransport]:
+def tcp(where: Addresses = HERE) -> Callable[[Scheduler], TcpTransport]:
     """Return what makes a transport for ``Graph(transports=[LocalTransport, ...])``; see :class:`Network`."""
-    return lambda scheduler: Network(scheduler, host=host, bind=bind).transport
+    return lambda scheduler: Network(scheduler, where).transport
 
 
 def network_of(graph: GraphCore) -> Network:

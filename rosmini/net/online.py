@@ -73,7 +73,7 @@ class Online:
             raise RosminiError(f"this graph has its Master elsewhere already, at {graph.master_uri}")
         self.graph = graph
         self.where = where
-        self.network = Network(graph.scheduler, host=where.host, bind=where.bind)
+        self.network = Network(graph.scheduler, where)
         self.joined = False
         """True where the Master is another process's."""
         self._own = graph.master
@@ -110,7 +110,7 @@ class Online:
                     f"{error}. If {host} is this machine, set ROS_IP or ROS_HOSTNAME to {host}: then the Master of "
                     "this graph is served there"
                 ) from error
-            self._server = MasterServer(self.network.io, self._own, self.where, port)
+            self._server = MasterServer(self.network.io, self._own, self.where, port, warn=self.network.warn)
         else:
             self.joined = True
 

@@ -14,6 +14,16 @@ from rosmini.errors import TransportException
 
 BACKLOG = 128
 
+
+class Unreached(TransportException):
+    """Nobody is reached at an address; the cause is what the system said."""
+
+    def __init__(self, text: str, host: str) -> None:
+        super().__init__(text)
+        self.host = host
+        """The host in that address."""
+
+
 Address = tuple[socket.AddressFamily, Any]
 """A family, and what ``socket.connect`` takes."""
 
@@ -49,7 +59,7 @@ def literal(host: str, port: int) -> Address | None:
 async def resolve(host: str, port: int) -> Address:
     """Return the address of a host; names are looked up in a thread of their own, which may take its time.
 
-    Raises ``TransportException`` for a name that does not resolve.
+    Raises :class:`Unreached` for a name that does not resolve.
     """
     found = literal(host, port)
     if found is not None:
@@ -63,9 +73,10 @@ async def resolve(host: str, port: int) -> Address:
         if address is not None:
             answer.set_result(address)
             return
-        problem = TransportException(
+        problem = Unreached(
             f"the host name {host!r} does not resolve on this machine ({error}): add it to /etc/hosts here, or set "
-            "ROS_IP or ROS_HOSTNAME, on the machine that calls itself so, to an address that others reach"
+            "ROS_IP or ROS_HOSTNAME, on the machine that calls itself so, to an address that others reach",
+            host,
         )
         problem.__cause__ = error
         answer.set_exception(problem)
@@ -87,7 +98,7 @@ async def resolve(host: str, port: int) -> Address:
 async def connect(host: str, port: int) -> socket.socket:
     """Return a connected, non-blocking socket.
 
-    Raises ``TransportException`` when nobody listens there, or the name or the way there is not known.
+    Raises :class:`Unreached` when nobody listens there, or the name or the way there is not known.
     """
     family, address = await resolve(host, port)
     made = socket.socket(family, socket.SOCK_STREAM)
@@ -98,7 +109,7 @@ async def connect(host: str, port: int) -> socket.socket:
     except OSError as error:
         made.close()
         reason = os.strerror(error.errno) if error.errno else str(error)
-        raise TransportException(f"nobody can be reached at {host}:{port}: {reason}") from error
+        raise Unreached(f"nobody can be reached at {host}:{port}: {reason}", host) from error
     except BaseException:
         made.close()
         raise

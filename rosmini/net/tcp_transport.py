@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from socket import gaierror
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
 
 from rosmini.errors import DeserializationError, TransportException, TransportInitError
@@ -12,7 +13,7 @@ from rosmini.graph.slave import METHODS
 from .frames import FrameReader
 from .io_thread import IoThread, later
 from .service_client import TcpServiceLink
-from .sockets import connect
+from .sockets import Unreached, connect
 from .tcp_server import TcpServer
 from .tcp_stream import Stream
 from .tcp_subscriber import TopicInlet
@@ -21,11 +22,12 @@ from .xmlrpc_server import XmlRpcServer
 
 if TYPE_CHECKING:
     import socket
-    from collections.abc import Callable
+    from collections.abc import Callable, Coroutine
 
     from rosmini.graph.scheduler import Scheduler
     from rosmini.graph.transport import DirectReceiver, Endpoint, Header, Receiver, Triple
 
+    from .addresses import Addresses
     from .xmlrpc_client import XmlRpcClient
 
 CONNECT_S = 30.0
@@ -46,8 +48,7 @@ class NetworkPort(Protocol):
     scheduler: Scheduler
     io: IoThread
     client: XmlRpcClient
-    host: str
-    bind: str
+    where: Addresses
 
     def warn(self, text: str) -> None:
         """Say what went wrong with a peer. From any thread."""
@@ -70,7 +71,7 @@ class TcpTransport:
 
         Raises ``TransportException`` when the address to listen at is not this machine's.
         """
-        network = self.network
+        network, (_, host, bind) = self.network, self.network.where
 
         def answer(method: str, arguments: tuple[Any, ...]) -> Triple:
             if method not in METHODS:
@@ -78,16 +79,16 @@ class TcpTransport:
             return endpoint.slave_call(method, *arguments)
 
         try:
-            slave = XmlRpcServer(network.io, answer, bind=network.bind)
-            topics = TcpServer(network.io, network.scheduler, endpoint, network.warn, bind=network.bind)
+            slave = XmlRpcServer(network.io, answer, bind=bind)
+            topics = TcpServer(network.io, network.scheduler, endpoint, network.warn, bind=bind)
         except OSError as error:
             msg = (
-                f"{endpoint.name} cannot listen at {network.bind}: {error.strerror or error}. "
+                f"{endpoint.name} cannot listen at {bind}: {error.strerror or error}. "
                 "Set ROS_IP or ROS_HOSTNAME to an address of this machine."
             )
             raise TransportException(msg) from error
-        uri = uri or f"http://{network.host}:{slave.port}/"
-        self._places[uri] = _Place(network.host, slave, topics)
+        uri = uri or network.where.uri(slave.port)
+        self._places[uri] = _Place(host, slave, topics)
         return uri
 
     def detach(self, uri: str) -> None:
@@ -121,11 +122,8 @@ class TcpTransport:
         """Call a method of a node's slave API; the lane is parked. Raises ``TransportException`` without an answer."""
         try:
             answer = self.network.client.call(uri, method, *arguments)
-        except TransportException as error:
-            if isinstance(error.__cause__, ConnectionRefusedError):
-                msg = f"no node answers at {uri}: it has been shut down, or it was killed ({error})"
-                raise TransportException(msg) from error
-            raise
+        except Unreached as error:
+            raise self._explained(error) from error.__cause__
         if not isinstance(answer, list) or len(answer) != 3:
             raise TransportException(
                 f"{uri} answered {method} with {answer!r:.200}, not [code, status, value]"
@@ -157,11 +155,8 @@ class TcpTransport:
         except (ValueError, TypeError):
             raise TransportInitError(f"the publisher answered with {parameters!r:.200}") from None
         network = self.network
-        stream, reply, more = network.io.ask(
-            network.scheduler,
-            open_topic(network.io, host, port, header),
-            f"the publisher of {header['topic']}",
-            _discard,
+        stream, reply, more = self._open(
+            open_topic(network.io, host, port, header), f"the publisher of {header['topic']}"
         )
         inlet = TopicInlet(network.scheduler, stream, cast("DirectReceiver", receiver), more)
         return reply, inlet.close
@@ -176,13 +171,24 @@ class TcpTransport:
         """Open a service connection; the lane is parked meanwhile. Raises as :meth:`connect_topic`."""
         host, port = host_and_port(service_uri, "rosrpc")
         network = self.network
-        stream, reply, _ = network.io.ask(
-            network.scheduler,
-            _open(network.io, host, port, header, ok_byte=True),
-            f"the service {header['service']}",
-            _discard,
+        stream, reply, _ = self._open(
+            _open(network.io, host, port, header, ok_byte=True), f"the service {header['service']}"
         )
         return TcpServiceLink(network.scheduler, stream, reply, service_class)
+
+    def _open(self, opening: Coroutine[Any, Any, Opened], what: str) -> Opened:
+        """Return an open connection; the lane is parked meanwhile."""
+        network = self.network
+        try:
+            return network.io.ask(network.scheduler, opening, what, _discard)
+        except Unreached as error:
+            raise self._explained(error) from error.__cause__
+
+    def _explained(self, error: Unreached) -> TransportException:
+        """Return an error that says what to do about the address that a node advertises, too."""
+        if isinstance(error.__cause__, gaierror):
+            return error  # it says so already
+        return TransportException(f"{error}. {self.network.where.advice(error.host, error.__cause__)}")
 
     def close(self) -> None:
         """End the network of this graph; it begins anew when needed."""
@@ -238,7 +244,7 @@ async def _open(io: IoThread, host: str, port: int, header: Header, *, ok_byte: 
                 sock.close()
                 raise
     except TimeoutError as error:
-        raise TransportException(f"{host}:{port} does not answer within {CONNECT_S:g} s") from error
+        raise Unreached(f"{host}:{port} does not answer within {CONNECT_S:g} s", host) from error
     except DeserializationError as error:
         raise TransportException(f"what answers at {host}:{port} is no node of ROS 1: {error}") from error
     except OSError as error:

@@ -11,7 +11,7 @@ import h11
 from rosmini.errors import TransportException
 
 from .http import HEAD_LIMIT, read_message, write_message
-from .sockets import connect
+from .sockets import Unreached, connect
 from .xmlrpc_text import XmlRpcFault, decode, encode_call
 
 if TYPE_CHECKING:
@@ -83,11 +83,11 @@ class XmlRpcClient:
         try:
             async with asyncio.timeout(timeout):
                 answer = await self._exchange(host, port, urlsplit(uri).path or "/", body)
-        except TimeoutError:
+        except TimeoutError as error:
             msg = (
                 f"{uri} does not answer {method} within {timeout:g} s: it hangs, or the way there is blocked"
             )
-            raise TransportException(msg) from None
+            raise Unreached(msg, host) from error
         except (OSError, h11.ProtocolError) as error:
             msg = (
                 f"{uri} did not answer {method} as a server of XML-RPC does: {type(error).__name__}: {error}"

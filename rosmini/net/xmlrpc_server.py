@@ -53,6 +53,8 @@ class XmlRpcServer:
         self.port: int = self._socket.getsockname()[1]
         self._tasks: set[asyncio.Task[None]] = set()
         self._closed = False
+        self.caller = ""
+        """The address from which the call came that the handler is answering."""
         io.call(self._begin)
 
     def _begin(self) -> None:
@@ -121,7 +123,7 @@ class XmlRpcServer:
             head, body = message
             status, answer = 200, b""
             if isinstance(head, h11.Request) and head.method == b"POST":
-                answer = await self._answer(body)
+                answer = await self._answer(body, writer.get_extra_info("peername")[0])
             else:
                 status = 501
         except (h11.RemoteProtocolError, TransportException) as error:
@@ -138,11 +140,12 @@ class XmlRpcServer:
         await writer.drain()
         return connection.our_state is h11.DONE and connection.their_state is h11.DONE
 
-    async def _answer(self, body: bytes) -> bytes:
+    async def _answer(self, body: bytes, caller: str) -> bytes:
         arguments, method = decode(body)
         if method is None:
             raise TransportException("the document is no call: it names no method")
         try:
+            self.caller = caller
             value = self._handler(method, arguments)
             if inspect.isawaitable(value):
                 value = await value

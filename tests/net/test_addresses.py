@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from socket import gaierror
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -105,3 +108,24 @@ def test_any_text_is_an_address_or_a_clear_refusal(text: str) -> None:
             continue
         assert found.master[0]
         assert found.host
+
+
+REFUSED, UNKNOWN, NO_ROUTE = ConnectionRefusedError(), gaierror(-2, "unknown"), OSError(113, "no route")
+OPEN = {"ROS_IP": "192.168.1.5", "ROS_MASTER_URI": "http://192.168.1.2:11311"}
+
+
+@pytest.mark.parametrize(
+    ("environ", "host", "reason", "says"),
+    [
+        ({}, "localhost", REFUSED, r"^No node listens there: it has been shut down.*rosnode cleanup[^.]*$"),
+        (OPEN, "localhost", REFUSED, r"^localhost always means.*that asks.*set ROS_IP there.*rosnode cleanup"),
+        (OPEN, "127.0.1.1", REFUSED, r"^127.0.1.1 always means the machine that asks"),
+        (OPEN, "192.168.1.7", REFUSED, r"rosnode cleanup.*If 192.168.1.7 is not its machine, set ROS_IP there"),
+        (OPEN, "robot", UNKNOWN, r"calls itself robot, set ROS_IP there.*or add robot to /etc/hosts here"),
+        (OPEN, "172.17.0.1", NO_ROUTE, r"If 172.17.0.1 is not the address.*set ROS_IP there.*firewall"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_with_an_address_is_told_by_what_the_system_says(
+    environ: dict[str, str], host: str, reason: Exception, says: str
+) -> None:
+    assert re.search(says, addresses(environ).advice(host, reason))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from ...processes import run
 from ..conftest import SYSTEM_PYTHON, need_ros
 from .harness import ROSMINI, Stage
 from .hosts import three_hosts
@@ -53,6 +54,13 @@ def site(
         yield found
 
 
+def ask(site: Site, host: Host, *words: str) -> tuple[str, str]:
+    """Run a tool on a host; return what it wrote to standard output and standard error."""
+    env = site.environment(ROS_IP=host.address)
+    found = run([*host.within, *words], env=env, cwd=site.home)
+    return found.stdout, found.stderr
+
+
 @pytest.fixture(scope="module")
 def watcher(site: Site, hosts: Hosts) -> Peer:
     """A node on the first host, which sees all robots, and through which the tests ask the Master."""
@@ -96,3 +104,32 @@ def test_one_teleop_drives_two_simulators_on_two_hosts(site: Site, hosts: Hosts,
     assert drivers == ["/turtlebot3_teleop"]
     for child in (*children, teleop):
         child.interrupt()
+
+
+@pytest.mark.parametrize("kind", ["ours", "real"])
+def test_an_address_that_others_do_not_reach_is_explained(
+    site: Site, hosts: Hosts, watcher: Peer, kind: str
+) -> None:
+    """The classic: all is listed, and nothing arrives. Our subscriber, our tools and our Master say why."""
+    for number, wrong in enumerate(hosts.wrong):
+        topic, name = f"/said_{kind}_{number}", f"lost_{kind}_{number}"
+        host = hosts.b
+        lost = site.peer(kind, name, within=host.within, ROS_HOSTNAME=wrong, ROS_IP="").ready()
+        lost.ask("advertise", topic, "std_msgs/String")
+        assert lost.uri.startswith(f"http://{wrong}:")
+        listed, _ = ask(site, hosts.a, "rostopic", "list")
+        assert topic in listed.split()
+        watcher.ask("subscribe", topic, "std_msgs/String")
+        watcher.wait_for(
+            rf"\[WARN\].*/watcher cannot connect to /{name}, which publishes {topic} at {lost.uri}: .*{wrong}.*ROS_IP"
+        )
+        _, said = ask(site, hosts.a, *ROSMINI, "rosnode", "ping", "-c", "1", f"/{name}")
+        assert f"The Master lists it at {lost.uri}." in said
+        assert "set ROS_IP there" in said
+        if site.kind == "ours" and hosts.are_apart:
+            (core,) = (child for child in site.children if child.name == "roscore_ours")
+            core.wait_for(
+                rf"/{name}, on the machine at {host.address}, advertises {lost.uri}.*ROS_IP={host.address}"
+            )
+        watcher.ask("unsubscribe", topic)
+        lost.interrupt()

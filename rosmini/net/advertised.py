@@ -1,0 +1,57 @@
+"""Watches under which addresses nodes register at a Master of this process.
+
+The Master hands these addresses out to the other nodes. One that is wrong for them is ROS's most frequent trouble with
+several machines: all lists are complete, and no message arrives (http://wiki.ros.org/ROS/NetworkSetup).
+"""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
+
+from .addresses import is_literal, is_loopback
+from .sockets import Unreached, resolve
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+LIMIT = 1_000
+"""So many nodes and addresses are remembered, each of which is warned of once."""
+
+
+class Advertised:
+    """Says once of each node that others do not find it where it says it is. Used in the I/O thread only."""
+
+    def __init__(self, warn: Callable[[str], object]) -> None:
+        self._warn = warn
+        self._seen: set[tuple[str, str]] = set()
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def look(self, caller: str, name: str, uri: str) -> None:
+        """Look at a registration that came from the address ``caller``, of a node that is to be reached at ``uri``."""
+        try:
+            host = urlsplit(uri).hostname or ""
+        except ValueError:
+            return
+        if is_loopback(caller) or not host or (name, host) in self._seen or len(self._seen) >= LIMIT:
+            return
+        self._seen.add((name, host))
+        if is_loopback(host):
+            self._tell(caller, name, uri, f"{host} means to every machine that machine itself")
+        elif not is_literal(host):
+            task = asyncio.get_running_loop().create_task(self._resolve(caller, name, uri, host))
+            self._tasks.add(task)
+            task.add_done_callback(self._tasks.discard)
+
+    async def _resolve(self, caller: str, name: str, uri: str, host: str) -> None:
+        try:
+            await resolve(host, 0)
+        except Unreached:
+            self._tell(caller, name, uri, f"the name {host} does not resolve here")
+
+    def _tell(self, caller: str, name: str, uri: str, why: str) -> None:
+        self._warn(
+            f"{name}, on the machine at {caller}, advertises {uri}, but {why}: other machines list its topics and get "
+            f"no message. There, set ROS_IP={caller} and start {name} again."
+        )
