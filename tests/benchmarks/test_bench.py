@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import math
 import os
+import sys
+from contextlib import ExitStack, closing
 from typing import TYPE_CHECKING
 
 import pytest
-from rosmini_bench import Figure, Measure, actions, bags, graph, sim, table, transforms
+from rosmini_bench import Figure, Measure, actions, bags, graph, sim, table, transforms, wire
 from rosmini_bench.peer import find_rospy
 
 from rosmini.cli.main import main
@@ -26,7 +28,9 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
     assert main(["bench", "--no-peer", "--rounds", "1", "--scale", "0.001", "--json", str(file)]) == 0
     written = json.loads(file.read_text(encoding="utf-8"))
     shown = capsys.readouterr().out
-    assert len(written["figures"]) == len(
+    of_the_wire = sum(row["name"].startswith("wire: ") for row in written["figures"])
+    assert of_the_wire == (13 if sys.platform == "win32" else 14)
+    assert len(written["figures"]) == of_the_wire + len(
         [
             *graph.measures(None, 1),
             *actions.measures(None, 1),
@@ -71,6 +75,32 @@ def test_real_rosbag_is_measured_beside_it(tmp_path: Path) -> None:
     figures = [measure.run(1) for measure in bags.measures(tmp_path, peer, 0.01)]
     assert sum(bool(figure.peer) for figure in figures) == 6
     assert figures[-1].ours == 100.0
+
+
+@pytest.mark.ros
+@pytest.mark.processes
+def test_the_wire_of_real_rospy_is_measured_beside_ours() -> None:
+    with ExitStack() as stack:
+        rospy = find_rospy()
+        if rospy is None:
+            assert os.environ.get("ROSMINI_REQUIRE_ROS") != "1", "real ROS is required here"
+            pytest.skip("real ROS is not installed")
+        stack.callback(rospy.close)
+        figures = [measure.run(1) for measure in wire.measures(rospy, 0.001, stack)]
+    assert all(figure.ours > 0 for figure in figures)
+    assert sum(figure.peer is None for figure in figures) == 1
+    assert all(figure.peer > 0 for figure in figures if figure.peer is not None)
+
+
+def test_messages_that_are_lost_on_the_wire_give_no_figure(tmp_path: Path) -> None:
+    node = tmp_path / "node.py"
+    node.write_text("import sys\nfor _ in sys.stdin: print('@ \"lost\"', flush=True)\n", encoding="utf-8")
+    process = wire.Process([sys.executable, str(node)], dict(os.environ))
+    with closing(process), pytest.raises(RosminiError, match="no figure of the wire: lost"):
+        process.ask(do="throughput")
+    process = wire.Process([sys.executable, "-c", ""], dict(os.environ))
+    with closing(process), pytest.raises(RosminiError, match="ended"):
+        process.answer()
 
 
 def test_a_bag_that_is_not_what_was_written_gives_no_figure(tmp_path: Path) -> None:

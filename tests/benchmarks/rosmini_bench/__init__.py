@@ -101,7 +101,7 @@ def table(figures: Iterable[Figure]) -> str:
     )
 
 
-SUBJECTS = ("graph", "sim")
+SUBJECTS = ("graph", "wire", "sim")
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
@@ -110,7 +110,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "bench", help="measure rosmini, and real ROS where it is installed", description=__doc__
     )
     parser.add_argument(
-        "subject", nargs="?", choices=SUBJECTS, help="the computation graph or the simulator (default: both)"
+        "subject",
+        nargs="?",
+        choices=SUBJECTS,
+        help="the computation graph, the wire between processes, or the simulator (default: all)",
     )
     parser.add_argument(
         "--rounds", type=int, default=3, metavar="N", help="rounds of which the median is shown (default: 3)"
@@ -155,8 +158,8 @@ def main(args: argparse.Namespace) -> int:
 
 def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
     """What is to be measured; the peers that have to be stopped go to `peers`."""
-    if args.subject in (None, "graph"):
-        from . import graph
+    rospy = None
+    if args.subject != "sim":
         from .peer import find_rospy
 
         rospy = None if args.no_peer else find_rospy()
@@ -164,6 +167,13 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
             peers.callback(rospy.close)
         elif not args.no_peer:
             print("real ROS is not installed here: no peer")
+    if args.subject in (None, "wire"):
+        from . import wire
+
+        yield from wire.measures(rospy, args.scale, peers)
+    if args.subject in (None, "graph"):
+        from . import graph
+
         yield from graph.measures(rospy, args.scale)
         from . import actions
 

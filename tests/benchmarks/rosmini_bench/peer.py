@@ -10,8 +10,12 @@ import subprocess
 import tempfile
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 SYSTEM_PYTHON = "/usr/bin/python3"
 """Debian's and Ubuntu's packages of ROS are for the system's own Python."""
@@ -34,13 +38,12 @@ def find_rospy() -> Rospy | None:
     return Rospy(SYSTEM_PYTHON)
 
 
-class Rospy:
-    """A roscore and what is measured with it."""
+class Core:
+    """A roscore on a free loopback port, and the environment of what runs beside it."""
 
-    def __init__(self, python: str) -> None:
-        self.python = python
-        self._home = tempfile.mkdtemp(prefix="rosmini-bench-")
-        self._env = {
+    def __init__(self, roscore: Sequence[str]) -> None:
+        self.home = Path(tempfile.mkdtemp(prefix="rosmini-bench-"))
+        self.env = {
             **{
                 key: value
                 for key, value in os.environ.items()
@@ -49,23 +52,24 @@ class Rospy:
             # A virtual environment may hold programs of the same name (rospkg brings a rosversion).
             "PATH": os.pathsep.join(["/usr/bin", "/bin", os.environ.get("PATH", "")]),
             "ROS_IP": "127.0.0.1",
-            "ROS_HOME": self._home,
+            "ROS_HOME": str(self.home),
         }
         for _ in range(ATTEMPTS):
             port = _free_port()
-            self._env["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
+            self.env["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
             self._core = subprocess.Popen(
-                ["roscore", "-p", str(port)],
-                env=self._env,
+                [*roscore, "-p", str(port)],
+                env=self.env,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
             )
             if self._answers(port):
                 return
             self._stop()
-        shutil.rmtree(self._home, ignore_errors=True)
+        shutil.rmtree(self.home, ignore_errors=True)
         msg = (
-            f"roscore did not answer in {ATTEMPTS} attempts of {START_S} s; try it by hand: roscore -p 11399"
+            f"roscore did not answer in {ATTEMPTS} attempts of {START_S} s; try it by hand: "
+            f"{' '.join(roscore)} -p 11399"
         )
         raise RosminiError(msg)
 
@@ -81,6 +85,27 @@ class Rospy:
                     return True
             time.sleep(0.05)
         return False
+
+    def close(self) -> None:
+        """Stop roscore and remove its files."""
+        self._stop()
+        shutil.rmtree(self.home, ignore_errors=True)
+
+    def _stop(self) -> None:
+        self._core.terminate()
+        try:
+            self._core.wait(10)
+        except subprocess.TimeoutExpired:
+            self._core.kill()
+            self._core.wait()
+
+
+class Rospy(Core):
+    """Real ROS: its roscore, and what is measured of two of its nodes."""
+
+    def __init__(self, python: str) -> None:
+        super().__init__(["roscore"])
+        self.python = python
 
     def measure(self, function: str, *arguments: int, node: Path = NODE) -> float:
         """Run ``function`` of the script ``node`` in a listening and a talking process.
@@ -108,21 +133,8 @@ class Rospy:
     def _start(self, node: Path, role: str, words: list[str]) -> subprocess.Popen[str]:
         command = [self.python, str(node), role, *words]
         return subprocess.Popen(
-            command, env=self._env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8"
+            command, env=self.env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8"
         )
-
-    def close(self) -> None:
-        """Stop roscore and remove its files."""
-        self._stop()
-        shutil.rmtree(self._home, ignore_errors=True)
-
-    def _stop(self) -> None:
-        self._core.terminate()
-        try:
-            self._core.wait(10)
-        except subprocess.TimeoutExpired:
-            self._core.kill()
-            self._core.wait()
 
 
 def _free_port() -> int:
