@@ -201,6 +201,8 @@ def warn(where: Addresses, port: int) -> None:
             f"ROS_MASTER_URI={where.uri(port)} where it is to be found",
             file=sys.stderr,
         )
+    if where.mistake is not None:
+        print(f"WARNING: {where.mistake}", file=sys.stderr)
     if not is_loopback(host) and not where.is_open:
         print(
             f"WARNING: ROS_MASTER_URI [{where.master_uri}] host is not set to this machine: this Master listens on "

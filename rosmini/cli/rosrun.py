@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from .collector import seldom
 from .signals import end_as_ctrl_c
@@ -40,17 +39,12 @@ def main(args: argparse.Namespace) -> int:
     """Run it to its end; the exit status is its own."""
     from rosmini.names import Remappings
     from rosmini.net import connect
-    from rosmini.net.addresses import addresses
     from rosmini.scripts import NodeSpec, ScriptSpec, find, run_scripts
 
     found = find(f"{args.package}/{args.executable}")
     words = tuple(args.words)
     spec = NodeSpec(found, words) if found.path is None else ScriptSpec(str(found.path), words)
     special = Remappings.from_argv(words).special
-    where = addresses(arguments=special)
-    for line in (where.announcement, where.warning):
-        if line is not None:
-            print(f"rosmini rosrun: {line}", file=sys.stderr)
     end_as_ctrl_c()
     with seldom(), connect(arguments=special) as graph:
         return run_scripts([spec], graph=graph, prefix=False).status

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from ipaddress import ip_address
-from socket import gaierror
+from socket import AF_INET, AF_INET6, SOCK_DGRAM, gaierror, socket
 from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import urlsplit
 
@@ -92,14 +92,34 @@ class Addresses(NamedTuple):
         return f"listening on every network of this machine, known to others as {self.host}"
 
     @property
+    def notes(self) -> list[str]:
+        """What a program says once when it starts: where it listens, and what is wrong with its addresses."""
+        return [line for line in (self.announcement, self.mistake, self.warning) if line is not None]
+
+    @property
+    def mistake(self) -> str | None:
+        """A line about an address that others are told and that is not this machine's, or None. Asks the system."""
+        if not is_literal(self.host):
+            return None
+        with socket(AF_INET6 if ":" in self.host else AF_INET, SOCK_DGRAM) as probe:
+            try:
+                probe.bind((self.host, 0))
+            except OSError:
+                return (
+                    f"{self.host} is not an address of this machine, but others are told to look for this process "
+                    "there. Set ROS_IP to one of those that `hostname -I` prints."
+                )
+        return None
+
+    @property
     def warning(self) -> str | None:
         """What is likely to go wrong with these addresses, and what to do; None if nothing is."""
         host, _ = self.master
         if is_loopback(self.host) and not is_loopback(host):
             return (
-                f"the Master is on another machine ({host}), but nodes there cannot reach this process: it listens on "
-                f"{self.bind} only. Set ROS_IP to the address of this machine that {host} can reach, "
-                "or ROS_HOSTNAME to a name that resolves to it there."
+                f"the Master is at {host}, but other machines cannot reach this process: it listens on {self.bind} "
+                "only. Set ROS_IP to the address of this machine that they can reach, or ROS_HOSTNAME to a name that "
+                "resolves to it there."
             )
         return None
 

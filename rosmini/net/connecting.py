@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 from rosmini.graph import Graph
@@ -28,7 +29,8 @@ def connect(
     """Return a graph in wall time whose nodes are citizens of the graph of the Master that the environment names.
 
     Nothing is asked of the Master yet: it may come later. Nodes of this process exchange messages directly, all others
-    over TCPROS. ``shutdown`` of the graph (or the end of its ``with``) ends what belongs to it on the network.
+    over TCPROS. A process that listens on the network, or whose addresses are wrong, says so on standard error.
+    ``shutdown`` of the graph (or the end of its ``with``) ends what belongs to it on the network.
 
     Args:
         environ: has ``ROS_MASTER_URI``, ``ROS_HOSTNAME`` and ``ROS_IP``; ``os.environ`` by default.
@@ -41,6 +43,8 @@ def connect(
 
     """
     where = addresses(environ, arguments)
+    for line in where.notes:
+        sys.stderr.write(f"rosmini: {line}\n")
 
     def way(graph: Graph) -> RemoteMaster:
         network = network_of(graph)

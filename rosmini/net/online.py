@@ -168,9 +168,8 @@ class Online:
             self._is_live_of_ours = True
 
     def _tell(self) -> None:
-        for line in (self.where.announcement, self.where.warning if self.joined else None):
-            if line is not None:
-                sys.stderr.write(f"rosmini: {line}\n")
+        for line in self.where.notes:
+            sys.stderr.write(f"rosmini: {line}\n")
 
     # -- going offline -------------------------------------------------------------------------------------------
 

@@ -263,7 +263,7 @@ def test_a_host_that_does_not_resolve_and_one_that_cannot_reach_back_are_told(se
     listener = session.start("listener", "rosrun", "speaking", "listener.py", f"__master:={uri}")
     session.until_said("listener", "Unable to register", listener)
     said = session.said("listener")
-    assert "the Master is on another machine (no-such-host.invalid)" in said
+    assert "the Master is at no-such-host.invalid, but other machines cannot reach this process" in said
     assert "Set ROS_IP" in said
     assert "'no-such-host.invalid' does not resolve" in said
     listener.send_signal(signal.SIGINT)
