@@ -66,13 +66,13 @@ class Span(NamedTuple):
 
 
 @contextmanager
-def tool_node(graph: Graph) -> Iterator[Node]:
-    """Start the node of a tool, under a name of its own, and shut it down in the end.
+def tool_node(graph: Graph, name: str = "rostopic") -> Iterator[Node]:
+    """Start the node of a tool, under a name of its own that begins with ``name``, and shut it down in the end.
 
     Raises ``MasterUnreachable`` where a node would wait for the Master: a tool says so at once.
     """
     graph.ask_as(ID).ask("getPid")
-    node = graph.node("rostopic", anonymous=True)
+    node = graph.node(name, anonymous=True)
     try:
         yield node
     finally:

@@ -57,6 +57,9 @@ COMMANDS: dict[str, Entry] = {
         "rosmini.cli.rostopic",
         "topics: which there are, what is published on them, how often; publish on one",
     ),
+    "rosservice": Entry(
+        "rosmini.cli.rosservice", "services: which there are, of which types, who offers them; call one"
+    ),
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
     "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
     "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from rosmini.errors import (
     IllegalName,
     MessageException,
-    RosminiError,
     SerializationError,
     TypeMismatch,
     UnknownPackage,
@@ -20,6 +19,7 @@ from rosmini.errors import (
 from .arguments import add_duration, duration_ns, global_name
 from .listening import SECOND, Span, tool_node
 from .rostopic_list import parser_of
+from .values import WrongYaml, documents_of, fields_of, fill, listed, parse, typed
 from .verbs import Call, Result, VerbError
 
 if TYPE_CHECKING:
@@ -46,10 +46,6 @@ class Published(Result):
 
     count: int = 0
     message: Any = None
-
-
-class WrongYaml(RosminiError):
-    """A text is no YAML."""
 
 
 def pub_parser() -> Parser:
@@ -110,21 +106,6 @@ def _wish(given: Values) -> _Wish:
     return _Wish(global_name(topic), kind, values, rate)
 
 
-def parse(text: str) -> Any:
-    """Return the value of a YAML text. Raises ``WrongYaml``."""
-    return next(iter(_values(text, "this argument")), None)
-
-
-def _values(text: str, source: str) -> Iterator[Any]:
-    from rosmini.yaml_text import documents
-
-    def failure(message: str, where: str, line: int | None) -> WrongYaml:
-        return WrongYaml(f"{where}{'' if line is None else f', line {line}'}: {message}")
-
-    for value, _ in documents(text, source, failure):
-        yield value
-
-
 def pub(given: Values, call: Call) -> Published:
     """Publish messages."""
     wish = _wish(given)
@@ -135,7 +116,7 @@ def pub(given: Values, call: Call) -> Published:
         and not given.file
         and (call.read_line is None or sys.stdin.isatty())
     ):
-        pub_parser().error(f"Please specify message values\nA {wish.type} has the fields: {_fields(cls)}")
+        pub_parser().error(f"Please specify message values\nA {wish.type} has the fields: {fields_of(cls)}")
     with tool_node(call.graph) as node:
         try:
             publisher = node.publisher(
@@ -144,7 +125,7 @@ def pub(given: Values, call: Call) -> Published:
             work = _Work(given, wish, call, node, publisher, cls)
             if wish.values or not cls.__slots__:
                 return work.publish_one(wish.values)
-            return work.publish_all(_in_file(given.file) if given.file else _typed(call))
+            return work.publish_all(_in_file(given.file) if given.file else typed(call))
         except SerializationError as error:
             raise VerbError(
                 f"ERROR: Unable to publish message. One of the fields has an incorrect type:\n  {error}\n\n"
@@ -168,12 +149,6 @@ def _class_of(kind: str) -> Any:
         ) from error
 
 
-def _fields(message: Any) -> str:
-    from rosmini.rospy.aliases.genpy.message import get_printable_message_args
-
-    return get_printable_message_args(message() if isinstance(message, type) else message)
-
-
 def _in_file(path: str) -> Iterator[Any]:
     """The documents of a YAML file. Raises ``VerbError``."""
     from pathlib import Path
@@ -181,28 +156,11 @@ def _in_file(path: str) -> Iterator[Any]:
     if not Path(path).is_file():
         raise VerbError(f"ERROR: file does not exist: {path}")
     try:
-        yield from _values(Path(path).read_text(encoding="utf-8"), path)
+        yield from documents_of(Path(path).read_text(encoding="utf-8"), path)
     except WrongYaml as error:
         raise VerbError(f"ERROR: invalid YAML in file: {error}") from error
     except UnicodeDecodeError as error:
         raise VerbError(f"ERROR: invalid YAML in file: {path} is not UTF-8 text") from error
-
-
-def _typed(call: Call) -> Iterator[Any]:
-    """The documents that come on standard input, each ended by ---."""
-    read, text = call.read_line, ""
-    while read is not None and (line := call.graph.scheduler.in_thread(read)):
-        if line.strip() != "---":
-            text += line
-            continue
-        try:
-            value = parse(text)
-        except WrongYaml as error:
-            call.warn(f"Invalid YAML: {error}")
-        else:
-            if value is not None:
-                yield value
-        text = ""
 
 
 class _Work:
@@ -246,15 +204,15 @@ class _Work:
             first, second = next(messages, None), next(messages, None)
             if first is not None and second is None:
                 self._call.say("Got one message and a rate, publishing repeatedly")
-                listed = _listed(first)
-                message = self._filled(self._class(), listed)
-                self._repeat(message, listed, rate, duration_ns(self._given, self._call))
+                values = listed(first)
+                message = self._filled(self._class(), values)
+                self._repeat(message, values, rate, duration_ns(self._given, self._call))
                 return self._result()
             messages = chain((first, second), messages)
         for value in messages:
             if value is None or self._node.is_shutdown():
                 continue
-            message = self._filled(self._class(), _listed(value))
+            message = self._filled(self._class(), listed(value))
             self._say_latched(message, brief=rate is not None or self._given.once)
             self._send(message)
             if self._given.once:
@@ -301,21 +259,13 @@ class _Work:
 
     def _filled(self, message: Any, values: list[Any]) -> Any:
         """Return the message, filled with values. Raises ``VerbError``."""
-        from rosmini.msgs.std_msgs.msg import Header
-        from rosmini.rospy.aliases.genpy.message import fill_message_args
-
-        now = self._now()
         try:
-            fill_message_args(message, values, {"now": now, "auto": Header(stamp=now)})
+            fill(message, values, self._now())
         except (MessageException, ValueError) as error:
-            raise VerbError(f"ERROR: {error}\n\nArgs are: [{_fields(message)}]") from error
+            raise VerbError(f"ERROR: {error}\n\nArgs are: [{fields_of(message)}]") from error
         return message
 
     def _now(self) -> Time:
         from rosmini.time import Time
 
         return self._node.now() if self._given.use_rostime else Time.from_nsec(self._node.scheduler.now_ns())
-
-
-def _listed(value: Any) -> list[Any]:
-    return value if isinstance(value, list) else [value]

@@ -141,6 +141,20 @@ class Verb:
     """Whether the verb needs no node of its own, with these options: it only asks the Master and the nodes."""
     in_terminal: Callable[[Sequence[str]], int] | None = None
     """What a terminal does instead: for verbs that run nodes there until Ctrl-C."""
+    is_listed: bool = True
+    """Whether the list of verbs has it."""
+
+
+@dataclass(frozen=True)
+class Overview:
+    """What a tool of ROS prints where the first word is none of its commands."""
+
+    has_heading: bool = True
+    closing: str = "Type {tool} <command> -h for more detailed usage, e.g. '{tool} {example} -h'"
+    status: int = NOT_A_VERB
+    """The exit status without any word."""
+    unknown_status: int = NOT_A_VERB
+    """The exit status where the first word is no command."""
 
 
 @dataclass(frozen=True)
@@ -150,7 +164,8 @@ class Tool:
     ``usage_status`` is the exit status for a command line that makes no sense; ``elsewhere`` are verbs of ROS's tool
     that are not here; ``example`` is what to write after a `+` for the nodes on which a verb can act. ``purpose`` makes
     it a tool on the wire, which acts on the graph of the Master at ``ROS_MASTER_URI``: what it is a tool for, in the
-    overview that it prints, as ROS's do, where the first word is none of its commands.
+    ``overview`` that it prints, as ROS's do, where the first word is none of its commands. ``failure_status`` is the
+    exit status where no Master answers. A tool that ``needs_graph`` not only reads files.
     """
 
     name: str
@@ -159,6 +174,9 @@ class Tool:
     elsewhere: tuple[str, ...] = ()
     example: str = "rosmini_sim/simulator"
     purpose: str = ""
+    overview: Overview = field(default_factory=Overview)
+    failure_status: int = 1
+    needs_graph: bool = True
     verbs: dict[str, Verb] = field(default_factory=dict)
 
     def verb(
@@ -170,12 +188,15 @@ class Tool:
         needs_graph: bool = False,
         only_asks: bool | Callable[[Any], bool] = False,
         in_terminal: Callable[[Sequence[str]], int] | None = None,
+        is_listed: bool = True,
     ) -> Callable[[Callable[[Any, Call], Result]], Callable[[Any, Call], Result]]:
         """Add the decorated function, under its own name if none is given."""
 
         def add(act: Callable[[Any, Call], Result]) -> Callable[[Any, Call], Result]:
             known = name or act.__name__
-            self.verbs[known] = Verb(known, summary, parser, act, needs_graph, only_asks, in_terminal)
+            self.verbs[known] = Verb(
+                known, summary, parser, act, needs_graph, only_asks, in_terminal, is_listed
+            )
             return act
 
         return add
@@ -198,12 +219,15 @@ class Tool:
             f"verbs:\n{listed}\n\n`rosmini {self.name} <verb> -h` says more about one."
         )
 
-    def overview(self) -> str:
+    def _overview(self) -> str:
         """Return the list of verbs as a tool of ROS prints it."""
-        listed = "\n".join(f"\t{self.name} {verb.name}\t{verb.summary}" for verb in self.verbs.values())
-        return (
-            f"{self.name} is a command-line tool for {self.purpose}.\n\nCommands:\n{listed}\n\n"
-            f"Type {self.name} <command> -h for more detailed usage, e.g. '{self.name} {self.example} -h'\n"
+        heading = f"{self.name} is a command-line tool for {self.purpose}.\n\n"
+        listed = "\n".join(
+            f"\t{self.name} {verb.name}\t{verb.summary}" for verb in self.verbs.values() if verb.is_listed
+        )
+        closing = self.overview.closing.format(tool=self.name, example=self.example)
+        return f"{heading if self.overview.has_heading else ''}Commands:\n{listed}\n" + (
+            f"\n{closing}\n" if closing else ""
         )
 
     # -- in Python -----------------------------------------------------------------------------------------------
@@ -213,14 +237,16 @@ class Tool:
 
         Raises ``UsageError`` for words that make no sense, and what the verb raises.
         """
-        from rosmini.graph import running_graph
-
         text = [os.fspath(word) if isinstance(word, os.PathLike) else str(word) for word in words]
         asked = self._help_for(text)
         if asked is not None:
             return Lines(lines=(asked,))
         verb = self.find(text[0])
         given = verb.parser().parse(text[1:])
+        if not self.needs_graph:
+            return verb.act(given, Call(cast("Peers", None), say))
+        from rosmini.graph import running_graph
+
         return verb.act(given, Call(running_graph() if graph is None else graph, say))
 
     def on(self, graph: Graph | None = None) -> Prompt:
@@ -276,7 +302,7 @@ class Tool:
             if not self.purpose:
                 raise
             print(f"ERROR: Unable to communicate with master!\n{error}", file=sys.stderr)
-            return 1
+            return self.failure_status
         except BrokenPipeError:  # what reads the output, such as `head`, has had enough
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return 0
@@ -289,16 +315,18 @@ class Tool:
 
     def _not_a_verb(self, words: Sequence[str]) -> int:
         """Print the overview, and what was probably meant."""
-        print(self.overview())
+        print(self._overview())
         if words and words[0] not in ("-h", "--help"):
             hint = nearest(words[0], self.verbs)
             print(
                 f"{self.name}: there is no command {words[0]!r}{f'; {hint}' if hint else ''}", file=sys.stderr
             )
-        return NOT_A_VERB
+        return self.overview.unknown_status if words else self.overview.status
 
     def _in_terminal(self, verb: Verb, own: Sequence[str], nodes: Sequence[str]) -> Result:
         given = verb.parser().parse(own)
+        if not self.needs_graph:
+            return verb.act(given, Call(cast("Peers", None), read_line=sys.stdin.readline))
         if self.purpose and not nodes:
             return self._on_wire(verb, given)
         if verb.needs_graph and not nodes:

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from .transport import Header, ServiceLink
 
 
+_OTHER = "service of another type"
+
+
 class ServiceServer:
     """Answers calls of one service. Made by :meth:`Node.service <rosmini.graph.node.Node.service>`.
 
@@ -326,11 +329,9 @@ class ServiceClient:
         node = self.node
         header = {"callerid": node.name, "md5sum": "*", "probe": "1", "service": self.name}
         try:
-            link = node.graph.transport.connect_service(node.uri, uri, header, self.service_class)
+            return node.graph.transport.probe_service(uri, header, node.uri).get("type", _OTHER)
         except TransportException:
-            return "service of another type"
-        link.close()
-        return link.header.get("type", "service of another type")
+            return _OTHER
 
     def wait_for_service(self, timeout: float | None = None) -> None:
         """Block until the service is there. Raises ``ROSException`` after ``timeout`` seconds."""

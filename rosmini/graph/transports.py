@@ -101,6 +101,12 @@ class Transports:
             return way.connect_service(caller, way.service_uri(here), header, service_class)
         return self._way_to(service_uri).connect_service(caller, service_uri, header, service_class)
 
+    def probe_service(self, uri: str, header: Header, caller: str = "") -> Header:
+        """Return the header with which a service's server answers. Raises as :meth:`connect_service`."""
+        link = self.connect_service(caller, uri, header, None)
+        link.close()
+        return link.header
+
     def retry(self, uri: str, seconds: float, function: Callable[[], object]) -> bool:
         """Call a function later, to connect again to the node at ``uri``; False where it cannot have come back."""
         return self._way_to(uri).retry(seconds, function)

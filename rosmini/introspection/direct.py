@@ -9,12 +9,15 @@ from __future__ import annotations
 
 import http.client
 import os
+import socket
+import struct
 import time
 import xmlrpc.client
 from typing import TYPE_CHECKING, Any
+from urllib.parse import urlsplit
 from xml.parsers.expat import ExpatError
 
-from rosmini.errors import MasterUnreachable, ROSException, TransportException
+from rosmini.errors import MasterUnreachable, ROSException, RosminiError, TransportException
 
 if TYPE_CHECKING:
     from typing import Self
@@ -135,6 +138,24 @@ class DirectWire:
                 f"{uri} answered {method} with {str(answer)[:80]}, which no ROS program does"
             )
         return answer
+
+    def probe_service(self, uri: str, header: dict[str, str]) -> dict[str, str]:
+        """Return the header with which a service's server answers. Raises ``TransportException``."""
+        from rosmini.graph.headers import HEADER_LIMIT, decode_fields, encode_header
+
+        try:
+            parts = urlsplit(uri)
+            with socket.create_connection(
+                (parts.hostname or "", parts.port or 0), timeout=self._node_s
+            ) as wire:
+                wire.sendall(encode_header(header))
+                with wire.makefile("rb") as incoming:
+                    (length,) = struct.unpack("<I", incoming.read(4))
+                    if length > HEADER_LIMIT:
+                        raise TransportException(f"{uri} announced a connection header of {length} bytes")
+                    return decode_fields(incoming.read(length))
+        except (OSError, ValueError, struct.error, RosminiError) as error:
+            raise TransportException(f"no answer from the service at {uri}: {_reason(error)}") from error
 
 
 class DirectMaster:

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import DefinitionError, IllegalName, RosminiError, UnknownPackage, UnknownType, nearest
-from rosmini.msgs import message_class
+from rosmini.msgs import message_class, service_class
 from rosmini.msgs.definition import BUILTIN_TYPES
 from rosmini.msgs.message import Message
 from rosmini.time import TVal
@@ -27,6 +27,14 @@ def class_of(kind: str) -> Any:
     """Return the class of a message type, or None if it is not known here."""
     try:
         return message_class(kind)
+    except (UnknownType, UnknownPackage, DefinitionError, IllegalName):
+        return None
+
+
+def service_class_of(kind: str) -> Any:
+    """Return the class of a service type, or None if it is not known here."""
+    try:
+        return service_class(kind)
     except (UnknownType, UnknownPackage, DefinitionError, IllegalName):
         return None
 

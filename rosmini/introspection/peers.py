@@ -28,6 +28,9 @@ class Slaves(Protocol):
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
         """Call a method of a node's slave API. Raises ``TransportException`` when nobody answers."""
 
+    def probe_service(self, uri: str, header: dict[str, str]) -> dict[str, str]:
+        """Return the header with which a service's server answers. Raises ``TransportException`` when nobody does."""
+
 
 class Clock(Protocol):
     """The time in which questions take their time."""

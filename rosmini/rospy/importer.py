@@ -32,6 +32,7 @@ _ALIASES = {
     "roslib": "names packages",
     "rosnode": "",
     "rosparam": "",
+    "rosservice": "",
     "rostopic": "",
     "tf": "",
     "tf2_geometry_msgs": "",
