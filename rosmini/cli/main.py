@@ -61,6 +61,11 @@ COMMANDS: dict[str, Entry] = {
         "rosmini.cli.rosservice", "services: which there are, of which types, who offers them; call one"
     ),
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
+    "rospack": Entry("rosmini.cli.rospack", "packages: where they are, what they need, what they export"),
+    "rosstack": Entry("rosmini.cli.rosstack", "stacks and metapackages: where they are, what is in them"),
+    "roscd": Entry("rosmini.cli.roscd", "print the folder of a package, for cd"),
+    "rosls": Entry("rosmini.cli.rosls", "list what is in the folder of a package"),
+    "rosversion": Entry("rosmini.cli.rosversion", "the version of a package"),
     "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
     "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),
     "book": Entry("book.tools.book", "build the book from the stored outputs and open it", "."),

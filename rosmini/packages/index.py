@@ -11,7 +11,7 @@ from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPa
 
 from .executables import Executable, built_in_nodes, files_of, has_run_bit, scripts
 from .folders import MANIFEST, ROSBUILD_MANIFEST, crawl, search_paths
-from .manifest import Package, Stack, package_name, read_package, read_stack
+from .manifest import Package, Stack, read_heading, read_package, read_stack
 
 SCHEME = "package://"
 LONGEST = 300
@@ -30,6 +30,7 @@ class PackageIndex:
             search_paths() if paths is None else tuple(Path(path) for path in paths)
         )
         self._found: dict[str, list[Path]] | None = None
+        self._metapackages: set[str] = set()
         self._stacks: dict[str, Path] = {}
         self._broken: list[DefinitionError] = []
         self._packages: dict[str, Package] = {}
@@ -43,6 +44,7 @@ class PackageIndex:
     def refresh(self) -> None:
         """Forget all that was found; the next question searches again."""
         self._found = None
+        self._metapackages = set()
         self._stacks = {}
         self._broken = []
         self._packages = {}
@@ -50,6 +52,11 @@ class PackageIndex:
     def names(self) -> list[str]:
         """The names of all packages, sorted. Broken manifests are left out, see `problems`."""
         return sorted(self._folders())
+
+    def metapackages(self) -> list[str]:
+        """The names of the packages that only gather others (REP 127), sorted."""
+        self._folders()
+        return sorted(self._metapackages)
 
     def problems(self) -> list[DefinitionError]:
         """What is wrong with manifests that could not even be asked for a name, in the order of the search."""
@@ -150,12 +157,16 @@ class PackageIndex:
         if self._found is None:
             found: dict[str, list[Path]] = {}
             stacks: dict[str, Path] = {}
+            metapackages: set[str] = set()
             broken: list[DefinitionError] = []
             for root in self.paths:
                 for each in crawl(root):
                     try:
                         if each.manifest == MANIFEST:
-                            found.setdefault(package_name(each.file), []).append(each.folder)
+                            name, is_metapackage = read_heading(each.file)
+                            if is_metapackage and name not in found:
+                                metapackages.add(name)
+                            found.setdefault(name, []).append(each.folder)
                         elif each.manifest == ROSBUILD_MANIFEST:
                             found.setdefault(each.folder.name, []).append(each.folder)
                         else:
@@ -163,6 +174,7 @@ class PackageIndex:
                     except DefinitionError as error:
                         broken.append(error)
             self._found, self._stacks, self._broken = found, stacks, broken
+            self._metapackages = metapackages
         return self._found
 
     def _unknown(self, name: str) -> str:

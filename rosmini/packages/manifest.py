@@ -6,6 +6,7 @@ import re
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from rosmini import files
 from rosmini.errors import DefinitionError
@@ -69,8 +70,15 @@ def _read(manifest: Path) -> bytes:
         raise DefinitionError(f"cannot be read: {error.strerror}", manifest) from error
 
 
-def package_name(manifest: Path) -> str:
-    """The name that a manifest gives. Raises `DefinitionError` if it is not XML or has no name."""
+class Heading(NamedTuple):
+    """What the index has to know of each package."""
+
+    name: str
+    is_metapackage: bool
+
+
+def read_heading(manifest: Path) -> Heading:
+    """What a ``package.xml`` gives as its name. Raises `DefinitionError` if it is not XML or has no name."""
     from xml.etree.ElementTree import ParseError
 
     from defusedxml.common import DefusedXmlException
@@ -95,7 +103,7 @@ def package_name(manifest: Path) -> str:
         raise DefinitionError(
             "the package has no name; add <name>...</name>", manifest, _line_at_fault(text, "")
         )
-    return name
+    return Heading(name, root.find("export/metapackage") is not None)
 
 
 def read_package(folder: Path) -> Package:
@@ -105,7 +113,7 @@ def read_package(folder: Path) -> Package:
         return _read_rosbuild(folder)
     from catkin_pkg.package import InvalidPackage, parse_package_string
 
-    package_name(manifest)  # that it is XML, and harmless
+    read_heading(manifest)  # that it is XML, and harmless
     data = _read(manifest)
     try:
         parsed = parse_package_string(data, str(manifest), warnings=[])

@@ -1,0 +1,115 @@
+"""`rosmini rospack`, `rosstack` and `rosversion` beside the real tools, on one workspace."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ..packages.workspaces import a_workspace
+from ..processes import run
+from .conftest import need_ros
+
+need_ros("rospack", "rosstack", "rosversion")
+
+ROSDEP = "could not find python module 'rosdep2.rospack', continuing without it\n"
+"""What the real tools say where rosdep is missing."""
+
+
+@pytest.fixture(scope="module")
+def env(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    folder = tmp_path_factory.mktemp("ws")
+    a_workspace(folder)
+    return {
+        "PATH": f"/usr/bin:/bin:{os.environ['PATH']}",
+        "HOME": str(folder),
+        "ROS_HOME": str(folder / ".ros"),
+        "ROS_PACKAGE_PATH": str(folder),
+        "ROS_DISTRO": "noetic",
+    }
+
+
+def both(env: dict[str, str], line: str, cwd: Path | None = None) -> tuple[Any, Any]:
+    words = line.split()
+    real = run(words, env=env, cwd=cwd)
+    ours = run([sys.executable, "-m", "rosmini", *words], env=env, cwd=cwd)
+    real.stderr = real.stderr.replace(ROSDEP, "")
+    return real, ours
+
+
+SAME = [
+    "rospack find alpha", "rospack find renamed", "rospack find old", "rospack depends alpha", "rospack depends1 alpha",
+    "rospack deps alpha", "rospack deps1 alpha", "rospack depends old", "rospack depends1 old", "rospack depends elbow",
+    "rospack depends1 mixed", "rospack depends mixed", "rospack depends-indent mixed", "rospack depends-indent elbow",
+    "rospack depends-manifests mixed", "rospack depends-why --target=gamma mixed", "rospack depends1 gamma",
+    "rospack plugins --attrib=plugin beta", "rospack plugins --attrib=plugin --top=renamed beta",
+    "rospack export --lang=cpp --attrib=cflags alpha", "rospack export --lang=cpp --attrib=cflags old",
+    "rospack export --deps-only --lang=cpp --attrib=cflags old",
+    "rospack", "rospack -q find nowhere", "rospack -q depends nowhere",
+    "rosstack find arms", "rosstack find gathering", "rosstack find alpha", "rosstack contents arms",
+    "rosstack depends gathering", "rosstack depends1 gathering", "rosstack contains elbow", "rosstack contains alpha",
+    "rosstack contains-path elbow", "rosstack depends-manifests gathering", "rosstack",
+    "rosversion alpha", "rosversion -s alpha", "rosversion -d", "rosversion arms",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("line", SAME)
+def test_the_same_line_prints_the_same(env: dict[str, str], line: str) -> None:
+    real, ours = both(env, line)
+    assert (ours.returncode, ours.stdout, ours.stderr) == (real.returncode, real.stdout, real.stderr)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "rospack depends-on gamma",
+        "rospack depends-on1 gamma",
+        "rospack depends-on1 beta",
+        "rosstack depends-on alpha",
+    ],
+)
+def test_what_the_real_one_prints_in_any_order_is_sorted(env: dict[str, str], line: str) -> None:
+    real, ours = both(env, line)
+    assert ours.returncode == real.returncode == 0
+    assert ours.stdout.splitlines() == sorted(real.stdout.splitlines())
+
+
+@pytest.mark.parametrize(
+    "line", ["rospack list", "rospack list-names", "rosstack list", "rosstack list-names"]
+)
+def test_the_lists_have_the_same_packages_of_the_workspace(env: dict[str, str], line: str) -> None:
+    def of_workspace(text: str) -> list[str]:
+        names = {path.name for path in Path(env["HOME"]).rglob("*") if path.is_dir()} | {"renamed"}
+        return [row for row in text.splitlines() if row.split()[0] in names]
+
+    real, ours = both(env, line)
+    assert ours.returncode == real.returncode == 0
+    assert of_workspace(ours.stdout) == of_workspace(real.stdout) != []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "rospack find nowhere", "rospack depends nowhere", "rospack depends1 nowhere", "rospack depends-on nowhere",
+        "rospack depends-why mixed", "rospack depends-why --target=nowhere mixed", "rospack plugins beta",
+        "rospack find gathering", "rospack depends gathering", "rospack bogus", "rospack find",
+        "rosstack find nowhere", "rosstack contains nowhere", "rosstack find", "rosstack bogus", "rosversion nowhere",
+        "rosstack depends arms", "rospack find one two", "rosversion", "rosversion one two",
+    ],
+)  # fmt: skip
+def test_an_error_begins_as_the_real_one(env: dict[str, str], line: str, tmp_path: Path) -> None:
+    real, ours = both(env, line, cwd=tmp_path)
+    assert (ours.returncode, ours.stdout) == (real.returncode, real.stdout)
+    if "two" not in line and line != "rosversion":  # argparse and boost have words of their own
+        end = " and rosdep claims"  # there is no rosdep here
+        assert ours.stderr.startswith(real.stderr.partition(end)[0].rstrip())
+
+
+def test_the_package_of_the_working_folder_is_the_default(env: dict[str, str]) -> None:
+    for folder in (Path(env["HOME"], "alpha"), Path(env["HOME"], "alpha", "sub")):
+        for line in ("rospack find", "rospack depends1"):
+            real, ours = both(env, line, folder)
+            assert (ours.returncode, ours.stdout) == (real.returncode, real.stdout)
