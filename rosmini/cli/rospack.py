@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rosmini.packages.dependencies import Dependencies
 
 TOOL = Tool(
-    "rospack", "packages: where they are, what they need, what they export", usage_status=1, of_files=True
+    "rospack", "packages: where they are, what they need, what they export", usage_status=1, needs_graph=False
 )
 QUERIES = Queries(TOOL, stacks=False)
 QUERIES.register()

@@ -11,7 +11,7 @@ from .package_queries import Queries
 from .verbs import Call, Lines, Tool
 
 TOOL = Tool(
-    "rosstack", "stacks and metapackages: where they are, what is in them", usage_status=1, of_files=True
+    "rosstack", "stacks and metapackages: where they are, what is in them", usage_status=1, needs_graph=False
 )
 QUERIES = Queries(TOOL, stacks=True)
 QUERIES.register()

@@ -166,8 +166,6 @@ class Tool:
     it a tool on the wire, which acts on the graph of the Master at ``ROS_MASTER_URI``: what it is a tool for, in the
     ``overview`` that it prints, as ROS's do, where the first word is none of its commands. ``failure_status`` is the
     exit status where no Master answers. A tool that ``needs_graph`` not only reads files.
-    overview that it prints, as ROS's do, where the first word is none of its commands. ``of_files``: it reads files
-    alone, so no graph is made for it.
     """
 
     name: str
@@ -179,7 +177,6 @@ class Tool:
     overview: Overview = field(default_factory=Overview)
     failure_status: int = 1
     needs_graph: bool = True
-    of_files: bool = False
     verbs: dict[str, Verb] = field(default_factory=dict)
 
     def verb(
@@ -251,8 +248,6 @@ class Tool:
         from rosmini.graph import running_graph
 
         return verb.act(given, Call(running_graph() if graph is None else graph, say))
-        peers = cast("Graph", None) if self.of_files else running_graph() if graph is None else graph
-        return verb.act(given, Call(peers, say))
 
     def on(self, graph: Graph | None = None) -> Prompt:
         """Return what does verbs on ``graph`` in a notebook."""
@@ -332,8 +327,6 @@ class Tool:
         given = verb.parser().parse(own)
         if not self.needs_graph:
             return verb.act(given, Call(cast("Peers", None), read_line=sys.stdin.readline))
-        if self.of_files:
-            return verb.act(given, Call(cast("Graph", None)))
         if self.purpose and not nodes:
             return self._on_wire(verb, given)
         if verb.needs_graph and not nodes:
