@@ -119,14 +119,17 @@ class Graph(GraphCore):
         self._live = live = LiveDrive(self, loop, rate=rate)
         return live
 
-    def online(self, master_uri: str | None = None, environ: Mapping[str, str] | None = None) -> Any:
+    def online(
+        self, master_uri: str | None = None, environ: Mapping[str, str] | None = None, *, live: bool = True
+    ) -> Any:
         """Connect this graph with the nodes of other processes and machines, until :meth:`offline`.
 
         Where a Master answers at ``master_uri`` (by default, what ``ROS_MASTER_URI`` names), the graph joins it: its
         nodes register there, and the parameters that it has go there. Else the graph's own Master is served there.
         Others reach the nodes at ``ROS_IP`` or ``ROS_HOSTNAME`` of ``environ`` (by default ``os.environ``); only this
         machine does if neither is set. In simulated time ``/clock`` is published and ``/use_sim_time`` set; in a
-        notebook the graph goes on by itself, as after :meth:`live`; elsewhere drive it with :meth:`run`.
+        notebook the graph goes on by itself, as after :meth:`live`, unless ``live`` is False; elsewhere, and then,
+        drive it with :meth:`run`.
 
         Raises ``MasterUnreachable`` where no Master answers and none of this machine's can be served, and
         ``RosminiError`` if the graph is online already or has its Master elsewhere anyway.
@@ -134,7 +137,7 @@ class Graph(GraphCore):
         if self._online is not None:
             raise RosminiError(f"this graph is online already, at {self.master_uri}; offline() ends that")
         begin = find_extension("rosmini.wires", "online")
-        self._online = self.scheduler.on_hub(lambda: begin(self, master_uri, environ))
+        self._online = self.scheduler.on_hub(lambda: begin(self, master_uri, environ, live=live))
         return self._online
 
     def offline(self) -> None:

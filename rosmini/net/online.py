@@ -60,15 +60,21 @@ class _StandingStill(MasterPort):
         return checked(self.uri, method, answer)
 
 
-def online(graph: Graph, master_uri: str | None = None, environ: Mapping[str, str] | None = None) -> Online:
+def online(
+    graph: Graph,
+    master_uri: str | None = None,
+    environ: Mapping[str, str] | None = None,
+    *,
+    live: bool = True,
+) -> Online:
     """Connect a graph with others; see :meth:`Graph.online <rosmini.graph.graph.Graph.online>`."""
-    return Online(graph, addresses(environ, {"__master": master_uri} if master_uri else None))
+    return Online(graph, addresses(environ, {"__master": master_uri} if master_uri else None), live=live)
 
 
 class Online:
     """A graph's part in the ROS graph of other processes. Made by ``graph.online()``, ended by ``graph.offline()``."""
 
-    def __init__(self, graph: Graph, where: Addresses) -> None:
+    def __init__(self, graph: Graph, where: Addresses, *, live: bool = True) -> None:
         if not isinstance(graph.master, Master):
             raise RosminiError(f"this graph has its Master elsewhere already, at {graph.master_uri}")
         self.graph = graph
@@ -77,7 +83,8 @@ class Online:
         self.joined = False
         """True where the Master is another process's."""
         self._own = graph.master
-        self._server: MasterServer | None = None
+        self.server: MasterServer | None = None
+        """What serves this graph's Master; None where the graph has joined another one."""
         self._clock: Any = None
         self._is_live_of_ours = False
         self._had_rosout = False
@@ -89,7 +96,7 @@ class Online:
         self._move(self.graph.transport.add)
         if self.joined:
             self._join()
-        self._begin_clock()
+        self._begin_clock(live=live)
         self._tell()
 
     def __repr__(self) -> str:
@@ -110,7 +117,7 @@ class Online:
                     f"{error}. If {host} is this machine, set ROS_IP or ROS_HOSTNAME to {host}: then the Master of "
                     "this graph is served there"
                 ) from error
-            self._server = MasterServer(self.network.io, self._own, self.where, port, warn=self.network.warn)
+            self.server = MasterServer(self.network.io, self._own, self.where, port, warn=self.network.warn)
         else:
             self.joined = True
 
@@ -145,11 +152,11 @@ class Online:
         graph.master = RemoteMaster(still.uri, client, watch)
         watch.begin()
 
-    def _begin_clock(self) -> None:
+    def _begin_clock(self, *, live: bool) -> None:
         graph = self.graph
         if not graph.simulated:
             return
-        port = graph.master if self._server is not None else _StandingStill(graph.master_uri, self.network)
+        port = graph.master if self.server is not None else _StandingStill(graph.master_uri, self.network)
         published = [name for name, _ in port.call("getPublishedTopics", "/rosmini", "")[2]]
         if "/clock" not in published:
             graph.keeps_time = True
@@ -163,7 +170,7 @@ class Online:
 
             node.timer(1 / CLOCK_HZ, tell_time)
             self._clock = node
-        if graph.notebook and not graph.is_live:
+        if live and graph.notebook and not graph.is_live:
             graph.live()
             self._is_live_of_ours = True
 
@@ -191,8 +198,8 @@ class Online:
         graph.master = self._own
         self._close_connections()
         self._move(graph.transport.remove)
-        if self._server is not None:
-            self._server.close()
+        if self.server is not None:
+            self.server.close()
         if self.joined:
             for node in list(graph.nodes.values()):
                 register_again(node)

@@ -12,12 +12,14 @@ from rosmini.viz.rqt import GraphState, rqt_console, rqt_graph
 from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 
 if TYPE_CHECKING:
+    from rosmini.viz.byte_maps import byte_map
     from rosmini.viz.image_pictures import image_picture
     from rosmini.viz.parameter_trees import parameter_tree
     from rosmini.viz.plots import plot
     from rosmini.viz.recording_pictures import recording_picture, recording_plots
     from rosmini.viz.rqt.bag import rqt_bag
     from rosmini.viz.scan_pictures import scan_picture
+    from rosmini.viz.sequences import sequence_diagram
     from rosmini.viz.simulation_pictures import simulation_picture
     from rosmini.viz.state_machine import action_states
     from rosmini.viz.track_pictures import track_picture
@@ -30,6 +32,7 @@ __all__ = [
     "View",
     "ViewError",
     "action_states",
+    "byte_map",
     "image_picture",
     "matplotlib_picture",
     "parameter_tree",
@@ -40,6 +43,7 @@ __all__ = [
     "rqt_console",
     "rqt_graph",
     "scan_picture",
+    "sequence_diagram",
     "simulation_picture",
     "track_picture",
     "urdf_tree",
@@ -48,6 +52,7 @@ __all__ = [
 
 _LATER = {
     "action_states": "rosmini.viz.state_machine",
+    "byte_map": "rosmini.viz.byte_maps",
     "image_picture": "rosmini.viz.image_pictures",
     "parameter_tree": "rosmini.viz.parameter_trees",
     "plot": "rosmini.viz.plots",
@@ -55,6 +60,7 @@ _LATER = {
     "recording_plots": "rosmini.viz.recording_pictures",
     "rqt_bag": "rosmini.viz.rqt.bag",
     "scan_picture": "rosmini.viz.scan_pictures",
+    "sequence_diagram": "rosmini.viz.sequences",
     "simulation_picture": "rosmini.viz.simulation_pictures",
     "track_picture": "rosmini.viz.track_pictures",
     "urdf_tree": "rosmini.viz.urdf_trees",

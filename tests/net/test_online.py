@@ -199,3 +199,30 @@ def test_a_graph_that_ends_online_leaves_nothing(environ: dict[str, str]) -> Non
     assert graph.master_uri == "http://localhost:11311/"
     with Graph() as again:
         again.online(environ=environ)  # the port is free
+
+
+def test_a_graph_of_a_notebook_can_stand_still_online(graph: Graph, environ: dict[str, str]) -> None:
+    graph.notebook = True
+    graph.online(environ=environ, live=False)
+    assert not graph.is_live
+    now = graph.now()
+    with connect(environ) as elsewhere:
+        assert elsewhere.ask_as("/test").find("lookupNode", "/rosout") == graph.nodes["/rosout"].uri
+    assert graph.now() == now
+
+
+def test_topics_outlive_a_master_that_is_served_no_more(
+    graph: Graph, elsewhere: Graph, environ: dict[str, str]
+) -> None:
+    heard: list[str] = []
+    publisher = graph.node("talker").publisher("chatter", String)
+    online = graph.online(environ=environ)
+    node = elsewhere.node("far")
+    node.subscriber("chatter", String, lambda message: heard.append(message.data))
+    together(graph, elsewhere, until=publisher.num_connections)
+    assert online.server is not None
+    online.server.close()
+    publisher.publish("still here")
+    together(graph, elsewhere, until=lambda: heard == ["still here"])
+    graph.offline()
+    assert graph.ask_as("/test").find("lookupNode", "/talker") == graph.nodes["/talker"].uri

@@ -1,0 +1,133 @@
+"""Sequence diagrams: who called whom, in order, and what was answered."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from rosmini.viz import style
+from rosmini.viz.graph_drawing import MARGIN, arrow, box, name, rule, text
+from rosmini.viz.layout import Rect, Route
+from rosmini.viz.metrics import text_width
+from rosmini.viz.svg import document, element
+from rosmini.viz.view import Picture, ViewError
+
+__all__ = ["Call", "sequence_diagram"]
+
+Call = tuple[str, str, str, str | None]
+"""(who, whom, what, the answer or None): a call, or a message, which has no answer."""
+
+COLOURS = ["page", "ink", "line", "label", "muted", "node-fill", "node-line", "group-line"]
+HEAD = 30.0
+ROW = 32.0
+GAP = 150.0
+"""How far apart two participants are at least [px]."""
+
+
+def sequence_diagram(calls: Iterable[Call], *, title: str) -> Picture:
+    """Draw who called whom: a line for each participant, downwards in time, and an arrow for each call.
+
+    Args:
+        calls: (who, whom, what, answer), in order. An answer is drawn as a dashed arrow back; None where there is none.
+        title: the caption, and the first line of the text form.
+
+    Participants stand in the order in which they appear. Raises ``ViewError`` without calls, and for a call of oneself.
+
+    """
+    made = [(who, whom, what, answer) for who, whom, what, answer in calls]
+    if not made:
+        raise ViewError("a sequence diagram needs at least one call: (who, whom, what, answer)")
+    for who, whom, what, _ in made:
+        if who == whom:
+            raise ViewError(
+                f"{who} cannot call itself ({what}): a sequence diagram shows what goes between two"
+            )
+    actors = list(dict.fromkeys(one for call in made for one in call[:2]))
+    arrows = [one for call in made for one in _arrows(call)]
+    caption = f"{title}: {len(made)} calls between {len(actors)}"
+    words = "\n".join([caption, *(_line(*one) for one in arrows)])
+    alt = f"Sequence diagram of {', '.join(actors)}. " + " ".join(
+        f"{who} to {whom}: {what}." for who, whom, what, _ in made
+    )
+    return Picture(_draw(actors, arrows, title, alt), text=words, alt=alt, caption=title)
+
+
+Arrow = tuple[str, str, str, bool]
+"""(from, to, label, whether it is an answer)"""
+
+
+def _arrows(call: Call) -> list[Arrow]:
+    who, whom, what, answer = call
+    return [(who, whom, what, False)] + ([] if answer is None else [(whom, who, answer, True)])
+
+
+def _line(source: str, target: str, label: str, is_answer: bool) -> str:
+    return f"  {target} <- {source}: {label}" if is_answer else f"  {source} -> {target}: {label}"
+
+
+def _columns(actors: Sequence[str], arrows: Sequence[Arrow]) -> list[float]:
+    """The x of each participant's line: as near as labels and names allow."""
+    at = [text_width(actors[0], style.TEXT_SIZE) / 2 + 12]
+    for index in range(1, len(actors)):
+        names = sum(text_width(one, style.TEXT_SIZE) / 2 + 20 for one in actors[index - 1 : index + 1])
+        x = at[-1] + max(GAP, names)
+        for source, target, label, _ in arrows:
+            left, right = sorted((actors.index(source), actors.index(target)))
+            if right == index:
+                x = max(x, at[left] + text_width(label, style.LABEL_SIZE) + 28)
+        at.append(x)
+    return at
+
+
+def _draw(actors: Sequence[str], arrows: Sequence[Arrow], title: str, alt: str) -> str:
+    columns = _columns(actors, arrows)
+    bottom = HEAD + ROW * len(arrows) + 14
+    parts = [_actor(actor, x, bottom) for actor, x in zip(actors, columns, strict=True)]
+    for row, (source, target, label, is_answer) in enumerate(arrows, start=1):
+        ends = columns[actors.index(source)], columns[actors.index(target)]
+        parts.append(_message(ends, HEAD + ROW * row, label, is_answer))
+    moved = element("g", "".join(parts), transform=f"translate({MARGIN:g},{MARGIN:g})")
+    width = columns[-1] + text_width(actors[-1], style.TEXT_SIZE) / 2 + 12
+    return document(
+        moved,
+        width=width + 2 * MARGIN,
+        height=bottom + 2 * MARGIN,
+        title=title,
+        alt=alt,
+        css=_css(),
+        colours=COLOURS,
+    )
+
+
+def _actor(actor: str, x: float, bottom: float) -> str:
+    width = text_width(actor, style.TEXT_SIZE) + 24
+    head = Rect(x - width / 2, 0, width, HEAD)
+    line = element(
+        "path", d=f"M{x:.1f},{HEAD:g}V{bottom:.1f}", stroke=style.LIGHT["group-line"], class_="rm-life"
+    )
+    return line + element("g", box(head, "node", 5) + name(actor, head), class_="rm-actor")
+
+
+def _message(ends: tuple[float, float], y: float, label: str, is_answer: bool) -> str:
+    begin, end = ends
+    third = (end - begin) / 3
+    route = Route(((begin, y), (begin + third, y), (end - third, y), (end, y)), None)
+    words = text(label, (begin + end) / 2, y - 6, size=style.LABEL_SIZE, colour="label")
+    return element("g", arrow(route) + words, class_="rm-answer" if is_answer else "rm-call")
+
+
+def _css() -> str:
+    return (
+        rule(".rm-actor rect", fill="node-fill", stroke="node-line")
+        + rule(".rm-actor text", fill="ink")
+        + rule(".rm-life", stroke="group-line")
+        + rule(".rm-call text", fill="label")
+        + rule(".rm-answer text", fill="muted")
+        + rule(":is(.rm-call,.rm-answer) path:first-of-type", stroke="line")
+        + rule(":is(.rm-call,.rm-answer) path:last-of-type", fill="line")
+        + ".rosmini-svg :is(.rm-actor rect,.rm-call path:first-of-type,.rm-answer path:first-of-type)"
+        + f"{{stroke-width:{style.LINE_WIDTH}}}"
+        + rule(":is(.rm-call,.rm-answer) text", stroke="page")
+        + ".rosmini-svg :is(.rm-call,.rm-answer) text{stroke-width:4;paint-order:stroke}"
+        + ".rosmini-svg .rm-answer path:first-of-type{stroke-dasharray:5 4}"
+        + ".rosmini-svg .rm-life{stroke-dasharray:2 4}"
+    )
