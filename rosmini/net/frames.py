@@ -27,45 +27,45 @@ class FrameReader:
         self._limit = HEADER_LIMIT
         self._lead = 0
         self._later_lead = 1 if ok_byte else 0
+        self._start = b""
         self._parts: list[bytes] = []
-        self._have = 0
-        self._need = 0
+        self._missing = 0
 
     @property
     def wanted(self) -> int:
         """How many bytes to ask the socket for: up to the end of a large frame, so that none is copied twice."""
-        return min(max(self._need - self._have, CHUNK), LARGE)
+        return min(max(self._missing, CHUNK), LARGE)
 
     def feed(self, data: bytes) -> list[bytes]:
         """Return the frames that these bytes complete. Raises ``DeserializationError`` for a length over the limit."""
-        if self._parts:
-            self._parts.append(data)
-            self._have += len(data)
-            if self._have < self._need:
-                return []
-            data = b"".join(self._parts)
-            self._parts = []
         frames: list[bytes] = []
-        offset, end = 0, len(data)
-        need = 4 + self._lead
-        while end - offset >= 4 + self._lead:
-            start = offset + self._lead + 4
-            (length,) = _length_of(data, offset + self._lead)
+        offset = self._missing
+        if offset:
+            if len(data) < offset:
+                self._parts.append(data)
+                self._missing -= len(data)
+                return frames
+            self._parts.append(data[:offset])
+            frames.append(b"".join(self._parts))
+            self._parts, self._missing = [], 0
+        elif self._start:
+            data = self._start + data
+        end = len(data)
+        while (start := offset + self._lead + 4) <= end:
+            (length,) = _length_of(data, start - 4)
             if length > self._limit:
                 what = "a connection header" if self._limit == HEADER_LIMIT else "a message"
                 msg = f"{what} of {length} bytes was announced; at most {self._limit} are read"
                 raise DeserializationError(msg)
             stop = start + length
-            if stop > end:
-                need = stop - offset
-                break
-            frames.append(data[offset : offset + self._lead] + data[start:stop])
-            offset = stop
+            body = data[offset : start - 4] + data[start:stop]
             if self._limit == HEADER_LIMIT:
                 self._limit, self._lead = MESSAGE_LIMIT, self._later_lead
-            need = 4 + self._lead
-        rest = data[offset:]
-        self._have, self._need = len(rest), need
-        if rest:
-            self._parts.append(rest)
+            if stop > end:
+                self._parts, self._missing = [body], stop - end
+                offset = end
+                break
+            frames.append(body)
+            offset = stop
+        self._start = data[offset:]
         return frames

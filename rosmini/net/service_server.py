@@ -30,6 +30,7 @@ class TcpClient:
         self._requests = deque(first)
         self._answers: deque[bytes] = deque()
         self._is_busy = False
+        self._is_paused = False
         self._is_over = False
         stream.source = self._next
         stream.on_frames = self._arrived
@@ -48,7 +49,9 @@ class TcpClient:
 
     def _arrived(self, frames: list[bytes]) -> None:
         self._requests.extend(frames)
-        self._stream.pause()  # until these are answered
+        if len(self._requests) > 1:  # who waits for each answer, as clients do, never has to wait for us
+            self._stream.pause()
+            self._is_paused = True
         self._scheduler.call_soon_threadsafe(self._handle)
 
     def _ended(self, _error: Exception | None) -> None:
@@ -60,7 +63,9 @@ class TcpClient:
         if self._is_busy or self._is_over:
             return
         if not self._requests:
-            self._stream.resume()
+            if self._is_paused:
+                self._is_paused = False
+                self._stream.resume()
             return
         self._is_busy = True
         request_class = self._session.service_class._request_class

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 LINGER_S = 2.0
 """How long a closed connection may take to get rid of what was sent."""
 
+READS = 16
+"""So many times a socket is read before it is another's turn."""
+
 
 class Stream:
     """Reads frames in the I/O thread, where it is made; what the socket does not take at once is written there, too.
@@ -69,23 +72,31 @@ class Stream:
             self._loop.remove_reader(self._socket)
 
     def _readable(self) -> None:
-        try:
-            data = self._socket.recv(self._frames.wanted)
-        except (BlockingIOError, InterruptedError):
-            return
-        except OSError as error:
-            self._end(error)
-            return
-        if not data:
-            self._end(None)
-        elif not self._is_closing:  # what comes after is only taken so that the peer can read our last words
+        """Take what has come: all of it, unless it is so much that others would wait long."""
+        for _ in range(READS):
+            wanted = self._frames.wanted
             try:
-                frames = self._frames.feed(data)
-            except DeserializationError as error:
+                data = self._socket.recv(wanted)
+            except (BlockingIOError, InterruptedError):
+                return
+            except OSError as error:
                 self._end(error)
                 return
-            if frames:
-                self.on_frames(frames)
+            if not data:
+                self._end(None)
+                return
+            if (
+                not self._is_closing
+            ):  # what comes after is only taken so that the peer can read our last words
+                try:
+                    frames = self._frames.feed(data)
+                except DeserializationError as error:
+                    self._end(error)
+                    return
+                if frames:
+                    self.on_frames(frames)
+            if len(data) < wanted or not self._reads or self._is_shut:
+                return
 
     def _end(self, error: Exception | None) -> None:
         tell = not self._is_closing and not self._is_shut
