@@ -55,6 +55,8 @@ class Element:
     path: str = NO_PATH
     failure: type[MarkupError] = MarkupError
     """What `error` makes."""
+    written: str = ""
+    """The text as it is written, with all its blanks: for YAML, where they mean something."""
 
     def __repr__(self) -> str:
         return f"<{self.tag}> at {self.path}:{self.line}"
@@ -248,7 +250,8 @@ class _Builder(xml.sax.handler.ContentHandler):
 
     def endElement(self, name: str) -> None:  # noqa: ARG002
         element, texts = self.open.pop()
-        element.text = "".join(texts).strip()
+        element.written = "".join(texts)
+        element.text = element.written.strip()
 
     def characters(self, content: str) -> None:
         if self.open:

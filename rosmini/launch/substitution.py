@@ -1,0 +1,184 @@
+"""Substitution args: ``$(find pkg) $(arg x) $(env X) $(optenv X y) $(anon x) $(dirname) $(eval ...)``.
+
+See http://wiki.ros.org/roslaunch/XML, section "substitution args". ``$(eval ...)`` is confined (`rosmini.expressions`).
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import ParameterError, UnknownPackage, nearest, shown
+from rosmini.expressions import FUNCTIONS, MATH, Expression, ExpressionError, Function, Namespace
+
+from .errors import Missing, Place
+from .values import convert
+
+if TYPE_CHECKING:
+    from rosmini.markup import Element
+    from rosmini.packages import PackageIndex
+
+    from .scope import Scope
+
+COMMANDS = ("find", "env", "optenv", "dirname", "anon", "arg")
+
+NOWHERE = "/missing-package"
+"""Where the files of a package are that is missing: reading goes on, to find all that is."""
+
+LONGEST = 1_000_000
+"""How many characters a text may have, once everything is replaced."""
+
+_OPEN = re.compile(r"\$+\(([^)]*)\)")
+_FIND = re.compile(r"\$+\( *find +([^()$ ]+) *\)([^ ]*)")
+
+
+class Substitution:
+    """Replaces what stands in ``$(...)``.
+
+    Args:
+        packages: where ``$(find ...)`` looks.
+        environ: what ``$(env ...)`` reads.
+        anonymous: makes a new name of the name in ``$(anon ...)``.
+        missing: is told what is not there; reading goes on with a stand-in.
+
+    """
+
+    def __init__(
+        self,
+        packages: PackageIndex,
+        environ: Mapping[str, str],
+        anonymous: Callable[[str], str],
+        missing: Callable[[Missing], None],
+    ) -> None:
+        self.packages, self.environ, self.anonymous, self.missing = packages, environ, anonymous, missing
+
+    def resolve(self, text: str, scope: Scope, element: Element) -> str:
+        """Return a text with everything replaced. Raises ``LaunchError`` for what makes no sense."""
+        if "$" not in text:
+            return text
+        if text.startswith("$(eval ") and text.endswith(")"):
+            return self._eval(text[len("$(eval ") : -1], scope, element)
+        for inside in _OPEN.findall(text):
+            self._check(inside, text, element)
+        replaced = _OPEN.sub(lambda found: self._replace(found, scope, element), text)
+        replaced = _FIND.sub(lambda found: self._path(found[1], found[2], element), replaced)
+        if len(replaced) > LONGEST:
+            raise element.error(f"a text of {len(replaced)} characters; {LONGEST} are allowed")
+        return replaced
+
+    def _check(self, inside: str, text: str, element: Element) -> None:
+        if "$" in inside or "(" in inside:
+            if inside.lstrip().startswith("eval"):
+                raise element.error(f"$(eval ...) must be the whole value, and this is {shown(text)}")
+            sign = "Dollar signs '$' cannot be" if "$" in inside else "Parentheses '(' cannot be"
+            raise element.error(
+                f"{sign} inside of substitution args [{text}]: they are not nested; write $(eval ...) instead, in "
+                "which arguments are names"
+            )
+        words = inside.split()
+        if words and words[0] not in COMMANDS:
+            hint = nearest(words[0], [*COMMANDS, "eval"])
+            whole = " ($(eval ...) must be the whole value)" if words[0] == "eval" else ""
+            raise element.error(
+                f"Unknown substitution command [{inside}]{whole}. Valid commands are {', '.join(COMMANDS)}"
+                f"{f'; {hint}' if hint else ''}"
+            )
+
+    def _replace(self, found: re.Match[str], scope: Scope, element: Element) -> str:
+        command, *words = found[1].split() or [""]
+        if command == "dirname":
+            return self._dirname(scope, element)
+        if command == "find" and len(words) == 1:
+            return found[0]  # the second pass's: what follows it may be replaced yet
+        if command == "optenv" and words:
+            return self.environ.get(words[0], " ".join(words[1:]))
+        if command in ("env", "arg", "anon", "find"):
+            if len(words) != 1:
+                what = "variable" if command == "env" else "package" if command == "find" else "name"
+                raise element.error(f"$({command} ...) takes one {what}, not {len(words)} [{found[1]}]")
+            read = {"env": self._env, "arg": self._arg, "anon": self._anon}[command]
+            return read(words[0], scope, element)
+        if command == "optenv":
+            raise element.error(f"$(optenv ...) must name an environment variable [{found[1]}]")
+        return found[0]  # "$()" is text
+
+    def _env(self, name: str, scope: Scope, element: Element) -> str:  # noqa: ARG002 - alike
+        if name not in self.environ:
+            hint = nearest(name, self.environ)
+            self._lacks(
+                element,
+                "environment variable",
+                name,
+                f"environment variable {name!r} is not set: export {name}=VALUE before you launch, or write "
+                f"$(optenv {name} DEFAULT){f'; {hint}' if hint else ''}",
+            )
+        return self.environ.get(name, "")
+
+    def _arg(self, name: str, scope: Scope, element: Element) -> str:
+        if name in scope.args:
+            return scope.args[name]
+        if name in scope.declared:
+            said = f"requires the '{name}' arg to be set: give it as {name}:=VALUE"
+        else:
+            hint = nearest(name, scope.args.keys() | scope.declared)
+            said = (
+                f'$(arg {name}): no <arg name="{name}"> stands before this line{f"; {hint}" if hint else ""}'
+            )
+        self._lacks(element, "arg", name, said)
+        scope.args[name] = ""  # told once
+        return ""
+
+    def _anon(self, name: str, scope: Scope, element: Element) -> str:  # noqa: ARG002 - alike
+        if name not in scope.anonymous:
+            scope.anonymous[name] = self.anonymous(name)
+        return scope.anonymous[name]
+
+    def _dirname(self, scope: Scope, element: Element) -> str:
+        if not scope.file or scope.file.startswith("<"):
+            raise element.error("$(dirname) has no folder to name: this launch file is not read from a file")
+        return str(Path(scope.file).absolute().parent)
+
+    def _find(self, package: str, element: Element) -> str:
+        try:
+            return str(self.packages.path(package))
+        except UnknownPackage as error:
+            self._lacks(element, "package", package, str(error))
+            return f"{NOWHERE}/{package}"
+
+    def _path(self, package: str, rest: str, element: Element) -> str:
+        """Return where a package is, and the path that follows, if one does."""
+        path = rest.replace("\\", "/").removeprefix("/").replace("/", os.sep)
+        folder = self._find(package, element)
+        return str(os.path.join(folder, path)) if path else folder  # noqa: PTH118 - a text that need be no path
+
+    def _lacks(self, element: Element, kind: str, name: str, message: str) -> None:
+        self.missing(Missing(kind, name, Place(element.path, element.line), message))
+
+    def _eval(self, text: str, scope: Scope, element: Element) -> str:
+        def arg(name: str) -> Any:
+            return convert(self._arg(name, scope, element))
+
+        functions = {
+            **FUNCTIONS,
+            **MATH,
+            "math": Namespace("math", MATH),
+            "true": True,
+            "false": False,
+            "arg": Function("arg", arg),
+            "env": Function("env", lambda name: self._env(name, scope, element)),
+            "optenv": Function("optenv", lambda name, default="": self.environ.get(name, default)),
+            "find": Function("find", lambda name: self._find(name, element)),
+            "anon": Function("anon", lambda name: self._anon(name, scope, element)),
+            "dirname": Function("dirname", lambda: self._dirname(scope, element)),
+        }
+        values = {name: convert(value) for name, value in scope.args.items() if name not in functions}
+        try:
+            return str(Expression(text, functions=functions).evaluate(values))
+        except ParameterError as error:
+            raise element.error(f"$(eval {text}): {error}") from error
+        except ExpressionError as error:
+            hint = nearest(text, values) if text.isidentifier() else ""
+            raise element.error(f"$(eval {text}): {error}{f'; {hint}' if hint else ''}") from error
