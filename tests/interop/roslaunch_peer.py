@@ -53,7 +53,7 @@ def answered(words):
     try:
         return described(words)
     except Exception as error:
-        return {"error": "{}: {}".format(type(error).__name__, error)}
+        return {"error": f"{type(error).__name__}: {error}"}
 
 
 if sys.argv[1] == "-":
