@@ -60,6 +60,8 @@ COMMANDS: dict[str, Entry] = {
     "rosservice": Entry(
         "rosmini.cli.rosservice", "services: which there are, of which types, who offers them; call one"
     ),
+    "rosmsg": Entry("rosmini.cli.rosmsg", "message types: which there are, and their definitions"),
+    "rossrv": Entry("rosmini.cli.rossrv", "service types: which there are, and their definitions"),
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
     "rospack": Entry("rosmini.cli.rospack", "packages: where they are, what they need, what they export"),
     "rosstack": Entry("rosmini.cli.rosstack", "stacks and metapackages: where they are, what is in them"),

@@ -30,6 +30,7 @@ _ALIASES = {
     "rosbag": "",
     "rosgraph": "masterapi names rosenv roslogging",
     "roslib": "names packages",
+    "rosmsg": "",
     "rosnode": "",
     "rosparam": "",
     "rosservice": "",
