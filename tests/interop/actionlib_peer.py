@@ -287,6 +287,10 @@ facts["no server"] = one.wait_for_server(rospy.Duration(0.1))
 facts["no goal"] = [one.get_state(), one.get_result(), one.wait_for_result(), one.get_goal_status_text()[:5]]
 simple.start()
 facts["a server"] = [one.wait_for_server(), two.wait_for_server(rospy.Duration(200))]
+# Real clients know of a connection before the server's end counts it: what it publishes in between is lost.
+for end in ("status", "feedback", "result"):
+    connections = getattr(getattr(simple.action_server, end + "_pub"), "get_num_connections", None)
+    wait(lambda count=connections: count is None or count() > 0, "the server's connection on " + end)
 
 
 def run(client, number, what="", cancel=False):
