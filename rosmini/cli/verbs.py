@@ -166,6 +166,7 @@ class Tool:
     it a tool on the wire, which acts on the graph of the Master at ``ROS_MASTER_URI``: what it is a tool for, in the
     ``overview`` that it prints, as ROS's do, where the first word is none of its commands. ``failure_status`` is the
     exit status where no Master answers. A tool that ``needs_graph`` not only reads files.
+    A tool that does one thing only, as roswtf, names its ``only_verb``, which is then not among the words.
     """
 
     name: str
@@ -177,6 +178,7 @@ class Tool:
     overview: Overview = field(default_factory=Overview)
     failure_status: int = 1
     needs_graph: bool = True
+    only_verb: str = ""
     verbs: dict[str, Verb] = field(default_factory=dict)
 
     def verb(
@@ -238,6 +240,7 @@ class Tool:
         Raises ``UsageError`` for words that make no sense, and what the verb raises.
         """
         text = [os.fspath(word) if isinstance(word, os.PathLike) else str(word) for word in words]
+        text = self._with_verb(text)
         asked = self._help_for(text)
         if asked is not None:
             return Lines(lines=(asked,))
@@ -252,6 +255,10 @@ class Tool:
     def on(self, graph: Graph | None = None) -> Prompt:
         """Return what does verbs on ``graph`` in a notebook."""
         return Prompt(self, graph)
+
+    def _with_verb(self, words: Sequence[str]) -> list[str]:
+        """Return the words with the verb that is understood, in front."""
+        return [self.only_verb, *words] if self.only_verb else list(words)
 
     def _help_for(self, words: Sequence[str]) -> str | None:
         """Return the help that the words ask for, if they do."""
@@ -276,6 +283,7 @@ class Tool:
         """Do what the words say, print it, and return the exit status."""
         words: list[str] = args.words
         own, nodes = _before_plus(words)
+        own = self._with_verb(own)
         if self.purpose:
             own = [word for word in own if not is_remapping(word)]
             if not own or (own[0] not in {*self.verbs, "--help", "help"}):

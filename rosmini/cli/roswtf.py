@@ -1,0 +1,145 @@
+"""`rosmini roswtf`: what is probably wrong with the environment and with the graph, and what to do about it.
+
+``TOOL.run(graph=graph).findings`` is the same in Python (http://wiki.ros.org/roswtf).
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import MasterUnreachable, ROSInitException
+from rosmini.introspection.options import Parser
+from rosmini.introspection.wtf import graph_rules, heard_rules, static_rules
+from rosmini.introspection.wtf.findings import Finding, summary
+from rosmini.introspection.wtf.heard_rules import Heard, Transform
+from rosmini.introspection.wtf.survey import survey
+
+from .listening import Span, tool_node
+from .verbs import Call, Result, Tool
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from optparse import Values
+
+TOOL = Tool(
+    "roswtf", "what is probably wrong with the graph, and what to do about it",
+    purpose="finding what is wrong", only_verb="look",
+)  # fmt: skip
+add_parser, main = TOOL.add_parser, TOOL.main
+
+LISTEN_S = 1.0
+"""How long transforms and errors are listened for, if nobody says how long [s]."""
+RULE = "=" * 80
+ROSOUT_ERROR = 8
+"""rosgraph_msgs/Log: ERROR; FATAL is above it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Diagnosis(Result):
+    """What was found: before anything runs (``static``), and in the graph (``online``; None without a Master)."""
+
+    context: str
+    static: tuple[Finding, ...]
+    online: tuple[Finding, ...] | None
+    offline_because: str = ""
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Everything that was found."""
+        return (*self.static, *(self.online or ()))
+
+    def __str__(self) -> str:
+        lines = [self.context, RULE, summary("Static", self.static), "", RULE]
+        if self.online is None:
+            lines.append(self.offline_because)
+        else:
+            lines.append(summary("Online", self.online))
+        return "\n".join(lines)
+
+
+def _parser() -> Parser:
+    parser = Parser(
+        "roswtf", "%prog [options]", "Say what is probably wrong, and what to do about it.",
+        example="  rosmini roswtf",
+    )  # fmt: skip
+    parser.flag("--offline", dest="offline", help="only check the environment and the packages")
+    parser.add_option(
+        "--duration", type="float", default=LISTEN_S, metavar="S",
+        help=f"listen for transforms and errors for S seconds of graph time (not in ROS; {LISTEN_S:g} if not given)",
+    )  # fmt: skip
+    return parser
+
+
+@TOOL.verb("look for what is wrong", parser=_parser, only_asks=lambda given: given.offline)
+def look(given: Values, call: Call) -> Diagnosis:
+    """Look at everything."""
+    context, static = _static()
+    if given.offline:
+        return Diagnosis(
+            context=context, static=static, online=None, offline_because="The graph was not looked at."
+        )
+    try:
+        heard = _listen(call, given.duration)
+        graph = survey(call.peers)
+    except MasterUnreachable as error:
+        return Diagnosis(context=context, static=static, online=None, offline_because=str(error), status=1)
+    online = [found for rule in graph_rules.RULES for found in rule(graph)]
+    online += [found for tf_rule in heard_rules.RULES for found in tf_rule(heard)]
+    return Diagnosis(context=context, static=static, online=tuple(online))
+
+
+def _static() -> tuple[str, tuple[Finding, ...]]:
+    """Return which package this folder belongs to, and what is wrong with the environment."""
+    from rosmini.net.addresses import addresses
+    from rosmini.packages import PackageIndex, package_around
+
+    here = package_around(Path.cwd() / "package.xml")
+    context = f"Package: {here.name}" if here else "No package or stack in the current directory"
+    packages = PackageIndex()
+    found = [each for rule in static_rules.RULES for each in rule(os.environ, packages)]
+    try:
+        warning = addresses().warning
+    except ROSInitException as error:
+        found.append(Finding("addresses", "ERROR", str(error)))
+    else:
+        if warning:
+            found.append(Finding("addresses", "WARNING", warning))
+    return context, tuple(found)
+
+
+def _listen(call: Call, seconds: float) -> Heard:
+    """Listen to transforms and to errors in the log for some time of the graph."""
+    from rosmini.msgs import message_class
+
+    heard, graph = Heard(), call.graph
+    call.say(f"listening to /tf and /rosout for {seconds:g} s")
+    with tool_node(graph, "roswtf") as node:
+
+        def transforms(is_static: bool) -> Callable[[Any], None]:
+            def hear(message: Any) -> None:
+                sender = str((getattr(message, "_connection_header", None) or {}).get("callerid", "unknown"))
+                now = graph.now().to_nsec() or None  # simulated time that has not begun
+                for each in message.transforms:
+                    stamp = each.header.stamp.to_nsec()
+                    parent, child = (
+                        frame.lstrip("/") for frame in (each.header.frame_id, each.child_frame_id)
+                    )
+                    heard.transforms.append(Transform(parent, child, sender, stamp, now, is_static))
+
+            return hear
+
+        def log(message: Any) -> None:
+            if message.level >= ROSOUT_ERROR:
+                heard.errors.append((message.name, message.msg))
+
+        tf = message_class("tf2_msgs/TFMessage")
+        node.subscriber("/tf", tf, transforms(False))
+        node.subscriber("/tf_static", tf, transforms(True))
+        node.subscriber("/rosout_agg", message_class("rosgraph_msgs/Log"), log)
+        span = Span.of(graph, round(max(seconds, 0.0) * 1e9))
+        for _ in span.every(100_000_000):
+            pass
+    return heard

@@ -1,0 +1,49 @@
+"""What a rule found, and how ``roswtf`` prints it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+Level = Literal["WARNING", "ERROR"]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that is probably wrong: how bad it is, what it is, where it was found, and the way out."""
+
+    rule: str
+    """A short name of what is wrong, the same for every graph: ``no_clock``."""
+    level: Level
+    what: str
+    where: tuple[str, ...] = ()
+    """The places, one a line; a line that begins with a blank belongs to the one above it."""
+    advice: str = ""
+
+    def __str__(self) -> str:
+        lines = [f"{self.level} {self.what}"]
+        lines += [f"  {place}" if place.startswith(" ") else f" * {place}" for place in self.where]
+        if self.advice:
+            lines.append(f"   -> {self.advice}")
+        return "\n".join(lines)
+
+
+_INTRODUCTION = {
+    "WARNING": "Found {} warning(s).\nWarnings are things that may be just fine, but are sometimes at fault\n",
+    "ERROR": "Found {} error(s).\n",
+}
+
+
+def summary(title: str, findings: Sequence[Finding]) -> str:
+    """Return findings as ROS's tool prints them: warnings first, then errors, each kind with its count."""
+    parts = [f"{title} checks summary:\n"]
+    for level, introduction in _INTRODUCTION.items():
+        found = [each for each in findings if each.level == level]
+        if found:
+            parts += [introduction.format(len(found)), *map(str, found), ""]
+    if not findings:
+        parts.append("No errors or warnings")
+    return "\n".join(parts).rstrip("\n")

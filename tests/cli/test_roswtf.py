@@ -1,0 +1,154 @@
+"""`roswtf` finds what beginners lose days to, on a graph of this process and in a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import rosmini.cli.main as cli
+from rosmini import Graph
+from rosmini.cli.roswtf import TOOL, Diagnosis
+from rosmini.errors import UsageError
+from rosmini.msgs.geometry_msgs.msg import TransformStamped, Twist
+from rosmini.msgs.std_msgs.msg import Int32, String
+from rosmini.msgs.tf2_msgs.msg import TFMessage
+
+from ..processes import free_port
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    with Graph(strict=False) as made:
+        yield made
+
+
+def look(graph: Graph, *words: str) -> Diagnosis:
+    result = TOOL.run(*words, graph=graph, say=lambda _: None)
+    assert isinstance(result, Diagnosis)
+    return result
+
+
+def rules(diagnosis: Diagnosis) -> list[str]:
+    return [each.rule for each in diagnosis.findings]
+
+
+def test_a_graph_that_is_well(graph: Graph) -> None:
+    graph.node("talker").publisher("chatter", String)
+    graph.node("listener").subscriber("chatter", String, print)
+    found = look(graph)
+    assert found.findings == ()
+    assert str(found).count("No errors or warnings") == 2
+
+
+def misspelt(graph: Graph) -> None:
+    graph.node("talker").publisher("chatter", String)
+    graph.node("listener").subscriber("chater", String, print)
+
+
+def wrong_type(graph: Graph) -> None:
+    graph.node("talker").publisher("chatter", String)
+    graph.node("listener").subscriber("chatter", Int32, print)
+
+
+def no_clock(graph: Graph) -> None:
+    graph.node("talker").set_param("/use_sim_time", True)
+
+
+def a_callback_that_fails(graph: Graph) -> None:
+    publisher = graph.node("talker").publisher("chatter", String)
+    graph.node("listener").subscriber("chatter", String, lambda message: message.dat)
+    graph.node("clockwork").timer(0.2, lambda _: publisher.publish("x"))
+
+
+def transforms(*links: tuple[str, str, str]) -> Callable[[Graph], None]:
+    """Nodes that send transforms: (node, parent, child)."""
+
+    def make(graph: Graph) -> None:
+        for name, parent, child in links:
+            node = graph.node(name)
+            publisher = node.publisher("/tf", TFMessage)
+
+            def send(_: Any, publisher: Any = publisher, parent: str = parent, child: str = child) -> None:
+                one = TransformStamped(child_frame_id=child)
+                one.header.frame_id, one.header.stamp = parent, graph.now()
+                one.transform.rotation.w = 1.0
+                publisher.publish(TFMessage([one]))
+
+            node.timer(0.1, send)
+
+    return make
+
+
+def two_drivers(graph: Graph) -> None:
+    for name in ("pad", "planner"):
+        graph.node(name).publisher("cmd_vel", Twist)
+
+
+def private_parameters_of_another_name(graph: Graph) -> None:
+    graph.node("amcl").set_param("/acml/odom_model_type", "diff")
+
+
+def small_inflation(graph: Graph) -> None:
+    node = graph.node("move_base")
+    node.set_param("~local_costmap/robot_radius", 0.2)
+    node.set_param("~local_costmap/inflation_layer/inflation_radius", 0.1)
+
+
+@pytest.mark.parametrize(
+    ("make", "expected"),
+    [
+        (misspelt, ["no_publisher"]),
+        (wrong_type, ["types_differ"]),
+        (no_clock, ["no_clock"]),
+        (a_callback_that_fails, ["logged_errors"]),
+        (transforms(("one", "map", "odom"), ("two", "base", "laser")), ["several_trees"]),
+        (transforms(("one", "odom", "base"), ("two", "odom", "base")), ["repeated_senders"]),
+        (two_drivers, ["several_drivers"]),
+        (private_parameters_of_another_name, ["strangers_parameters"]),
+        (small_inflation, ["small_inflation"]),
+    ],
+    ids=lambda each: getattr(each, "__name__", None),
+)
+def test_it_finds_what_beginners_lose_days_to(
+    graph: Graph, make: Callable[[Graph], None], expected: list[str]
+) -> None:
+    make(graph)
+    graph.run(0.5)
+    assert rules(look(graph)) == expected
+
+
+def test_it_takes_as_long_as_it_is_told_and_leaves_nothing(graph: Graph) -> None:
+    before, nodes = graph.now().to_sec(), list(graph.nodes)
+    look(graph, "--duration", "2.5")
+    assert graph.now().to_sec() - before == pytest.approx(2.5)
+    assert list(graph.nodes) == nodes
+    look(graph, "--offline")
+    assert graph.now().to_sec() - before == pytest.approx(2.5)
+
+
+def test_without_a_master_only_the_environment_is_looked_at(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    uri = f"http://127.0.0.1:{free_port()}"
+    monkeypatch.setenv("ROS_MASTER_URI", uri)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "gone"))
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["roswtf", "--offline"]) == 0
+    printed = capsys.readouterr().out
+    assert "No package or stack in the current directory" in printed
+    assert "Found 1 error(s)." in printed
+    assert cli.main(["roswtf"]) == 1
+    out, err = capsys.readouterr()
+    assert uri in out + err
+
+
+def test_help_and_words_that_make_no_sense(graph: Graph, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(UsageError):
+        look(graph, "--nope")
+    with pytest.raises(SystemExit) as ended:
+        cli.main(["roswtf", "-h"])
+    assert ended.value.code == 0
+    assert "rosmini roswtf" in capsys.readouterr().out
