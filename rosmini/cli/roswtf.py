@@ -62,7 +62,7 @@ class Diagnosis(Result):
 
 def _parser() -> Parser:
     parser = Parser(
-        "roswtf", "%prog [options]", "Say what is probably wrong, and what to do about it.",
+        "rosmini roswtf", "%prog [options]", "Say what is probably wrong, and what to do about it.",
         example="  rosmini roswtf",
     )  # fmt: skip
     parser.flag("--offline", dest="offline", help="only check the environment and the packages")
