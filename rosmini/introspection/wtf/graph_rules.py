@@ -100,7 +100,7 @@ def no_clock(graph: Survey) -> Iterator[Finding]:
     if len(publishers) > 1:
         yield Finding(
             "several_clocks", "ERROR", "Several nodes set the time on /clock:", publishers,
-            "Time jumps to and fro. Leave one of them; `rosbag play` without --clock beside a simulator.",
+            "Time jumps back and forth. Leave one of them; `rosbag play` without --clock beside a simulator.",
         )  # fmt: skip
 
 
