@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from rosmini.errors import TransportException
 from rosmini.msgs import message_class
 from rosmini.time import Time
 
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
     from rosmini.graph import Node
 
 __all__ = ["ActionClient", "ClientGoalHandle"]
+
+LOOK_NS = 10_000_000
+LOOKS = 100
+"""How often, and how many times at most, a server is asked whether it counts a client among its subscribers."""
 
 
 def new_goal_id(node: Node, now: Time) -> str:
@@ -254,7 +259,7 @@ class ActionClient:
     # -- the server ----------------------------------------------------------------------------------------------
 
     def wait_for_server(self, timeout: Timeout = None) -> bool:
-        """Block until a server is there and all five topics are connected.
+        """Block until a server is there and all five topics are connected, at both ends.
 
         False after ``timeout`` (None or 0: no limit).
         """
@@ -262,7 +267,8 @@ class ActionClient:
         waiter = node.waiter(f"an action server on {self.ns}")
         node.scheduler.on_hub(lambda: node.graph.changes.watch(self._connected, waiter))
         try:
-            return wait_on(node, waiter, timeout, self._connected)
+            found = wait_on(node, waiter, timeout, self._connected)
+            return found and node.scheduler.on_hub(self._wait_until_counted)
         finally:
             waiter.wake()
 
@@ -283,6 +289,33 @@ class ActionClient:
                 for end in into
             )
         )
+
+    def _wait_until_counted(self) -> bool:
+        """Wait until the server counts this client among its subscribers; return whether it still is connected.
+
+        rospy answers a subscriber a moment before it sends to it: what is published in between never comes, be it the
+        result of a goal that was over at once.
+        """
+        scheduler = self.node.scheduler
+        for _ in range(LOOKS):
+            if not self._connected() or self._is_counted():
+                break
+            scheduler.sleep_until(
+                scheduler.now_ns() + LOOK_NS, f"the action server of {self.ns} to count its clients"
+            )
+        return self._connected()
+
+    def _is_counted(self) -> bool:
+        """Ask the server's node whom it sends to."""
+        node = self.node
+        wanted = {end.topic for end in (self._status, self._result, self._feedback)}
+        links = node.subscriptions[self._status.topic].connections.values()
+        uri = next(link.uri for link in links if link.peer == self._server)
+        try:
+            code, _, rows = node.graph.transport.call(uri, "getBusInfo", node.name)
+        except TransportException:
+            return True  # it has gone, or tells nobody: there is nothing to wait for
+        return code != 1 or wanted <= {row[4] for row in rows if row[1:3] == [node.name, "o"]}
 
     def _disconnected(self, peer: str) -> None:
         if peer != self._server:
