@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 if "ROSMINI_TEST_WIRE" not in os.environ:
     collect_ignore_glob = [f"{Path(__file__).parent}/test_*.py"]
-    """Not part of every run yet: on a busy machine one of these tests may wait for ever."""
+    """Not part of every run yet."""
 
 PROGRAMS = ["roscore", "rosnode", "rostopic", "rosservice", "rosparam", "rosbag", "roslaunch"]
 
@@ -40,11 +40,14 @@ def core(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
         yield found
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def pair(core: Stage) -> tuple[Peer, Peer]:
-    """Our node and their node under that roscore."""
-    peers = core.peer("ours", "ours"), core.peer("real", "theirs")
-    return peers[0].ready(), peers[1].ready()
+    """Our node and their node under that roscore: those of the test before, unless one of them has hung."""
+    for kind, name in (("ours", "ours"), ("real", "theirs")):
+        found = core.pair.get(name)
+        if found is None or found.process.poll() is not None:
+            core.pair[name] = core.peer(kind, name)
+    return core.pair["ours"].ready(), core.pair["theirs"].ready()
 
 
 @pytest.fixture(params=["ours_first", "theirs_first"])

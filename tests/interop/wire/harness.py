@@ -18,7 +18,7 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...processes import free_port, run, start, wait_until
+from ...processes import PATIENCE, free_port, run, start, wait_until
 from ..conftest import SYSTEM_PYTHON
 
 if TYPE_CHECKING:
@@ -27,7 +27,9 @@ if TYPE_CHECKING:
     from types import TracebackType
 
 PEER = Path(__file__).with_name("peer.py")
-ROSMINI = [sys.executable, "-m", "rosmini"]
+ROSMINI = [sys.executable, str(PEER.with_name("ours.py"))]
+ANSWER_S = 60.0
+"""How long a peer may take for an answer; one that takes longer says where it is, and ends."""
 PACKAGE = "wire_peers"
 ALL_REAL = os.environ.get("ROSMINI_WIRE_ALL_REAL") == "1"
 """Real ROS in the place of ours everywhere: so one sees that the tests ask for what ROS does."""
@@ -69,13 +71,18 @@ class Child:
                 found.append(one)
             return one is not None
 
-        self._wait(there, f"{pattern!r} of {self.name}")
+        self.wait(there, f"{pattern!r} of {self.name}")
         self._position += found[0].end() if fresh else 0
         return found[0]
 
-    def _wait(self, condition: Any, what: str) -> None:
+    def wait(self, condition: Any, what: str, patience: float = PATIENCE) -> None:
+        """Wait until a condition holds that this process brings about; what it wrote is in the error."""
         try:
-            wait_until(lambda: condition() or (self.process.poll() is not None and not condition()), what)
+            wait_until(
+                lambda: condition() or (self.process.poll() is not None and not condition()),
+                what,
+                patience=patience,
+            )
             if not condition():
                 raise AssertionError(f"no {what}: its process ended with {self.process.returncode}")
         except AssertionError as error:
@@ -121,9 +128,15 @@ class Peer(Child):
     """A process of peer.py."""
 
     answers = 0
+    is_ours = False
+    is_busy = False
+    """Whether the tests of a module have it publish and serve by itself already."""
 
     def ready(self) -> Peer:
-        """Wait until its node has started."""
+        """Wait until its node has started. Harmless when repeated."""
+        if self.answers:
+            return self
+        self.wait(self.has_answered, f"the start of {self.name}")
         answer = self._answer()
         self.node, self.uri = answer[1], answer[2]
         return self
@@ -157,12 +170,32 @@ class Peer(Child):
         return [line for line in lines if line.startswith("@ ") and line.endswith("\n")]
 
     def _answer(self) -> Any:
-        self._wait(self.has_answered, f"answer {self.answers} of {self.name}")
+        try:
+            self.wait(self.has_answered, f"answer {self.answers} of {self.name}", ANSWER_S)
+        except AssertionError as error:
+            error.add_note(self._stacks())
+            self.kill()  # it would answer the next test with what this one asked
+            raise
         answer = json.loads(self._answers()[self.answers][2:])
         self.answers += 1
         if isinstance(answer, dict) and "raised" in answer:
             raise AssertionError(f"{self.name}: {answer['raised']}\n--- it wrote:\n{self.tail}")
         return answer
+
+    def _stacks(self) -> str:
+        """What its threads do, and its lanes if it is one of ours."""
+        before = len(self.output)
+        for number in (signal.SIGUSR1, signal.SIGUSR2) if self.is_ours else (signal.SIGUSR1,):
+            written = len(self.output)
+            self.send(number)
+            with suppress(AssertionError):
+                wait_until(
+                    lambda written=written: len(self.output) > written,
+                    "its stacks",
+                    self.process,
+                    patience=5.0,
+                )
+        return f"--- {self.name} is at:\n{self.output[before:]}"
 
 
 class Stage:
@@ -173,6 +206,8 @@ class Stage:
         self.host = host
         self.port = port or free_port()
         self.children: list[Child] = []
+        self.pair: dict[str, Peer] = {}
+        """The two peers that the tests of a module share."""
         self._stack = ExitStack()
         self._packages = home / "packages"
         self.marker = str(home / ".ros")
@@ -249,6 +284,7 @@ class Stage:
         else:
             words = [*ROSMINI, "rosrun", PACKAGE, "peer.py", *words]
         child: Peer = self.start(name, words, env, Peer, within)
+        child.is_ours = words[0] == ROSMINI[0]
         return child
 
     def roscore(self, kind: str, *arguments: str, within: list[str] | None = None, **env: str) -> Child:
@@ -262,7 +298,7 @@ class Stage:
             f"roscore_{kind}", [*words, "-p", self.port, *arguments], env, within=within
         )
         if not within:
-            child._wait(self.has_rosout if "--core" not in arguments else self.answers, "a Master")
+            child.wait(self.has_rosout if "--core" not in arguments else self.answers, "a Master")
         return child
 
     def second_roscore(self, kind: str) -> Child:

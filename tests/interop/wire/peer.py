@@ -5,8 +5,10 @@ Run by real rospy and by ours. A command is JSON, {"do": name, ...}; an answer i
 YAML, as `rostopic echo` shows them.
 """
 
+import faulthandler
 import json
 import os
+import signal
 import sys
 
 import actionlib
@@ -218,10 +220,22 @@ def tick(topic="clock", seconds=0.0):
     publishers[topic].publish(rospy.Time.from_sec(seconds))
 
 
+def answer_late(topic, seconds):
+    """Let real rospy take its time between its answer to a subscriber of a topic and the first message to it."""
+    if hasattr(rospy, "topics"):  # ours has no such moment
+        publication = rospy.topics.get_topic_manager().get_publisher_impl(rospy.resolve_name(topic))
+        add = publication.add_connection
+        publication.add_connection = lambda link: (rospy.rostime.wallsleep(seconds), add(link))[1]
+
+
 def serve_action(name):
-    """Serve actionlib/TestAction: feedback 1, 2, the goal; a goal below 0 waits for a cancel."""
+    """Serve actionlib/TestAction: feedback 1, 2, the goal; a goal below 0 waits for a cancel.
+
+    It begins when the client says that it follows the goal: rospy's would not hear of what comes sooner.
+    """
 
     def execute(goal):
+        wait(lambda: rospy.get_param(name + "/followed", None) == goal.goal)
         for number in (1, 2, goal.goal):
             server.publish_feedback(TestFeedback(number))
         wait(lambda: goal.goal >= 0 or server.is_preempt_requested())
@@ -239,6 +253,7 @@ def send_goal(name, goal, cancel=False):
     client.wait_for_server()
     feedback = []
     client.send_goal(TestGoal(goal), feedback_cb=lambda message: feedback.append(message.feedback))
+    rospy.set_param(name + "/followed", goal)
     if cancel:
         wait(lambda: len(feedback) == 3)
         client.cancel_goal()
@@ -334,6 +349,7 @@ def end():
 
 
 def main():
+    faulthandler.register(signal.SIGUSR1)  # what all threads do, to standard error
     rospy.init_node("peer")
     if "PEER_ADVERTISES" in os.environ:
         advertise(os.environ["PEER_ADVERTISES"], "std_msgs/String")

@@ -190,6 +190,14 @@ def test_actions(first_second: Peers, goal: int) -> None:
     assert second.ask("send_goal", name, goal, cancel=goal < 0) == expected
 
 
+def test_a_client_waits_until_its_server_sends_to_it(pair: Peers) -> None:
+    """rospy answers a subscriber before it sends to it, and nobody gets what it publishes in between."""
+    ours, theirs = pair
+    theirs.ask("serve_action", "late")
+    theirs.ask("answer_late", "late/feedback", 0.5)
+    assert ours.ask("send_goal", "late", -1, cancel=True) == [2, 0, "cancelled"]
+
+
 @pytest.mark.parametrize("static", [False, True], ids=["moving", "static"])
 def test_transforms(first_second: Peers, static: bool) -> None:
     first, second = first_second

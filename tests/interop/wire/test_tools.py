@@ -25,10 +25,11 @@ Peers = tuple["Peer", "Peer"]
 INFO = "sensor_msgs/SetCameraInfo"
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def busy(core: Stage, pair: Peers) -> Peers:
     """The two nodes: each publishes ten times a second, listens to the other, and serves."""
-    for peer, other in (pair, pair[::-1]):
+    idle = [(peer, other) for peer, other in (pair, pair[::-1]) if not peer.is_busy]
+    for peer, other in idle:
         peer.ask("advertise", f"{peer.node}/count", "std_msgs/Int32")
         peer.ask("every", f"{peer.node}/count")
         peer.ask("advertise", f"{peer.node}/latched", "std_msgs/String", latch=True)
@@ -36,7 +37,8 @@ def busy(core: Stage, pair: Peers) -> Peers:
         peer.ask("serve", f"{peer.node}/set_info", INFO, {"success": True, "status_message": "set"})
         peer.ask("subscribe", f"{peer.node}/inbox", "std_msgs/String")
         peer.ask("subscribe", f"{other.node}/count", "std_msgs/Int32", what="header")
-    for peer, other in (pair, pair[::-1]):
+    for peer, other in idle:
+        peer.is_busy = True
         peer.ask("hear", f"{other.node}/count")
         core.wait_for(f"{peer.node}/count", "subscribers", other.node)
     return pair
