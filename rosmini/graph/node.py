@@ -437,6 +437,7 @@ class Node(ParameterApi):
             server.close_sessions(reason)
         for subscription in subscriptions:
             subscription.end()
+        self.slave.end()
         for publication in publications:
             publication.end()
         for server in servers:  # the Master last: it may take its time

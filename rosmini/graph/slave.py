@@ -61,6 +61,10 @@ class SlaveApi:
         self._subscribed = {topic: item.message_class._type for topic, item in subscriptions.items()}
         self.connections_changed()
 
+    def end(self) -> None:
+        """Offer no topic any more: a subscriber that is cut off asks again before the Master has told it."""
+        self._published = {}
+
     def connections_changed(self) -> None:
         """Take up which connections there are, soon: many change at once when a graph starts."""
         if not self._is_stale:

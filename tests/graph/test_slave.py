@@ -263,3 +263,22 @@ def test_a_node_that_has_ended_publishes_nothing(graph: Graph) -> None:
     node.shutdown()
     answer = node.slave.call("requestTopic", "/test", "/chatter", offers)
     assert answer == [-1, "Not a publisher of [/chatter]", []]
+
+
+def test_a_node_publishes_nothing_from_when_it_closes_its_connections(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Subscribers that are cut off connect again at once: what is latched must not reach them twice."""
+    node = graph.node("talker")
+    node.publisher("chatter", String, latch=True)
+    offers = graph.transport.offers(node.uri)
+    answers: list[int] = []
+    leave = node.master.unregister
+
+    def unregister(*arguments: str, **options: Any) -> None:
+        answers.append(node.slave.call("requestTopic", "/test", "/chatter", offers)[0])
+        leave(*arguments, **options)
+
+    monkeypatch.setattr(node.master, "unregister", unregister)
+    node.shutdown()
+    assert set(answers) == {-1}

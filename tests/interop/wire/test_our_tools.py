@@ -1,0 +1,138 @@
+"""Our command line tools beside ROS's own, at one Master: they say the same of our node and of a real one."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+import pytest
+import yaml
+
+from ...processes import wait_until
+from ..conftest import SYSTEM_PYTHON
+from .harness import ROSMINI
+
+if TYPE_CHECKING:
+    from .harness import Peer, Stage
+
+pytestmark = pytest.mark.ros
+
+Peers = tuple["Peer", "Peer"]
+
+
+@pytest.fixture(scope="module")
+def busy(core: Stage, pair: Peers) -> Peers:
+    """The two nodes: each counts and listens to the other."""
+    for peer, other in (pair, pair[::-1]):
+        peer.ask("advertise", f"{peer.node}/count", "std_msgs/Int32")
+        peer.ask("every", f"{peer.node}/count")
+        peer.ask("advertise", f"{peer.node}/latched", "std_msgs/String", latch=True)
+        peer.ask("publish", f"{peer.node}/latched", ["käse"])
+        peer.ask("subscribe", f"{other.node}/count", "std_msgs/Int32")
+        peer.ask("subscribe", f"{peer.node}/inbox", "std_msgs/String")
+    for peer, other in (pair, pair[::-1]):
+        peer.ask("hear", f"{other.node}/count")
+        core.wait_for(f"{peer.node}/count", "subscribers", other.node)
+    return pair
+
+
+def plain(text: str) -> list[str]:
+    """Return the lines of an output without what each look makes differ, sorted: ROS's order is a dictionary's."""
+    return sorted(
+        re.sub(r" \(\d+ - [\w.]+:\d+\) \[\d+\]|time=[\d.]+ms|average: [\d.]+ms", "", text).splitlines()
+    )
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "rosnode list", "rosnode list -a", "rosnode list -u", "rosnode info {}", "rosnode info -q {}",
+        "rosnode machine 127.0.0.1", "rosnode ping -c 2 {}", "rostopic list", "rostopic list -v", "rostopic list -s",
+        "rostopic info {}/count", "rostopic type {}/inbox", "rostopic find std_msgs/String",
+        "rostopic echo -n 1 {}/latched",
+    ],
+)  # fmt: skip
+def test_our_tools_say_what_ros_own_say(core: Stage, busy: Peers, words: str) -> None:
+    for peer in busy if "{}" in words else busy[:1]:
+        asked = words.format(peer.node).split()
+        ours, theirs = core.tool(*ROSMINI, *asked), core.tool(*asked)
+        assert plain(ours) == plain(theirs)
+
+
+def test_our_rates_and_publications(core: Stage, busy: Peers) -> None:
+    for peer in busy:
+        hz = core.start("hz", [*ROSMINI, "rostopic", "hz", f"{peer.node}/count"])
+        assert float(hz.wait_for(r"average rate: ([\d.]+)")[1]) > 0
+        bw = core.start("bw", [*ROSMINI, "rostopic", "bw", f"{peer.node}/count"])
+        bw.wait_for(r"average: [\d.]+\w?B/s")
+        for tool in (hz, bw):
+            tool.interrupt()
+        core.tool(*ROSMINI, "rostopic", "pub", "-1", f"{peer.node}/inbox", "std_msgs/String", "data: hello")
+        assert peer.ask("hear", f"{peer.node}/inbox") == [{"data": "hello"}]  # once, though it is latched
+
+
+def test_our_rosnode_kills_and_cleans_up(core: Stage, busy: Peers) -> None:
+    for kind in ("ours", "real"):
+        victim = core.peer(kind, f"victim_of_ours_{kind}").ready()
+        assert core.tool(*ROSMINI, "rosnode", "kill", victim.node) == f"killing {victim.node}\nkilled\n"
+        victim.process.stdin.close()
+        assert victim.ended() == 0
+        wait_until(lambda name=victim.node: name not in core.nodes(), "unregistering")
+        dead = core.peer(kind, f"dead_of_ours_{kind}").ready()
+        dead.kill()
+        cleanup = core.start("cleanup", [*ROSMINI, "rosnode", "cleanup"])
+        cleanup.wait_for("Please type y or n to continue")
+        cleanup.process.stdin.write("y\n")
+        cleanup.process.stdin.flush()
+        assert cleanup.ended() == 0
+        assert dead.node not in core.nodes()
+
+
+def test_our_rosbag_records_both(core: Stage, busy: Peers) -> None:
+    bag = core.home / "ours_of_both.bag"
+    topics = [f"{peer.node}/{name}" for peer in busy for name in ("count", "latched")]
+    record = core.start("record", [*ROSMINI, "rosrun", "rosbag", "record", "-O", bag, *topics])
+    for topic in topics:
+        wait_until(lambda topic=topic: record_of(core, topic), f"a recorder of {topic}")
+    for peer, other in (busy, busy[::-1]):
+        other.ask("forget", f"{peer.node}/count")
+        other.ask("hear", f"{peer.node}/count", 10)
+    record.interrupt()
+    found = {each["topic"]: each for each in yaml.safe_load(core.tool("rosbag", "info", "-y", bag))["topics"]}
+    assert set(found) == set(topics)
+    assert all(found[f"{peer.node}/latched"]["messages"] == 1 for peer in busy)
+    assert all(found[f"{peer.node}/count"]["messages"] >= 3 for peer in busy)
+    assert found["/theirs/latched"]["type"] == "std_msgs/String"
+
+
+def record_of(core: Stage, topic: str) -> list[str]:
+    """Return the recorders of a topic."""
+    return [name for name in core.who(topic, "subscribers") if "record" in name]
+
+
+def test_our_rosbag_play_drives_the_clock_of_both(core: Stage) -> None:
+    """Last here: from now on nodes of this Master live on /clock."""
+    core.master("setParam", "/use_sim_time", True)
+    file = core.home / "clock.bag"
+    core.tool(SYSTEM_PYTHON, "-c", BAG, file)
+    peers: list[Any] = [core.peer(kind, f"timed_{kind}").ready() for kind in ("ours", "real")]
+    for peer in peers:
+        peer.ask("subscribe", "/bagged", "std_msgs/Int32")
+    core.wait_for("/clock", "subscribers", *(peer.node for peer in peers))
+    words = ["play", "--clock", "--wait-for-subscribers", "-r", "20", file]
+    play = core.start("our_play", [*ROSMINI, "rosrun", "rosbag", *words])
+    for peer in peers:
+        assert [message["data"] for message in peer.ask("hear", "/bagged", 3)] == [1, 2, 3]
+    assert play.ended() == 0
+    for peer in peers:
+        assert 1000 <= peer.ask("now") <= 1003
+    core.master("deleteParam", "/use_sim_time")
+
+
+BAG = """
+import sys, rosbag, rospy
+from std_msgs.msg import Int32
+with rosbag.Bag(sys.argv[1], "w") as bag:
+    for number in (1, 2, 3):
+        bag.write("/bagged", Int32(number), rospy.Time(1000 + number - 1))
+"""
