@@ -63,6 +63,7 @@ COMMANDS: dict[str, Entry] = {
     "rosmsg": Entry("rosmini.cli.rosmsg", "message types: which there are, and their definitions"),
     "rossrv": Entry("rosmini.cli.rossrv", "service types: which there are, and their definitions"),
     "roswtf": Entry("rosmini.cli.roswtf", "what is probably wrong with the graph, and what to do about it"),
+    "rosparam": Entry("rosmini.cli.rosparam", "parameters: get, set, load, dump, delete and list them"),
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
     "rospack": Entry("rosmini.cli.rospack", "packages: where they are, what they need, what they export"),
     "rosstack": Entry("rosmini.cli.rosstack", "stacks and metapackages: where they are, what is in them"),

@@ -73,7 +73,7 @@ class _Transport(xmlrpc.client.Transport):
 
     def getparser(self) -> tuple[Any, Any]:
         """Return a parser and what gathers its results."""
-        target = xmlrpc.client.Unmarshaller()
+        target = xmlrpc.client.Unmarshaller(use_builtin_types=True)
         return _Parser(target), target
 
     def parse_response(self, response: Any) -> Any:

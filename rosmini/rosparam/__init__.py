@@ -16,7 +16,7 @@ Scripts that rosmini runs have it as ``import rosparam``, with the functions of 
 """
 
 from .client import ParamClient
-from .documents import NS, Document, assignments, dumps, load_file, load_str, parse
+from .documents import NS, Document, assignments, dumps, load_file, load_str, parse, pretty, printed
 from .errors import RosParamException, RosParamIOException
 
 __all__ = [
@@ -30,4 +30,6 @@ __all__ = [
     "load_file",
     "load_str",
     "parse",
+    "pretty",
+    "printed",
 ]

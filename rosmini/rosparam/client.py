@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from rosmini.errors import ParameterNotSet, nearest
 from rosmini.names import canonicalize, join, resolve
@@ -11,8 +11,12 @@ from rosmini.names import canonicalize, join, resolve
 from .documents import Document, assignments, dumps, load_file, load_str, parse
 from .errors import RosParamException
 
-if TYPE_CHECKING:
-    from rosmini.graph import Graph
+
+class Peers(Protocol):
+    """The way to a Master; a :class:`~rosmini.Graph` is one."""
+
+    def ask_as(self, caller_id: str) -> Any:
+        """Return the Master as a caller of this name sees it."""
 
 
 class ParamClient:
@@ -24,7 +28,7 @@ class ParamClient:
 
     """
 
-    def __init__(self, graph: Graph, *, namespace: str = "/") -> None:
+    def __init__(self, graph: Peers, *, namespace: str = "/") -> None:
         self._namespace = canonicalize("/" + namespace)
         self._caller = join(self._namespace, "rosparam")
         self._master = graph.ask_as(self._caller)

@@ -185,3 +185,29 @@ def dumps(value: Any) -> str:
     """Return a value as the YAML text that rosparam prints and writes: keys sorted, one value in a line."""
     text: str = yaml.dump(value, Dumper=_Dumper, default_flow_style=False, sort_keys=True)
     return text.removesuffix("...\n")
+
+
+def printed(value: Any) -> str:
+    """Return what ``rosparam get`` prints of a value: YAML, and an empty line after what is no plain value."""
+    text = dumps(value)
+    is_plain = not isinstance(value, (dict, list)) and text[0] not in "'\"|"
+    return text if is_plain else f"{text}\n"
+
+
+def pretty(value: Any) -> str:
+    """Return what ``rosparam get -p`` prints of a value: for reading, not as YAML."""
+    if isinstance(value, str):
+        return f"{value}\n"
+    return "".join(f"{line}\n" for line in _pretty(value, "")) if isinstance(value, dict) else printed(value)
+
+
+def _pretty(tree: dict[str, Any], indent: str) -> Iterator[str]:
+    for key, value in sorted(tree.items()):
+        if isinstance(value, dict):
+            yield f"{indent}{key}:"
+            yield from _pretty(value, indent + "  ")
+        elif isinstance(value, str) and "\n" in value:
+            yield f"{indent}{key}: |"
+            yield from (f"{indent}  {line}" for line in value.split("\n"))
+        else:
+            yield f"{indent}{key}: {value if isinstance(value, str) else dumps(value).rstrip()}"

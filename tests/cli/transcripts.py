@@ -28,11 +28,16 @@ _VARYING = (
 )
 
 
-def read(name: str) -> dict[str, tuple[str, int]]:
-    """What each command line in a transcript printed, on both streams, and its exit status."""
+def in_order(name: str) -> list[tuple[str, tuple[str, int]]]:
+    """Each command line in a transcript, with what it printed, on both streams, and its exit status."""
     text = (FOLDER / f"{name}.txt").read_text(encoding="utf-8")
     blocks = re.findall(r"^\$ (.*)\n((?:.*\n)*?)\[exit (\d+)\]$", text, re.MULTILINE)
-    return {words: (said, int(status)) for words, said, status in blocks}
+    return [(words, (said, int(status))) for words, said, status in blocks]
+
+
+def read(name: str) -> dict[str, tuple[str, int]]:
+    """The same by command line."""
+    return dict(in_order(name))
 
 
 def masked(text: str) -> str:

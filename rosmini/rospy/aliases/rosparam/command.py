@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
-from rosmini.rosparam import RosParamException, dumps
+from rosmini.rosparam import RosParamException, pretty, printed
 from rosmini.rospy.aliases.rosgraph.masterapi import MasterException
 from rosmini.rospy.aliases.rosgraph.names import GLOBALNS, script_resolve_name
 
@@ -103,28 +103,7 @@ def _get(options: argparse.Namespace) -> None:
     if options.verbose:
         print(f"getting parameter [{name}]")
     value = api.get_param(name)
-    if options.pretty and isinstance(value, str):
-        print(value)
-    elif options.pretty and isinstance(value, dict):
-        _pretty(value, "")
-    else:
-        text = dumps(value)
-        is_plain = not isinstance(value, (dict, list)) and text[0] not in "'\"|"
-        sys.stdout.write(
-            text if is_plain else f"{text}\n"
-        )  # rosparam ends what is no plain value with an empty line
-
-
-def _pretty(tree: dict[str, Any], indent: str) -> None:
-    for key, value in sorted(tree.items()):
-        if isinstance(value, dict):
-            print(f"{indent}{key}:")
-            _pretty(value, indent + "  ")
-        elif isinstance(value, str) and "\n" in value:
-            print(f"{indent}{key}: |")
-            print("\n".join(f"{indent}  {line}" for line in value.split("\n")))
-        else:
-            sys.stdout.write(f"{indent}{key}: {value if isinstance(value, str) else dumps(value).rstrip()}\n")
+    sys.stdout.write(pretty(value) if options.pretty else printed(value))
 
 
 def _load(options: argparse.Namespace) -> None:
