@@ -127,11 +127,11 @@ class SlaveApi:
         """Return one row per connection: [id, destination, direction, transport, topic, connected, description]."""
         now = self._current()
         rows: list[list[Any]] = [
-            _row(number, sender.destination, "o", sender.protocol, topic, True, sender.destination)
+            [number, sender.destination, "o", sender.protocol, topic, True, _info(sender, sender.destination)]
             for topic, number, sender in now.out
         ]
         rows += [
-            _row(link.id, link.uri, "i", link.protocol, topic, link.is_open, link.peer)
+            [link.id, link.uri, "i", link.protocol, topic, link.is_open, _info(link, link.peer)]
             for topic, link in now.into
         ]
         return [1, "bus info", rows]
@@ -184,7 +184,5 @@ class SlaveApi:
         return [1, f"ready on {node.uri}", parameters]
 
 
-def _row(
-    number: int, destination: str, direction: str, protocol: str, topic: str, is_open: bool, peer: str
-) -> list[Any]:
-    return [number, destination, direction, protocol, topic, is_open, f"{protocol} connection to [{peer}]"]
+def _info(end: Sender | Connection, peer: str) -> str:
+    return end.info or f"{end.protocol} connection to [{peer}]"

@@ -134,7 +134,7 @@ class Connection(DirectReceiver):
             "message_definition": cls._full_text,
             "topic": subscription.topic,
             "type": cls._type,
-            "tcp_nodelay": "0",
+            "tcp_nodelay": "1" if subscription.tcp_nodelay else "0",
         }
 
     def _refused(self, error: TransportInitError) -> None:
@@ -281,6 +281,8 @@ class Subscription:
         self.handles: list[Subscriber] = []
         self.connections: dict[str, Connection] = {}
         self.queue_size: int | None = None
+        self.tcp_nodelay = False
+        """Whether publishers elsewhere are asked to send each message at once."""
         self.updates = 0
         """How many times the Master has told who publishes the topic."""
         self._first: Subscriber | None = None

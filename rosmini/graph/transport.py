@@ -60,6 +60,8 @@ class Sender(Protocol):
     wants_bytes: bool
     """True where it sends bytes: these are made once for all such connections of a publication."""
     destination: str
+    info: str
+    """What ``getBusInfo`` says of the connection; empty where there is nothing to add to the destination."""
     on_closed: Callable[[], None]
     """Set by the publisher; called in the hub's thread when the subscriber has closed the connection."""
     receiver: DirectReceiver | None
@@ -110,6 +112,8 @@ class DirectReceiver(ABC):
         """How many messages the callbacks got."""
         self.dropped = 0
         """How many messages were dropped because too many waited."""
+        self.info = ""
+        """What ``getBusInfo`` says of the connection, as :attr:`Sender.info`."""
         self.on_drained: Callable[[], None] | None = None
         """Called when the callbacks have taken all that waited: a sender that holds more back goes on then."""
 
@@ -253,6 +257,7 @@ class QueuedSender:
 
     protocol = "INPROC"
     wants_bytes = False
+    info = ""
     __slots__ = (
         "_closed",
         "_queue",

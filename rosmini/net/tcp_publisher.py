@@ -40,6 +40,7 @@ class TcpSender:
         self._bytes = 0
         self._is_due = False
         self.destination = destination
+        self.info = stream.describe()
         self.on_closed: Callable[[], None] = _nothing
         self.sent = 0
         """How many messages were sent, dropped ones included."""

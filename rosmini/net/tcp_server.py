@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 from collections import deque
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from rosmini.errors import DeserializationError, TransportInitError
@@ -16,7 +18,6 @@ from .tcp_publisher import TcpSender
 from .tcp_stream import Stream
 
 if TYPE_CHECKING:
-    import socket
     from collections.abc import Callable
 
     from rosmini.graph.scheduler import Scheduler
@@ -86,6 +87,9 @@ class TcpServer:
                 self._warned = True
                 self.warn(f"{self.endpoint.name} takes no connections for a moment: {error}")
             return
+        # Who publishes sends what it has at the end of each event, in one piece: to wait for more would only delay it.
+        with suppress(OSError):  # it has gone again
+            sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         _Arrival(self, sock)
 
 

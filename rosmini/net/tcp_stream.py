@@ -49,6 +49,15 @@ class Stream:
         sock.setblocking(False)
         self._call(self._register)
 
+    def describe(self, host: str | None = None) -> str:
+        """Return what ``getBusInfo`` says of the connection, in ROS's words; ``host`` as the peer calls itself."""
+        try:
+            here, there = self._socket.getsockname(), self._socket.getpeername()
+        except OSError:
+            return ""  # closed meanwhile
+        number = self._socket.fileno()
+        return f"TCPROS connection on port {here[1]} to [{host or there[0]}:{there[1]} on socket {number}]"
+
     def _register(self) -> None:
         if not self._is_shut:
             self._io.closers[self._shut] = None

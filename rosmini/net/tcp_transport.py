@@ -158,7 +158,9 @@ class TcpTransport:
         stream, reply, more = self._open(
             open_topic(network.io, host, port, header), f"the publisher of {header['topic']}"
         )
-        inlet = TopicInlet(network.scheduler, stream, cast("DirectReceiver", receiver), more)
+        end = cast("DirectReceiver", receiver)
+        end.info = stream.describe(host)
+        inlet = TopicInlet(network.scheduler, stream, end, more)
         return reply, inlet.close
 
     def connect_service(

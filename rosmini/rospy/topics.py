@@ -145,7 +145,7 @@ class Publisher(Topic):
         name: the topic.
         data_class: the type of its messages.
         subscriber_listener: hears of subscribers.
-        tcp_nodelay: accepted, as scripts give it; without effect in one process.
+        tcp_nodelay: accepted, as scripts give it: what is published is always sent at once.
         latch: give late subscribers the last message.
         headers: further fields of the connection header, which subscribers find in ``message._connection_header``.
         queue_size: how many messages wait for one subscriber before the oldest is dropped; 0: no bound.
@@ -258,7 +258,8 @@ class Subscriber(Topic):
         callback: what to call; numeric arrays are tuples, and ``uint8[]`` is bytes.
         callback_args: a second argument for the callback, unless it is None.
         queue_size: how many messages wait while a callback is busy before the oldest is dropped; None: no bound.
-        buff_size, tcp_nodelay: accepted, as scripts give them; without effect in one process.
+        buff_size: accepted, as scripts give it; what has come is read at once, however much.
+        tcp_nodelay: ask publishers in other processes to send each message at once; those of rosmini always do.
 
     Raises ``ValueError`` for an illegal name or for what is no message class, ``ROSException`` for a queue size that is
     none.
@@ -273,10 +274,11 @@ class Subscriber(Topic):
         callback_args: Any = None,
         queue_size: int | None = None,
         buff_size: int = DEFAULT_BUFF_SIZE,
-        tcp_nodelay: bool = False,  # noqa: ARG002 - rospy's signature
+        tcp_nodelay: bool = False,
     ) -> None:
         super().__init__(name, data_class)
         _check_sizes(queue_size, buff_size)
+        self._tcp_nodelay = tcp_nodelay
         self.callback = callback
         self.callback_args = callback_args
         self._queue_size = queue_size
@@ -291,6 +293,7 @@ class Subscriber(Topic):
             queue_size=self._queue_size if self._queue_size is None or self._queue_size > 0 else None,
             numpy=False,
             receipt=receipt_of(self.data_class),
+            tcp_nodelay=self._tcp_nodelay,
         )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import socket
 import struct
 import threading
@@ -12,6 +13,7 @@ import pytest
 from rosmini.errors import TypeMismatch
 from rosmini.graph import Graph
 from rosmini.graph.headers import decode_header, encode_header
+from rosmini.graph.publisher import Publication
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
 from rosmini.msgs.std_msgs.msg import Int32, String
 from rosmini.net.network import network_of, tcp
@@ -111,3 +113,64 @@ def test_who_sends_no_proper_header_is_refused_and_the_graph_goes_on(
     assert says in (decode_header(answer)["error"] if answer else "")
     publisher.publish("still here")
     until(graph, lambda: heard == ["still here"])
+
+
+def test_the_bus_tells_ports_and_sockets_as_rospy_does(graph: Graph) -> None:
+    publisher, _ = talk(graph)
+    (out,) = [row for row in graph.nodes["/talker"].slave.getBusInfo("/test")[2] if row[4] == "/t"]
+    (into,) = [row for row in graph.nodes["/listener"].slave.getBusInfo("/test")[2] if row[4] == "/t"]
+    pattern = r"TCPROS connection on port (\d+) to \[(127\.0\.0\.1|localhost):(\d+) on socket \d+\]"
+    outward, inward = re.fullmatch(pattern, out[6]), re.fullmatch(pattern, into[6])
+    assert outward is not None
+    assert inward is not None
+    assert int(outward[1]) == int(inward[3]) == port_of(graph, "/talker")
+    assert (outward[3], outward[2], inward[2]) == (inward[1], "127.0.0.1", "localhost")
+    assert publisher.num_connections() == 1
+
+
+def test_what_is_published_is_sent_at_once_and_a_subscriber_asks_others_for_that(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[tuple[str, bool]] = []
+    accept = Publication.accept
+
+    def listen(self: Publication, header: dict[str, str], sender: Any) -> dict[str, str]:
+        if self.topic == "/t":
+            sock = sender._stream._socket
+            is_on = sock.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY) != 0
+            asked.append((header["tcp_nodelay"], is_on))
+        return accept(self, header, sender)
+
+    monkeypatch.setattr(Publication, "accept", listen)
+    graph.node("talker").publisher("t", String)
+    for name, tcp_nodelay in (("calm", False), ("hasty", True)):
+        subscriber = graph.node(name).subscriber("t", String, tcp_nodelay=tcp_nodelay)
+        until(graph, subscriber.num_connections)
+    assert asked == [("0", True), ("1", True)]
+
+
+def test_requests_that_come_at_once_are_answered_one_after_the_other(graph: Graph) -> None:
+    graph.node("talker").service("add", AddTwoInts, lambda request: request.a + request.b)
+    until(graph, lambda: network_of(graph).transport.service_uri(graph.nodes["/talker"].uri))
+    header = encode_header(
+        {"service": "/add", "md5sum": AddTwoInts._md5sum, "callerid": "/raw", "persistent": "1"}
+    )
+    requests = b"".join(struct.pack("<Iqq", 16, number, 1) for number in range(200))
+    got: list[bytes] = []
+
+    def peer() -> None:
+        with socket.create_connection(("127.0.0.1", port_of(graph, "/talker")), timeout=PATIENCE) as raw:
+            raw.sendall(header + requests[:50])
+            file = raw.makefile("rb")
+            (length,) = struct.unpack("<I", file.read(4))
+            file.read(length)
+            raw.sendall(requests[50:])
+            got.append(file.read(200 * 13))
+
+    thread = threading.Thread(target=peer, daemon=True)
+    thread.start()
+    until(graph, lambda: got)
+    thread.join(PATIENCE)
+    assert [struct.unpack("<BIq", got[0][at : at + 13]) for at in range(0, 2600, 13)] == [
+        (1, 8, number + 1) for number in range(200)
+    ]

@@ -49,7 +49,11 @@ def same(texts: list[str]) -> str:
     found = []
     for text, one, other in ((texts[0], "ours", "theirs"), (texts[1], "theirs", "ours")):
         plain = re.sub(rf"\b{one}\b", "ONE", re.sub(rf"\b{other}\b", "OTHER", text))
-        plain = re.sub(r" \(\d+ - 127\.0\.0\.1:\d+\) \[\d+\]", "", plain)
+        ports = r" \(\d+ - 127\.0\.0\.1:\d+\) \[\d+\]"
+        plain = re.sub(rf"(outbound){ports}", r"\1 (PORT - HOST:PORT) [FD]", plain)
+        plain = re.sub(
+            rf"(inbound){ports}", r"\1", plain
+        )  # as roscpp; rospy does not know its own socket there
         plain = re.sub(r"(127\.0\.0\.1|localhost):\d+", "HOST:PORT", plain)
         plain = re.sub(r"Pid: \d+", "Pid: N", plain)
         found.append("\n".join(sorted(plain.splitlines())))
