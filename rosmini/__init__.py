@@ -56,5 +56,12 @@ def __getattr__(name: str) -> Any:
     return getattr(importlib.import_module(_HOMES[name]), name)
 
 
+def load_ipython_extension(shell: Any) -> None:
+    """Give a notebook ROS's commands as line magics: what ``%load_ext rosmini`` does."""
+    import importlib
+
+    importlib.import_module("rosmini.cli.magics").register(shell)
+
+
 def __dir__() -> list[str]:
     return [*__all__, "__version__"]

@@ -39,4 +39,8 @@ def duration_ns(given: Values, call: Call) -> int | None:
     seconds: float | None = given.duration
     if seconds is None and not call.in_terminal:
         seconds = DURATION_S
+        if call.tells_time and not getattr(given, "count", None):
+            call.say(
+                f"({DURATION_S:g} s of graph time; --duration says how many, in a terminal it is until Ctrl-C)"
+            )
     return None if seconds is None else round(max(seconds, 0.0) * 1e9)

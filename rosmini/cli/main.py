@@ -38,6 +38,8 @@ class Entry(NamedTuple):
     summary: str
     folder: str | None = None
     """The folder of a checkout from which the module is imported; None: it is in the installed package."""
+    is_magic: bool = False
+    """Whether notebooks have it as a line magic, too: its module has a ``TOOL``."""
 
     def load(self) -> Command:
         """Import the subcommand. Raises `NoCheckout` if it needs a checkout and there is none."""
@@ -51,22 +53,39 @@ COMMANDS: dict[str, Entry] = {
     "rosrun": Entry("rosmini.cli.rosrun", "run a node in a process of its own, on the graph of a Master"),
     "run": Entry("rosmini.cli.run", "run scripts written for rospy as nodes of one graph"),
     "rosnode": Entry(
-        "rosmini.cli.rosnode", "nodes: which there are, what they do, whether they answer; end them"
+        "rosmini.cli.rosnode",
+        "nodes: which there are, what they do, whether they answer; end them",
+        is_magic=True,
     ),
     "rostopic": Entry(
         "rosmini.cli.rostopic",
         "topics: which there are, what is published on them, how often; publish on one",
+        is_magic=True,
     ),
     "rosservice": Entry(
-        "rosmini.cli.rosservice", "services: which there are, of which types, who offers them; call one"
+        "rosmini.cli.rosservice",
+        "services: which there are, of which types, who offers them; call one",
+        is_magic=True,
     ),
-    "rosmsg": Entry("rosmini.cli.rosmsg", "message types: which there are, and their definitions"),
-    "rossrv": Entry("rosmini.cli.rossrv", "service types: which there are, and their definitions"),
-    "roswtf": Entry("rosmini.cli.roswtf", "what is probably wrong with the graph, and what to do about it"),
-    "rosparam": Entry("rosmini.cli.rosparam", "parameters: get, set, load, dump, delete and list them"),
-    "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags"),
-    "rospack": Entry("rosmini.cli.rospack", "packages: where they are, what they need, what they export"),
-    "rosstack": Entry("rosmini.cli.rosstack", "stacks and metapackages: where they are, what is in them"),
+    "rosmsg": Entry(
+        "rosmini.cli.rosmsg", "message types: which there are, and their definitions", is_magic=True
+    ),
+    "rossrv": Entry(
+        "rosmini.cli.rossrv", "service types: which there are, and their definitions", is_magic=True
+    ),
+    "roswtf": Entry(
+        "rosmini.cli.roswtf", "what is probably wrong with the graph, and what to do about it", is_magic=True
+    ),
+    "rosparam": Entry(
+        "rosmini.cli.rosparam", "parameters: get, set, load, dump, delete and list them", is_magic=True
+    ),
+    "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags", is_magic=True),
+    "rospack": Entry(
+        "rosmini.cli.rospack", "packages: where they are, what they need, what they export", is_magic=True
+    ),
+    "rosstack": Entry(
+        "rosmini.cli.rosstack", "stacks and metapackages: where they are, what is in them", is_magic=True
+    ),
     "roscd": Entry("rosmini.cli.roscd", "print the folder of a package, for cd"),
     "rosls": Entry("rosmini.cli.rosls", "list what is in the folder of a package"),
     "rosversion": Entry("rosmini.cli.rosversion", "the version of a package"),

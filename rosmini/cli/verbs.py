@@ -91,6 +91,8 @@ class Call:
     say: Callable[[str], object] = print
     warn: Callable[[str], object] = _to_stderr
     read_line: Callable[[], str] | None = None
+    tells_time: bool = False
+    """Whether a verb says for how long it goes on by itself."""
 
     @property
     def graph(self) -> Graph:
@@ -234,7 +236,13 @@ class Tool:
 
     # -- in Python -----------------------------------------------------------------------------------------------
 
-    def run(self, *words: object, graph: Graph | None = None, say: Callable[[str], object] = print) -> Result:
+    def run(
+        self,
+        *words: object,
+        graph: Graph | None = None,
+        say: Callable[[str], object] = print,
+        tells_time: bool = False,
+    ) -> Result:
         """Do what the words say, on ``graph`` (the default graph if not given), and return the result.
 
         Raises ``UsageError`` for words that make no sense, and what the verb raises.
@@ -250,7 +258,7 @@ class Tool:
             return verb.act(given, Call(cast("Peers", None), say))
         from rosmini.graph import running_graph
 
-        return verb.act(given, Call(running_graph() if graph is None else graph, say))
+        return verb.act(given, Call(running_graph() if graph is None else graph, say, tells_time=tells_time))
 
     def on(self, graph: Graph | None = None) -> Prompt:
         """Return what does verbs on ``graph`` in a notebook."""

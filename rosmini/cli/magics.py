@@ -1,0 +1,110 @@
+"""ROS's commands as line magics: ``%rostopic echo -n 3 /scan`` in a cell is ``rosmini rostopic echo -n 3 /scan``.
+
+``%load_ext rosmini`` registers those of :data:`rosmini.cli.main.COMMANDS` that are magics. They act on the default
+graph, print what the command prints, and return its result: ``found = %rosnode list`` and then ``found.names``. Of a
+line only ``$name`` is replaced, by the value of that variable; braces are YAML's. There is no shell behind it.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import re
+import shlex
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import UsageError, nearest
+
+from .main import COMMANDS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from .verbs import Result, Tool
+
+OPERATORS = "|<>;&"
+"""What a shell would take as its own."""
+
+_VARIABLE = re.compile(r"\$(?:(\$)|([A-Za-z_]\w*))")
+
+
+def register(shell: Any) -> None:
+    """Register the commands as line magics of an IPython shell, with completion of their words."""
+    from IPython.core.magic import no_var_expand
+
+    for name, entry in COMMANDS.items():
+        if entry.is_magic:
+            magic = partial(run, shell, name)
+            shell.register_magic_function(
+                no_var_expand(_documented(magic, name, entry.summary)), "line", name
+            )
+
+
+def _documented(magic: Callable[[str], Result], name: str, summary: str) -> Callable[[str], Result]:
+    """Return the magic as a function with a name and a help text."""
+
+    def act(line: str) -> Result:
+        return magic(line)
+
+    act.__name__, act.__doc__ = name, f"{summary}. `%{name} -h` lists the verbs."
+    return act
+
+
+def tool(name: str) -> Tool:
+    """Return the tool that a magic runs."""
+    found: Tool = vars(importlib.import_module(COMMANDS[name].module))["TOOL"]
+    return found
+
+
+def run(shell: Any, name: str, line: str) -> Result:
+    """Do what a line says, print it, and return the result. Raises as :meth:`rosmini.cli.verbs.Tool.run` does."""
+    result = tool(name).run(*words(line, name, shell.user_ns), tells_time=True)
+    for text in filter(None, (str(result), *result.complaints)):
+        print(text)
+    _show_no_more(result, shell)
+    return result
+
+
+def words(line: str, name: str, variables: Mapping[str, Any]) -> list[str]:
+    """Return the words of a line as a shell splits it, with ``$name`` replaced; ``$$`` is a dollar sign.
+
+    Raises ``UsageError`` for what only a shell can do, for a quotation without end, and for an unknown variable.
+    """
+    lexer = shlex.shlex(line, posix=True, punctuation_chars=OPERATORS)
+    lexer.whitespace_split, lexer.commenters = True, ""
+    if os.name == "nt":
+        lexer.escape = ""  # it separates folders there
+    try:
+        split = list(lexer)
+    except ValueError as error:
+        raise UsageError(f"%{name}: {error}: a quotation mark in the line has no partner") from error
+    for word in split:
+        if word and not word.strip(OPERATORS):
+            raise UsageError(
+                f"%{name} runs no shell, and `{word}` is a shell's. Quote it if it belongs to an argument; "
+                f"the result itself is what `result = %{name} ...` returns"
+            )
+    return [_VARIABLE.sub(partial(_value, variables, name), word) for word in split]
+
+
+def _value(variables: Mapping[str, Any], name: str, match: re.Match[str]) -> str:
+    if match[1]:
+        return "$"
+    if match[2] not in variables:
+        own = [known for known in variables if not known.startswith("_")]
+        hint = nearest(match[2], own) or "write $$ for a dollar sign"
+        raise UsageError(f"%{name}: there is no variable {match[2]}; {hint}")
+    return str(variables[match[2]])
+
+
+def _show_no_more(result: Result, shell: Any) -> None:
+    """Keep IPython from showing a result again that this cell has printed; later cells show it as anything else."""
+    cell = shell.execution_count
+
+    def display() -> None:
+        if shell.execution_count != cell:
+            del vars(result)["_ipython_display_"]
+            print(result)
+
+    vars(result)["_ipython_display_"] = display
