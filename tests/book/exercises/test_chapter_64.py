@@ -1,0 +1,58 @@
+"""Chapter 64: its figures are numbered, it leaves nothing open, and its table of refusals is what is answered."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import pytest
+
+from book.tools import notebooks
+from rosmini.errors import TransportInitError
+from rosmini.graph import Graph
+from rosmini.msgs.sensor_msgs.msg import LaserScan, Range
+
+from .conftest import NOTEBOOKS, assert_figures_are_numbered, prose_of
+
+CHAPTER = "64_the_wire"
+
+
+def test_every_figure_is_numbered_in_order() -> None:
+    assert_figures_are_numbered(CHAPTER, ("sim.show(", "byte_map(", 'drawn("'))
+
+
+def test_no_port_of_a_run_is_stored() -> None:
+    outputs = [
+        text
+        for cell in notebooks.read(NOTEBOOKS / f"{CHAPTER}.ipynb").cells
+        for output in cell.get("outputs", [])
+        for text in notebooks.texts(output)
+    ]
+    assert not re.search(r"localhost(:|', )\d", "\n".join(outputs))
+    assert "localhost:TALKER" in "\n".join(outputs)
+
+
+class Nobody:
+    """A subscriber's end that is refused before anything is sent."""
+
+    protocol = "TCPROS"
+    destination = "/c"
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    with Graph() as made:
+        made.node("simulator").publisher("scan", LaserScan)
+        yield made
+
+
+def test_the_refusals_of_the_exercise_are_what_is_answered(graph: Graph) -> None:
+    rows = re.findall(r"^\| (\d) \| (.*?) \| `error=(.*?)` \|$", prose_of(CHAPTER), re.MULTILINE)
+    assert [number for number, _, _ in rows] == ["1", "2", "3"]
+    for _, fields, error in rows:
+        header = dict(re.findall(r"`(\w+)=(.*?)`", fields))
+        with pytest.raises(TransportInitError) as caught:
+            graph.nodes["/simulator"].accept_subscriber(header, Nobody())  # type: ignore[arg-type]
+        for piece in error.removesuffix(".").split("..."):
+            assert piece in str(caught.value)
+    assert Range._md5sum in rows[2][1]
