@@ -25,7 +25,7 @@ from rosmini.scripts import rosrun
 HEADERS: tuple[dict[str, str], ...] = (
     {"callerid": "/talker", "latching": "0", "topic": "/chatter", "type": "std_msgs/String"},
     {"callerid": "/a", "message_definition": "int8 A=1\nint8 x\n\n" + "=" * 80 + "\nMSG: b/C\n"},
-    {"topic": "/caf\u00e9", "empty": ""},
+    {"topic": "/t\u00fcr", "empty": ""},
     {},
 )
 
