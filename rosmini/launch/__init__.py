@@ -8,11 +8,14 @@
 
 from __future__ import annotations
 
+from .by_name import plan_of, roslaunch
 from .errors import LaunchError, Missing, Place
 from .plan import LaunchFile, Machine, NodePlan, Plan, Setting, TestPlan
 from .reader import find_file, read
+from .running import Launch
 
 __all__ = [
+    "Launch",
     "LaunchError",
     "LaunchFile",
     "Machine",
@@ -23,5 +26,7 @@ __all__ = [
     "Setting",
     "TestPlan",
     "find_file",
+    "plan_of",
     "read",
+    "roslaunch",
 ]

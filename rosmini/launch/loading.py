@@ -40,6 +40,7 @@ class Loading:
         self._settings = 0
         self._told: set[tuple[str, str]] = set()
         self._substitution = Substitution(packages, environ, anonymous, self.lacks)
+        self.is_incomplete = self._substitution.is_incomplete
 
     # -- attributes ----------------------------------------------------------------------------------------------
 
@@ -78,8 +79,8 @@ class Loading:
         if len(given) == 2:
             raise element.error("cannot set both 'if' and 'unless' on the same tag")
         text = self.required(element, scope, given[0])
-        if text == "" and self.plan.missing:
-            return False  # the argument is missing, which was told
+        if self.is_incomplete(text):
+            return False  # what is missing was told
         truth = TRUTHS.get(text.strip().lower())
         if truth is None:
             raise element.error(f'<{element.tag}>: {given[0]}="{text}" is neither true nor false, 1 nor 0')
@@ -100,7 +101,7 @@ class Loading:
     def space(self, element: Element, scope: Scope) -> str | None:
         """Return the namespace that an element names. Raises ``LaunchError``."""
         space = self.optional(element, scope, "ns")
-        if space == "" and not self.plan.missing:
+        if space == "":
             raise element.error(f"<{element.tag}> tag has an empty 'ns' attribute")
         return space
 
@@ -126,10 +127,8 @@ class Loading:
             self.plan.missing.append(missing)
 
     def lacks_file(self, element: Element, kind: str, path: str, reason: str) -> None:
-        """Note a file that cannot be read, unless its package is missing already."""
-        from .substitution import NOWHERE
-
-        if path.strip() and not path.startswith(NOWHERE):
+        """Note a file that cannot be read, unless something in its name is missing already."""
+        if not self.is_incomplete(path):
             folder, name = os.path.split(path)
             hint = nearest(name, _names_in(folder))
             message = f"the {kind} [{path}] cannot be read: {reason}{f'; {hint}' if hint else ''}"

@@ -47,7 +47,7 @@ def read_node(loading: Loading, element: Element, scope: Scope) -> NodePlan | Te
     for_test = _test_options(loading, element, scope) if is_test else {}
     name = loading.optional(element, scope, "name") if is_test else loading.required(element, scope, "name")
     name = name or for_test.get("test_name", "")
-    if not name and not loading.plan.missing:
+    if not name:
         raise element.error(f"<{element.tag}>: its name is empty")
     if "/" in name:
         raise element.error(
@@ -62,7 +62,7 @@ def read_node(loading: Loading, element: Element, scope: Scope) -> NodePlan | Te
     _children(loading, element, scope, inside, name)
     package, kind = (loading.required(element, scope, each) for each in ("pkg", "type"))
     for what, said in (("pkg", package), ("type", kind)):
-        if not said.strip() and not loading.plan.missing:
+        if not said.strip():
             raise element.error(f"<{element.tag}>: '{what}' must be non-empty")
     found: dict[str, Any] = {
         "package": package,

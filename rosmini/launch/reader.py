@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from rosmini.errors import nearest
@@ -17,7 +17,6 @@ from .nodes import read_machine, read_node
 from .plan import Argument, LaunchFile, NodePlan, Plan, TestPlan
 from .scope import Scope
 from .settings import read_env, read_param, read_remap, read_rosparam
-from .substitution import NOWHERE
 from .values import flag
 
 if TYPE_CHECKING:
@@ -68,11 +67,16 @@ def read(
         anonymous or _counted(),
     )
     given = dict(args or {})
-    for file in files:
-        reader.read_root(os.fspath(file), None, namespace, given)
-    if text is not None:
-        reader.read_root(TEXT, text, namespace, given)
-    plan = reader.finish(given)
+    try:
+        for file in files:
+            reader.read_root(os.fspath(file), None, namespace, given)
+        if text is not None:
+            reader.read_root(TEXT, text, namespace, given)
+        plan = reader.finish(given)
+    except LaunchError as error:
+        if reader.is_incomplete(str(error)):  # it comes from what is missing
+            raise not_there(reader.plan.missing) from error
+        raise
     if plan.missing and not lenient:
         raise not_there(plan.missing)
     return plan
@@ -171,7 +175,7 @@ class Reader(Loading):
 
     def arg(self, element: Element, scope: Scope) -> None:
         """Declare an argument."""
-        name, value, default, doc = self._arg(element, scope)
+        name, value, default, doc = self._arg(element, scope, scope.args)
         place = Place(element.path, element.line)
         if len(self._open) == 1 and value is None and name not in self.plan.arguments:
             self.plan.arguments[name] = Argument(name, default, doc, place)
@@ -187,12 +191,18 @@ class Reader(Loading):
         elif default is not None:
             scope.args.setdefault(name, default)
 
-    def _arg(self, element: Element, scope: Scope) -> tuple[str, str | None, str | None, str]:
+    def _arg(
+        self, element: Element, scope: Scope, known: Container[str]
+    ) -> tuple[str, str | None, str | None, str]:
         self.check_attributes(element, ("name", "value", "default", "doc"))
         name = self.required(element, scope, "name")
-        value, default, doc = (self.optional(element, scope, each) for each in ("value", "default", "doc"))
-        if value is not None and default is not None:
+        if "value" in element.attributes and "default" in element.attributes:
             raise element.error("<arg> tag must have one and only one of value/default")
+        value, doc = (self.optional(element, scope, each) for each in ("value", "doc"))
+        # ROS asks for what the default needs also where a value is given
+        default = (
+            element.attributes.get("default") if name in known else self.optional(element, scope, "default")
+        )
         return name, value, default, doc or ""
 
     def include(self, element: Element, scope: Scope) -> None:
@@ -207,8 +217,7 @@ class Reader(Loading):
         inside.private = scope.private or {}
         self.clear(element, scope, inside.namespace, named=bool(space))
         if not is_file(path):
-            if not path.startswith(NOWHERE):
-                self.lacks_file(element, "launch file", path, "there is no such file")
+            self.lacks_file(element, "launch file", path, "there is no such file")
             return
         file = LaunchFile(path, inside.namespace, Place(element.path, element.line), dict(given))
         self._refuse_endless(element, file)
@@ -236,7 +245,7 @@ class Reader(Loading):
             elif child.tag == "env":
                 read_env(self, child, outside)
             else:
-                name, value, default, _ = self._arg(child, outside)
+                name, value, default, _ = self._arg(child, outside, given)
                 if name in seen and not takes_all:
                     raise child.error(f"arg '{name}' has already been declared")
                 seen.add(name)

@@ -14,7 +14,6 @@ from .commands import output_of
 from .errors import LaunchError, Missing, Place
 from .loading import source
 from .plan import Setting, Verb
-from .substitution import NOWHERE
 from .values import convert, flag
 
 if TYPE_CHECKING:
@@ -76,7 +75,7 @@ def _value(loading: Loading, element: Element, how: str, text: str, kind: str) -
             return convert(read(text, LARGEST).decode("utf-8"), kind), text
         if how == "binfile":
             return read(text, LARGEST), text
-        if NOWHERE in text:
+        if loading.is_incomplete(text):
             return _NOTHING, ""
         return convert(output_of(text, loading.packages), kind), text
     except OSError as error:
@@ -181,7 +180,7 @@ def read_remap(loading: Loading, element: Element, scope: Scope) -> None:
     loading.check_attributes(element, ("from", "to"))
     ends = [canonicalize(loading.required(element, scope, name)) for name in ("from", "to")]
     for name, end in zip(("from", "to"), ends, strict=True):
-        if not end and not loading.plan.missing:
+        if not end:
             raise element.error("remap from/to attributes cannot be empty")
         if not is_legal_name(end):
             raise element.error(f"remap {name} [{end}] is not a valid ROS name")

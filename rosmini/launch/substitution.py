@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
 COMMANDS = ("find", "env", "optenv", "dirname", "anon", "arg")
 
-NOWHERE = "/missing-package"
-"""Where the files of a package are that is missing: reading goes on, to find all that is."""
+STAND_IN = "missing_"
+"""How the words begin that stand for what is missing: reading goes on with them, to find all that is."""
 
 LONGEST = 1_000_000
 """How many characters a text may have, once everything is replaced."""
@@ -54,6 +54,11 @@ class Substitution:
         missing: Callable[[Missing], None],
     ) -> None:
         self.packages, self.environ, self.anonymous, self.missing = packages, environ, anonymous, missing
+        self._stand_ins: set[str] = set()
+
+    def is_incomplete(self, text: str) -> bool:
+        """Return whether something that is missing should stand in a text."""
+        return any(word in text for word in self._stand_ins)
 
     def resolve(self, text: str, scope: Scope, element: Element) -> str:
         """Return a text with everything replaced. Raises ``LaunchError`` for what makes no sense."""
@@ -115,7 +120,8 @@ class Substitution:
                 f"environment variable {name!r} is not set: export {name}=VALUE before you launch, or write "
                 f"$(optenv {name} DEFAULT){f'; {hint}' if hint else ''}",
             )
-        return self.environ.get(name, "")
+            return self._stand_in(name)
+        return self.environ[name]
 
     def _arg(self, name: str, scope: Scope, element: Element) -> str:
         if name in scope.args:
@@ -128,8 +134,7 @@ class Substitution:
                 f'$(arg {name}): no <arg name="{name}"> stands before this line{f"; {hint}" if hint else ""}'
             )
         self._lacks(element, "arg", name, said)
-        scope.args[name] = ""  # told once
-        return ""
+        return self._stand_in(name)
 
     def _anon(self, name: str, scope: Scope, element: Element) -> str:  # noqa: ARG002 - alike
         if name not in scope.anonymous:
@@ -146,13 +151,18 @@ class Substitution:
             return str(self.packages.path(package))
         except UnknownPackage as error:
             self._lacks(element, "package", package, str(error))
-            return f"{NOWHERE}/{package}"
+            return f"/{self._stand_in(package)}"
 
     def _path(self, package: str, rest: str, element: Element) -> str:
         """Return where a package is, and the path that follows, if one does."""
         path = rest.replace("\\", "/").removeprefix("/").replace("/", os.sep)
         folder = self._find(package, element)
         return str(os.path.join(folder, path)) if path else folder  # noqa: PTH118 - a text that need be no path
+
+    def _stand_in(self, name: str) -> str:
+        word = STAND_IN + re.sub(r"\W", "_", name)
+        self._stand_ins.add(word)
+        return word
 
     def _lacks(self, element: Element, kind: str, name: str, message: str) -> None:
         self.missing(Missing(kind, name, Place(element.path, element.line), message))

@@ -83,6 +83,7 @@ class ScriptContext:
         folders: Sequence[str] = (),
         modules: Mapping[str, ModuleType] | None = None,
         name: str | None = None,
+        environ: Sequence[tuple[str, str]] = (),
     ) -> None:
         self.graph = graph
         self.scheduler = graph.scheduler
@@ -102,6 +103,7 @@ class ScriptContext:
         self._sink = sink
         self._setup_modules(folders, modules or {})
         self._setup_swapped(feed)
+        self._environ.update(environ)
         self._setup_threads()
 
     def _setup_modules(self, folders: Sequence[str], modules: Mapping[str, ModuleType]) -> None:

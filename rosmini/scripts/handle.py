@@ -100,6 +100,10 @@ class LaneHandle(ABC):
         self.scheduler = graph.scheduler
         self.args = args
         self.returncode: int | None = None
+        self.on_end: Callable[[int], object] | None = None
+        """Called with the return code whenever it has ended; it may start it again."""
+        self.on_start: Callable[[], object] | None = None
+        """Called whenever it has been started."""
         self._make_console = console
         self._owns_console = owns_console
         self._console: Console | None = None
@@ -155,6 +159,8 @@ class LaneHandle(ABC):
         except BaseException:
             self._running = False
             raise
+        if self.on_start is not None:
+            self.on_start()
 
     def respawn(self, delay: float = 0.0) -> None:
         """Restart it with the same arguments in ``delay`` seconds of graph time; `terminate` and `kill` cancel that.
@@ -280,3 +286,5 @@ class LaneHandle(ABC):
                 self._console.flush()
         for waiter in list(self._waiters):
             waiter.wake(returncode)
+        if self.on_end is not None:
+            self.on_end(returncode)

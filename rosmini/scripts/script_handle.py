@@ -36,11 +36,15 @@ _IGNORED_BY_DEFAULT = ("SIGCHLD", "SIGCONT", "SIGURG", "SIGWINCH")
 
 @dataclass(frozen=True)
 class ScriptSpec:
-    """A script to run: ``path`` with ``args``, or the text ``source`` under the name ``path``."""
+    """A script to run: ``path`` with ``args``, or the text ``source`` under the name ``path``.
+
+    ``environ`` are changes to its environment.
+    """
 
     path: str
     args: tuple[str, ...] = ()
     source: str | None = None
+    environ: tuple[tuple[str, str], ...] = ()
 
     def read(self) -> Source:
         """Read and compile it. Raises ``ScriptError`` if it is not there or is not Python."""
@@ -116,6 +120,7 @@ class ScriptHandle(LaneHandle):
             seed=self._seed,
             folders=self._folders,
             modules=self._modules,
+            environ=self.spec.environ,
         )
         context.on_threads_ended = lambda: self._close(context)
         lane = self.scheduler.spawn(context.name, context=context, on_error=context.lane_failed)

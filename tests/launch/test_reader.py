@@ -113,6 +113,31 @@ def test_one_missing_thing_is_named_at_its_place() -> None:
     assert str(error) == "<text>:3: requires the 'model' arg to be set: give it as model:=VALUE"
 
 
+def test_a_default_needs_nothing_where_a_value_is_given() -> None:
+    plan = plan_of(
+        '<arg name="a" default="$(env NOBODY_HAS_THIS)"/><param name="b" value="$(arg a)"/>', args={"a": "5"}
+    )
+    assert plan.parameters == {"/b": 5}
+
+
+def test_an_include_passes_a_default_on(tmp_path: Path) -> None:
+    inner = tmp_path / "inner.launch"
+    inner.write_text('<launch><arg name="a"/><param name="b" value="$(arg a)"/></launch>', encoding="utf-8")
+    include = f'<include file="{inner}"><arg name="a" default="$(arg a)0"/></include>'
+    assert plan_of(f'<arg name="a" value="4"/>{include}').parameters == {"/b": 40}
+
+
+def test_what_follows_from_what_is_missing_is_not_told_as_well() -> None:
+    error = refused(
+        """<arg name="a" default="$(env NOBODY_HAS_THIS)"/>
+        <include file="/robots/$(arg a).launch"/>
+        <group if="$(arg a)"><node pkg="p" type="t" name="n"/></group>
+        <node pkg="p" type="t" name="n" respawn="$(arg a)"/>"""
+    )
+    assert [each.name for each in error.missing] == ["NOBODY_HAS_THIS"]
+    assert "environment variable 'NOBODY_HAS_THIS' is not set" in str(error)
+
+
 # ---- what is refused ----
 
 

@@ -1,0 +1,290 @@
+"""`rosmini roslaunch`: launch files (http://wiki.ros.org/roslaunch/Commandline%20Tools)."""
+
+from __future__ import annotations
+
+import os
+import socket
+import sys
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import UsageError
+from rosmini.introspection.options import Parser
+from rosmini.names import is_remapping
+from rosmini.packages import PackageIndex
+
+from .collector import seldom
+from .run import nodes_in, tell
+from .signals import end_as_ctrl_c
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable, Sequence
+    from optparse import Values
+
+    from rosmini.launch import Plan
+
+USAGE = (
+    "%prog [options] [package] <filename> [arg_name:=value...]\n"
+    "       %prog [options] <filename> [<filename>...] [arg_name:=value...]\n"
+    "       %prog [package] <filename> [arg_name:=value...] [+ SCRIPT [args]] --one-process [--sim-time] "
+    "[--duration S]\n\n"
+    "If <filename> is a single dash ('-'), launch XML is read from standard input."
+)
+
+EXAMPLE = """\
+  rosmini roslaunch turtlebot3_gazebo turtlebot3_world.launch model:=burger
+  rosmini roslaunch --nodes turtlebot3_gazebo turtlebot3_world.launch
+  rosmini roslaunch turtlebot3_gazebo turtlebot3_world.launch + drive.py --one-process --duration 30"""
+
+DESCRIPTION = (
+    "Set the parameters and start the nodes of launch files: each in a process of its own, or with --one-process all "
+    "of them in one, in simulated time if you like. Ctrl-C ends them."
+)
+
+ASKING = ("node_args", "node_list", "find_node", "ros_args", "dump_params", "file_list", "check", "tree")
+"""The options that ask for something and launch nothing."""
+
+
+def parser() -> Parser:
+    """Return the options: roslaunch's, and those of one process."""
+    made = Parser("roslaunch", USAGE, DESCRIPTION, example=EXAMPLE)
+    made.flag("--files", dest="file_list", help="print the files that are read")
+    made.add_option("--args", dest="node_args", metavar="NODE_NAME", help="print the command line of a node")
+    made.flag("--nodes", dest="node_list", help="print the names of all nodes")
+    made.add_option(
+        "--find-node", dest="find_node", metavar="NODE_NAME", help="print the file that has a node"
+    )
+    made.flag("--dump-params", dest="dump_params", help="print all parameters as YAML")
+    made.flag("--ros-args", dest="ros_args", help="print the arguments of the launch file")
+    made.flag("--check", help="read everything, and name all that is missing (not in ROS)")
+    made.flag("--tree", help="print the plan: files, nodes, remappings, parameters (not in ROS)")
+    made.flag("--screen", dest="force_screen", help="output of all nodes to the screen")
+    made.flag("--log", dest="force_log", help="output of all nodes to log files")
+    made.flag("--required", dest="force_required", help="make all nodes required")
+    made.flag("--local", dest="local_only", help="do not mind nodes for other machines")
+    made.flag("--wait", dest="wait_for_master", help="wait for a Master; do not start one")
+    made.flag("--no-summary", dest="no_summary", help="hide the summary")
+    made.flag(
+        "--skip-log-check", "--disable-title", "-v", dest="ignored", help="accepted, and without effect here"
+    )
+    made.add_option("-p", "--port", help="port of the Master, if one is started", metavar="PORT")
+    made.add_option("--pid", dest="pid_fn", metavar="FILE", help="write the number of this process to a file")
+    for name, default in (("sigint", 15.0), ("sigterm", 2.0)):
+        made.add_option(
+            f"--{name}-timeout", type="float", default=default, metavar="S",
+            help=f"how long to wait after {name.upper()} when nodes are ended",
+        )  # fmt: skip
+    made.add_option("-t", "--timeout", metavar="S", help="accepted, and without effect here")
+    made.flag("--one-process", help="run all nodes in this process, in a graph of its own (not in ROS)")
+    made.flag("--sim-time", help="with --one-process: simulated time, as fast as possible")
+    made.flag("--wall-time", help="with --one-process: wall time, also with --duration")
+    made.add_option(
+        "--duration",
+        type="float",
+        metavar="S",
+        help="with --one-process: end after S seconds; simulated time",
+    )
+    return made
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
+    """Add `roslaunch`."""
+    import argparse
+
+    added = subparsers.add_parser("roslaunch", help=DESCRIPTION, add_help=False, prefix_chars="\0")
+    added.add_argument("words", nargs=argparse.REMAINDER)
+    return added
+
+
+def main(args: argparse.Namespace) -> int:
+    """Launch, or answer what was asked; the exit status is 1 for a launch file that is wrong."""
+    words: list[str] = list(args.words)
+    if {"-h", "--help"} & set(words):
+        print(parser().format_help().replace("Usage: roslaunch", "usage: rosmini roslaunch", 1))
+        raise SystemExit(0)  # as argparse ends after a help text
+    try:
+        given, nodes = options(words)
+        return act(given, nodes)
+    except UsageError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def options(words: Sequence[str]) -> tuple[Values, list[str]]:
+    """Return the options, which may stand at both ends, and the words after the first `+`. Raises ``UsageError``."""
+    from .run import split_options
+
+    own, trailing = split_options(words)
+    if "+" in own:
+        at = own.index("+")
+        own, nodes = own[:at], own[at + 1 :]
+        if nodes[-1:] == ["--one-process"]:
+            nodes, trailing = nodes[:-1], [*trailing, "--one-process"]
+    else:
+        nodes = []
+    made = parser()
+    given = made.parse([*own, *trailing])
+    if given.sim_time and given.wall_time:
+        made.error("--sim-time and --wall-time exclude each other")
+    if given.duration is not None and not 0.0 < given.duration < float("inf"):
+        made.error(f"--duration {given.duration:g} is not a number of seconds above zero")
+    if (given.sim_time or given.wall_time or given.duration is not None or nodes) and not given.one_process:
+        made.error("--sim-time, --wall-time, --duration and `+ SCRIPT` need --one-process")
+    if min(given.sigint_timeout, given.sigterm_timeout) <= 0.0:
+        made.error("--sigint-timeout and --sigterm-timeout are numbers of seconds above zero")
+    asked = [name for name in ("node_list", "find_node", "node_args", "ros_args") if getattr(given, name)]
+    if len(asked) > 1:
+        made.error("only one of [--nodes, --find-node, --args --ros-args] may be specified")
+    if not [word for word in given.words if not is_remapping(word)]:
+        made.error("you must specify at least one input file")
+    return given, nodes
+
+
+def act(given: Values, nodes: Sequence[str]) -> int:
+    """Do what the options say."""
+    from rosmini.launch import LaunchError
+    from rosmini.launch.reader import find_file
+
+    packages = PackageIndex()
+    asking = any(getattr(given, name) for name in ASKING)
+    try:
+        files = find_file([word for word in given.words if not is_remapping(word)], packages)
+        plan = load(
+            files, given.words, packages, lenient=bool(given.check or given.ros_args or given.file_list)
+        )
+        if asking:
+            return answer(given, plan, packages)
+    except LaunchError as error:
+        print(f"RLException: {error}", file=sys.stderr)
+        return 1
+    plan = changed(plan, given)
+    if given.one_process:
+        return in_one_process(plan, given, nodes)
+    from .launching import launch
+
+    return launch(plan, given, packages)
+
+
+def load(files: Sequence[str], words: Sequence[str], packages: PackageIndex, *, lenient: bool) -> Plan:
+    """Read the files, and what stands on standard input for ``-``. Raises ``LaunchError``."""
+    from rosmini.launch import read
+
+    args = dict(word.split(":=", 1) for word in words if is_remapping(word))
+    text = sys.stdin.read() if "-" in files else None
+    namespace = args.pop("__ns", None) or os.environ.get("ROS_NAMESPACE") or "/"
+    args = {name: value for name, value in args.items() if not name.startswith("__")}
+    return read(
+        *(file for file in files if file != "-"),
+        args=args,
+        text=text,
+        namespace=namespace,
+        packages=packages,
+        anonymous=anonymous(),
+        lenient=lenient,
+    )
+
+
+def anonymous() -> Callable[[str], str]:
+    """Return what makes names that nobody else in the graph has."""
+    host = "".join(char if char.isalnum() else "_" for char in socket.gethostname())
+    made = 0
+
+    def make(name: str) -> str:
+        nonlocal made
+        made += 1
+        return f"{name}_{host}_{os.getpid()}_{made}"
+
+    return make
+
+
+def answer(given: Values, plan: Plan, packages: PackageIndex) -> int:
+    """Print what was asked for. Raises ``LaunchError``."""
+    from rosmini.launch.executables import missing_programs, program
+
+    if given.check:
+        return check(plan, [*plan.missing, *missing_programs(plan, packages, os.environ)])
+    if given.node_args:
+        node = plan.node(given.node_args)
+        extra = {"ROS_NAMESPACE": node.namespace.rstrip("/") or "/", **dict(node.environment)}
+        shown = [f'{name}="{value}"' for name, value in extra.items() if os.environ.get(name) != value]
+        shown = [] if shown == ['ROS_NAMESPACE="/"'] else shown
+        prefix = [node.launch_prefix] if node.launch_prefix else []
+        print(" ".join([*shown, *prefix, *program(node, packages, os.environ).words, *node.words()]))
+    elif given.node_list:
+        print("\n".join(node.full_name for node in plan.all_nodes()))
+    elif given.find_node:
+        print(plan.node(given.find_node).place.file)
+    elif given.ros_args:
+        print(plan.ros_args())
+    elif given.dump_params:
+        print(plan.dump())
+    elif given.file_list:
+        print("\n".join(plan.files()))
+    else:
+        print(plan.text())
+    return 0
+
+
+def check(plan: Plan, missing: Sequence[object]) -> int:
+    """Print warnings and all that is missing; 1 if anything is."""
+    for line in plan.warnings:
+        print(f"WARNING: {line}")
+    if missing:
+        from rosmini.launch import Missing
+        from rosmini.launch.errors import not_there
+
+        print(not_there([each for each in missing if isinstance(each, Missing)]))
+        return 1
+    print(
+        f"{len(plan.all_nodes())} nodes, {len(plan.settings)} parameters, {len(plan.files())} files: all is there"
+    )
+    return 0
+
+
+def changed(plan: Plan, given: Values) -> Plan:
+    """Return the plan as --screen, --log and --required change it."""
+    from dataclasses import replace
+
+    more: dict[str, Any] = {}
+    if given.force_screen or given.force_log:
+        more["output"] = "screen" if given.force_screen else "log"
+    if given.force_required:
+        more["required"] = True
+        more["respawn"] = False
+    plan.nodes = [replace(node, **more) for node in plan.nodes] if more else plan.nodes
+    return plan
+
+
+def in_one_process(plan: Plan, given: Values, nodes: Sequence[str]) -> int:
+    """Run all nodes in one graph, and the scripts after a `+` with them; the status is that of what failed first."""
+    from rosmini.graph import Graph
+    from rosmini.launch.running import Launch, differences, in_graph
+    from rosmini.scripts import run_scripts
+
+    specs = nodes_in(nodes) if nodes else []
+    simulated = not given.wall_time and (given.sim_time or given.duration is not None)
+    plan.warnings += differences(plan)
+    end_as_ctrl_c()
+    with seldom(), Graph(simulated=simulated, strict=False) as graph:
+        say, warn = (
+            partial(print, file=stream, flush=True) for stream in (sys.stdout, sys.stderr)
+        )  # not a script's
+        timeouts = {"sigint_timeout": given.sigint_timeout, "sigterm_timeout": given.sigterm_timeout}
+        launch = Launch(plan, graph, in_graph(graph), say=say, warn=warn, **timeouts)
+        launch.start()
+        try:
+            if specs:
+                result = run_scripts(specs, graph=graph, duration=given.duration)
+                tell(result)
+                status = result.status
+            else:
+                launch.wait(given.duration)
+                status = launch.state().status
+        except KeyboardInterrupt:
+            status = 130
+        launch.stop()
+    return status
