@@ -45,6 +45,7 @@ class Publication:
         self._scheduler = node.scheduler
         self._list: tuple[Sender, ...] = ()
         self._wires: tuple[Sender, ...] = ()
+        self._near: tuple[Sender, ...] = ()
         self.send: Callable[[Any], None] = self._send
         """Sends a message to every connection: a snapshot, taken now. From any thread.
 
@@ -82,6 +83,7 @@ class Publication:
     def _connections_changed(self) -> None:
         self._list = tuple(self.senders.values())
         self._wires = tuple(sender for sender in self._list if sender.wants_bytes)
+        self._near = tuple(sender for sender in self._list if not sender.wants_bytes)
         self.send = self._send
         if len(self._list) == 1 and not self._latch:
             sender = self._list[0]
@@ -144,8 +146,8 @@ class Publication:
     def _hand_out(self, frozen: Any, *, warn: bool = True) -> None:
         if self._latch:
             self._latched = self._copy(frozen)
-        senders = self._list
-        if not senders:
+        senders = self._near
+        if not self._list:
             if warn and not self._warned and not self.latch:
                 self._warn_unheard()
             return
@@ -154,11 +156,8 @@ class Publication:
             packet = _packet(frozen)
             for wire in self._wires:
                 wire.send(packet, size)
-            senders = tuple(sender for sender in senders if not sender.wants_bytes)
-            if not senders:
-                return
-        senders[0].send(frozen, size)
-        if len(senders) > 1:
+        if senders:
+            senders[0].send(frozen, size)
             for sender in senders[1:]:
                 sender.send(self._copy(frozen), size)
 

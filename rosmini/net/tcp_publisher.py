@@ -37,7 +37,8 @@ class TcpSender:
         self._is_open = False
         self._is_closed = False
         self._waiting: deque[bytes] = deque()
-        self._bytes = 0
+        self._queued = 0
+        self._taken = 0
         self._is_due = False
         self.destination = destination
         self.info = stream.describe()
@@ -60,23 +61,28 @@ class TcpSender:
         if self._is_closed:
             return
         self.sent += 1
-        is_full = len(self._waiting) >= size if size is not None else self._bytes >= BATCH
-        if is_full and self._is_open:
+        if len(self._waiting) >= size if size else self._queued - self._taken >= BATCH:
+            self._make_room(size)
+        self._waiting.append(packet)
+        self._queued += len(packet)
+        if not self._is_due:
+            self._is_due = True
+            self._scheduler.ready.append(self._flush)
+
+    def _make_room(self, size: int | None) -> None:
+        """Write what waits, and drop the oldest where that was not enough."""
+        if self._is_open:
             self._stream.flush()
+        waiting = self._waiting
         with self._stream.lock:
-            while self._waiting and (len(self._waiting) >= size if size else self._bytes > UNBOUNDED):
-                self._bytes -= len(self._waiting.popleft())
+            while waiting and (len(waiting) >= size if size else self._queued - self._taken > UNBOUNDED):
+                self._taken += len(waiting.popleft())
                 self.dropped += 1
                 if self.dropped == 1 and size is None:
                     self._warn(
                         f"{self.destination} reads more slowly than is published, and the publisher has no queue_size: "
                         f"{UNBOUNDED // 2**20} MiB wait, so the oldest messages are dropped. Give it a queue_size."
                     )
-            self._waiting.append(packet)
-            self._bytes += len(packet)
-        if not self._is_due:
-            self._is_due = True
-            self._scheduler.ready.append(self._flush)
 
     def _flush(self) -> None:
         self._is_due = False
@@ -94,7 +100,7 @@ class TcpSender:
         while self._waiting and length < BATCH:
             packets.append(self._waiting.popleft())
             length += len(packets[-1])
-        self._bytes -= length
+        self._taken += length
         return packets[0] if len(packets) == 1 else b"".join(packets)
 
     def close(self) -> None:
