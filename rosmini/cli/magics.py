@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import UsageError, nearest
 
+from .completion import candidates
 from .main import COMMANDS
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ def register(shell: Any) -> None:
             shell.register_magic_function(
                 no_var_expand(_documented(magic, name, entry.summary)), "line", name
             )
+            shell.set_hook("complete_command", _complete, str_key=f"%{name}")
 
 
 def _documented(magic: Callable[[str], Result], name: str, summary: str) -> Callable[[str], Result]:
@@ -49,6 +51,16 @@ def _documented(magic: Callable[[str], Result], name: str, summary: str) -> Call
 
     act.__name__, act.__doc__ = name, f"{summary}. `%{name} -h` lists the verbs."
     return act
+
+
+def _complete(_shell: Any, event: Any) -> list[str]:
+    """Return what the word before the cursor may become."""
+    from rosmini.graph import running_graph
+
+    before = event.text_until_cursor.lstrip().removeprefix("%").split()
+    if event.text_until_cursor[-1:].isspace():
+        before.append("")
+    return candidates(before, running_graph())
 
 
 def tool(name: str) -> Tool:

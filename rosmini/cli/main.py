@@ -92,6 +92,7 @@ COMMANDS: dict[str, Entry] = {
     "roscd": Entry("rosmini.cli.roscd", "print the folder of a package, for cd"),
     "rosls": Entry("rosmini.cli.rosls", "list what is in the folder of a package"),
     "rosversion": Entry("rosmini.cli.rosversion", "the version of a package"),
+    "aliases": Entry("rosmini.cli.aliases", "lines for a shell: bare names (rostopic ...) and completion"),
     "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
     "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),
     "book": Entry("book.tools.book", "build the book from the stored outputs and open it", "."),

@@ -6,7 +6,6 @@ They read packages, and bags; they need no Master. In Python they return data:
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar
@@ -224,15 +223,11 @@ def tool_of(kind: Kind, summary: str) -> Tool:
         needs_graph=False,
     )
     for name, said in (("show", f"Show {kind.name} description"), ("info", f"Alias for {verbs.tool} show")):
-        made.verb(said, name=name, parser=partial(verbs.show_parser, name))(verbs.show)
-    plain: tuple[tuple[str, Callable[[], Parser], Callable[[Values, Call], Result]], ...] = (
-        (f"List all {kind.name}s", verbs.list_parser, verbs.list),
-        (f"Display {kind.name} md5sum", verbs.md5_parser, verbs.md5),
-        (f"List {kind.name}s in a package", verbs.package_parser, verbs.package),
-        (f"List packages that contain {kind.name}s", verbs.packages_parser, verbs.packages),
-    )
-    for said, parser, act in plain:
-        made.verb(said, parser=parser)(act)
+        made.verb(said, name=name, parser=partial(verbs.show_parser, name), takes=kind.ending)(verbs.show)
+    made.verb(f"List all {kind.name}s", parser=verbs.list_parser)(verbs.list)
+    made.verb(f"Display {kind.name} md5sum", parser=verbs.md5_parser, takes=kind.ending)(verbs.md5)
+    made.verb(f"List {kind.name}s in a package", parser=verbs.package_parser, takes="package")(verbs.package)
+    made.verb(f"List packages that contain {kind.name}s", parser=verbs.packages_parser)(verbs.packages)
     return made
 
 

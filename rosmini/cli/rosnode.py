@@ -62,7 +62,7 @@ def _ping_parser() -> Parser:
     return parser
 
 
-@TOOL.verb("test connectivity to node", parser=_ping_parser, only_asks=True)
+@TOOL.verb("test connectivity to node", parser=_ping_parser, only_asks=True, takes="node")
 def ping(given: Values, call: Call) -> Pings:
     """Ping a node, or all."""
     words, usage = given.words, _ping_parser()
@@ -155,7 +155,7 @@ def _list_parser() -> Parser:
     return parser
 
 
-@TOOL.verb("list active nodes", name="list", parser=_list_parser, only_asks=True)
+@TOOL.verb("list active nodes", name="list", parser=_list_parser, only_asks=True, takes="node")
 def list_(given: Values, call: Call) -> NodeList:
     """List nodes."""
     if len(given.words) > 1:
@@ -205,7 +205,7 @@ def _info_parser() -> Parser:
     return parser
 
 
-@TOOL.verb("print information about node", parser=_info_parser, only_asks=True)
+@TOOL.verb("print information about node", parser=_info_parser, only_asks=True, takes="node")
 def info(given: Values, call: Call) -> NodeInfos:
     """Describe nodes."""
     if not given.words:
@@ -237,7 +237,10 @@ def _machine_parser() -> Parser:
 
 
 @TOOL.verb(
-    "list nodes running on a particular machine or list machines", parser=_machine_parser, only_asks=True
+    "list nodes running on a particular machine or list machines",
+    parser=_machine_parser,
+    only_asks=True,
+    takes="machine",
 )
 def machine(given: Values, call: Call) -> Lines:
     """List machines, or the nodes on one."""
@@ -277,7 +280,7 @@ def _kill_parser() -> Parser:
     return parser
 
 
-@TOOL.verb("kill a running node", parser=_kill_parser, only_asks=True)
+@TOOL.verb("kill a running node", parser=_kill_parser, only_asks=True, takes="node")
 def kill(given: Values, call: Call) -> Killed:
     """Ask nodes to shut down."""
     there = nodes.names(call.peers)

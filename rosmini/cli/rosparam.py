@@ -113,7 +113,7 @@ def _set_parser() -> Parser:
     return parser
 
 
-@TOOL.verb("set parameter", name="set", parser=_set_parser, only_asks=True)
+@TOOL.verb("set parameter", name="set", parser=_set_parser, only_asks=True, takes="parameter value")
 def set_(given: Values, call: Call) -> Changed:
     """Set a parameter."""
     from rosmini.rosparam import assignments, parse
@@ -183,7 +183,7 @@ def _get_parser() -> Parser:
     return parser
 
 
-@TOOL.verb("get parameter", parser=_get_parser, only_asks=True)
+@TOOL.verb("get parameter", parser=_get_parser, only_asks=True, takes="parameter")
 def get(given: Values, call: Call) -> Parameter:
     """Get a parameter."""
     from rosmini.rosparam import pretty, printed
@@ -212,7 +212,7 @@ def _load_parser() -> Parser:
     return _parser("load [options] file [namespace]", text, "load robot.yaml /robot")
 
 
-@TOOL.verb("load parameters from file", parser=_load_parser, only_asks=True)
+@TOOL.verb("load parameters from file", parser=_load_parser, only_asks=True, takes="file parameter")
 def load(given: Values, call: Call) -> Changed:
     """Set parameters from a file."""
     from rosmini.rosparam import load_file, load_str
@@ -257,7 +257,7 @@ def _dump_parser() -> Parser:
     return _parser("dump [options] file [namespace]", text, "dump robot.yaml /robot")
 
 
-@TOOL.verb("dump parameters to file", parser=_dump_parser, only_asks=True)
+@TOOL.verb("dump parameters to file", parser=_dump_parser, only_asks=True, takes="file parameter")
 def dump(given: Values, call: Call) -> Parameter:
     """Write parameters to a file."""
     from rosmini.rosparam import dumps
@@ -286,7 +286,7 @@ def _delete_parser() -> Parser:
     return _parser("delete [options] parameter", "Delete a parameter, or a namespace.", "delete /gains")
 
 
-@TOOL.verb("delete parameter", parser=_delete_parser, only_asks=True)
+@TOOL.verb("delete parameter", parser=_delete_parser, only_asks=True, takes="parameter")
 def delete(given: Values, call: Call) -> Changed:
     """Delete a parameter."""
     (word,) = _words(given, _delete_parser(), "a parameter name", 1)
@@ -323,7 +323,7 @@ def _list_parser() -> Parser:
     return parser
 
 
-@TOOL.verb("list parameter names", name="list", parser=_list_parser, only_asks=True)
+@TOOL.verb("list parameter names", name="list", parser=_list_parser, only_asks=True, takes="parameter")
 def list_(given: Values, call: Call) -> ParameterList:
     """List parameters."""
     (word,) = _words(given, _list_parser(), "a namespace", 1, least=0)

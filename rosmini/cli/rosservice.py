@@ -94,7 +94,7 @@ def _args_parser() -> Parser:
     return _parser("args /service", "List the arguments of a service.", "args /set_bool")
 
 
-@TOOL.verb("print service arguments", parser=_args_parser, only_asks=True)
+@TOOL.verb("print service arguments", parser=_args_parser, only_asks=True, takes="service")
 def args(given: Values, call: Call) -> Lines:
     """List the fields of a service's request."""
     cls = _class_of(call, _one_service(_args_parser(), given))
@@ -132,7 +132,7 @@ def _call_parser() -> Parser:
     return parser
 
 
-@TOOL.verb("call the service with the provided args", name="call", parser=_call_parser)
+@TOOL.verb("call the service with the provided args", name="call", parser=_call_parser, takes="service")
 def call_(given: Values, call: Call) -> Result:
     """Call a service."""
     usage = _call_parser()
@@ -234,7 +234,7 @@ def _find_parser() -> Parser:
     return _parser("find msg-type", "List the services of a type.", "find std_srvs/Empty")
 
 
-@TOOL.verb("find services by service type", parser=_find_parser, only_asks=True)
+@TOOL.verb("find services by service type", parser=_find_parser, only_asks=True, takes="srv")
 def find(given: Values, call: Call) -> Found:
     """List the services of a type."""
     if not given.words:
@@ -270,7 +270,7 @@ class ServiceInfo(Result):
         return f"Node: {self.node}\nURI: {self.uri}\nType: {self.type}\nArgs: {self.args}"
 
 
-@TOOL.verb("print information about service", parser=_info_parser, only_asks=True)
+@TOOL.verb("print information about service", parser=_info_parser, only_asks=True, takes="service")
 def info(given: Values, call: Call) -> ServiceInfo:
     """Describe a service."""
     if not given.words:
@@ -295,7 +295,7 @@ def _list_parser() -> Parser:
     return parser
 
 
-@TOOL.verb("list active services", name="list", parser=_list_parser, only_asks=True)
+@TOOL.verb("list active services", name="list", parser=_list_parser, only_asks=True, takes="service")
 def list_(given: Values, call: Call) -> ServiceList:
     """List services."""
     if len(given.words) > 1:
@@ -311,7 +311,7 @@ def _type_parser() -> Parser:
     return _parser("type /service", "Print the type of a service.", "type /set_bool")
 
 
-@TOOL.verb("print service type", name="type", parser=_type_parser, only_asks=True)
+@TOOL.verb("print service type", name="type", parser=_type_parser, only_asks=True, takes="service")
 def type_(given: Values, call: Call) -> Lines:
     """Return the type of a service."""
     name = _one_service(_type_parser(), given)
@@ -325,7 +325,7 @@ def _uri_parser() -> Parser:
     return _parser("uri /service", "Print the address of a service.", "uri /set_bool")
 
 
-@TOOL.verb("print service ROSRPC uri", parser=_uri_parser, only_asks=True)
+@TOOL.verb("print service ROSRPC uri", parser=_uri_parser, only_asks=True, takes="service")
 def uri(given: Values, call: Call) -> Lines:
     """Return the address of a service."""
     name = _one_service(_uri_parser(), given)
@@ -336,7 +336,13 @@ def _node_parser() -> Parser:
     return _parser("node /service", "Print the node that offers a service.", "node /set_bool")
 
 
-@TOOL.verb("print the node that offers a service", parser=_node_parser, only_asks=True, is_listed=False)
+@TOOL.verb(
+    "print the node that offers a service",
+    parser=_node_parser,
+    only_asks=True,
+    is_listed=False,
+    takes="service",
+)
 def node(given: Values, call: Call) -> Lines:
     """Return the node that offers a service."""
     name = _one_service(_node_parser(), given)

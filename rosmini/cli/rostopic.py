@@ -18,29 +18,41 @@ TOOL = Tool(
 )
 add_parser, main = TOOL.add_parser, TOOL.main
 
-TOOL.verb("display bandwidth used by topic", name="bw", parser=rostopic_rates.bw_parser)(rostopic_rates.bw)
+TOOL.verb("display bandwidth used by topic", name="bw", parser=rostopic_rates.bw_parser, takes="topic")(
+    rostopic_rates.bw
+)
 TOOL.verb(
-    "display delay of topic from timestamp in header", name="delay", parser=rostopic_rates.delay_parser
+    "display delay of topic from timestamp in header",
+    name="delay",
+    parser=rostopic_rates.delay_parser,
+    takes="topic",
 )(rostopic_rates.delay)
 TOOL.verb(
     "print messages to screen",
     name="echo",
     parser=rostopic_echo.echo_parser,
     only_asks=lambda given: bool(given.bag),
+    takes="topic",
 )(rostopic_echo.echo)
-TOOL.verb("find topics by type", name="find", parser=rostopic_list.find_parser, only_asks=True)(
+TOOL.verb("find topics by type", name="find", parser=rostopic_list.find_parser, only_asks=True, takes="msg")(
     rostopic_list.find
 )
-TOOL.verb("display publishing rate of topic    ", name="hz", parser=rostopic_rates.hz_parser)(
+TOOL.verb("display publishing rate of topic    ", name="hz", parser=rostopic_rates.hz_parser, takes="topic")(
     rostopic_rates.hz
 )
 TOOL.verb(
-    "print information about active topic", name="info", parser=rostopic_list.info_parser, only_asks=True
+    "print information about active topic",
+    name="info",
+    parser=rostopic_list.info_parser,
+    only_asks=True,
+    takes="topic",
 )(rostopic_list.info)
-TOOL.verb("list active topics", name="list", parser=rostopic_list.list_parser, only_asks=True)(
+TOOL.verb("list active topics", name="list", parser=rostopic_list.list_parser, only_asks=True, takes="topic")(
     rostopic_list.list_
 )
-TOOL.verb("publish data to topic", name="pub", parser=rostopic_pub.pub_parser)(rostopic_pub.pub)
-TOOL.verb("print topic or field type", name="type", parser=rostopic_list.type_parser, only_asks=True)(
-    rostopic_list.type_
+TOOL.verb("publish data to topic", name="pub", parser=rostopic_pub.pub_parser, takes="topic msg value")(
+    rostopic_pub.pub
 )
+TOOL.verb(
+    "print topic or field type", name="type", parser=rostopic_list.type_parser, only_asks=True, takes="topic"
+)(rostopic_list.type_)

@@ -145,6 +145,8 @@ class Verb:
     """What a terminal does instead: for verbs that run nodes there until Ctrl-C."""
     is_listed: bool = True
     """Whether the list of verbs has it."""
+    takes: str = ""
+    """What its arguments name, for completion: kinds of :mod:`rosmini.cli.completion`; the last one may repeat."""
 
 
 @dataclass(frozen=True)
@@ -193,13 +195,14 @@ class Tool:
         only_asks: bool | Callable[[Any], bool] = False,
         in_terminal: Callable[[Sequence[str]], int] | None = None,
         is_listed: bool = True,
+        takes: str = "",
     ) -> Callable[[Callable[[Any, Call], Result]], Callable[[Any, Call], Result]]:
         """Add the decorated function, under its own name if none is given."""
 
         def add(act: Callable[[Any, Call], Result]) -> Callable[[Any, Call], Result]:
             known = name or act.__name__
             self.verbs[known] = Verb(
-                known, summary, parser, act, needs_graph, only_asks, in_terminal, is_listed
+                known, summary, parser, act, needs_graph, only_asks, in_terminal, is_listed, takes
             )
             return act
 

@@ -39,3 +39,14 @@ def test_what_is_wrong_is_said_and_the_notebook_goes_on(new_kernel: Any) -> None
         assert said in cell.tracebacks[0]
         assert "site-packages" not in cell.tracebacks[0]
     assert new_kernel.ok("%rosnode list").stdout == "/rosout\n"
+
+
+def test_words_are_completed(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\nfrom rosmini import default_graph\n_ = default_graph().node('talker')")
+    for line, word in (
+        ("%rosnode inf", "info"),
+        ("%rosnode info /tal", "/talker"),
+        ("%rosmsg show std_msgs/Strin", "std_msgs/String"),
+    ):
+        reply = new_kernel.client.complete(line, len(line), reply=True, timeout=300)
+        assert word in reply["content"]["matches"], reply

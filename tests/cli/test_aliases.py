@@ -1,0 +1,97 @@
+"""Bare names in shells: real bash runs the lines."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import rosmini.cli.main as cli
+from rosmini.cli import aliases
+
+from ..processes import free_port, run
+
+bash = pytest.mark.skipif(shutil.which("bash") is None or sys.platform == "win32", reason="there is no bash")
+
+
+@pytest.fixture
+def shell(tmp_path: Path) -> Any:
+    """Runs lines in a bash that knows the bare names, and nothing of a real ROS."""
+    lines = tmp_path / "aliases.sh"
+    lines.write_text(aliases.lines("bash", [sys.executable, "-m", "rosmini"]), encoding="utf-8")
+    env = {
+        "PATH": str(tmp_path / "bin"), "HOME": str(tmp_path), "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}",
+        "ROS_PACKAGE_PATH": str(tmp_path),
+    }  # fmt: skip
+    (tmp_path / "bin").mkdir()
+    found = shutil.which("bash")
+    return lambda text: run([found, "--norc", "-c", f'. "{lines}"\n{text}'], env=env, cwd=os.getcwd())
+
+
+@bash
+def test_the_bare_names_work_in_bash(shell: Any) -> None:
+    done = shell("rosmsg show std_msgs/String; rosnode list; echo status $?")
+    assert done.stdout == "string data\n\nstatus 1\n"
+    assert "rosmini roscore" in done.stderr
+    assert shell("rosmsg md5 'std_msgs/Nothing like it'").stderr.startswith(
+        "Cannot locate [std_msgs/Nothing like it]"
+    )
+
+
+@bash
+def test_what_the_shell_knows_already_is_left_alone(shell: Any, tmp_path: Path) -> None:
+    real = tmp_path / "bin" / "rostopic"
+    real.write_text("#!/bin/sh\necho the real one\n", encoding="utf-8")
+    real.chmod(0o755)
+    assert shell("rostopic; type -t rostopic rosmsg").stdout == "the real one\nfile\nfunction\n"
+
+
+@bash
+def test_words_are_completed_in_bash(shell: Any) -> None:
+    done = shell(
+        'COMP_WORDS=(rosmsg show geometry_msgs/PoseStam); COMP_CWORD=2; _rosmini_complete; echo "${COMPREPLY[@]}"\n'
+        'COMP_WORDS=(rosmini rosnode ""); COMP_CWORD=2; _rosmini_complete; echo "${COMPREPLY[@]}"\n'
+        'COMP_WORDS=(rosnode info ""); COMP_CWORD=2; _rosmini_complete; echo "${#COMPREPLY[@]}"\ncomplete -p rosmsg'
+    )
+    first, second, third, fourth = done.stdout.splitlines()
+    assert (first, third) == ("geometry_msgs/PoseStamped", "0")
+    assert second == "cleanup info kill list machine ping"
+    assert "_rosmini_complete rosmsg" in fourth
+    assert done.stderr == ""
+
+
+@bash
+def test_roscd_changes_the_folder(shell: Any, tmp_path: Path) -> None:
+    package = tmp_path / "my_pkg"
+    package.mkdir()
+    (package / "package.xml").write_text(
+        '<package format="2"><name>my_pkg</name><version>1.0.0</version><description>d</description>'
+        '<maintainer email="a@b.cc">m</maintainer><license>l</license></package>', encoding="utf-8",
+    )  # fmt: skip
+    done = shell("roscd my_pkg && pwd; roscd no_such_package; echo $?; pwd")
+    assert done.stdout.splitlines() == [str(package), "1", str(package)]
+
+
+def test_each_shell_has_its_lines(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in aliases.SHELLS:
+        assert cli.main(["aliases", name]) == 0
+        said = capsys.readouterr().out
+        assert all(f"{command}" in said for command in ("rostopic", "rosservice", "rosparam", "roscore"))
+        assert "rosmini_bench" not in said
+        assert "{" in said and "{{" not in said.replace("${{", "")
+    monkeypatch.setenv("SHELL", "/usr/bin/zsh")
+    assert cli.main(["aliases"]) == 0
+    assert "compdef _rosmini_complete rostopic" in capsys.readouterr().out
+    with pytest.raises(SystemExit):
+        cli.main(["aliases", "tcsh"])
+
+
+def test_program_paths_are_quoted() -> None:
+    assert "'/a b/rosmini' rostopic \"$@\"" in aliases.lines("bash", ["/a b/rosmini"])
+    assert "& '/it''s/rosmini' rostopic @args" in aliases.lines("powershell", ["/it's/rosmini"])
