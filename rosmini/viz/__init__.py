@@ -14,6 +14,7 @@ from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 if TYPE_CHECKING:
     from rosmini.viz.byte_maps import byte_map
     from rosmini.viz.image_pictures import image_picture
+    from rosmini.viz.launch_trees import launch_tree
     from rosmini.viz.parameter_trees import parameter_tree
     from rosmini.viz.plots import plot
     from rosmini.viz.recording_pictures import recording_picture, recording_plots
@@ -34,6 +35,7 @@ __all__ = [
     "action_states",
     "byte_map",
     "image_picture",
+    "launch_tree",
     "matplotlib_picture",
     "parameter_tree",
     "plot",
@@ -54,6 +56,7 @@ _LATER = {
     "action_states": "rosmini.viz.state_machine",
     "byte_map": "rosmini.viz.byte_maps",
     "image_picture": "rosmini.viz.image_pictures",
+    "launch_tree": "rosmini.viz.launch_trees",
     "parameter_tree": "rosmini.viz.parameter_trees",
     "plot": "rosmini.viz.plots",
     "recording_picture": "rosmini.viz.recording_pictures",

@@ -6,10 +6,8 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from rosmini.viz import style
-from rosmini.viz.metrics import text_width
+from rosmini.viz.outline import HEAD, KIND, NAME, VALUE, Row, outline
 from rosmini.viz.rqt.wording import plural
-from rosmini.viz.svg import document, element, escape
 from rosmini.viz.view import Picture, ViewError
 
 __all__ = ["parameter_tree"]
@@ -19,9 +17,6 @@ ROSCORE = ("/rosdistro", "/roslaunch", "/rosversion", "/run_id")
 
 LONGEST = 44
 """How many characters of a value are shown."""
-
-MARGIN, ROW, STEP, GAP = 12.0, 24.0, 24.0, 14.0
-COLOURS = ["ink", "muted", "group-line", "node-line", "topic-fill", "topic-line"]
 
 
 @dataclass(frozen=True)
@@ -58,7 +53,14 @@ def parameter_tree(
         lines.append("  " * row.depth + said)
     first = ", ".join(f"{row.name} is {_shown(row.value)}" for row in rows if not row.is_namespace)
     alt = f"Tree of parameters under {namespace}: {counted}. {first}".strip()
-    return Picture(_draw(rows, title or "Parameters", alt), text="\n".join(lines), alt=alt, caption=title)
+    drawn = [Row(row.depth, row.parent, _cells(row)) for row in rows]
+    return Picture(outline(drawn, title or "Parameters", alt), text="\n".join(lines), alt=alt, caption=title)
+
+
+def _cells(row: _Row) -> tuple[tuple[str, str], ...]:
+    if row.is_namespace:
+        return ((HEAD, row.name),)
+    return ((NAME, row.name), (VALUE, _shown(row.value)), (KIND, _kind(row.value)))
 
 
 def _tree(source: object, namespace: str) -> dict[str, Any]:
@@ -108,32 +110,3 @@ def _shown(value: Any) -> str:
     else:
         text = repr(value)
     return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
-
-
-def _draw(rows: list[_Row], title: str, alt: str) -> str:
-    parts: list[str] = []
-    width = 200.0
-    for number, row in enumerate(rows):
-        x, y = MARGIN + STEP * row.depth, MARGIN + ROW * (number + 0.5)
-        if row.parent >= 0:
-            trunk, top = x - STEP + 6, MARGIN + ROW * (row.parent + 0.5) + 9
-            parts.append(element("path", d=f"M{trunk:.1f},{top:.1f}V{y:.1f}H{x - 4:.1f}", class_="pt-line"))
-        cells = [("pt-namespace" if row.is_namespace else "pt-name", row.name)]
-        if not row.is_namespace:
-            cells += [("pt-value", _shown(row.value)), ("pt-kind", _kind(row.value))]
-        for kind, text in cells:
-            parts.append(element("text", escape(text), x=x, y=y + 4.5, class_=kind))
-            x += text_width(text, style.TEXT_SIZE) * (1.08 if kind == "pt-namespace" else 1.0) + GAP
-        width = max(width, x + MARGIN)
-    css = (
-        f".pt-line{{fill:none;stroke:{style.variable('group-line')};stroke-width:{style.HAIRLINE};"
-        "shape-rendering:crispEdges}"
-        f".rosmini-svg text{{font-size:{style.TEXT_SIZE}px;fill:{style.variable('ink')}}}"
-        ".rosmini-svg .pt-namespace{font-weight:700}"
-        f".rosmini-svg .pt-value{{fill:{style.variable('node-line')}}}"
-        f".rosmini-svg .pt-kind{{fill:{style.variable('muted')};font-style:italic}}"
-    )
-    height = ROW * len(rows) + 2 * MARGIN
-    return document(
-        "".join(parts), width=width, height=height, title=title, alt=alt, css=css, colours=COLOURS
-    )
