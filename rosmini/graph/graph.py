@@ -127,9 +127,11 @@ class Graph(GraphCore):
         Where a Master answers at ``master_uri`` (by default, what ``ROS_MASTER_URI`` names), the graph joins it: its
         nodes register there, and the parameters that it has go there. Else the graph's own Master is served there.
         Others reach the nodes at ``ROS_IP`` or ``ROS_HOSTNAME`` of ``environ`` (by default ``os.environ``); only this
-        machine does if neither is set. In simulated time ``/clock`` is published and ``/use_sim_time`` set; in a
-        notebook the graph goes on by itself, as after :meth:`live`, unless ``live`` is False; elsewhere, and then,
-        drive it with :meth:`run`.
+        machine does if neither is set. In simulated time ``/clock`` is published and ``/use_sim_time`` set.
+
+        In a notebook the graph goes on by itself, as after :meth:`live`; elsewhere drive it with :meth:`run`, which
+        now takes a second for a second of simulated time, since others live on it. With ``live`` False it only goes
+        on when it is driven, and as fast as it can.
 
         Raises ``MasterUnreachable`` where no Master answers and none of this machine's can be served, and
         ``RosminiError`` if the graph is online already or has its Master elsewhere anyway.

@@ -1,8 +1,9 @@
 """A graph of this process, in a notebook for instance, becomes part of the ROS graph of other processes, and leaves it.
 
 Where a Master answers, the graph joins it; else it serves its own Master at that address. Nodes get addresses that
-others reach; what connects them in this process stays as it is. A graph in simulated time goes on by itself then, in a
-notebook, and tells everybody its time on ``/clock``; its own nodes stay on the graph's time.
+others reach; what connects them in this process stays as it is. In a notebook the graph goes on by itself then. One in
+simulated time tells everybody its time on ``/clock``, which goes no faster than the clock on the wall; its own nodes
+stay on the graph's time.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from rosmini.graph.master_port import MasterPort
 from .addresses import addresses, is_loopback
 from .master_server import MasterServer
 from .network import Network
+from .pace import Pace
 from .registrations import register_again
 from .remote_master import TIMEOUT_S, RemoteMaster, checked, unreachable
 from .watch import Watch
@@ -86,6 +88,7 @@ class Online:
         self.server: MasterServer | None = None
         """What serves this graph's Master; None where the graph has joined another one."""
         self._clock: Any = None
+        self._pace: Pace | None = None
         self._is_live_of_ours = False
         self._had_rosout = False
         try:
@@ -97,6 +100,8 @@ class Online:
         if self.joined:
             self._join()
         self._begin_clock(live=live)
+        if live:
+            self._go_on()
         self._tell()
 
     def __repr__(self) -> str:
@@ -164,14 +169,21 @@ class Online:
             port.call("setParam", node.name, USE_SIM_TIME, True)
             publisher = node.publisher("/clock", graph.clock_class, queue_size=1)
 
+            self._pace = Pace(graph.scheduler, self.network.io) if live else None
+
             def tell_time(_: Any) -> None:
+                if self._pace is not None and not graph.is_live:  # which has a pace of its own
+                    self._pace.keep()
                 if publisher.num_connections():
                     publisher.publish(clock=graph.now())
 
             node.timer(1 / CLOCK_HZ, tell_time)
             self._clock = node
-        if live and graph.notebook and not graph.is_live:
-            graph.live()
+
+    def _go_on(self) -> None:
+        """Let the graph go on by itself in a notebook."""
+        if self.graph.notebook and not self.graph.is_live:
+            self.graph.live()
             self._is_live_of_ours = True
 
     def _tell(self) -> None:
@@ -189,6 +201,8 @@ class Online:
             graph._live.stop()  # noqa: SLF001
         if self.joined:
             graph.master = port
+        if self._pace is not None:
+            self._pace.end()
         if self._clock is not None:
             self._clock.shutdown("the graph goes offline")
             self._ask(port, "deleteParam", "/rosmini", USE_SIM_TIME)

@@ -161,6 +161,21 @@ def test_others_live_on_the_time_of_a_graph_that_is_simulated(
     assert "/rosmini_clock" not in graph.nodes
 
 
+@pytest.mark.parametrize("live", [True, False])
+def test_time_that_others_live_on_goes_no_faster_than_the_wall(
+    graph: Graph, environ: dict[str, str], live: bool
+) -> None:
+    """A program drives the graph; what comes from the network is answered while time stands still."""
+    graph.online(environ=environ, live=live)
+    start = time.perf_counter()
+    graph.run(1.0)
+    assert graph.now().to_sec() >= 1001.0
+    if live:
+        assert time.perf_counter() - start > 0.9
+    graph.offline()
+    graph.run(100_000.0)  # of its own again, it is held back no more
+
+
 def test_a_graph_in_wall_time_tells_no_time(environ: dict[str, str]) -> None:
     with Graph(simulated=False) as graph:
         graph.online(environ=environ)
