@@ -285,6 +285,11 @@ class Remappings:
         given = self.special.get("__ns")
         return None if given is None else canonicalize("/" + given)
 
+    @property
+    def log_file(self) -> str | None:
+        """The path of the node's log file, if ``__log:=`` gives one."""
+        return self.special.get("__log")
+
     def apply(self, resolved: str, node_name: str) -> str:
         """Return what the global name ``resolved`` is called for ``node_name``."""
         if not self.names:

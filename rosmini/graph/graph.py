@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
@@ -19,7 +20,6 @@ from .workers import running_scheduler
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
-    from pathlib import Path
     from types import TracebackType
     from typing import Self
 
@@ -199,10 +199,15 @@ class Graph(GraphCore):
         """Learn of a new node; an older one of its name hears from the Master at the new one's first registration."""
         self.nodes[node.name] = node
         self._nodes_started += 1
+        asked = node.remappings.log_file
+        if asked is not None:
+            return Path(asked).absolute()
         if self.log_folder is None:
             return None
-        base = node.name.lstrip("/").replace("/", "-")
-        return self.log_folder / f"{base}-{self._nodes_started}.log"
+        name = node.name.lstrip("/")
+        if not self.master.is_local:  # one of many processes: as rospy names it
+            return self.log_folder / f"{name.replace('/', '_')}.log"
+        return self.log_folder / f"{name.replace('/', '-')}-{self._nodes_started}.log"
 
     def remove_node(self, node: Node) -> None:
         """Learn that a node has ended."""

@@ -7,7 +7,7 @@ import sys
 import time
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from rosmini.errors import RosminiError
 
@@ -43,23 +43,26 @@ def log_folder(asked: str | Path | None, run_id: str) -> Path | None:
 
 
 class LogFile:
-    """One file, written line by line and begun anew; a disk that fails ends it, and the node goes on.
+    """One file, written line by line; a disk that fails ends it, and the node goes on.
 
     Args:
         path: of the file.
-        simulated: times are those of the graph, shown in UTC; else in local time, as rospy does.
+        simulated: times are those of the graph, shown in UTC, and the file is begun anew; else they are in local time,
+            and a file that is there is continued, as rospy does.
 
     """
 
     def __init__(self, path: Path, *, simulated: bool) -> None:
         self.path = path
         self._calendar = time.gmtime if simulated else time.localtime
+        self._mode: Literal["w", "a"] = "w" if simulated else "a"
         self._file: TextIO | None = None
         self._attempt(self._open)
 
     def _open(self) -> None:
+        self.path.parent.mkdir(parents=True, exist_ok=True)
         self._file = self.path.open(
-            "w", encoding="utf-8", errors="backslashreplace", newline="\n", buffering=1
+            self._mode, encoding="utf-8", errors="backslashreplace", newline="\n", buffering=1
         )
 
     def write(self, logger: str, level: int, now_ns: int, text: str) -> None:

@@ -231,7 +231,7 @@ def test_each_process_has_its_own_anonymous_names_and_log_files(session: Session
     wait_until(lambda: len(session.nodes()) == 3, "two listeners")
     assert sum(name.startswith("/deep/listener_") for name in session.nodes()) == 2
     for name in ("one", "two"):
-        wait_until(lambda name=name: list((logs / name).glob("deep-listener_*.log")), "the log file")
+        wait_until(lambda name=name: list((logs / name).glob("deep_listener_*.log")), "the log file")
 
 
 def test_the_exit_status_is_the_script_s(session: Session) -> None:
