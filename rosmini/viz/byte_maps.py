@@ -21,7 +21,6 @@ ROWS = 4
 """The rows of a part at most; what is left is counted."""
 
 CELL, HEIGHT, OFFSET = 23.0, 25.0, 38.0
-LABEL_AT = OFFSET + CELL * ACROSS + 12
 COLOURS = ["ink", "muted", "label", "node-fill", "node-line", "topic-fill", "topic-line"]
 
 
@@ -86,8 +85,9 @@ def _line(row: _Row) -> str:
 
 
 def _draw(rows: Sequence[_Row], title: str, alt: str) -> str:
-    parts = [_row(row, place * HEIGHT) for place, row in enumerate(rows)]
-    width = LABEL_AT + max(text_width(row.label, style.LABEL_SIZE) for row in rows)
+    label_at = OFFSET + CELL * max(len(row.data) for row in rows) + 14
+    parts = [_row(row, place * HEIGHT, label_at) for place, row in enumerate(rows)]
+    width = label_at + max(text_width(row.label, style.LABEL_SIZE) for row in rows)
     moved = element("g", "".join(parts), transform=f"translate({MARGIN:g},{MARGIN:g})")
     return document(
         moved,
@@ -100,7 +100,7 @@ def _draw(rows: Sequence[_Row], title: str, alt: str) -> str:
     )
 
 
-def _row(row: _Row, y: float) -> str:
+def _row(row: _Row, y: float, label_at: float) -> str:
     base = y + 16.5
     kind = "node" if row.is_text else "topic"
     parts = [text(str(row.offset), OFFSET - 10, base, size=11, colour="muted", anchor="end", kind="rm-at")]
@@ -109,7 +109,7 @@ def _row(row: _Row, y: float) -> str:
         parts.append(box(Rect(x + 0.5, y + 1, CELL - 1, HEIGHT - 2), kind, 2))
         parts.append(text(_shown(byte, row.is_text), x + CELL / 2, base, size=12))
     parts.append(
-        text(row.label, LABEL_AT, base, size=style.LABEL_SIZE, colour="label", anchor=None, kind="rm-what")
+        text(row.label, label_at, base, size=style.LABEL_SIZE, colour="label", anchor=None, kind="rm-what")
     )
     return element("g", "".join(parts), class_=f"rm-{kind}")
 
