@@ -30,6 +30,10 @@ class FrameReader:
         self._start = b""
         self._parts: list[bytes] = []
         self._missing = 0
+        self.first = b""
+        """The first four bytes."""
+        self.is_deaf = False
+        """True: what comes from now on is thrown away."""
 
     @property
     def wanted(self) -> int:
@@ -38,6 +42,11 @@ class FrameReader:
 
     def feed(self, data: bytes) -> list[bytes]:
         """Return the frames that these bytes complete. Raises ``DeserializationError`` for a length over the limit."""
+        if self.is_deaf:
+            self._start, self._parts = b"", []
+            return []
+        if len(self.first) < 4:
+            self.first += data[: 4 - len(self.first)]
         frames: list[bytes] = []
         offset = self._missing
         if offset:

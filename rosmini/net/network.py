@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import sys
+import time
 from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError
+from rosmini.graph.log_gates import LogGates
 
 from .addresses import HERE
 from .io_thread import IoThread
@@ -19,6 +21,12 @@ if TYPE_CHECKING:
     from rosmini.graph.scheduler import Scheduler
 
     from .addresses import Addresses
+
+
+WARN_NS = 60_000_000_000
+"""How long nothing more is said of what a peer has done wrong in the same way."""
+
+LONGEST_WARNING = 500
 
 
 class Network:
@@ -35,11 +43,19 @@ class Network:
         self.where = where
         self.io = IoThread()
         self.client = XmlRpcClient(self.io, scheduler)
+        self._gates = LogGates()
         self.transport = TcpTransport(self)
 
-    def warn(self, text: str) -> None:
-        """Say what went wrong with a peer that is no node of this graph. From any thread."""
-        sys.stderr.write(f"[WARN] {text}\n")
+    def warn(self, text: str, cause: tuple[str, ...] = ()) -> None:
+        """Say what went wrong with a peer that is no node of this graph. From any thread.
+
+        With a ``cause``, such as the node, the peer's host and what that did, it is said once a minute. What a peer
+        may have written itself is shown on one line, in letters that do nothing to a terminal.
+        """
+        if cause and not self._gates.is_due(cause, time.monotonic_ns(), WARN_NS):
+            return
+        line = "".join(letter if letter.isprintable() else "?" for letter in text[:LONGEST_WARNING])
+        sys.stderr.write(f"[WARN] {line}{'...' if len(text) > LONGEST_WARNING else ''}\n")
 
     def close(self) -> None:
         """End the I/O thread and close what is open, within two seconds; what is used again begins anew."""

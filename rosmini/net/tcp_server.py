@@ -16,6 +16,7 @@ from .service_server import TcpClient
 from .sockets import listen
 from .tcp_publisher import TcpSender
 from .tcp_stream import Stream
+from .xmlrpc_text import NOT_XML
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,11 +26,26 @@ if TYPE_CHECKING:
 
     from .io_thread import IoThread
 
+    Warn = Callable[..., None]
+
 HANDSHAKE_S = 30.0
 """So long whoever connects may take to say what for."""
 
+WAITING = 128
+"""How many may wait to say what for; beyond that, whoever came first is closed."""
+
 PAUSE_S = 1.0
 """How long no connection is accepted after the machine has refused one."""
+
+PROTOCOLS = {
+    **dict.fromkeys(
+        (b"GET ", b"POST", b"HEAD", b"PUT ", b"OPTI"), "HTTP, as a browser or a client of XML-RPC does"
+    ),
+    b"\x16\x03": "TLS",
+    b"RTPS": "RTPS, as nodes of ROS 2 do",
+    b"SSH-": "SSH",
+}
+"""What else is spoken on networks, by the first bytes."""
 
 
 class TcpServer:
@@ -40,7 +56,7 @@ class TcpServer:
         io: IoThread,
         scheduler: Scheduler,
         endpoint: Endpoint,
-        warn: Callable[[str], None],
+        warn: Warn,
         *,
         bind: str,
         port: int = 0,
@@ -52,12 +68,13 @@ class TcpServer:
         self._socket = listen(bind, port)
         self.port: int = self._socket.getsockname()[1]
         self._is_closed = False
-        self._warned = False
+        self.waiting: dict[_Arrival, None] = {}
+        """Who has not said yet what for, in order of arrival."""
         io.call(self._begin)
 
     def _begin(self) -> None:
-        self.io.closers[self._end] = None
         if not self._is_closed:
+            self.io.closers[self._end] = None
             asyncio.get_running_loop().add_reader(self._socket, self._accept)
 
     def close(self) -> None:
@@ -76,51 +93,74 @@ class TcpServer:
 
     def _accept(self) -> None:
         try:
-            sock, _ = self._socket.accept()
+            sock, peer = self._socket.accept()
         except (BlockingIOError, InterruptedError, ConnectionAbortedError):
             return
         except OSError as error:
             loop = asyncio.get_running_loop()
             loop.remove_reader(self._socket)
             loop.call_later(PAUSE_S, self._begin)
-            if not self._warned:
-                self._warned = True
-                self.warn(f"{self.endpoint.name} takes no connections for a moment: {error}")
+            name = self.endpoint.name
+            self.warn(f"{name} takes no connections for a moment: {error}", (name, "accept"))
             return
         # Who publishes sends what it has at the end of each event, in one piece: to wait for more would only delay it.
         with suppress(OSError):  # it has gone again
             sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        _Arrival(self, sock)
+        self.waiting[_Arrival(self, sock, peer[0])] = None
+        if len(self.waiting) > WAITING:
+            next(iter(self.waiting)).give_up(f"{WAITING} others wait, too")
+
+    def complain(self, host: str, reason: str, cause: str) -> None:
+        """Say why a connection is closed; of the same host and cause no more for a while."""
+        name = self.endpoint.name
+        self.warn(f"{name} closed a connection from {host}: {reason}", (name, host, cause))
 
 
 class _Arrival:
     """A connection whose header is awaited."""
 
-    def __init__(self, server: TcpServer, sock: socket.socket) -> None:
+    def __init__(self, server: TcpServer, sock: socket.socket, host: str) -> None:
         self._server = server
-        self._stream = stream = Stream(server.io, sock, FrameReader())
-        self._peer = sock.getpeername() if sock.fileno() >= 0 else None
+        self._host = host
+        self._frames = FrameReader()
+        self._stream = stream = Stream(server.io, sock, self._frames)
         self._answer: deque[bytes] = deque()
         stream.source = self._next
         stream.on_frames = self._arrived
         stream.on_end = self._ended
-        self._timer = asyncio.get_running_loop().call_later(HANDSHAKE_S, stream.abort)
+        self._timer = asyncio.get_running_loop().call_later(
+            HANDSHAKE_S, self.give_up, f"nothing more within {HANDSHAKE_S:g} s"
+        )
         stream.start()
 
     def _next(self) -> bytes:
         return self._answer.popleft() if self._answer else b""
 
-    def _ended(self, error: Exception | None) -> None:
-        self._timer.cancel()
-        if isinstance(error, DeserializationError):
-            self._server.warn(f"{self._server.endpoint.name} closed a connection from {self._who}: {error}")
+    def give_up(self, reason: str) -> None:
+        """Close it, for no header has come."""
+        self._settle()
+        self._stream.abort()
+        self._server.complain(self._host, f"it sent no header, and {reason}", "silence")
 
-    @property
-    def _who(self) -> str:
-        return "somewhere" if self._peer is None else f"{self._peer[0]}:{self._peer[1]}"
+    def _settle(self) -> None:
+        """Wait no longer for its header."""
+        self._timer.cancel()
+        self._server.waiting.pop(self, None)
+
+    def _ended(self, error: Exception | None) -> None:
+        self._settle()
+        if isinstance(error, DeserializationError):
+            first = self._frames.first
+            spoken = next((name for start, name in PROTOCOLS.items() if first.startswith(start)), None)
+            reason = (
+                f"it speaks {spoken}; this port is for TCPROS, the protocol of ROS 1"
+                if spoken
+                else str(error)
+            )
+            self._server.complain(self._host, reason, "header")
 
     def _arrived(self, frames: list[bytes]) -> None:
-        self._timer.cancel()
+        self._settle()
         self._stream.pause()
         try:
             header = decode_fields(frames[0])
@@ -137,8 +177,7 @@ class _Arrival:
         self._server.scheduler.call_soon_threadsafe(lambda: take(header, frames[1:]))
 
     def _garbled(self, reason: str) -> None:
-        server = self._server
-        server.warn(f"{server.endpoint.name} closed a connection from {self._who}: {reason}")
+        self._server.complain(self._host, reason, "header")
         self._refuse({"error": reason})
 
     def _refuse(self, answer: Header) -> None:
@@ -150,14 +189,15 @@ class _Arrival:
 
     def _take_subscriber(self, header: Header, more: list[bytes]) -> None:  # noqa: ARG002 - it ought to be silent
         server, stream = self._server, self._stream
-        sender = TcpSender(server.scheduler, stream, header.get("callerid", "unknown"), server.warn)
+        caller = NOT_XML.sub("?", header.get("callerid", "unknown"))  # others learn it over XML-RPC
+        sender = TcpSender(server.scheduler, stream, caller, server.warn)
         try:
             reply = server.endpoint.accept_subscriber(header, sender)
         except TransportInitError as error:
             stream.source = self._next
             self._refuse({**error.header, "error": str(error)})
             return
-        stream.on_frames = lambda _: None  # a subscriber has nothing more to say
+        self._frames.is_deaf = True  # a subscriber has nothing more to say
         sender.open(encode_header(reply))
         stream.resume()
 

@@ -50,8 +50,8 @@ class NetworkPort(Protocol):
     client: XmlRpcClient
     where: Addresses
 
-    def warn(self, text: str) -> None:
-        """Say what went wrong with a peer. From any thread."""
+    def warn(self, text: str, cause: tuple[str, ...] = ()) -> None:
+        """Say what went wrong with a peer, and of the same cause no more for a while. From any thread."""
 
     def close(self) -> None:
         """End the I/O thread and close what is open."""
@@ -78,8 +78,12 @@ class TcpTransport:
                 raise Exception(f'method "{method}" is not supported')  # noqa: TRY002 - rospy's answer
             return endpoint.slave_call(method, *arguments)
 
+        def complain(host: str, reason: str) -> None:
+            text = f"{endpoint.name} closed a connection from {host}: at its port for XML-RPC it sent no call: {reason}"
+            network.warn(text, (endpoint.name, host, "slave API"))
+
         try:
-            slave = XmlRpcServer(network.io, answer, bind=bind)
+            slave = XmlRpcServer(network.io, answer, bind=bind, warn=complain)
             topics = TcpServer(network.io, network.scheduler, endpoint, network.warn, bind=bind)
         except OSError as error:
             msg = (

@@ -145,9 +145,11 @@ class XmlRpcClient:
                 way.state.start_next_cycle()
                 self._keep((host, port), way)
             else:
-                way.writer.close()
+                way.writer.transport.abort()  # what is not sent yet nobody reads any more
 
     def _keep(self, address: tuple[str, int], way: _Open) -> None:
+        for ended in [each for each, kept in self._kept.items() if kept.reader.at_eof()]:
+            self._kept.pop(ended).writer.close()
         if address in self._kept:
             way.writer.close()
             return

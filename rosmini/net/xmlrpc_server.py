@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import inspect
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import h11
 
@@ -18,7 +18,7 @@ from .xmlrpc_text import XmlRpcFault, decode, encode_answer, encode_fault
 
 if TYPE_CHECKING:
     import socket
-    from collections.abc import Awaitable, Callable
+    from collections.abc import Awaitable, Callable, Iterator
 
     from .io_thread import IoThread
 
@@ -27,8 +27,14 @@ if TYPE_CHECKING:
 PAUSE_S = 1.0
 """How long no connection is accepted after the machine has refused one."""
 
+FIRST_S = 30.0
+"""How long the first call of a connection may take to arrive."""
+
 IDLE_S = 300.0
-"""How long a connection may be silent before it is closed."""
+"""How long each later one, and the reading of an answer, may take before the connection is closed."""
+
+WAITING = 256
+"""How many connections may be silent; beyond that, the one that has been for the longest is closed."""
 
 
 class XmlRpcServer:
@@ -41,17 +47,29 @@ class XmlRpcServer:
             exception as fault 1, as rospy does.
         bind: the address at which to listen; "" or "0.0.0.0": all of the machine's.
         port: 0 for any that is free.
+        warn: called in that thread with the host that has sent what is no call, and what is wrong with it.
 
     Raises ``OSError`` at once when the port is in use or the address is not the machine's.
 
     """
 
-    def __init__(self, io: IoThread, handler: Handler, *, bind: str = "127.0.0.1", port: int = 0) -> None:
+    def __init__(
+        self,
+        io: IoThread,
+        handler: Handler,
+        *,
+        bind: str = "127.0.0.1",
+        port: int = 0,
+        warn: Callable[[str, str], object] | None = None,
+    ) -> None:
         self._handler = handler
         self._io = io
         self._socket = listen(bind, port)
         self.port: int = self._socket.getsockname()[1]
+        self._warn = warn
         self._tasks: set[asyncio.Task[None]] = set()
+        self._waiting: dict[asyncio.Task[None], None] = {}
+        """Those that wait for a call, the oldest first."""
         self._closed = False
         self.caller = ""
         """The address from which the call came that the handler is answering."""
@@ -82,7 +100,7 @@ class XmlRpcServer:
 
     def _accept(self) -> None:
         try:
-            sock, _ = self._socket.accept()
+            sock, peer = self._socket.accept()
         except (BlockingIOError, InterruptedError, ConnectionAbortedError):
             return
         except OSError:  # no descriptors are left: those who wait are taken later
@@ -91,7 +109,7 @@ class XmlRpcServer:
             loop.call_later(PAUSE_S, self._begin)
             return
         sock.setblocking(False)
-        task = asyncio.get_running_loop().create_task(self._serve(sock))
+        task = asyncio.get_running_loop().create_task(self._serve(sock, peer[0]))
         self._tasks.add(task)
         task.add_done_callback(partial(self._forget, sock))
 
@@ -99,37 +117,49 @@ class XmlRpcServer:
         self._tasks.discard(task)
         sock.close()  # for one whose task was ended before it began
 
-    async def _serve(self, sock: socket.socket) -> None:
+    async def _serve(self, sock: socket.socket, host: str) -> None:
         """Answer the calls of one connection, one after another."""
         connection = h11.Connection(h11.SERVER, max_incomplete_event_size=HEAD_LIMIT)
+        patience = FIRST_S
         with suppress(OSError, TimeoutError):
             reader, writer = await asyncio.open_connection(sock=sock)
             try:
-                while await self._serve_one(connection, reader, writer):
+                while await self._serve_one(connection, reader, writer, host, patience):
                     connection.start_next_cycle()
-            finally:
+                    patience = IDLE_S
                 writer.close()
-                await writer.wait_closed()
+                async with asyncio.timeout(IDLE_S):
+                    await writer.wait_closed()
+            finally:
+                writer.transport.abort()
 
     async def _serve_one(
-        self, connection: h11.Connection, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
+        self,
+        connection: h11.Connection,
+        reader: asyncio.StreamReader,
+        writer: asyncio.StreamWriter,
+        host: str,
+        patience: float,
     ) -> bool:
         """Answer the next call; return whether a further one may come."""
         try:
-            async with asyncio.timeout(IDLE_S):
-                message = await read_message(connection, reader, writer)
+            with self._its_turn():
+                async with asyncio.timeout(patience):
+                    message = await read_message(connection, reader, writer)
             if message is None:
                 return False
             head, body = message
             status, answer = 200, b""
             if isinstance(head, h11.Request) and head.method == b"POST":
-                answer = await self._answer(body, writer.get_extra_info("peername")[0])
+                answer = await self._answer(body, host)
             else:
                 status = 501
         except (h11.RemoteProtocolError, TransportException) as error:
+            if self._warn is not None:
+                self._warn(host, str(error))
             if connection.our_state is h11.ERROR:
                 return False
-            status, answer = 400, str(error).encode()
+            status, answer = getattr(error, "error_status_hint", 400), str(error).encode()
         fields = [
             ("Server", "rosmini"),
             ("Content-Type", "text/xml" if status == 200 else "text/plain"),
@@ -137,8 +167,21 @@ class XmlRpcServer:
             *([] if status == 200 else [("Connection", "close")]),
         ]
         write_message(connection, writer, h11.Response(status_code=status, headers=fields), answer)
-        await writer.drain()
+        async with asyncio.timeout(IDLE_S):
+            await writer.drain()
         return connection.our_state is h11.DONE and connection.their_state is h11.DONE
+
+    @contextmanager
+    def _its_turn(self) -> Iterator[None]:
+        """Count this task among those that wait for a call; too many of them are closed, the oldest first."""
+        task = cast("asyncio.Task[None]", asyncio.current_task())
+        self._waiting[task] = None
+        if len(self._waiting) > WAITING:
+            next(iter(self._waiting)).cancel()
+        try:
+            yield
+        finally:
+            self._waiting.pop(task, None)
 
     async def _answer(self, body: bytes, caller: str) -> bytes:
         arguments, method = decode(body)

@@ -18,6 +18,10 @@ NOT_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 """Characters that no XML document can hold."""
 
 
+DEEPEST = 100
+"""How many elements of a document may be inside one another: three for a level of a list, five for one of a struct."""
+
+
 class XmlRpcFault(TransportException):
     """The peer answered that the call went wrong there."""
 
@@ -25,6 +29,26 @@ class XmlRpcFault(TransportException):
         super().__init__(f"the call went wrong there: {text}")
         self.code = code
         self.text = text
+
+
+class _Values(xmlrpc.client.Unmarshaller):
+    """Makes values of a document; what is nested so deeply that no caller could go through it is refused."""
+
+    def __init__(self) -> None:
+        super().__init__(use_builtin_types=True)
+        self._depth = 0
+
+    def start(self, tag: str, attrs: Any) -> None:
+        """Begin an element."""
+        self._depth += 1
+        if self._depth > DEEPEST:
+            raise TransportException(f"the document has more than {DEEPEST} levels of elements")
+        super().start(tag, attrs)
+
+    def end(self, tag: str) -> None:
+        """End an element."""
+        self._depth -= 1
+        super().end(tag)
 
 
 def _document(text: str) -> bytes:
@@ -61,7 +85,7 @@ def decode(document: bytes) -> tuple[tuple[Any, ...], str | None]:
 
     Raises :class:`XmlRpcFault` for an answer that says so, and ``TransportException`` for what is no XML-RPC.
     """
-    target = xmlrpc.client.Unmarshaller(use_builtin_types=True)
+    target = _Values()
     parser = DefusedExpatParser(target, forbid_dtd=True)
     try:
         parser.feed(document)
@@ -71,5 +95,7 @@ def decode(document: bytes) -> tuple[tuple[Any, ...], str | None]:
         raise XmlRpcFault(fault.faultCode, fault.faultString) from None
     except DefusedXmlException as error:
         raise TransportException(f"the XML declares entities, as an XML bomb does: {error}") from error
+    except TransportException:
+        raise
     except Exception as error:  # the parser lets out ExpatError, ValueError, IndexError, KeyError ...
         raise TransportException(f"the document is no XML-RPC: {type(error).__name__}: {error}") from error
