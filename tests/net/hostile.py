@@ -132,6 +132,9 @@ def unharmed(graph: Graph) -> Iterator[tuple[Any, list[str]]]:
         graph.nodes["/talker"].uri, "getPid", "/test"
     )  # this connection is kept, with its task
     held = Held(graph)
+    publisher.publish("first")
+    until(graph, lambda: heard == ["first"], "a message")  # so both ends are known to be open
+    del heard[:]
     before = held.count()
     yield publisher, heard
     try:
