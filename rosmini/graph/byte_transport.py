@@ -15,7 +15,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
-from rosmini.errors import TransportException, TransportInitError
+from rosmini.errors import TransportException, TransportInitError, TransportTerminated
 
 from .headers import decode_header, encode_header
 from .transport import QueuedSender, slave_uri
@@ -253,7 +253,7 @@ class ByteTransport:
         found = self._endpoints.get(uri)
         if found is None:
             msg = f"no node answers at {uri}: it has been shut down"
-            raise TransportException(msg)
+            raise TransportTerminated(msg)
         endpoint, wire = found
         waiter = self.scheduler.waiter(f"an answer of {endpoint.name}")
 

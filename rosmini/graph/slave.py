@@ -167,6 +167,8 @@ class SlaveApi:
 
     def publisherUpdate(self, caller_id: str, topic: str, publishers: list[str]) -> Triple:
         """Learn who publishes a topic now."""
+        if not isinstance(topic, str):
+            return [-1, "ERROR: parameter [topic] must be a string", 0]
         if not isinstance(publishers, list) or not all(isinstance(uri, str) for uri in publishers):
             return [-1, "ERROR: parameter [publishers] must be a list of URIs", 0]
         self._post(lambda: self._node.publishers_changed(topic, publishers))

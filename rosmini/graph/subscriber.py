@@ -6,8 +6,10 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.errors import (
+    DeserializationError,
     TransportException,
     TransportInitError,
+    TransportTerminated,
     TypeMismatch,
     UnknownPackage,
     UnknownType,
@@ -75,6 +77,8 @@ class Connection(DirectReceiver):
         self.message_class = subscription.message_class
         self.way: _Way | None = None
         self.is_open = False
+        self.was_of_use = False
+        """True of one that has ended after messages, and not because what came was none."""
         self._gone = False
         self._draining = False
         self._last: Any = None
@@ -104,13 +108,13 @@ class Connection(DirectReceiver):
         except TransportInitError as error:
             self._refused(error)
             return
+        except TransportTerminated:  # the publisher went away meanwhile; the Master will say so
+            subscription.lost(self, None)
+            return
         except TransportException as error:
-            if error.__cause__ is None:  # the publisher went away meanwhile; the Master will say so
-                subscription.lost(self, None)
-            else:
-                if subscription.is_first_failure(self):
-                    self.peer = node.master.publisher_at(subscription.topic, self.uri)
-                self.failed(error)
+            if subscription.is_first_failure(self):
+                self.peer = node.master.publisher_at(subscription.topic, self.uri)
+            self.failed(error)
             return
         self.protocol = parameters[0]
         if self._gone:  # left while the connection was being made
@@ -143,12 +147,13 @@ class Connection(DirectReceiver):
         subscription = self.subscription
         subscription.forget(self)
         node = subscription.node
-        publisher = error.header
-        if publisher.get("md5sum", subscription.message_class._md5sum) != subscription.message_class._md5sum:
+        publisher = {"callerid": self.uri, **error.header}
+        mine = subscription.message_class._md5sum
+        if "type" in publisher and publisher.get("md5sum", mine) != mine:
             text = describe_mismatch(subscription.topic, publisher, self._request())
             problem: Exception = TypeMismatch(text)
         else:
-            who = publisher.get("callerid") or node.master.publisher_at(subscription.topic, self.uri)
+            who = error.header.get("callerid") or node.master.publisher_at(subscription.topic, self.uri)
             problem = TransportInitError(
                 f"{who} refused the connection of {node.name} to {subscription.topic}: {error}"
             )
@@ -245,6 +250,7 @@ class Connection(DirectReceiver):
     def closed(self) -> None:
         """Learn that the publisher closed the connection."""
         self._shut()
+        self.was_of_use = self.received > 0
         self.subscription.closed(self)
 
     def failed(self, error: Exception) -> None:
@@ -252,6 +258,7 @@ class Connection(DirectReceiver):
         if self._gone:
             return
         self._shut()
+        self.was_of_use = self.received > 0 and not isinstance(error, DeserializationError)
         self.subscription.lost(self, error)
 
     def close(self) -> None:
@@ -349,14 +356,18 @@ class Subscription:
 
     def is_first_failure(self, connection: Connection) -> bool:
         """Tell whether the attempts before this connection to its publisher, if there were any, had no success."""
-        return connection.received > 0 or connection.uri not in self._attempts
+        return connection.was_of_use or connection.uri not in self._attempts
 
     def _try_again(self, connection: Connection) -> bool:
-        """Connect again later; each time without a message in between later still, as in rospy."""
+        """Connect again later; each time without a message in between later still, as in rospy.
+
+        At once the first time only: a publisher that closes each connection after a message is not asked all the time.
+        """
         uri = connection.uri
         if self._is_closed or not self.handles or uri not in self._wanted:
             return False
-        attempt = 0 if connection.received else self._attempts.get(uri, 0)
+        attempt = self._attempts.get(uri, 0)
+        attempt = min(attempt, 1) if connection.was_of_use else attempt
         self._attempts[uri] = attempt + 1
         delay = min(RETRY_S * 2 ** (attempt - 1), LONGEST_RETRY_S) if attempt else 0.0
         return self.node.graph.transport.retry(uri, delay, partial(self._connect, uri))

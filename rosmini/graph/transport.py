@@ -18,7 +18,7 @@ from os import getpid
 from socket import gethostname
 from typing import TYPE_CHECKING, Any, Protocol
 
-from rosmini.errors import TransportException, nearest
+from rosmini.errors import TransportTerminated, nearest
 from rosmini.msgs.message import Message
 
 if TYPE_CHECKING:
@@ -415,7 +415,7 @@ class LocalTransport:
         if found is None:
             hint = nearest(uri, self._endpoints)
             msg = f"no node answers at {uri}: it has been shut down. {hint}".rstrip()
-            raise TransportException(msg)
+            raise TransportTerminated(msg)
         return found
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import TransportException, TransportInitError
+from rosmini.errors import TransportException, TransportInitError, shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -87,9 +87,9 @@ class Transports:
     ) -> tuple[Header, Callable[[], None]]:
         """Open a topic connection in the way that was agreed on; see :class:`~rosmini.graph.transport.Transport`."""
         for way in self.ways:
-            if parameters and parameters[0] == way.protocol:
+            if isinstance(parameters, list) and parameters and parameters[0] == way.protocol:
                 return way.connect_topic(caller, parameters, header, receiver)
-        raise TransportInitError(f"the publisher answered with {parameters}, which was not offered")
+        raise TransportInitError(f"the publisher answered with {shown(parameters)}, which was not offered")
 
     def connect_service(
         self, caller: str, service_uri: str, header: Header, service_class: Any

@@ -13,6 +13,16 @@ MESSAGE_LIMIT = 1_000_000_000
 CHUNK = 64 * 1024
 LARGE = 1024 * 1024
 
+PROTOCOLS = {
+    **dict.fromkeys(
+        (b"GET ", b"POST", b"HEAD", b"PUT ", b"OPTI", b"HTTP"), "HTTP, as XML-RPC and browsers do"
+    ),
+    b"RTPS": "RTPS, as nodes of ROS 2 do",
+    b"SSH-": "SSH",
+    b"\x16\x03": "TLS",
+}
+"""What else is spoken on networks, by the first bytes."""
+
 _length_of = struct.Struct("<I").unpack_from
 
 
@@ -30,8 +40,6 @@ class FrameReader:
         self._start = b""
         self._parts: list[bytes] = []
         self._missing = 0
-        self.first = b""
-        """The first four bytes."""
         self.is_deaf = False
         """True: what comes from now on is thrown away."""
 
@@ -45,8 +53,6 @@ class FrameReader:
         if self.is_deaf:
             self._start, self._parts = b"", []
             return []
-        if len(self.first) < 4:
-            self.first += data[: 4 - len(self.first)]
         frames: list[bytes] = []
         offset = self._missing
         if offset:
@@ -63,9 +69,7 @@ class FrameReader:
         while (start := offset + self._lead + 4) <= end:
             (length,) = _length_of(data, start - 4)
             if length > self._limit:
-                what = "a connection header" if self._limit == HEADER_LIMIT else "a message"
-                msg = f"{what} of {length} bytes was announced; at most {self._limit} are read"
-                raise DeserializationError(msg)
+                raise DeserializationError(self._refusal(length, data[start - 4 : start]))
             stop = start + length
             body = data[offset : start - 4] + data[start:stop]
             if self._limit == HEADER_LIMIT:
@@ -78,3 +82,12 @@ class FrameReader:
             offset = stop
         self._start = data[offset:]
         return frames
+
+    def _refusal(self, length: int, bytes_of_it: bytes) -> str:
+        """Return what is wrong with a length that is too great."""
+        if self._limit != HEADER_LIMIT:
+            return f"a message of {length} bytes was announced; at most {self._limit} are read"
+        spoken = next((name for start, name in PROTOCOLS.items() if bytes_of_it.startswith(start)), None)
+        if spoken is not None:
+            return f"it speaks {spoken}, not TCPROS, the protocol of ROS 1"
+        return f"a connection header of {length} bytes was announced; at most {self._limit} are read"

@@ -11,7 +11,7 @@ import threading
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from rosmini.errors import TransportException
+from rosmini.errors import TransportTerminated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -76,7 +76,7 @@ class IoThread:
         """Return the result of a coroutine; the calling lane is parked, and simulated time goes on meanwhile.
 
         ``discard`` gets the result, in any thread, when the caller was interrupted and nobody else will.
-        Raises what the coroutine raises, and ``TransportException`` when the network is closed meanwhile.
+        Raises what the coroutine raises, and ``TransportTerminated`` when the network is closed meanwhile.
         """
         waiter = scheduler.waiter(reason, remote=True)
         future = self.start(coroutine)
@@ -132,7 +132,7 @@ def _throw_away(discard: Callable[[Any], object], done: Future[Any]) -> None:
 
 def _pass_on(done: Future[Any], waiter: Any) -> None:
     if done.cancelled():
-        waiter.fail(TransportException("the network of this graph was closed"))
+        waiter.fail(TransportTerminated("the network of this graph was closed"))
     elif (error := done.exception()) is not None:
         waiter.fail(error)
     else:

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from rosmini.errors import DeserializationError
+
 if TYPE_CHECKING:
     from rosmini.graph.scheduler import Scheduler
     from rosmini.graph.transport import Header
@@ -59,8 +61,12 @@ class TcpServiceLink:
     def _arrived(self, frames: list[bytes]) -> None:
         self._scheduler.call_soon_threadsafe(partial(self._take, frames))
 
-    def _ended(self, _error: Exception | None) -> None:
-        self._scheduler.call_soon_threadsafe(self._broken)
+    def _ended(self, error: Exception | None) -> None:
+        if isinstance(error, DeserializationError):
+            reason = f"transport error completing service call: the response cannot be read: {error}"
+        else:
+            reason = BROKEN
+        self._scheduler.call_soon_threadsafe(partial(self._broken, reason))
 
     def _take(self, frames: list[bytes]) -> None:
         for frame in frames:
@@ -77,10 +83,10 @@ class TcpServiceLink:
             else:
                 reply(response, None)
 
-    def _broken(self) -> None:
+    def _broken(self, reason: str) -> None:
         self._is_over = True
         while self._replies:
-            self._replies.popleft()(None, BROKEN)
+            self._replies.popleft()(None, reason)
 
     def close(self) -> None:
         """Close the connection."""

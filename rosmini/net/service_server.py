@@ -31,6 +31,7 @@ class TcpClient:
         self._answers: deque[bytes] = deque()
         self._is_busy = False
         self._is_paused = False
+        self._is_stuck = False
         self._is_over = False
         stream.source = self._next
         stream.on_frames = self._arrived
@@ -60,7 +61,7 @@ class TcpClient:
     # -- in the hub's thread -------------------------------------------------------------------------------------
 
     def _handle(self) -> None:
-        if self._is_busy or self._is_over:
+        if self._is_busy or self._is_over or self._is_stuck:
             return
         if not self._requests:
             if self._is_paused:
@@ -85,10 +86,12 @@ class TcpClient:
         with self._stream.lock:
             self._answers.append(b"".join((lead, len(body).to_bytes(4, "little"), body)))
         self._stream.flush()
-        if self._is_persistent:
-            self._scheduler.ready.append(self._handle)
-        else:
+        if not self._is_persistent:
             self._close()
+            return
+        with self._stream.lock:  # who does not read the answer gets no other one
+            self._is_stuck = self._stream.is_blocked
+        self._scheduler.ready.append(self._handle)
 
     def _close(self) -> None:
         self._stream.close()
@@ -100,4 +103,9 @@ class TcpClient:
             self._session.close()
 
     def _next(self) -> bytes:
-        return self._answers.popleft() if self._answers else b""
+        if self._answers:
+            return self._answers.popleft()
+        if self._is_stuck:
+            self._is_stuck = False
+            self._scheduler.call_soon_threadsafe(self._handle)
+        return b""

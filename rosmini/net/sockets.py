@@ -10,7 +10,7 @@ import sys
 import threading
 from typing import Any
 
-from rosmini.errors import TransportException
+from rosmini.errors import TransportException, shown
 
 BACKLOG = 128
 
@@ -67,26 +67,26 @@ async def resolve(host: str, port: int) -> Address:
     loop = asyncio.get_running_loop()
     answer: asyncio.Future[Address] = loop.create_future()
 
-    def settle(address: Address | None, error: OSError | UnicodeError | None) -> None:
+    def settle(address: Address | None, error: OSError | ValueError | None) -> None:
         if answer.done():
             return
         if address is not None:
             answer.set_result(address)
             return
         problem = Unreached(
-            f"the host name {host!r} does not resolve on this machine ({error}): add it to /etc/hosts here, or set "
-            "ROS_IP or ROS_HOSTNAME, on the machine that calls itself so, to an address that others reach",
+            f"the host name {shown(host)} does not resolve on this machine ({error}): add it to /etc/hosts here, or "
+            "set ROS_IP or ROS_HOSTNAME, on the machine that calls itself so, to an address that others reach",
             host,
         )
         problem.__cause__ = error
         answer.set_exception(problem)
 
     def look_up() -> None:
-        found: tuple[Address | None, OSError | UnicodeError | None]
+        found: tuple[Address | None, OSError | ValueError | None]
         try:
             family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
             found = ((family, address), None)
-        except (OSError, UnicodeError) as error:
+        except (OSError, ValueError) as error:
             found = (None, error)
         if not loop.is_closed():
             loop.call_soon_threadsafe(settle, *found)
@@ -100,6 +100,8 @@ async def connect(host: str, port: int) -> socket.socket:
 
     Raises :class:`Unreached` when nobody listens there, or the name or the way there is not known.
     """
+    if not 0 < port < 65536:
+        raise Unreached(f"nobody can be reached at {shown(host)}, port {port}: ports are 1 to 65535", host)
     family, address = await resolve(host, port)
     made = socket.socket(family, socket.SOCK_STREAM)
     try:

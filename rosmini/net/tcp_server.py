@@ -37,16 +37,6 @@ WAITING = 128
 PAUSE_S = 1.0
 """How long no connection is accepted after the machine has refused one."""
 
-PROTOCOLS = {
-    **dict.fromkeys(
-        (b"GET ", b"POST", b"HEAD", b"PUT ", b"OPTI"), "HTTP, as a browser or a client of XML-RPC does"
-    ),
-    b"\x16\x03": "TLS",
-    b"RTPS": "RTPS, as nodes of ROS 2 do",
-    b"SSH-": "SSH",
-}
-"""What else is spoken on networks, by the first bytes."""
-
 
 class TcpServer:
     """Listens for one node, from when it is made. Raises ``OSError`` at once when it cannot."""
@@ -150,14 +140,7 @@ class _Arrival:
     def _ended(self, error: Exception | None) -> None:
         self._settle()
         if isinstance(error, DeserializationError):
-            first = self._frames.first
-            spoken = next((name for start, name in PROTOCOLS.items() if first.startswith(start)), None)
-            reason = (
-                f"it speaks {spoken}; this port is for TCPROS, the protocol of ROS 1"
-                if spoken
-                else str(error)
-            )
-            self._server.complain(self._host, reason, "header")
+            self._server.complain(self._host, str(error), "header")
 
     def _arrived(self, frames: list[bytes]) -> None:
         self._settle()

@@ -20,6 +20,10 @@ HELD = 1024 * 1024
 """When more bytes wait for callbacks than this, and no queue size drops them, nothing more is read."""
 
 
+HELD_MESSAGES = 100_000
+"""So it is, too, when more messages wait than this: one without fields has no bytes."""
+
+
 class TopicInlet:
     """Takes the frames of one publisher; they stay bytes until the callbacks have taken those before."""
 
@@ -53,7 +57,7 @@ class TopicInlet:
             while size and len(self._frames) > size:
                 self._bytes -= len(self._frames.popleft())
                 self._receiver.dropped += 1
-            if self._bytes > HELD and not size:
+            if (self._bytes > HELD or len(self._frames) > HELD_MESSAGES) and not size:
                 self._is_paused = True
                 self._stream.pause()
         self._wake()
@@ -91,7 +95,7 @@ class TopicInlet:
             while frames and len(batch) < BATCH:
                 batch.append(frames.popleft())
                 self._bytes -= len(batch[-1])
-            go_on = self._is_paused and self._bytes <= HELD
+            go_on = self._is_paused and self._bytes <= HELD and len(frames) <= HELD_MESSAGES
             self._is_paused = self._is_paused and not go_on
         if go_on:
             self._stream.resume()

@@ -6,7 +6,7 @@ import asyncio
 from socket import gaierror
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
 
-from rosmini.errors import DeserializationError, TransportException, TransportInitError
+from rosmini.errors import DeserializationError, TransportException, TransportInitError, shown
 from rosmini.graph.headers import decode_fields, encode_header
 from rosmini.graph.slave import METHODS
 
@@ -130,7 +130,7 @@ class TcpTransport:
             raise self._explained(error) from error.__cause__
         if not isinstance(answer, list) or len(answer) != 3:
             raise TransportException(
-                f"{uri} answered {method} with {answer!r:.200}, not [code, status, value]"
+                f"{uri} answered {method} with {shown(answer)}, not [code, status, value]"
             )
         return answer
 
@@ -157,7 +157,7 @@ class TcpTransport:
             _, host, port = parameters
             host, port = str(host), int(port)
         except (ValueError, TypeError):
-            raise TransportInitError(f"the publisher answered with {parameters!r:.200}") from None
+            raise TransportInitError(f"the publisher answered with {shown(parameters)}") from None
         network = self.network
         stream, reply, more = self._open(
             open_topic(network.io, host, port, header), f"the publisher of {header['topic']}"

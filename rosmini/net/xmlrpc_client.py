@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 
 import h11
 
-from rosmini.errors import TransportException
+from rosmini.errors import TransportException, TransportTerminated
 
 from .http import HEAD_LIMIT, read_message, write_message
 from .sockets import Unreached, connect
@@ -114,7 +114,7 @@ class XmlRpcClient:
         fresh = _Open(h11.Connection(h11.CLIENT, max_incomplete_event_size=HEAD_LIMIT), reader, writer)
         answer = await self._post(fresh, host, port, path, body)
         if answer is None:
-            raise TransportException(f"http://{host}:{port}/ closed the connection instead of answering")
+            raise TransportTerminated(f"http://{host}:{port}/ closed the connection instead of answering")
         return answer
 
     async def _post(self, way: _Open, host: str, port: int, path: str, body: bytes) -> bytes | None:
