@@ -143,3 +143,40 @@ def unharmed(graph: Graph) -> Iterator[tuple[Any, list[str]]]:
         raise AssertionError(f"it held {before}, and now {held.count()}") from None
     publisher.publish("still here")
     until(graph, lambda: "still here" in heard, "a message")
+
+
+class RawServer:
+    """Listens at a port of this machine and answers what each connection says first with the same bytes, or never."""
+
+    def __init__(self, answer: bytes | None) -> None:
+        self.count = 0
+        self.open: list[socket.socket] = []
+        self._answer = answer
+        self._listener = socket.create_server(("127.0.0.1", 0))
+        self.port: int = self._listener.getsockname()[1]
+        self._thread = threading.Thread(target=self._serve, daemon=True)
+        self._thread.start()
+
+    def _serve(self) -> None:
+        with suppress(OSError):
+            while True:
+                peer, _ = self._listener.accept()
+                self.open.append(peer)
+                with suppress(OSError):
+                    peer.recv(65536)
+                    if self._answer is not None:
+                        peer.sendall(self._answer)
+                        peer.shutdown(socket.SHUT_WR)
+                self.count += 1
+
+    def close(self) -> None:
+        """End it."""
+        with suppress(OSError):
+            self._listener.shutdown(socket.SHUT_RDWR)
+        self._listener.close()
+        for peer in self.open:
+            with suppress(OSError):
+                peer.shutdown(socket.SHUT_RDWR)
+        self._thread.join(PATIENCE)
+        for peer in self.open:
+            peer.close()

@@ -20,7 +20,7 @@ from rosmini.net.xmlrpc_server import XmlRpcServer
 from rosmini.rospy.msg import AnyMsg
 
 from ..processes import PATIENCE, wait_until
-from .hostile import frame, unharmed, until
+from .hostile import RawServer, frame, unharmed, until
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,44 +38,20 @@ GOOD = frame(frame(b"good"))
 LONG = struct.pack("<I", 2**32 - 1)
 
 
-class RawPublisher:
+class RawPublisher(RawServer):
     """A node that publishes `/evil` and answers each connection with the same bytes."""
 
     def __init__(self, graph: Graph, answer: bytes | None, parameters: Any = None) -> None:
-        self.count = 0
-        self._answer = answer
-        self._listener = socket.create_server(("127.0.0.1", 0))
-        self._open: list[socket.socket] = []
-        self.port: int = self._listener.getsockname()[1]
-        self._parameters = (
-            parameters if parameters is not None else [1, "", ["TCPROS", "127.0.0.1", self.port]]
-        )
-        self._slave = XmlRpcServer(network_of(graph).io, lambda *_: self._parameters)
+        super().__init__(answer)
+        if parameters is None:
+            parameters = [1, "", ["TCPROS", "127.0.0.1", self.port]]
+        self._slave = XmlRpcServer(network_of(graph).io, lambda *_: parameters)
         self.uri = f"http://127.0.0.1:{self._slave.port}/"
-        self._thread = threading.Thread(target=self._serve, daemon=True)
-        self._thread.start()
-
-    def _serve(self) -> None:
-        with suppress(OSError):
-            while True:
-                peer, _ = self._listener.accept()
-                self._open.append(peer)
-                with suppress(OSError):
-                    peer.recv(65536)
-                    if self._answer is not None:
-                        peer.sendall(self._answer)
-                        peer.shutdown(socket.SHUT_WR)
-                self.count += 1
 
     def close(self) -> None:
         """End it."""
         self._slave.close()
-        with suppress(OSError):
-            self._listener.shutdown(socket.SHUT_RDWR)
-        self._listener.close()
-        self._thread.join(PATIENCE)
-        for peer in self._open:
-            peer.close()
+        super().close()
 
 
 @contextmanager
@@ -275,13 +251,13 @@ def test_a_flood_of_empty_messages_waits_outside(graph: Graph) -> None:
     subscriber = graph.node("victim").subscriber(TOPIC, Empty, lambda _: None)
     with publishing(graph, None) as raw:
         until(graph, lambda: raw.count == 1, "a subscriber")
-        raw._open[0].sendall(encode_header(header))
+        raw.open[0].sendall(encode_header(header))
         until(graph, subscriber.num_connections, "a connection")
 
         def flood() -> None:
             with suppress(OSError):
                 for _ in range(500):
-                    raw._open[0].sendall(b"\x00" * 65536)
+                    raw.open[0].sendall(b"\x00" * 65536)
 
         thread = threading.Thread(target=flood, daemon=True)
         thread.start()
