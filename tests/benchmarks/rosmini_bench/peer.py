@@ -47,7 +47,7 @@ class Core:
             **{
                 key: value
                 for key, value in os.environ.items()
-                if key not in ("PYTHONPATH", "VIRTUAL_ENV", "PYTHONHOME")
+                if key not in ("PYTHONPATH", "VIRTUAL_ENV", "PYTHONHOME", "PYTHONDONTWRITEBYTECODE")
             },
             # A virtual environment may hold programs of the same name (rospkg brings a rosversion).
             "PATH": os.pathsep.join(["/usr/bin", "/bin", os.environ.get("PATH", "")]),
