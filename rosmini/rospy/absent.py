@@ -105,13 +105,6 @@ _ABSENT = {
     "rosgraph.impl": ("watches the whole graph", "ask rosgraph.Master(name).getSystemState()"),
     "rosgraph.network": ("knows addresses and headers of the wire", _ALONE),
     "rosgraph.xmlrpc": ("serves and calls XML-RPC", "ask rosgraph.Master, which is in the same process here"),
-    "roslaunch": (
-        "starts nodes from Python",
-        (
-            "start them with rosmini.rosrun('package', 'executable') in Python, or all at once with `rosmini run` in a "
-            "terminal"
-        ),
-    ),
     "roslib.gentools": ("computes md5 sums of definitions", "take message._md5sum and message._full_text"),
     "roslib.launcher": ("changes Python's path by manifests", "call roslib.load_manifest, or nothing at all"),
     "roslib.manifest": (
@@ -128,10 +121,8 @@ _ABSENT = {
         "is the Master's own program",
         "ask rosgraph.Master: the Master is in the same process here",
     ),
-    "rosmsg": ("lists and shows message types", "take message._full_text"),
     "rosserial": ("talks to Arduino boards", _ALONE),
     "rosserial_python": ("talks to Arduino boards", _ALONE),
-    "rosservice": ("lists and calls services", "use rospy.wait_for_service and rospy.ServiceProxy"),
     "rostest": ("runs tests of nodes", "write tests for pytest with a rosmini.Graph, or use unittest.main()"),
     "rosunit": ("runs unit tests and writes JUnit files", "use unittest.main() or pytest --junit-xml"),
     "roswtf": ("looks for what is wrong", _MASTER),
