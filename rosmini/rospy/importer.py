@@ -72,7 +72,9 @@ _HOMES = {
     "dynamic_reconfigure.srv": "rosmini.msgs.dynamic_reconfigure.srv",
     "genpy.rostime": "rosmini.time",
     "roslaunch": "rosmini.launch.script_api",
-    **{f"roslaunch.{name}": "rosmini.launch.script_api" for name in ("core", "parent", "rlutil", "scriptapi")},
+    **{
+        f"roslaunch.{name}": "rosmini.launch.script_api" for name in ("core", "parent", "rlutil", "scriptapi")
+    },
     "roslib.message": f"{_HERE}.aliases.genpy.message",
     "rospy.exceptions": "rosmini.errors",
     "sensor_msgs.point_cloud2": f"{_HERE}.aliases.point_cloud2",
