@@ -34,6 +34,7 @@ def plot(
     title: str | None = None,
     alt: str = "",
     width: float = WIDTH,
+    marks: bool = True,
 ) -> Picture:
     """Plot up to five series of points, each with a line through it.
 
@@ -44,6 +45,7 @@ def plot(
         title: a caption under the picture, and the first words of its text form.
         alt: what there is to see, for those who do not see it; the text form is put after it.
         width: of the picture [CSS px].
+        marks: whether each point has a mark.
 
     Raises:
         ViewError: there are no series or too many, or one has lists of different lengths or no numbers.
@@ -64,8 +66,8 @@ def plot(
             pixel = np.array([box.width, box.height]) / 2000.0  # a good deal finer than the screen
             drawn = snap((values - low) / pixel, 1.0) * pixel + low
             axes.plot(
-                *drawn.T, color=LIGHT[colour], linewidth=1.4, marker=shape, markersize=4.5, label=name,
-                zorder=4.0, clip_on=False,
+                *drawn.T, color=LIGHT[colour], linewidth=1.4, marker=shape if marks else None, markersize=4.5,
+                label=name, zorder=4.0, clip_on=False,
             )  # fmt: skip
         handles, _ = axes.get_legend_handles_labels()
         legend(figure, handles, LEFT)

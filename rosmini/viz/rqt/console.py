@@ -9,8 +9,8 @@ from typing import Any, Literal, get_args
 from rosmini.errors import nearest
 from rosmini.graph.rosout import LEVELS, NAMES
 from rosmini.viz.rqt.selection import matches
+from rosmini.viz.rqt.table import heading, table_figure
 from rosmini.viz.rqt.wording import plural
-from rosmini.viz.style import themed, variable
 from rosmini.viz.svg import element, escape
 from rosmini.viz.view import View, ViewError
 
@@ -18,9 +18,6 @@ __all__ = ["LogTable", "rqt_console"]
 
 Column = Literal["stamp", "severity", "node", "message", "location", "topics"]
 COLUMNS: tuple[Column, ...] = ("stamp", "severity", "node", "message", "location")
-
-INKS = {"DEBUG": "muted", "INFO": "ink", "WARN": "label", "ERROR": "bad-line", "FATAL": "bad-line"}
-"""The colour of each level; its name stands beside it in any case."""
 
 ALT_MESSAGES = 3
 """How many messages the alt text spells out."""
@@ -148,9 +145,7 @@ class LogTable(View):
     @property
     def html(self) -> str:
         """A `<figure>` with the table, which scrolls by itself where a page is narrow."""
-        head = element(
-            "tr", "".join(element("th", column.capitalize(), scope="col") for column in self.columns)
-        )
+        head = heading(column.capitalize() for column in self.columns)
         body = "".join(
             element(
                 "tr",
@@ -161,54 +156,8 @@ class LogTable(View):
         )
         if not self.rows:
             body = element("tr", element("td", "no message passes the filters", colspan=len(self.columns)))
-        table = element("table", element("thead", head) + element("tbody", body))
         caption = f"{self.title} ({self.counted})" if self.title else self.counted
-        return element(
-            "figure",
-            f"<style>{CSS}</style>"
-            + element(
-                "div", table, class_="rosmini-console", role="region", aria_label="Log messages", tabindex="0"
-            )
-            + element("figcaption", escape(caption)),
-            class_="rosmini-figure",
-            style="margin:0.5em 0",
-        )
-
-
-def _rules(selector: str, **properties: str) -> str:
-    scoped = ",".join(f".rosmini-console {part}" for part in selector.split(","))
-    return (
-        f"{scoped}{{{''.join(f'{name}:{value};' for name, value in properties.items()).replace('_', '-')}}}"
-    )
-
-
-CSS = (
-    f".rosmini-console{{overflow-x:auto;color:{variable('ink')};}}"
-    + _rules(
-        "table", border_collapse="collapse", font_size="0.9em", margin="0", min_width="100%", border="none"
-    )
-    + _rules("tr,tbody tr:nth-child(odd),tbody tr:hover", background="none")
-    + _rules(
-        "th,td",
-        text_align="left",
-        vertical_align="top",
-        padding="0.25em 0.75em 0.25em 0.4em",
-        border="none",
-        border_bottom=f"1px solid {variable('group-line')}",
-        color="inherit",
-    )
-    + _rules("th", background=variable("group-fill"), font_weight="600")
-    + _rules("td", white_space="nowrap")
-    + _rules("td.message", white_space="pre-wrap", min_width="11em", max_width="44em")
-    + _rules("td.stamp", font_variant_numeric="tabular-nums")
-    + _rules("td.location", color=variable("muted"))
-    + _rules("tr.marked td", background=variable("topic-fill"))
-    + _rules("td.FATAL", font_weight="700")
-    + "".join(_rules(f"td.{name}", color=variable(ink)) for name, ink in INKS.items())
-    + themed(
-        ".rosmini-console", ["ink", "muted", "label", "bad-line", "group-fill", "group-line", "topic-fill"]
-    )
-)
+        return table_figure(head, body, caption=caption, label="Log messages")
 
 
 def _data(message: Any, column: Column) -> str:
