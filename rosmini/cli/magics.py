@@ -7,7 +7,6 @@ line only ``$name`` is replaced, by the value of that variable; braces are YAML'
 
 from __future__ import annotations
 
-import importlib
 import os
 import re
 import shlex
@@ -65,14 +64,20 @@ def _complete(_shell: Any, event: Any) -> list[str]:
 
 def tool(name: str) -> Tool:
     """Return the tool that a magic runs."""
-    found: Tool = vars(importlib.import_module(COMMANDS[name].module))["TOOL"]
+    loaded: Any = COMMANDS[name].load()
+    found: Tool = getattr(loaded, "TOOL", loaded)
     return found
 
 
 def run(shell: Any, name: str, line: str) -> Result:
     """Do what a line says, print it, and return the result. Raises as :meth:`rosmini.cli.verbs.Tool.run` does."""
     result = tool(name).run(*words(line, name, shell.user_ns), tells_time=True)
-    for text in filter(None, (str(result), *result.complaints)):
+    view = getattr(result, "view", None)
+    if view is not None:
+        from IPython.core.display_functions import display
+
+        display(view)  # type: ignore[no-untyped-call]
+    for text in filter(None, ("" if view else str(result), *result.complaints)):
         print(text)
     _show_no_more(result, shell)
     return result

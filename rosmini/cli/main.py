@@ -40,13 +40,30 @@ class Entry(NamedTuple):
     """The folder of a checkout from which the module is imported; None: it is in the installed package."""
     is_magic: bool = False
     """Whether notebooks have it as a line magic, too: its module has a ``TOOL``."""
+    only: str = ""
+    """The verb of that tool that the subcommand stands for, if it is one verb only."""
 
     def load(self) -> Command:
         """Import the subcommand. Raises `NoCheckout` if it needs a checkout and there is none."""
         if self.folder is not None and (home := str(find_checkout() / self.folder)) not in sys.path:
             sys.path.insert(0, home)
-        return cast("Command", importlib.import_module(self.module))
+        module = importlib.import_module(self.module)
+        return cast("Command", vars(module)["TOOL"].alone(self.only) if self.only else module)
 
+
+RQT = {
+    "graph": "the computation graph",
+    "plot": "numbers in messages over time",
+    "topic": "topics with types, bandwidths, rates and values",
+    "msg": "the fields of a message type",
+    "srv": "the fields of a service type",
+    "action": "the fields of an action type",
+    "console": "what nodes log",
+    "bag": "what is in a bag, over time",
+    "tf_tree": "the tree of frames",
+    "image_view": "the next image on a topic",
+}
+"""The tools of rqt, each a verb of `rosmini rqt`."""
 
 COMMANDS: dict[str, Entry] = {
     "roscore": Entry("rosmini.cli.roscore", "the Master, the Parameter Server and /rosout"),
@@ -82,6 +99,11 @@ COMMANDS: dict[str, Entry] = {
     "rosparam": Entry(
         "rosmini.cli.rosparam", "parameters: get, set, load, dump, delete and list them", is_magic=True
     ),
+    "rqt": Entry("rosmini.cli.rqt", "the tools of rqt, as pictures", is_magic=True),
+    **{
+        f"rqt_{verb}": Entry("rosmini.cli.rqt", f"rqt: {summary}", is_magic=True, only=verb)
+        for verb, summary in RQT.items()
+    },
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags", is_magic=True),
     "rospack": Entry(
         "rosmini.cli.rospack", "packages: where they are, what they need, what they export", is_magic=True

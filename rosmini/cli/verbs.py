@@ -15,7 +15,7 @@ import argparse
 import os
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, cast
 
@@ -262,6 +262,10 @@ class Tool:
         from rosmini.graph import running_graph
 
         return verb.act(given, Call(running_graph() if graph is None else graph, say, tells_time=tells_time))
+
+    def alone(self, verb: str) -> Tool:
+        """Return the tool that does one of the verbs only: ``rqt_graph`` for ``graph`` of ``rqt``."""
+        return replace(self, name=f"{self.name}_{verb}", only_verb=verb)
 
     def on(self, graph: Graph | None = None) -> Prompt:
         """Return what does verbs on ``graph`` in a notebook."""

@@ -122,7 +122,13 @@ def what_next(peers: Peers, name: str) -> str:
             wanted = name[len(topic) + 1 :].partition("/")[0].partition("[")[0]
             hint = nearest(wanted, known) or f"its fields are {', '.join(known)}"
             return f"messages on {topic} are {kind} and have no {name[len(topic) + 1 :]}; {hint}"
-    return nearest(name, topics(peers).names()) or "`rostopic list` lists the topics that there are."
+    names, wanted = topics(peers).names(), name
+    while wanted:  # the last parts may be fields
+        hint = nearest(wanted, names)
+        if hint:
+            return hint
+        wanted = wanted.rpartition("/")[0]
+    return "`rostopic list` lists the topics that there are."
 
 
 def addresses(peers: Peers, nodes: Iterable[str]) -> dict[str, str]:

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from rosmini.viz.plots import plot
     from rosmini.viz.recording_pictures import recording_picture, recording_plots
     from rosmini.viz.rqt.bag import rqt_bag
+    from rosmini.viz.rqt.definitions import rqt_action, rqt_msg, rqt_srv
+    from rosmini.viz.rqt.plot import rqt_plot
+    from rosmini.viz.rqt.topics import rqt_topic
     from rosmini.viz.scan_pictures import scan_picture
     from rosmini.viz.sequences import sequence_diagram
     from rosmini.viz.simulation_pictures import simulation_picture
@@ -41,9 +44,14 @@ __all__ = [
     "plot",
     "recording_picture",
     "recording_plots",
+    "rqt_action",
     "rqt_bag",
     "rqt_console",
     "rqt_graph",
+    "rqt_msg",
+    "rqt_plot",
+    "rqt_srv",
+    "rqt_topic",
     "scan_picture",
     "sequence_diagram",
     "simulation_picture",
@@ -53,6 +61,11 @@ __all__ = [
 ]
 
 _LATER = {
+    "rqt_action": "rosmini.viz.rqt.definitions",
+    "rqt_srv": "rosmini.viz.rqt.definitions",
+    "rqt_msg": "rosmini.viz.rqt.definitions",
+    "rqt_topic": "rosmini.viz.rqt.topics",
+    "rqt_plot": "rosmini.viz.rqt.plot",
     "action_states": "rosmini.viz.state_machine",
     "byte_map": "rosmini.viz.byte_maps",
     "image_picture": "rosmini.viz.image_pictures",

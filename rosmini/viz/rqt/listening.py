@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from rosmini.graph import Graph
 
 
-def find_topic(graph: Graph, name: str, tool: str) -> Found:
+def find_topic(graph: Graph, name: str) -> Found:
     """Return the topic that a name stands for, which may go on with fields.
 
     Raises:
@@ -24,9 +24,9 @@ def find_topic(graph: Graph, name: str, tool: str) -> Found:
     full = name if name.startswith("/") else f"/{name}"
     found = look_up(graph, full)
     if found is None:
-        raise ViewError(f"{tool}: there is nothing to hear at {full}; {what_next(graph, full)}")
+        raise ViewError(f"there is nothing to hear at {full}; {what_next(graph, full)}")
     if class_of(found.type) is None:
-        raise ViewError(f"{tool}: messages on {found.topic} are {found.type}, which no package here defines")
+        raise ViewError(f"messages on {found.topic} are {found.type}, which no package here defines")
     return found
 
 
@@ -38,7 +38,7 @@ def listen(graph: Graph, tool: str, seconds: float, subscribe: Callable[[Any], N
 
     """
     if not 0 < seconds < float("inf"):
-        raise ViewError(f"{tool}: a duration is a positive number of seconds, not {seconds!r:.40}")
+        raise ViewError(f"a duration is a positive number of seconds, not {seconds!r:.40}")
     node = graph.node(tool, anonymous=True)
     try:
         begin = graph.now().to_sec()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 from rosmini.introspection.fields import FieldError, class_of, reader
@@ -37,13 +38,11 @@ def rqt_plot(source: Graph | Bag, *fields: str, duration: float = 5.0, title: st
     """
     names = [name for field in fields for name in expanded(field)]
     if not names:
-        raise ViewError("rqt_plot: name a field, such as /odom/pose/pose/position/x")
+        raise ViewError("name a field, such as /odom/pose/pose/position/x")
     samples, begin = _heard(source, names, duration) if hasattr(source, "scheduler") else _read(source, names)
     silent = [name for name, (times, _) in samples.items() if not times]
     if silent:
-        raise ViewError(
-            f"rqt_plot: no message came for {', '.join(silent)}; listen longer, or start its publisher"
-        )
+        raise ViewError(f"no message came for {', '.join(silent)}; listen longer, or start its publisher")
     from rosmini.viz.plots import plot
 
     series = {name: ([time - begin for time in times], values) for name, (times, values) in samples.items()}
@@ -64,7 +63,7 @@ def expanded(name: str) -> list[str]:
 
 
 def _heard(graph: Any, names: list[str], duration: float) -> tuple[Samples, float]:
-    found = {name: find_topic(graph, name, "rqt_plot") for name in names}
+    found = {name: find_topic(graph, name) for name in names}
     series = {name: _Series(name, topic.path) for name, topic in found.items()}
 
     def subscribe(node: Any) -> None:
@@ -84,7 +83,7 @@ def _read(bag: Any, names: Iterable[str]) -> tuple[Samples, float]:
     for name in names:
         topic = next((each for each in topics if f"{name}/".startswith(f"{each}/")), None)
         if topic is None:
-            raise ViewError(f"rqt_plot: the bag has no topic of {name}; it has {', '.join(topics)}")
+            raise ViewError(f"the bag has no topic of {name}; it has {', '.join(topics)}")
         series = _Series(name, name[len(topic) :])
         for _, message, time in bag.read_messages(topics=[topic]):
             series.take(time.to_sec(), message)
@@ -103,7 +102,7 @@ class _Series:
         try:
             self._read = reader(path)
         except FieldError as error:
-            raise ViewError(f"rqt_plot: {name}: {error}") from error
+            raise ViewError(f"{name}: {error}") from error
 
     def take(self, time: float, message: Any) -> None:
         """Add the field of a message that came at a time [s]."""
@@ -115,7 +114,7 @@ class _Series:
             self._problem = str(error)
             return
         value = value.to_sec() if hasattr(value, "to_sec") else value
-        if not isinstance(value, int | float):
+        if not isinstance(value, Real):
             self._problem = (
                 f"it is a {type(value).__name__} and no number; go on with one of its fields or elements"
             )
@@ -126,5 +125,5 @@ class _Series:
     def points(self) -> tuple[list[float], list[float]]:
         """Return times and values. Raises ``ViewError`` if the field was none, or no number."""
         if self._problem:
-            raise ViewError(f"rqt_plot: {self._name}: {self._problem}")
+            raise ViewError(f"{self._name}: {self._problem}")
         return self._times, self._values

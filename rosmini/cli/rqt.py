@@ -1,0 +1,266 @@
+"""`rosmini rqt`: the tools of rqt as pictures: `rosmini rqt_graph` is `rosmini rqt graph` (http://wiki.ros.org/rqt).
+
+In a terminal a picture is a page, which is opened in the browser; in a notebook it is shown:
+``TOOL.run("plot", "/odom/twist/twist/linear/x", graph=graph).view``.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rosmini.introspection.options import Parser
+
+from .arguments import global_name
+from .listening import Span, tool_node
+from .main import RQT
+from .verbs import Call, Result, Tool, VerbError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from optparse import Values
+
+    from rosmini.viz.view import View
+
+TOOL = Tool(
+    "rqt", "graph, plots, tables of topics and messages, logs, bags, frames and images as pictures",
+    purpose="looking at a graph", example="graph",
+)  # fmt: skip
+add_parser, main = TOOL.add_parser, TOOL.main
+
+MODES = {"nodes": "nodes_only", "active": "nodes_topics_active", "all": "nodes_topics_all"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shown(Result):
+    """A view, and in a terminal the page that it was written to."""
+
+    view: View
+    path: Path | None = None
+
+    def __str__(self) -> str:
+        return self.view.text if self.path is None else f"{self.view.text}\n\n{self.path}"
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
+        return self.view._repr_mimebundle_(include, exclude)
+
+
+def _parser(verb: str, usage: str, description: str, example: str, seconds: float | None = None) -> Parser:
+    line = f"  rosmini rqt_{verb} {example}".rstrip()
+    parser = Parser("rqt", f"rosmini rqt_{verb} {usage}".rstrip(), description, example=line)
+    parser.add_option(
+        "-o", "--output", metavar="FILE", help="write the page (or .svg, .txt) there, and open nothing"
+    )
+    if seconds is not None:
+        parser.add_option(
+            "--duration", type="float", default=seconds, metavar="S",
+            help=f"listen for S seconds of graph time ({seconds:g} if not given)",
+        )  # fmt: skip
+    return parser
+
+
+def _shown(view: View, verb: str, given: Values, call: Call) -> Shown:
+    """Write the page that was asked for; in a terminal open one in the browser if none was."""
+    if given.output:
+        return Shown(view=view, path=view.save(given.output))
+    if not call.in_terminal:
+        return Shown(view=view)
+    import webbrowser
+
+    path = view.save(Path(tempfile.mkdtemp(prefix="rosmini_")) / f"rqt_{verb}.html")
+    webbrowser.open(path.as_uri())
+    return Shown(view=view, path=path)
+
+
+def _one_word(given: Values, parser: Parser, what: str) -> str:
+    if len(given.words) != 1:
+        parser.error(f"name one {what}")
+    return str(given.words[0])
+
+
+# -- what asks the Master ----------------------------------------------------------------------------------------------
+
+
+def _graph_parser() -> Parser:
+    parser = _parser("graph", "[options]", "Who publishes what to whom.", "--mode active --hide debug,tf")
+    parser.add_option(
+        "--mode",
+        choices=sorted(MODES),
+        default="nodes",
+        help="topics as labels (nodes), or as boxes (active, all)",
+    )
+    parser.add_option(
+        "--hide", metavar="LIST", help="debug, dead_sinks, leaf_topics, params, tf, unreachable, none"
+    )
+    parser.add_option(
+        "--nodes", default="/", metavar="FILTER", help="names or regular expressions, - excludes"
+    )
+    parser.add_option("--topics", default="/", metavar="FILTER", help="likewise")
+    return parser
+
+
+@TOOL.verb(RQT["graph"], parser=_graph_parser, only_asks=True)
+def graph(given: Values, call: Call) -> Shown:
+    """Draw the computation graph."""
+    from rosmini.introspection.nodes import names, silent
+    from rosmini.viz.rqt.graph import DEFAULT_HIDE, rqt_graph
+    from rosmini.viz.rqt.graph_state import CALLER_ID, GraphState
+
+    master = call.peers.ask_as(CALLER_ID)
+    state = GraphState.of(
+        master.ask("getSystemState"),
+        master.ask("getTopicTypes"),
+        unreachable=silent(call.peers, names(call.peers)),
+    )
+    hide: Any = (
+        DEFAULT_HIDE if given.hide is None else [part for part in given.hide.split(",") if part != "none"]
+    )
+    mode: Any = MODES[given.mode]
+    view = rqt_graph(state, mode=mode, hide=hide, namespace=given.nodes, topics=given.topics)
+    return _shown(view, "graph", given, call)
+
+
+def _definition(verb: str, example: str) -> None:
+    """Add the verb that shows the fields of a type."""
+
+    def parser() -> Parser:
+        return _parser(verb, "TYPE", "The fields of a type as a tree.", example)
+
+    @TOOL.verb(RQT[verb], name=verb, parser=parser, only_asks=True)
+    def show(given: Values, call: Call) -> Shown:
+        from rosmini.viz.rqt import definitions
+
+        draw: Callable[[str], View] = vars(definitions)[f"rqt_{verb}"]
+        return _shown(draw(_one_word(given, parser(), "type")), verb, given, call)
+
+
+for _verb, _example in (
+    ("msg", "geometry_msgs/Twist"),
+    ("srv", "nav_msgs/GetPlan"),
+    ("action", "move_base_msgs/MoveBase"),
+):
+    _definition(_verb, _example)
+
+
+def _bag_parser() -> Parser:
+    return _parser("bag", "FILE", "What is in a bag, over time.", "house.bag")
+
+
+@TOOL.verb(RQT["bag"], parser=_bag_parser, only_asks=True)
+def bag(given: Values, call: Call) -> Shown:
+    """Draw the messages of a bag over time."""
+    from rosmini.bag import Bag
+    from rosmini.viz.rqt.bag import rqt_bag
+
+    with Bag(_one_word(given, _bag_parser(), "bag")) as opened:
+        return _shown(rqt_bag(opened), "bag", given, call)
+
+
+# -- what listens ------------------------------------------------------------------------------------------------------
+
+
+def _plot_parser() -> Parser:
+    text = "Numbers in messages over time; x:y stands for two fields beside one another."
+    return _parser("plot", "[options] FIELD...", text, "/odom/pose/pose/position/x:y", 5.0)
+
+
+@TOOL.verb(RQT["plot"], parser=_plot_parser)
+def plot(given: Values, call: Call) -> Shown:
+    """Plot fields over time."""
+    from rosmini.viz.rqt.plot import rqt_plot
+
+    fields = [
+        global_name(word.partition("[")[0]) + word[len(word.partition("[")[0]) :] for word in given.words
+    ]
+    return _shown(rqt_plot(call.graph, *fields, duration=given.duration), "plot", given, call)
+
+
+def _topic_parser() -> Parser:
+    return _parser(
+        "topic", "[options] [TOPIC...]", "All topics; of those named, the last values.", "/odom", 2.0
+    )
+
+
+@TOOL.verb(RQT["topic"], parser=_topic_parser)
+def topic(given: Values, call: Call) -> Shown:
+    """Show all topics."""
+    from rosmini.viz.rqt.topics import rqt_topic
+
+    expand = [global_name(word) for word in given.words]
+    return _shown(rqt_topic(call.graph, expand=expand, duration=given.duration), "topic", given, call)
+
+
+def _console_parser() -> Parser:
+    parser = _parser(
+        "console", "[options]", "What nodes log in this time.", "--level WARN --duration 10", 5.0
+    )
+    parser.add_option("--level", default="DEBUG", metavar="LEVEL", help="the lowest level: DEBUG to FATAL")
+    return parser
+
+
+@TOOL.verb(RQT["console"], parser=_console_parser)
+def console(given: Values, call: Call) -> Shown:
+    """Show what nodes log."""
+    from rosmini.viz.rqt import rqt_console
+
+    log = call.graph.console()
+    try:
+        _pass(call, given.duration)
+        return _shown(rqt_console(log, level=given.level), "console", given, call)
+    finally:
+        log.close()
+
+
+def _tf_parser() -> Parser:
+    return _parser("tf_tree", "[options]", "The tree of frames.", "--duration 3", 2.0)
+
+
+@TOOL.verb(RQT["tf_tree"], parser=_tf_parser)
+def tf_tree(given: Values, call: Call) -> Shown:
+    """Draw the tree of frames."""
+    from rosmini.tf import TransformListener
+    from rosmini.viz.tf_trees import tf_tree as draw
+
+    with tool_node(call.graph, "rqt_tf_tree") as node:
+        listener = TransformListener(node)
+        _pass(call, given.duration)
+        return _shown(draw(listener), "tf_tree", given, call)
+
+
+def _image_parser() -> Parser:
+    return _parser(
+        "image_view", "[options] TOPIC", "The next image on a topic.", "/camera/rgb/image_raw", 5.0
+    )
+
+
+@TOOL.verb(RQT["image_view"], parser=_image_parser)
+def image_view(given: Values, call: Call) -> Shown:
+    """Show the next image on a topic."""
+    from rosmini.msgs import message_class
+    from rosmini.viz.image_pictures import image_picture
+
+    name = global_name(_one_word(given, _image_parser(), "topic"))
+    heard: list[Any] = []
+    with tool_node(call.graph, "rqt_image_view") as node:
+
+        def begin(wake: Callable[[], None]) -> None:
+            def hear(image: Any) -> None:
+                heard.append(image)
+                wake()
+
+            node.subscriber(name, message_class("sensor_msgs/Image"), hear)
+
+        Span.of(call.graph, round(given.duration * 1e9)).wait(node, f"an image on {name}", begin)
+    if not heard:
+        raise VerbError(
+            f"no image came on {name} in {given.duration:g} s; `rosmini rostopic info {name}` says who publishes it"
+        )
+    return _shown(image_picture(heard[0], title=name), "image_view", given, call)
+
+
+def _pass(call: Call, seconds: float) -> None:
+    """Let graph time pass."""
+    for _ in Span.of(call.graph, round(max(seconds, 0.0) * 1e9)).every(100_000_000):
+        pass

@@ -1,0 +1,122 @@
+"""The tools of rqt as commands: pages in a terminal, views in Python."""
+
+from __future__ import annotations
+
+import webbrowser
+from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import rosmini.cli.main as cli
+from rosmini import Graph
+from rosmini.bag import Bag
+from rosmini.cli.rqt import TOOL, Shown
+from rosmini.cli.verbs import Call, VerbError
+from rosmini.errors import UsageError
+from rosmini.msgs.geometry_msgs.msg import TransformStamped
+from rosmini.msgs.sensor_msgs.msg import Image
+from rosmini.msgs.std_msgs.msg import Float64, String
+from rosmini.msgs.tf2_msgs.msg import TFMessage
+from rosmini.time import Time
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    with Graph() as made:
+        node = made.node("talker")
+        number, chatter = node.publisher("number", Float64), node.publisher("chatter", String)
+        image = node.publisher("image", Image)
+        frames = node.publisher("/tf", TFMessage)
+        made.node("listener").subscriber("chatter", String, lambda _: None)
+        pixels = np.zeros((2, 2, 3), np.uint8)
+
+        def tick(_: object) -> None:
+            number.publish(3.0)
+            chatter.publish("x")
+            image.publish(Image(height=2, width=2, encoding="rgb8", step=6, data=pixels.tobytes()))
+            one = TransformStamped(child_frame_id="base")
+            one.header.frame_id, one.header.stamp = "odom", made.now()
+            one.transform.rotation.w = 1.0
+            frames.publish(TFMessage([one]))
+            node.loginfo("tick")
+
+        node.timer(0.2, tick)
+        yield made
+
+
+def shown(graph: Graph, line: str) -> Shown:
+    result = TOOL.run(*line.split(), graph=graph)
+    assert isinstance(result, Shown)
+    assert result.path is None
+    return result
+
+
+@pytest.mark.parametrize(
+    ("line", "text"),
+    [
+        ("graph", "/talker -> /chatter [std_msgs/String] -> /listener"),
+        ("graph --mode all --hide none", "/rosout"),
+        ("plot number/data --duration 1", "/number/data: 4 points, from 3.00 to 3.00"),
+        ("topic --duration 1", "/chatter"),
+        ("topic chatter --duration 1", "'x'"),
+        ("console --duration 1", "tick"),
+        ("tf_tree --duration 1", "odom -> base: Broadcaster: /talker"),
+        ("image_view image", "2 x 2"),
+        ("msg std_msgs/String", "data"),
+        ("srv std_srvs/SetBool", "request/data"),
+        ("action actionlib_tutorials/Fibonacci", "goal/order"),
+    ],
+)
+def test_a_verb_returns_what_it_shows_and_leaves_no_node(graph: Graph, line: str, text: str) -> None:
+    nodes = list(graph.nodes)
+    result = shown(graph, line)
+    assert text in str(result)
+    assert str(result) == result.view.text
+    data, _ = result._repr_mimebundle_()
+    assert data["text/plain"] == result.view.text
+    assert list(graph.nodes) == nodes
+
+
+def test_what_cannot_be_shown_is_said(graph: Graph) -> None:
+    with pytest.raises(VerbError, match=r"no image came on /none in 0\.5 s"):
+        shown(graph, "image_view none --duration 0.5")
+    for line in ("graph --mode most", "msg", "bag", "image_view a b", "polt x"):
+        with pytest.raises(UsageError):
+            shown(graph, line)
+
+
+def test_every_command_of_its_own_is_a_verb_and_the_reverse() -> None:
+    assert set(TOOL.verbs) == set(cli.RQT)
+    result = TOOL.alone("msg").run("std_msgs/String")
+    assert str(result) == str(TOOL.run("msg", "std_msgs/String"))
+
+
+def test_a_terminal_writes_a_page_and_opens_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr(webbrowser, "open", opened.append)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    given = TOOL.verbs["msg"].parser().parse(["std_msgs/String"])
+    result = TOOL.verbs["msg"].act(given, Call(SimpleNamespace(), read_line=input))  # type: ignore[arg-type]
+    assert isinstance(result, Shown)
+    assert result.path is not None
+    assert opened == [result.path.as_uri()]
+    assert "std_msgs/String" in result.path.read_text(encoding="utf-8")
+    assert result.path.is_relative_to(tmp_path)
+    assert capsys.readouterr().out == ""
+
+
+def test_a_file_that_is_named_is_written_and_nothing_is_opened(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(webbrowser, "open", lambda _: pytest.fail("a browser was opened"))
+    with Bag(tmp_path / "run.bag", "w") as bag:
+        bag.write("/chatter", String("x"), Time(1))
+    page = tmp_path / "bag.svg"
+    assert cli.main(["rqt_bag", str(tmp_path / "run.bag"), "-o", str(page)]) == 0
+    assert page.read_text(encoding="utf-8").startswith("<svg")
+    assert str(page) in capsys.readouterr().out

@@ -1,0 +1,31 @@
+"""rqt_msg, rqt_srv, rqt_action: types as trees."""
+
+from __future__ import annotations
+
+import pytest
+
+from rosmini.viz import ViewError
+from rosmini.viz.rqt.definitions import rqt_action, rqt_msg, rqt_srv
+
+
+def test_the_fields_of_a_message_with_their_paths() -> None:
+    table = rqt_msg("geometry_msgs/PoseStamped")
+    assert table.columns == ("Tree", "Type", "Path")
+    assert ("    position", "geometry_msgs/Point", "pose/position") in table.rows
+    assert ("      x", "float64", "pose/position/x") in table.rows
+    assert len(table) == 1 + 1 + 3 + 1 + 1 + 3 + 1 + 4
+
+
+def test_both_halves_of_a_service_and_all_parts_of_an_action() -> None:
+    assert [row[2] for row in rqt_srv("std_srvs/SetBool").rows] == [
+        "std_srvs/SetBoolRequest", "request/data", "std_srvs/SetBoolResponse", "response/success", "response/message",
+    ]  # fmt: skip
+    paths = [row[2] for row in rqt_action("actionlib_tutorials/Fibonacci").rows]
+    assert paths[1::2] == ["goal/order", "result/sequence", "feedback/sequence"]
+
+
+@pytest.mark.parametrize("kind", ["geometry_msgs/Twits", "nowhere/Twist", "Twist!", "a/b/c", ""])
+def test_a_type_that_is_none(kind: str) -> None:
+    for draw in (rqt_msg, rqt_srv, rqt_action):
+        with pytest.raises(ViewError):
+            draw(kind)
