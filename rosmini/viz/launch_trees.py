@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from rosmini.launch import LaunchFile, NodePlan, Plan, Setting
 from rosmini.viz.outline import HEAD, KIND, NAME, VALUE, Row, outline
-from rosmini.viz.rqt.wording import plural
 from rosmini.viz.view import Picture
+from rosmini.viz.words import plural
 
 __all__ = ["launch_tree"]
 

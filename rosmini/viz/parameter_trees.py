@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from rosmini.viz.outline import HEAD, KIND, NAME, VALUE, Row, outline
-from rosmini.viz.rqt.wording import plural
 from rosmini.viz.view import Picture, ViewError
+from rosmini.viz.words import plural
 
 __all__ = ["parameter_tree"]
 

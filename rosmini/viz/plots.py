@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, mark, place, step_of
-from rosmini.viz.rounding import fixed, snap
-from rosmini.viz.rqt.wording import plural
+from rosmini.viz.rounding import fixed, plural, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
 

@@ -10,9 +10,9 @@ from rosmini.viz import style
 from rosmini.viz.graph_drawing import arrow, drawing, ellipse, facts, name, room_for, rule, text
 from rosmini.viz.layout import Edge, Layout, Vertex, layered
 from rosmini.viz.metrics import text_width
-from rosmini.viz.rqt.wording import plural
 from rosmini.viz.svg import element
 from rosmini.viz.view import Picture, ViewError
+from rosmini.viz.words import plural
 
 COLOURS = ["ink", "muted", "line", "node-fill", "node-line", "topic-fill", "topic-line", "label"]
 

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from rosmini.urdf import Robot
-from rosmini.viz.rounding import fixed, snap
-from rosmini.viz.rqt.wording import plural
+from rosmini.viz.rounding import fixed, plural, snap
 from rosmini.viz.view import ViewError
 
 from .links import link_parts, link_surfaces

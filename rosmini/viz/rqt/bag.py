@@ -10,8 +10,7 @@ from itertools import pairwise
 from rosmini.bag import Bag
 from rosmini.viz.figures import WIDTH, say, step_of, ticks
 from rosmini.viz.metrics import text_width
-from rosmini.viz.rounding import fixed
-from rosmini.viz.rqt.wording import plural
+from rosmini.viz.rounding import fixed, plural
 from rosmini.viz.style import LABEL_SIZE, TEXT_SIZE, variable
 from rosmini.viz.svg import document, element, escape, number
 from rosmini.viz.view import Picture, ViewError

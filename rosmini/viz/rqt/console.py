@@ -10,9 +10,9 @@ from rosmini.errors import nearest
 from rosmini.graph.rosout import LEVELS, NAMES
 from rosmini.viz.rqt.selection import matches
 from rosmini.viz.rqt.table import heading, table_figure
-from rosmini.viz.rqt.wording import plural
 from rosmini.viz.svg import element, escape
 from rosmini.viz.view import View, ViewError
+from rosmini.viz.words import plural
 
 __all__ = ["LogTable", "rqt_console"]
 

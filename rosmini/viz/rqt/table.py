@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from rosmini.viz.rqt.wording import plural
 from rosmini.viz.style import themed, variable
 from rosmini.viz.svg import element, escape
 from rosmini.viz.view import View, ViewError
+from rosmini.viz.words import plural
 
 INKS = {"DEBUG": "muted", "INFO": "ink", "WARN": "label", "ERROR": "bad-line", "FATAL": "bad-line"}
 """The colour of each level; its name stands beside it in any case."""

@@ -11,7 +11,7 @@ from rosmini.introspection.topics import types
 from rosmini.msgs.message import Message
 from rosmini.viz.rqt.listening import listen
 from rosmini.viz.rqt.table import Table
-from rosmini.viz.rqt.wording import plural
+from rosmini.viz.words import plural
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator

@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 
 from rosmini.viz.rqt.selection import Selection
+from rosmini.viz.words import plural
 
 ALT_FLOWS = 6
 """How many topics the alt text spells out."""
-
-
-def plural(count: int, noun: str) -> str:
-    """A count with its noun: "1 topic", "2 topics"."""
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def text_form(selection: Selection, title: str | None = None) -> str:
