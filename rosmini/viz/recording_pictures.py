@@ -12,9 +12,10 @@ from rosmini.geometry.poses import Pose
 from rosmini.sim.recording import Drift, Moved, Recording
 from rosmini.viz.beams import beams_of
 from rosmini.viz.figures import WIDTH, blank_figure, house_style, legend, mark, place, step_of
-from rosmini.viz.rounding import degrees, fixed, kept, plural, snap
+from rosmini.viz.rounding import degrees, fixed, kept, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
+from rosmini.viz.words import plural
 from rosmini.viz.world_drawing import DASHES
 from rosmini.viz.world_pictures import HEIGHT, Other, Scene, pose_text
 

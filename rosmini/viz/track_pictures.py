@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.viz.figures import WIDTH, blank_figure, house_style, mark, place, step_of
-from rosmini.viz.rounding import fixed, kept, plural, snap
+from rosmini.viz.rounding import fixed, kept, snap
 from rosmini.viz.style import LABEL_SIZE, LIGHT
 from rosmini.viz.view import Picture, ViewError, matplotlib_picture
+from rosmini.viz.words import plural
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

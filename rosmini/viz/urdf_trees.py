@@ -7,9 +7,10 @@ from rosmini.viz import style
 from rosmini.viz.graph_drawing import arrow, box, drawing, ellipse, facts, name, room_for, rule
 from rosmini.viz.layout import Edge, Layout, Vertex, layered
 from rosmini.viz.metrics import text_width
-from rosmini.viz.rounding import fixed, plural
+from rosmini.viz.rounding import fixed
 from rosmini.viz.svg import element
 from rosmini.viz.view import Picture
+from rosmini.viz.words import plural
 
 COLOURS = [
     "ink", "muted", "line", "node-fill", "node-line",

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from rosmini.urdf import Robot
-from rosmini.viz.rounding import fixed, plural, snap
+from rosmini.viz.rounding import fixed, snap
 from rosmini.viz.view import ViewError
+from rosmini.viz.words import plural
 
 from .links import link_parts, link_surfaces
 from .scene3d import ROBOT, Camera, Scene3D

@@ -10,10 +10,11 @@ from itertools import pairwise
 from rosmini.bag import Bag
 from rosmini.viz.figures import WIDTH, say, step_of, ticks
 from rosmini.viz.metrics import text_width
-from rosmini.viz.rounding import fixed, plural
+from rosmini.viz.rounding import fixed
 from rosmini.viz.style import LABEL_SIZE, TEXT_SIZE, variable
 from rosmini.viz.svg import document, element, escape, number
 from rosmini.viz.view import Picture, ViewError
+from rosmini.viz.words import plural
 
 KIND = "rosmini-bag"
 ROW, BAR = 34.0, 14.0
