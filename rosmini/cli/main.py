@@ -115,6 +115,11 @@ COMMANDS: dict[str, Entry] = {
     "rosls": Entry("rosmini.cli.rosls", "list what is in the folder of a package"),
     "rosversion": Entry("rosmini.cli.rosversion", "the version of a package"),
     "aliases": Entry("rosmini.cli.aliases", "lines for a shell: bare names (rostopic ...) and completion"),
+    "catkin_init_workspace": Entry(
+        "rosmini.cli.catkin_init_workspace", "make a folder the source space of a workspace"
+    ),
+    "catkin_create_pkg": Entry("rosmini.cli.catkin_create_pkg", "make a new package"),
+    "catkin_make": Entry("rosmini.cli.catkin_make", "build a catkin workspace"),
     "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
     "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),
     "book": Entry("book.tools.book", "build the book from the stored outputs and open it", "."),
