@@ -21,6 +21,7 @@ MOST = 50_000
 """Commands that are followed, those in loops counted each time."""
 
 _REFERENCE = re.compile(r"\$(?:(ENV|CACHE))?\{([^${}]*)\}")
+_SEPARATOR = re.compile(r"(?<!\\);")
 _ESCAPE = re.compile(r"\\(.)", re.DOTALL)
 _FALSE = {"", "0", "OFF", "NO", "FALSE", "N", "IGNORE", "NOTFOUND"}
 _TRUE = {"1", "ON", "YES", "TRUE", "Y"}
@@ -144,14 +145,16 @@ class Evaluation:
             if each.raw:
                 yield Word(each.text, each.line)
                 continue
-            text = self.expand(each.text, each.line)
-            if each.quoted:
-                yield Word(text, each.line)
-            else:
-                yield from (Word(part, each.line) for part in text.split(";") if part)
+            text = self._filled_in(each.text, each.line)
+            parts = [text] if each.quoted else [part for part in _SEPARATOR.split(text) if part]
+            for part in parts:
+                plain = _ESCAPE.sub(
+                    lambda match: {"n": "\n", "t": "\t", "r": "\r"}.get(match[1], match[1]), part
+                )
+                yield Word(plain, each.line)
 
-    def expand(self, text: str, line: int) -> str:
-        """A text with the values of its variables, from the inside out, and without its escapes."""
+    def _filled_in(self, text: str, line: int) -> str:
+        """A text with the values of its variables, from the inside out."""
         for _ in range(20):
             if "$" not in text:
                 break
@@ -161,7 +164,7 @@ class Evaluation:
             if new == text:
                 break
             text = new
-        return _ESCAPE.sub(lambda match: {"n": "\n", "t": "\t", "r": "\r"}.get(match[1], match[1]), text)
+        return text
 
     # ---- conditions ----
 

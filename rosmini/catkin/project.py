@@ -103,6 +103,7 @@ def read_project(folder: Path) -> Project:
         "UNIX": "1",
         "catkin_FOUND": "1",
         "PYTHON_VERSION_MAJOR": "3",
+        **_destinations(folder.name),
     }
     evaluation = Evaluation(folder, variables, path)
     project = Project(path)
@@ -112,14 +113,18 @@ def read_project(folder: Path) -> Project:
     return project
 
 
+def _destinations(name: str) -> dict[str, str]:
+    """The variables of catkin that say where the things of a project are installed."""
+    return {key: value.format(name=name) for key, value in CATKIN_VARIABLES.items()}
+
+
 def _declare(project: Project, statement: Statement, evaluation: Evaluation) -> None:
     """Note what one command declares."""
     words, line = statement.words, statement.line
     name = statement.name
     if name == "project" and words:
         project.name = words[0]
-        made = {key: value.format(name=words[0].text) for key, value in CATKIN_VARIABLES.items()}
-        evaluation.variables.update(made)
+        evaluation.variables.update(_destinations(words[0].text))
     elif name == "find_package" and words and words[0].text == "catkin":
         project.finds_catkin = line
         project.components += _after(words, ("COMPONENTS", "OPTIONAL_COMPONENTS"), ("REQUIRED", "QUIET"))

@@ -35,12 +35,13 @@ class Workspace:
         base = Path(os.path.abspath(base))  # noqa: PTH100 (links stay as the user knows them)
         source_space = base / (source or "src")
         found = cls(base, source_space, base / (build or "build"), base / "devel")
-        if source_space.is_dir():
+        if source_space.is_dir() and not (base / MANIFEST).is_file():
             found._check()
             return found
-        raise CatkinError(
-            f'The specified source space "{source_space}" does not exist\n{found._what_is_wrong()}'
+        missing = (
+            "" if source_space.is_dir() else f'The specified source space "{source_space}" does not exist\n'
         )
+        raise CatkinError(missing + found._what_is_wrong())
 
     def _what_is_wrong(self) -> str:
         if (self.base / MANIFEST).is_file():
