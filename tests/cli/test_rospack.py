@@ -71,9 +71,8 @@ def test_a_broken_manifest_is_told_and_the_rest_is_listed(workspace: Path) -> No
 
 def test_needs_in_a_circle_come_to_an_end(workspace: Path) -> None:
     path = workspace / "gamma" / "package.xml"
-    path.write_text(
-        path.read_text(encoding="utf-8").replace("</package>", "<depend>mixed</depend></package>")
-    )
+    text = path.read_text(encoding="utf-8").replace("</package>", "<depend>mixed</depend></package>")
+    path.write_text(text, encoding="utf-8")
     assert set(ROSPACK.run("depends", "mixed").lines) == {"alpha", "beta", "gamma"}
     assert ROSPACK.run("depends-why", "--target=mixed", "gamma").lines[1:] == ("* gamma -> mixed ",)
     assert ROSPACK.run("depends-indent", "gamma").lines[0] == "mixed"
