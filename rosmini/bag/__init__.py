@@ -16,6 +16,7 @@ from .errors import (
     ROSBagFormatException,
     ROSBagUnindexedException,
 )
+from .migration import fix_bag
 from .player import Player, PlayOptions
 from .recorder import Recorder, RecordOptions
 from .records import Compression
@@ -40,6 +41,7 @@ __all__ = [
     "Recorder",
     "changed_types",
     "filter_bag",
+    "fix_bag",
     "merge",
     "recompress",
     "reindex",

@@ -70,7 +70,8 @@ def copy_messages(
     return Copied(written, total)
 
 
-def _two_files(source: PathLike, target: PathLike) -> None:
+def two_files(source: PathLike, target: PathLike) -> None:
+    """Raise ``ROSBagException`` if a bag would be written over itself."""
     if Path(source).resolve() == Path(target).resolve():
         raise ROSBagException(f"Cannot use same file as input and output [{os.fspath(source)}]")
 
@@ -87,7 +88,7 @@ def filter_bag(
     The expression is text, confined as :mod:`rosmini.bag.expressions` says, or a function. ``tell(kept, topic, m, t)``
     hears of each. Raises ``FilterError`` for an expression that is not allowed or fails; ``target`` is not there then.
     """
-    _two_files(source, target)
+    two_files(source, target)
     chosen = compile_expression(expression) if isinstance(expression, str) else expression
     with Bag(source) as inbag:
 
@@ -100,10 +101,12 @@ def filter_bag(
                 tell(kept, message.connection.topic, content, time)
             return kept
 
-        return _written(target, lambda outbag: copy_messages(inbag.read_raw(), outbag, keep))
+        return write_whole(target, lambda outbag: copy_messages(inbag.read_raw(), outbag, keep))
 
 
-def _written(target: PathLike, fill: Callable[[Bag], Copied], compression: str = Compression.NONE) -> Copied:
+def write_whole(
+    target: PathLike, fill: Callable[[Bag], Copied], compression: str = Compression.NONE
+) -> Copied:
     """Return what ``fill`` says of a new bag. If it fails, there is no new bag."""
     part = Path(f"{os.fspath(target)}.part")
     try:
@@ -121,13 +124,13 @@ def merge(sources: Iterable[PathLike], target: PathLike, *, compression: str = C
 
     sources = list(sources)
     for source in sources:
-        _two_files(source, target)
+        two_files(source, target)
     bags: list[Bag] = []
     try:
         bags += [Bag(source) for source in sources]
         streams = [bag.read_raw() for bag in bags]
         ordered = merged(*streams, key=lambda message: message.time)
-        return _written(target, lambda outbag: copy_messages(ordered, outbag), compression)
+        return write_whole(target, lambda outbag: copy_messages(ordered, outbag), compression)
     finally:
         for bag in bags:
             bag.close()
@@ -135,9 +138,9 @@ def merge(sources: Iterable[PathLike], target: PathLike, *, compression: str = C
 
 def recompress(source: PathLike, target: PathLike, compression: str = Compression.BZ2) -> Copied:
     """Write the messages of ``source`` to ``target`` with another compression ("none": without)."""
-    _two_files(source, target)
+    two_files(source, target)
     with Bag(source) as inbag:
-        return _written(target, lambda outbag: copy_messages(inbag.read_raw(), outbag), compression)
+        return write_whole(target, lambda outbag: copy_messages(inbag.read_raw(), outbag), compression)
 
 
 def reindex(path: PathLike) -> Reindexed:

@@ -24,6 +24,7 @@ from rosmini.bag import (
     ROSBagUnindexedException,
     changed_types,
     filter_bag,
+    fix_bag,
     merge,
     recompress,
     reindex,
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
     from rosmini.scripts import NodeHandle, ScriptHandle
     from rosmini.time import Time
 
-TOOL = Tool("rosbag", "record, play and look into bags", elsewhere=("decrypt", "encrypt", "fix"))
+TOOL = Tool("rosbag", "record, play and look into bags", elsewhere=("decrypt", "encrypt"))
 add_parser, main = TOOL.add_parser, TOOL.main
 
 
@@ -175,6 +176,53 @@ def filter_(given: Values, call: Call) -> Written:
 
 def _teller(shown: Callable[[str, Any, Any], Any], call: Call) -> Callable[[bool, str, Any, Time], object]:
     return lambda kept, topic, m, t: call.say(f"{'MATCH' if kept else 'NO MATCH'} {shown(topic, m, t)}")
+
+
+def _fix_parser() -> Parser:
+    parser = Parser(
+        "rosbag fix [options] INBAG OUTBAG",
+        "Make the messages of a bag ones of this system's types, field by field. Rule files are not read: they are "
+        "programs.",
+    )
+    parser.add_option(
+        "--force", action="store_true", default=False,
+        help="also where fields do not go together: what is new is empty, what is gone is lost",
+    )  # fmt: skip
+    return parser
+
+
+@TOOL.verb("repair the messages in a bag file, so that they are of this system's types", parser=_fix_parser)
+def fix(given: Values, _call: Call) -> Written:
+    """Make the messages of a bag ones of this system's types."""
+    missing = ("You must pass input and output bag files.", "You must pass an output bag file.")
+    if len(given.words) < 2:
+        _fix_parser().error(missing[len(given.words)])
+    source, target, *rules = given.words
+    if rules:
+        _fix_parser().error(f"{rules[0]}: rule files are programs, and are not run here")
+    if Path(target).suffix != ".bag":
+        _fix_parser().error("Output file must be a bag file.")
+    try:
+        fixed = fix_bag(source, target, force=given.force)
+    except (ROSBagException, OSError) as error:
+        raise VerbError(_complaint(source, error)) from error
+    obstacles = [
+        f" * From: {change.type} [{change.md5sum}]\n   To:   {change.type} [{change.local}]"
+        + "".join(f"\n     {line}" for line in lines)
+        for change, lines in fixed.obstacles.items()
+    ]
+    if fixed.copied is None:
+        head = "Bag could not be migrated.  The following migrations could not be performed:"
+        raise VerbError("\n".join([head, *obstacles, "--force writes it nevertheless."]))
+    return Fix(bags=((Path(target), f"{fixed.copied.written} messages"),), complaints=tuple(obstacles))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fix(Written):
+    """A bag that was made one of this system's types."""
+
+    def __str__(self) -> str:
+        return "Bag migrated successfully."
 
 
 def _compression(parser: Parser, default: str) -> None:
