@@ -69,7 +69,7 @@ COMMANDS: dict[str, Entry] = {
     "roscore": Entry("rosmini.cli.roscore", "the Master, the Parameter Server and /rosout"),
     "rosrun": Entry("rosmini.cli.rosrun", "run a node in a process of its own, on the graph of a Master"),
     "roslaunch": Entry(
-        "rosmini.cli.roslaunch", "start the nodes of launch files, and look at what they mean"
+        "rosmini.cli.roslaunch", "start the nodes of launch files, and look at what they mean", is_magic=True
     ),
     "run": Entry("rosmini.cli.run", "run scripts written for rospy as nodes of one graph"),
     "rosnode": Entry(

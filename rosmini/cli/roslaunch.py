@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import socket
 import sys
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -16,13 +17,14 @@ from rosmini.packages import PackageIndex
 from .collector import seldom
 from .run import nodes_in, tell
 from .signals import end_as_ctrl_c
+from .verbs import Call, Lines, Result, Tool
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Sequence
     from optparse import Values
 
-    from rosmini.launch import Plan
+    from rosmini.launch import Launch, Missing, Plan
 
 USAGE = (
     "%prog [options] [package] <filename> [arg_name:=value...]\n"
@@ -88,6 +90,38 @@ def parser() -> Parser:
     return made
 
 
+TOOL = Tool(
+    "roslaunch", "start the nodes of launch files, and look at what they mean", only_verb="launch",
+    example="turtlebot3_gazebo turtlebot3_world.launch",
+)  # fmt: skip
+"""What notebooks have: ``%roslaunch`` starts the nodes in the graph, and returns at once or after --duration."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Launched(Result):
+    """A launch that was started: ``launch["talker"]`` is a node's handle, ``launch.stop()`` ends all of them."""
+
+    launch: Launch
+
+
+@TOOL.verb("start the nodes of launch files", parser=parser, name="launch")
+def _launch_here(given: Values, call: Call) -> Result:
+    from rosmini.launch.running import Launch, differences, in_graph
+
+    packages = PackageIndex()
+    plan = plan_of(given, packages, None)
+    if is_question(given):
+        return answer(given, plan, packages)
+    plan = changed(plan, given)
+    plan.warnings += differences(plan)
+    say = partial(print, file=sys.stdout, flush=True)
+    launch = Launch(plan, call.graph, in_graph(call.graph, packages), say=say, warn=say)
+    launch.start()
+    if given.duration is not None:
+        launch.wait(given.duration)
+    return Launched(launch=launch)
+
+
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
     """Add `roslaunch`."""
     import argparse
@@ -147,17 +181,14 @@ def options(words: Sequence[str]) -> tuple[Values, list[str]]:
 def act(given: Values, nodes: Sequence[str]) -> int:
     """Do what the options say."""
     from rosmini.launch import LaunchError
-    from rosmini.launch.reader import find_file
 
     packages = PackageIndex()
-    asking = any(getattr(given, name) for name in ASKING)
     try:
-        files = find_file([word for word in given.words if not is_remapping(word)], packages)
-        plan = load(
-            files, given.words, packages, lenient=bool(given.check or given.ros_args or given.file_list)
-        )
-        if asking:
-            return answer(given, plan, packages)
+        plan = plan_of(given, packages, anonymous())
+        if is_question(given):
+            found = answer(given, plan, packages)
+            print(found)
+            return found.status
     except LaunchError as error:
         print(f"RLException: {error}", file=sys.stderr)
         return 1
@@ -169,22 +200,26 @@ def act(given: Values, nodes: Sequence[str]) -> int:
     return launch(plan, given, packages)
 
 
-def load(files: Sequence[str], words: Sequence[str], packages: PackageIndex, *, lenient: bool) -> Plan:
-    """Read the files, and what stands on standard input for ``-``. Raises ``LaunchError``."""
-    from rosmini.launch import read
+def is_question(given: Values) -> bool:
+    """Return whether the options only ask for something."""
+    return any(getattr(given, name) for name in ASKING)
 
-    args = dict(word.split(":=", 1) for word in words if is_remapping(word))
-    text = sys.stdin.read() if "-" in files else None
+
+def plan_of(given: Values, packages: PackageIndex, names: Callable[[str], str] | None) -> Plan:
+    """Read the files, and what stands on standard input for ``-``. Raises ``LaunchError``."""
+    from rosmini.launch import find_file, read
+
+    files = find_file([word for word in given.words if not is_remapping(word)], packages)
+    args = dict(word.split(":=", 1) for word in given.words if is_remapping(word))
     namespace = args.pop("__ns", None) or os.environ.get("ROS_NAMESPACE") or "/"
-    args = {name: value for name, value in args.items() if not name.startswith("__")}
     return read(
         *(file for file in files if file != "-"),
-        args=args,
-        text=text,
+        args={name: value for name, value in args.items() if not name.startswith("__")},
+        text=sys.stdin.read() if "-" in files else None,
         namespace=namespace,
         packages=packages,
-        anonymous=anonymous(),
-        lenient=lenient,
+        anonymous=names,
+        lenient=bool(given.check or given.ros_args or given.file_list),
     )
 
 
@@ -201,48 +236,44 @@ def anonymous() -> Callable[[str], str]:
     return make
 
 
-def answer(given: Values, plan: Plan, packages: PackageIndex) -> int:
-    """Print what was asked for. Raises ``LaunchError``."""
+def answer(given: Values, plan: Plan, packages: PackageIndex) -> Lines:
+    """Return what was asked for. Raises ``LaunchError``."""
     from rosmini.launch.executables import missing_programs, program
 
     if given.check:
         return check(plan, [*plan.missing, *missing_programs(plan, packages, os.environ)])
     if given.node_args:
         node = plan.node(given.node_args)
-        extra = {"ROS_NAMESPACE": node.namespace.rstrip("/") or "/", **dict(node.environment)}
-        shown = [f'{name}="{value}"' for name, value in extra.items() if os.environ.get(name) != value]
-        shown = [] if shown == ['ROS_NAMESPACE="/"'] else shown
+        extra = {"ROS_NAMESPACE": node.namespace.rstrip("/"), **dict(node.environment)}
+        shown = [
+            f'{name}="{value}"' for name, value in extra.items() if value and os.environ.get(name) != value
+        ]
         prefix = [node.launch_prefix] if node.launch_prefix else []
-        print(" ".join([*shown, *prefix, *program(node, packages, os.environ).words, *node.words()]))
+        text = " ".join([*shown, *prefix, *program(node, packages, os.environ).words, *node.words()])
     elif given.node_list:
-        print("\n".join(node.full_name for node in plan.all_nodes()))
+        text = "\n".join(node.full_name for node in plan.all_nodes())
     elif given.find_node:
-        print(plan.node(given.find_node).place.file)
+        text = plan.node(given.find_node).place.file
     elif given.ros_args:
-        print(plan.ros_args())
+        text = plan.ros_args()
     elif given.dump_params:
-        print(plan.dump())
+        text = plan.dump()
     elif given.file_list:
-        print("\n".join(plan.files()))
+        text = "\n".join(plan.files())
     else:
-        print(plan.text())
-    return 0
+        text = plan.text()
+    return Lines(lines=(text,))
 
 
-def check(plan: Plan, missing: Sequence[object]) -> int:
-    """Print warnings and all that is missing; 1 if anything is."""
-    for line in plan.warnings:
-        print(f"WARNING: {line}")
+def check(plan: Plan, missing: Sequence[Missing]) -> Lines:
+    """Return the warnings and all that is missing; the status is 1 if anything is."""
+    from rosmini.launch.errors import not_there
+
+    warnings = [f"WARNING: {line}" for line in plan.warnings]
     if missing:
-        from rosmini.launch import Missing
-        from rosmini.launch.errors import not_there
-
-        print(not_there([each for each in missing if isinstance(each, Missing)]))
-        return 1
-    print(
-        f"{len(plan.all_nodes())} nodes, {len(plan.settings)} parameters, {len(plan.files())} files: all is there"
-    )
-    return 0
+        return Lines(lines=(*warnings, str(not_there(missing))), status=1)
+    counts = f"{len(plan.all_nodes())} nodes, {len(plan.settings)} parameters, {len(plan.files())} files"
+    return Lines(lines=(*warnings, f"{counts}: all is there"))
 
 
 def changed(plan: Plan, given: Values) -> Plan:

@@ -14,7 +14,9 @@ from xmlrpc.client import ServerProxy
 
 import pytest
 
+from rosmini import Graph
 from rosmini.cli.main import main
+from rosmini.cli.roslaunch import TOOL
 
 from ..launch.workspace import make
 from ..processes import free_port, listens, run, start, wait_until
@@ -273,3 +275,17 @@ def test_nodes_die_with_a_launcher_that_is_killed(session: Session) -> None:
     process.kill()
     process.wait()
     wait_until(lambda: not any(map(runs, pids)), "end of all nodes")
+
+
+def test_in_a_notebook_the_nodes_run_in_its_graph(source: Path, capsys: Any) -> None:
+    (source / "speaking" / "launch" / "one.launch").write_text(
+        '<launch><node pkg="speaking" type="talker.py" name="talker"/></launch>', encoding="utf-8"
+    )
+    with Graph(strict=False) as graph:
+        found: Any = TOOL.run("--nodes", "speaking", "one.launch", graph=graph)
+        assert str(found) == "/talker"
+        result: Any = TOOL.run("speaking", "one.launch", "--duration", "2", graph=graph)
+        assert result.launch["talker"].poll() is None
+        assert "/chatter" in dict(graph.ask_as("/x").ask("getTopicTypes"))
+        result.launch.stop()
+    assert "[talker] /talker None /chatter" in capsys.readouterr().out
