@@ -2,50 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import DefinitionError, UnknownPackage, UnknownType, shown
 from rosmini.msgs import message_class
-from rosmini.msgs.registry import Registry
+from rosmini.msgs.full_text import class_from
 
 from .errors import ROSBagFormatException, in_file
 
 if TYPE_CHECKING:
     from .index import Connection
-
-_SEPARATOR = re.compile(r"^={80}\n", re.MULTILINE)
-
-
-class RecordedSource:
-    """The definitions in the full text of one message type, as a source of a registry."""
-
-    def __init__(self, name: str, text: str) -> None:
-        first, *rest = _SEPARATOR.split(text)
-        self._texts = {name: first}
-        for part in rest:
-            head, _, body = part.partition("\n")
-            self._texts[head.removeprefix("MSG:").strip()] = body
-
-    def packages(self) -> list[str]:
-        """The packages that define something, sorted."""
-        return sorted({name.partition("/")[0] for name in self._texts})
-
-    def has_package(self, package: str) -> bool:
-        """True if this package defines something."""
-        return package in self.packages()
-
-    def names(self, package: str, kind: str) -> list[str]:
-        """The names of a package's definitions of one kind, sorted."""
-        if kind != "msg":
-            return []
-        return sorted(name.partition("/")[2] for name in self._texts if name.partition("/")[0] == package)
-
-    def read(self, package: str, kind: str, name: str) -> tuple[str, str] | None:
-        """The text of a definition, and where it is from."""
-        text = self._texts.get(f"{package}/{name}") if kind == "msg" else None
-        return None if text is None else (text, f"the bag's definition of {package}/{name}")
 
 
 class Types:
@@ -81,9 +48,8 @@ def local_class(connection: Connection) -> Any:
 
 def recorded_class(connection: Connection) -> Any:
     """Return the class that the definition in the bag describes. Raises ``ROSBagFormatException`` if that is broken."""
-    source = RecordedSource(connection.type, connection.definition)
     try:
-        return Registry(source).message_class(connection.type)
+        return class_from(connection.type, connection.definition)
     except (UnknownType, UnknownPackage, DefinitionError) as error:
         raise ROSBagFormatException(
             f"the definition of {shown(connection.type)} on {shown(connection.topic)} is broken: {error}. "

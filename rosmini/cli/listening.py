@@ -93,11 +93,18 @@ def await_topic(call: Call, name: str, span: Span) -> Found | None:
     return None
 
 
-def class_for(found: Found) -> Any:
-    """Return the class of a topic's messages. Raises ``VerbError`` if the type is not known here."""
+def class_for(found: Found, graph: Graph) -> Any:
+    """Return the class with which to subscribe to a topic.
+
+    For a type that is not known here it is ``AnyMsg``: each publisher elsewhere sends its definition. Raises
+    ``VerbError`` where there is none such.
+    """
     from rosmini.introspection.fields import class_of
+    from rosmini.rospy.msg import AnyMsg
 
     cls = class_of(found.type)
+    if cls is None and not graph.master.is_local:
+        return AnyMsg
     if cls is None:
         raise VerbError(
             f"ERROR: Cannot load message class for [{found.type}]. Are your messages built?\n"

@@ -94,7 +94,7 @@ def echo(given: Values, call: Call) -> Echoed:
     found = await_topic(call, options.topic, span)
     if found is None:
         return Echoed()
-    cls = class_for(found)
+    cls = class_for(found, call.graph)
     with tool_node(call.graph) as node:
         echoer = _Echo(given, options, call, node)
         echoer.look_at(found.type, found.path)

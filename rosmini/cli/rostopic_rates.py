@@ -100,7 +100,7 @@ def hz(given: Values, call: Call) -> Rates:
                 return Rates(topics={})
             arrivals = heard[name] = Arrivals(-1 if window is None else window)
             hear = _counter(node, found.topic, arrivals, holds, problems, by_wall=given.wall_time)
-            cls = None if holds is None else class_for(found)
+            cls = None if holds is None else class_for(found, call.graph)
             _subscribe(node, found.topic, cls, hear, raw=holds is None)
             call.say(f"subscribed to [{found.topic}]")
         _warn_of_simulated_time(node, call)
@@ -177,7 +177,7 @@ def delay(given: Values, call: Call) -> Delay:
             else:
                 delays.heard(node.now().to_nsec(), message.header.stamp.to_nsec())
 
-        _subscribe(node, found.topic, class_for(found), hear, raw=False)
+        _subscribe(node, found.topic, class_for(found, call.graph), hear, raw=False)
         call.say(f"subscribed to [{found.topic}]")
         _warn_of_simulated_time(node, call)
         for _ in span.every(SECOND):

@@ -6,7 +6,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.errors import (
+    DefinitionError,
     DeserializationError,
+    IllegalName,
     TransportException,
     TransportInitError,
     TransportTerminated,
@@ -15,9 +17,10 @@ from rosmini.errors import (
     UnknownType,
 )
 from rosmini.msgs import message_class
+from rosmini.msgs.full_text import class_from
 
 from .mismatch import describe_mismatch, recast
-from .transport import DirectReceiver, set_header
+from .transport import DirectReceiver, LocalTransport, set_header
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -25,6 +28,9 @@ if TYPE_CHECKING:
     from .node_port import NodePort
     from .transport import Header
 
+
+_NO_CLASS = (UnknownType, UnknownPackage, DefinitionError, IllegalName)
+"""What is raised where there is no such type, and for a header that names or defines none."""
 
 RETRY_S = 0.5
 LONGEST_RETRY_S = 32.0
@@ -36,12 +42,24 @@ def _assign_header(message: Any, header: Header) -> None:
     message._connection_header = header
 
 
-def _class_of(header: Header, default: Any) -> Any:
-    """Return the class of what a connection carries, for subscribers of any type; else ``default``."""
-    try:
-        return message_class(header["type"]) if "type" in header else default
-    except (UnknownType, UnknownPackage):
-        return default
+def _class_of(header: Header, protocol: str, default: Any) -> Any:
+    """Return the class of what a connection carries, for subscribers of any type; else ``default``.
+
+    One that this machine does not have, or has otherwise, is made from the definition that the publisher sent; not so
+    for messages that stay in the process, which have their class already.
+    """
+    name, md5sum, text = (header.get(key, "") for key in ("type", "md5sum", "message_definition"))
+    makers = [partial(message_class, name)]
+    if protocol != LocalTransport.protocol:
+        makers.append(partial(class_from, name, text))
+    for make in makers:
+        try:
+            found = make()
+        except _NO_CLASS:
+            continue
+        if found._md5sum == md5sum:
+            return found
+    return default
 
 
 class _Callback(NamedTuple):
@@ -124,7 +142,7 @@ class Connection(DirectReceiver):
         self._keep = self.header.get("latching") == "1"
         self.is_open = True
         if self.message_class is None or self.message_class._type == "*":
-            self.message_class = _class_of(self.header, self.message_class)
+            self.message_class = _class_of(self.header, self.protocol, self.message_class)
         for handle in subscription.handles:
             handle.connected(self.peer)
         node.connections_changed()

@@ -14,9 +14,11 @@ from rosmini.errors import TypeMismatch
 from rosmini.graph import Graph
 from rosmini.graph.headers import decode_header, encode_header
 from rosmini.graph.publisher import Publication
+from rosmini.msgs.define import define_message
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
 from rosmini.msgs.std_msgs.msg import Int32, String
 from rosmini.net.network import network_of, tcp
+from rosmini.rospy.msg import AnyMsg
 
 from ..processes import PATIENCE
 
@@ -174,3 +176,22 @@ def test_requests_that_come_at_once_are_answered_one_after_the_other(graph: Grap
     assert [struct.unpack("<BIq", got[0][at : at + 13]) for at in range(0, 2600, 13)] == [
         (1, 8, number + 1) for number in range(200)
     ]
+
+
+@pytest.mark.parametrize("is_told_truly", [True, False])
+def test_a_subscriber_of_any_type_makes_the_class_that_the_publisher_describes(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch, is_told_truly: bool
+) -> None:
+    """Only if it has the md5 sum that the publisher says; else the bytes stay bytes."""
+    odd = define_message("odd_pkg/Odd", "std_msgs/Header header\nfloat64[] values\n")
+    if not is_told_truly:
+        monkeypatch.setattr(odd, "_full_text", "float64 other\n")
+    heard: list[Any] = []
+    graph.node("talker").publisher("t", odd, latch=True).publish(values=[1.5, 2.0])
+    graph.node("listener").subscriber("t", AnyMsg, heard.append)
+    until(graph, lambda: heard)
+    if is_told_truly:
+        assert (heard[0]._type, list(heard[0].values)) == ("odd_pkg/Odd", [1.5, 2.0])
+        assert type(heard[0]) is not odd
+    else:
+        assert isinstance(heard[0], AnyMsg)

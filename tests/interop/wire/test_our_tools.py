@@ -71,6 +71,27 @@ def test_our_rates_and_publications(core: Stage, busy: Peers) -> None:
         assert peer.ask("hear", f"{peer.node}/inbox") == [{"data": "hello"}]  # once, though it is latched
 
 
+def test_our_rostopic_shows_types_that_only_the_publisher_knows(core: Stage) -> None:
+    """Which ROS's own cannot: the definition comes with the connection."""
+    odd = core.start("odd", [SYSTEM_PYTHON, "-c", ODD])
+    core.wait_for("/odd", "publishers", "/odd_publisher")
+    said = core.tool(*ROSMINI, "rostopic", "echo", "-n", "1", "/odd")
+    assert yaml.safe_load(said.replace("---", "")) == {"text": "käse", "values": [1.5, 2.0]}
+    assert core.tool(*ROSMINI, "rostopic", "echo", "-n", "1", "/odd/values[1]") == "2.0\n---\n"
+    odd.interrupt()
+
+
+ODD = """
+import rospy
+from genpy.dynamic import generate_dynamic
+Odd = generate_dynamic("odd_pkg/Odd", "string text\\nfloat64[] values\\n")["odd_pkg/Odd"]
+rospy.init_node("odd_publisher")
+publisher = rospy.Publisher("/odd", Odd, latch=True, queue_size=1)
+publisher.publish(Odd("käse", [1.5, 2.0]))
+rospy.spin()
+"""
+
+
 def test_our_rosnode_kills_and_cleans_up(core: Stage, busy: Peers) -> None:
     for kind in ("ours", "real"):
         victim = core.peer(kind, f"victim_of_ours_{kind}").ready()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosmini.bag.types import RecordedSource
+from rosmini.msgs.full_text import FullText
 from rosmini.msgs.registry import Registry
 
 
@@ -15,7 +15,7 @@ def generate_dynamic(core_type: str, msg_cat: str) -> dict[str, Any]:
     line ``MSG: package/Type``. Raises ``DefinitionError`` for a text that is wrong, ``UnknownType`` or
     ``UnknownPackage`` for a nested type that is missing.
     """
-    source = RecordedSource(core_type, msg_cat)
+    source = FullText(core_type, msg_cat)
     made = Registry(source)
     names = [f"{package}/{name}" for package in source.packages() for name in source.names(package, "msg")]
     return {name: made.message_class(name) for name in dict.fromkeys([core_type, *names])}
