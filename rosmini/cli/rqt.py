@@ -80,7 +80,7 @@ def _one_word(given: Values, parser: Parser, what: str) -> str:
     return str(given.words[0])
 
 
-# -- what asks the Master ----------------------------------------------------------------------------------------------
+# -- what asks the Master or nobody ----------------------------------------------------------------------------------------------
 
 
 def _graph_parser() -> Parser:
@@ -142,6 +142,20 @@ for _verb, _example in (
     ("action", "move_base_msgs/MoveBase"),
 ):
     _definition(_verb, _example)
+
+
+def _plugins_parser() -> Parser:
+    return _parser(
+        "plugins", "", "The plugins of the real rqt in their nine groups, and what serves here.", ""
+    )
+
+
+@TOOL.verb("rqt's plugins, and what serves here", parser=_plugins_parser, only_asks=True)
+def plugins(given: Values, call: Call) -> Shown:
+    """Show the table of plugins."""
+    from rosmini.viz.rqt.plugins import rqt_plugins
+
+    return _shown(rqt_plugins(), "plugins", given, call)
 
 
 def _bag_parser() -> Parser:

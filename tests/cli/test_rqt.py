@@ -89,9 +89,16 @@ def test_what_cannot_be_shown_is_said(graph: Graph) -> None:
 
 
 def test_every_command_of_its_own_is_a_verb_and_the_reverse() -> None:
-    assert set(TOOL.verbs) == set(cli.RQT)
+    assert set(TOOL.verbs) == {*cli.RQT, "plugins"}
     result = TOOL.alone("msg").run("std_msgs/String")
     assert str(result) == str(TOOL.run("msg", "std_msgs/String"))
+
+
+def test_the_table_of_plugins_has_nine_groups_and_names_every_tool_that_is_here() -> None:
+    rows = TOOL.run("plugins").view.rows  # type: ignore[attr-defined]
+    assert len({row[0] for row in rows}) == 9
+    assert len(rows) == len({row[2] for row in rows})
+    assert {row[3] for row in rows if row[3] in cli.COMMANDS} >= {f"rqt_{verb}" for verb in cli.RQT}
 
 
 def test_a_terminal_writes_a_page_and_opens_it(

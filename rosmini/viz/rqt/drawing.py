@@ -16,6 +16,15 @@ COLOURS = [
     "group-fill", "group-line", "label", "bad-fill", "bad-line",
 ]  # fmt: skip
 
+CHANGES = (
+    ".rosmini-svg .rm-new ellipse,.rosmini-svg .rm-new rect,.rosmini-svg .rm-new path:first-of-type{stroke-width:3.2}"
+    ".rosmini-svg .rm-new text{font-weight:bold}"
+    ".rosmini-svg .rm-gone{opacity:0.6}"
+    ".rosmini-svg .rm-gone ellipse,.rosmini-svg .rm-gone rect,.rosmini-svg .rm-gone path:first-of-type"
+    "{stroke-dasharray:6 4}"
+)
+"""What is new since an earlier state is bold, what is gone pale and dashed."""
+
 
 def draw(selection: Selection, *, namespaces: int, direction: Direction, title: str, alt: str) -> str:
     """The SVG of a selection. `namespaces` is how deep boxes around namespaces nest, 0 for none."""
@@ -25,10 +34,14 @@ def draw(selection: Selection, *, namespaces: int, direction: Direction, title: 
         return _nothing(title, alt)
     groups = sorted(layout.groups.items(), key=lambda group: (len(group[0]), group[0]))
     parts = [_group(path, rect) for path, rect in groups]
-    parts += [_edge(layout.edges[edge.name], edge, labels) for edge in sorted(edges, key=lambda e: e.name)]
+    parts += [
+        _edge(layout.edges[edge.name], edge, labels, _change(edge.name, selection))
+        for edge in sorted(edges, key=lambda e: e.name)
+    ]
     parts += [_vertex(vertex, layout, selection) for vertex in sorted(vertices, key=lambda v: v.name)]
     parts += [_group_name(path, rect) for path, rect in groups]
-    return drawing(parts, layout, title=title, alt=alt, css=_css(), colours=COLOURS)
+    css = _css() + (CHANGES if selection.added or selection.removed else "")
+    return drawing(parts, layout, title=title, alt=alt, css=css, colours=COLOURS)
 
 
 def _graph(selection: Selection, namespaces: int) -> tuple[list[Vertex], list[Edge], dict[str, str]]:
@@ -87,10 +100,16 @@ def _vertex(vertex: Vertex, layout: Layout, selection: Selection) -> str:
         tip = f"topic {name}" + (f" [{selection.types[name]}]" if name in selection.types else "")
         if members:
             tip = f"{name}: {', '.join(members)}"
+    kind += _change(vertex.name, selection)
     return element("g", element("title", escape(tip)) + shape + label_of(name, rect), class_=f"rm-{kind}")
 
 
-def _edge(route: Route, edge: Edge, labels: dict[str, str]) -> str:
+def _change(part: str, selection: Selection) -> str:
+    """The class of what is new or gone since an earlier state."""
+    return " rm-new" if part in selection.added else " rm-gone" if part in selection.removed else ""
+
+
+def _edge(route: Route, edge: Edge, labels: dict[str, str], change: str) -> str:
     source, target = edge.source[2:], edge.target[2:]
     topic = labels.get(edge.name)
     tip = f"{source} -> {topic} -> {target}" if topic else f"{source} -> {target}"
@@ -98,7 +117,7 @@ def _edge(route: Route, edge: Edge, labels: dict[str, str]) -> str:
     if topic and route.label:
         x, _ = route.label.centre
         label = text(topic, x, route.label.bottom - 3, size=style.LABEL_SIZE, colour="label")
-    return element("g", element("title", escape(tip)) + arrow(route) + label, class_="rm-edge")
+    return element("g", element("title", escape(tip)) + arrow(route) + label, class_=f"rm-edge{change}")
 
 
 def _group(path: tuple[str, ...], rect: Rect) -> str:

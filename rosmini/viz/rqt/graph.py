@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 
 from rosmini.viz.layout import Direction
 from rosmini.viz.rqt.condensing import condensed
@@ -26,6 +27,7 @@ def rqt_graph(
     namespace: str = "/",
     topics: str = "/",
     direction: Direction = "right",
+    since: object = None,
     title: str | None = None,
 ) -> Picture:
     """Draw who publishes what to whom, as rqt_graph does (wiki.ros.org/rqt_graph).
@@ -46,14 +48,22 @@ def rqt_graph(
         namespace: filter for nodes: names or regular expressions with commas between, `-` excludes. "/" is all.
         topics: filter for topics, in the same form.
         direction: "right" as rqt_graph, or "down".
+        since: an earlier state, in any form of `source`: what is new since then is drawn in bold, what is gone dashed.
         title: a caption under the picture, and the first words of its text form.
 
     Raises:
         ViewError: the source has no graph state, or a mode, switch or filter is not known.
 
     """
-    state = graph_state(source)
-    selection = condensed(select(state, mode, hide=hide, group=group, nodes=namespace, topics=topics))
+    state = shown = graph_state(source)
+    added: frozenset[str] = frozenset()
+    removed: frozenset[str] = frozenset()
+    if since is not None:
+        before = graph_state(since)
+        shown = before.joined(state)
+        added, removed = state.parts() - before.parts(), before.parts() - state.parts()
+    selected = select(shown, mode, hide=hide, group=group, nodes=namespace, topics=topics)
+    selection = condensed(replace(selected, added=added, removed=removed))
     text, alt = text_form(selection, title), alt_text(selection)
     svg = draw(selection, namespaces=namespaces, direction=direction, title=title or "rqt_graph", alt=alt)
     return Picture(svg, text=text, alt=alt, caption=title)

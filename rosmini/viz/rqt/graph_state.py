@@ -58,6 +58,32 @@ class GraphState:
             for subscriber in sorted(self.subscribers.get(topic, ()))
         ]
 
+    def joined(self, other: GraphState) -> GraphState:
+        """Return what is in this state, in the other one, or in both."""
+
+        def both(
+            mine: Mapping[str, frozenset[str]], theirs: Mapping[str, frozenset[str]]
+        ) -> dict[str, frozenset[str]]:
+            return {
+                topic: mine.get(topic, frozenset()) | theirs.get(topic, frozenset())
+                for topic in sorted({*mine, *theirs})
+            }
+
+        return GraphState(
+            publishers=both(self.publishers, other.publishers),
+            subscribers=both(self.subscribers, other.subscribers),
+            types={**self.types, **other.types},
+            nodes=self.nodes | other.nodes,
+            unreachable=other.unreachable,
+        )
+
+    def parts(self) -> frozenset[str]:
+        """Return the names of all nodes, topics and arrows, in the form that a drawing has for them."""
+        ends = {f"p:{node} {topic}" for topic, nodes in self.publishers.items() for node in nodes}
+        ends |= {f"s:{topic} {node}" for topic, nodes in self.subscribers.items() for node in nodes}
+        named = {f"n:{node}" for node in self.all_nodes} | {f"t:{topic}" for topic in self.topics}
+        return frozenset(ends | named | {" ".join(edge) for edge in self.edges()})
+
     @classmethod
     def of(
         cls,

@@ -61,6 +61,19 @@ class Selection:
     bundles: dict[str, tuple[str, ...]] = field(default_factory=dict)
     hidden_nodes: int = 0
     hidden_topics: int = 0
+    added: frozenset[str] = frozenset()
+    """What an earlier state did not have, of `GraphState.parts`."""
+    removed: frozenset[str] = frozenset()
+    """What only an earlier state had."""
+
+    def drawn(self) -> list[str]:
+        """Return the nodes, topics and arrows that are drawn, in the form of `GraphState.parts`."""
+        nodes = [f"n:{node}" for node in self.nodes]
+        if self.mode == "nodes_only":
+            return nodes + [" ".join(edge) for edge in self.connections]
+        ends = [f"p:{node} {topic}" for node, topic in self.publications]
+        ends += [f"s:{topic} {node}" for node, topic in self.subscriptions]
+        return nodes + [f"t:{topic}" for topic in self.topics] + ends
 
 
 def check_choice(what: str, given: Iterable[str], known: object) -> None:

@@ -30,7 +30,19 @@ def text_form(selection: Selection, title: str | None = None) -> str:
     for name, members in sorted((selection.groups | selection.bundles).items()):
         lines.append(f"{name} stands for {', '.join(m + _type(selection, m) for m in members)}")
     lines += [f"{node} does not answer" for node in sorted(selection.unreachable)]
+    lines += _changes(selection)
     return "\n".join(lines)
+
+
+def _changes(selection: Selection) -> list[str]:
+    """A line for what is new and one for what is gone, of what is drawn."""
+    lines = []
+    for word, parts in (("new", selection.added), ("gone", selection.removed)):
+        found = [part for part in selection.drawn() if part in parts]
+        names = [part.partition(":")[2] if part[1] == ":" else part for part in found]
+        if names:
+            lines.append(f"{word}: {', '.join(name.replace(' ', ' -> ') for name in names)}")
+    return lines
 
 
 def alt_text(selection: Selection) -> str:
@@ -48,7 +60,8 @@ def alt_text(selection: Selection) -> str:
     if selection.unreachable:
         verb = "does" if len(selection.unreachable) == 1 else "do"
         sentence += f" {_listed(sorted(selection.unreachable))} {verb} not answer."
-    return sentence
+    changes = "; ".join(_changes(selection))
+    return f"{sentence} {changes[0].upper()}{changes[1:]}." if changes else sentence
 
 
 def _counts(selection: Selection, separator: str = ", ") -> str:

@@ -87,6 +87,36 @@ def test_talker_and_listener_of_a_master_with_the_default_switches():
     assert drawn(view, "rm-edge") == ["/chatter"]
 
 
+@pytest.mark.parametrize("mode", ["nodes_only", "nodes_topics_all"])
+def test_what_is_new_and_what_is_gone_since_an_earlier_state(mode):
+    before = state(CHATTER, "/talker -> /old std_msgs/String -> /ended")
+    after = state(CHATTER, "/talker -> /chatter std_msgs/String -> /late")
+    view = rqt_graph(after, mode=mode, since=before)
+    *_, new, gone = view.text.splitlines()
+    if mode == "nodes_only":
+        assert new == "new: /late, /talker -> /chatter -> /late"
+        assert gone == "gone: /ended, /talker -> /old -> /ended"
+    else:
+        assert new == "new: /late, /chatter -> /late"
+        assert gone == "gone: /ended, /old, /talker -> /old, /old -> /ended"
+    svg = ET.fromstring(view.svg)
+    marked = {
+        change: sorted(
+            group.find(f"{SVG}title").text
+            for group in svg.iter(f"{SVG}g")
+            if change in group.get("class", "")
+        )
+        for change in ("rm-new", "rm-gone")
+    }
+    assert "node /late" in marked["rm-new"] and "node /ended" in marked["rm-gone"]
+    assert len(marked["rm-new"]) == new.count(",") + 1
+    assert len(marked["rm-gone"]) == gone.count(",") + 1
+    assert new.partition(": ")[2] in view.alt
+    same = rqt_graph(after, mode=mode, since=after)
+    assert same.svg == rqt_graph(after, mode=mode).svg
+    assert "rm-new" not in same.svg
+
+
 def test_an_object_with_a_master_and_the_plain_value_will_do_as_well():
     class Graph:
         master = FakeMaster()
