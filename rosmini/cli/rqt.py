@@ -80,7 +80,7 @@ def _one_word(given: Values, parser: Parser, what: str) -> str:
     return str(given.words[0])
 
 
-# -- what asks the Master or nobody ----------------------------------------------------------------------------------------------
+# -- what asks the Master or nobody ----------------------------------------------------------------------------------
 
 
 def _graph_parser() -> Parser:
