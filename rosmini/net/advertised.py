@@ -38,7 +38,7 @@ class Advertised:
             return
         self._seen.add((name, host))
         if is_loopback(host):
-            self._tell(caller, name, uri, f"{host} means to every machine that machine itself")
+            self._tell(caller, name, uri, f"on every machine {host} is that machine itself")
         elif not is_literal(host):
             task = asyncio.get_running_loop().create_task(self._resolve(caller, name, uri, host))
             self._tasks.add(task)
