@@ -71,6 +71,7 @@ COMMANDS: dict[str, Entry] = {
     "roslaunch": Entry(
         "rosmini.cli.roslaunch", "start the nodes of launch files, and look at what they mean", is_magic=True
     ),
+    "test": Entry("rosmini.cli.test", "run the tests of launch files"),
     "run": Entry("rosmini.cli.run", "run scripts written for rospy as nodes of one graph"),
     "rosnode": Entry(
         "rosmini.cli.rosnode",

@@ -123,8 +123,6 @@ _ABSENT = {
     ),
     "rosserial": ("talks to Arduino boards", _ALONE),
     "rosserial_python": ("talks to Arduino boards", _ALONE),
-    "rostest": ("runs tests of nodes", "write tests for pytest with a rosmini.Graph, or use unittest.main()"),
-    "rosunit": ("runs unit tests and writes JUnit files", "use unittest.main() or pytest --junit-xml"),
     "roswtf": ("looks for what is wrong", _MASTER),
     "smach": (
         "builds state machines",

@@ -1,0 +1,102 @@
+"""The tests of launch files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rosmini.cli.main import main
+from rosmini.markup import parse_file
+
+from .workspace import make
+
+HEARS = """#!/usr/bin/env python3
+import sys
+import unittest
+import rospy
+import rostest
+from std_msgs.msg import String
+
+class TestTalker(unittest.TestCase):
+    def test_a_word_comes(self):
+        rospy.init_node("hears")
+        self.assertEqual(rospy.wait_for_message("chatter", String, timeout=5.0).data, rospy.get_param("~word"))
+
+    def test_b_is_wrong(self):
+        self.assertEqual(1 + 1, rospy.get_param("~two"))
+
+    @unittest.skip("not today")
+    def test_c_is_skipped(self):
+        pass
+
+if __name__ == "__main__":
+    rostest.rosrun("speaking", "hears", TestTalker, sys.argv)
+"""
+
+FILE = """<launch>
+<arg name="two" default="2"/>
+<node pkg="speaking" type="talker.py" name="talker"/>
+<test test-name="hears" pkg="speaking" type="hears.py">
+  <param name="word" value="hello"/>
+  <param name="two" value="$(arg two)"/>
+</test>
+<test test-name="ends" pkg="speaking" type="ending.py" args="1 0"/>
+</launch>
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    source = make(tmp_path)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(source))
+    package = source / "speaking"
+    (package / "scripts" / "hears.py").write_text(HEARS, encoding="utf-8")
+    (package / "launch" / "talk.test").write_text(FILE, encoding="utf-8")
+    return package
+
+
+@pytest.mark.usefixtures("folder")
+def test_tests_pass(tmp_path: Path, capsys: Any) -> None:
+    file = tmp_path / "results.xml"
+    assert main(["test", "speaking", "talk.test", "--results", str(file)]) == 0
+    out = capsys.readouterr().out
+    assert "[speaking.rosunit-hears/test_a_word_comes][passed]" in out
+    assert "[speaking.rosunit-hears/test_c_is_skipped][skipped]: not today" in out
+    assert "[speaking.rosunit-ends/ends][passed]" in out
+    assert out.endswith("SUMMARY\n * RESULT: SUCCESS\n * TESTS: 4\n * ERRORS: 0\n * FAILURES: 0\n")
+    root = parse_file(file)
+    assert [(root.get(name)) for name in ("tests", "failures", "errors", "skipped")] == ["4", "0", "0", "1"]
+    assert [case.get("name") for case in root.all("testcase")][-1] == "ends"
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_test_fails(capsys: Any) -> None:
+    assert main(["test", "speaking", "talk.test", "two:=3"]) == 1
+    out = capsys.readouterr().out
+    assert "[speaking.rosunit-hears/test_b_is_wrong][FAILURE]: Traceback" in out
+    assert "AssertionError: 2 != 3" in out
+    assert " * RESULT: FAIL\n * TESTS: 4\n * ERRORS: 0\n * FAILURES: 1\n" in out
+
+
+@pytest.mark.parametrize(
+    ("attributes", "said"),
+    [
+        ('type="talker.py" time-limit="2"', "[FAILURE]: the test did not end within its time limit of 2 s"),
+        ('type="ending.py" args="1 3"', "ended with exit status 3, and wrote no results"),
+        ('type="endign.py"', "[ERROR]: speaking/endign.py could not be started"),
+    ],
+)
+def test_what_goes_wrong_is_told(folder: Path, capsys: Any, attributes: str, said: str) -> None:
+    file = folder / "launch" / "wrong.test"
+    file.write_text(f'<launch><test test-name="x" pkg="speaking" {attributes}/></launch>', encoding="utf-8")
+    assert main(["test", str(file)]) == 1
+    assert said in capsys.readouterr().out
+
+
+def test_a_file_without_tests_is_told(folder: Path, capsys: Any) -> None:
+    file = folder / "launch" / "none.test"
+    file.write_text("<launch/>", encoding="utf-8")
+    assert main(["test", str(file)]) == 1
+    assert "there is no <test> in" in capsys.readouterr().err
