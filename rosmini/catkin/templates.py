@@ -139,6 +139,8 @@ WORKSPACE_CMAKE = """# Made by rosmini's catkin_init_workspace, for real catkin;
 cmake_minimum_required(VERSION 3.0.2)
 project(Project)
 set(CATKIN_TOPLEVEL TRUE)
-find_package(catkin REQUIRED)
+set(CATKIN_TOPLEVEL_FIND_PACKAGE TRUE)
+find_package(catkin REQUIRED NO_POLICY_SCOPE)
+unset(CATKIN_TOPLEVEL_FIND_PACKAGE)
 catkin_workspace()
 """
