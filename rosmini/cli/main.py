@@ -7,8 +7,10 @@ which does the work and returns the exit status.
 from __future__ import annotations
 
 import argparse
+import errno
 import importlib
 import io
+import os
 import sys
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
@@ -186,13 +188,31 @@ def main(argv: Sequence[str] | None = None) -> int:
         if name is None:
             parser.print_help()
             return 2
-        return loaded[name].main(args)
+        status = loaded[name].main(args)
+        sys.stdout.flush()
+        return status
     except RosminiError as error:
         print(f"rosmini {name}: {error}", file=sys.stderr)
         return 1
+    except OSError as error:
+        return _cannot_write(error, name)
     except KeyboardInterrupt:
         print(file=sys.stderr)
         return 130
+
+
+def _cannot_write(error: OSError, name: str | None) -> int:
+    """Return the exit status where the output goes nowhere: to what has had enough, such as `head`, or a full disk.
+
+    Raises any other error again.
+    """
+    if not isinstance(error, BrokenPipeError) and error.errno != errno.ENOSPC:
+        raise error
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left of the output is not wanted
+    if isinstance(error, BrokenPipeError):
+        return 0
+    print(f"rosmini {name}: the output cannot be written: {error.strerror}", file=sys.stderr)
+    return 1
 
 
 if __name__ == "__main__":

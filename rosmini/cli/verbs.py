@@ -326,9 +326,6 @@ class Tool:
                 raise
             print(f"ERROR: Unable to communicate with master!\n{error}", file=sys.stderr)
             return self.failure_status
-        except BrokenPipeError:  # what reads the output, such as `head`, has had enough
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            return 0
         text = str(result)
         if text or result.always_printed:
             print(text)

@@ -15,7 +15,6 @@ import yaml
 
 from rosmini.errors import ParameterError
 from rosmini.files import read
-from rosmini.graph.parameter_api import check_value
 from rosmini.names import join
 from rosmini.yaml_text import Loader, children, documents, line_of
 
@@ -106,6 +105,10 @@ def _checked(name: str, value: Any, place: str) -> Any:
             "write '' for an empty text, {} for an empty namespace",
             place,
         )
+    from rosmini.graph.parameter_api import (
+        check_value,
+    )  # here: those who only read parameters do without a graph
+
     try:
         return check_value(name, value)
     except ParameterError as error:
