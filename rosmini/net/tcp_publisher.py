@@ -57,7 +57,10 @@ class TcpSender:
         self._stream.flush()
 
     def send(self, packet: Any, size: int | None) -> None:
-        """Queue a message; what waits is written in the next event, or now where the oldest would have to go."""
+        """Send a message now if it is the first of this event, for what follows may take long; else in the next event.
+
+        Many together are written at once, and earlier only where the oldest would have to go.
+        """
         if self._is_closed:
             return
         self.sent += 1
@@ -68,6 +71,8 @@ class TcpSender:
         if not self._is_due:
             self._is_due = True
             self._scheduler.ready.append(self._flush)
+            if self._is_open:
+                self._stream.flush()
 
     def _make_room(self, size: int | None) -> None:
         """Write what waits, and drop the oldest where that was not enough."""

@@ -1,4 +1,4 @@
-"""A subscriber that reads slowly: the publisher waits for nobody, and the oldest messages go."""
+"""When messages leave, and what a subscriber that reads slowly loses: the publisher waits for nobody."""
 
 from __future__ import annotations
 
@@ -37,6 +37,18 @@ def number_of(stream: BinaryIO) -> int:
     text = body[4:].decode()
     assert len(text) == count == SIZE
     return int(text[:6])
+
+
+def test_a_message_leaves_at_once_whatever_its_publisher_does_next(graph: Graph) -> None:
+    publisher = graph.node("talker").publisher("t", String, queue_size=10)
+    port = int(network_of(graph).transport.service_uri(graph.nodes["/talker"].uri).rpartition(":")[2])
+    with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE) as raw, raw.makefile("rb") as stream:
+        raw.sendall(encode_header({"topic": "/t", "md5sum": "*", "type": "*", "callerid": "/raw"}))
+        graph.run(PATIENCE, until=publisher.num_connections)
+        publisher.publish("7".zfill(6).ljust(SIZE, "x"))
+        (length,) = struct.unpack("<I", stream.read(4))  # the graph stands still meanwhile
+        stream.read(length)
+        assert number_of(stream) == 7
 
 
 @pytest.mark.parametrize("queue_size", [10, None])
