@@ -28,8 +28,9 @@ class BagUsageError(ROSBagException, UsageError):
 class Parser(ToolParser):
     """A parser of ``rosbag``."""
 
-    def __init__(self, usage: str, description: str) -> None:
-        super().__init__("rosbag", usage, description, failure=BagUsageError)
+    def __init__(self, usage: str, description: str, example: str) -> None:
+        example = f"  rosmini rosbag {example}"
+        super().__init__("rosbag", usage, description, example=example, failure=BagUsageError)
 
 
 _UNITS = {"s": 1.0, "m": 60.0, "h": 3600.0}
@@ -38,7 +39,9 @@ _UNITS = {"s": 1.0, "m": 60.0, "h": 3600.0}
 def record_parser() -> Parser:
     """Return the parser of ``rosbag record``."""
     parser = Parser(
-        "rosbag record TOPIC1 [TOPIC2 TOPIC3 ...]", "Write what goes over topics into a bag file."
+        "rosbag record TOPIC1 [TOPIC2 TOPIC3 ...]",
+        "Write what goes over topics into a bag file.",
+        "record -O drive.bag /odom /scan",
     )
     add = parser.add_option
     add("-a", "--all", action="store_true", default=False, help="all topics, those that come later included")
@@ -132,7 +135,9 @@ def _several(_option: Any, _text: str, _value: Any, parser: Any, name: str) -> N
 def play_parser() -> Parser:
     """Return the parser of ``rosbag play``."""
     parser = Parser(
-        "rosbag play BAGFILE1 [BAGFILE2 BAGFILE3 ...]", "Publish what is in bag files, in the order of time."
+        "rosbag play BAGFILE1 [BAGFILE2 BAGFILE3 ...]",
+        "Publish what is in bag files, in the order of time.",
+        "play --clock drive.bag",
     )
     add = parser.add_option
     add("-p", "--prefix", default="", help="put PREFIX before all topics")

@@ -68,7 +68,9 @@ class BagInfos(Result):
 
 
 def _info_parser() -> Parser:
-    parser = Parser("rosbag info [options] BAGFILE1 [BAGFILE2 BAGFILE3 ...]", "Summarize bag files.")
+    parser = Parser(
+        "rosbag info [options] BAGFILE1 [BAGFILE2 BAGFILE3 ...]", "Summarize bag files.", "info drive.bag"
+    )
     parser.add_option("-y", "--yaml", action="store_true", default=False, help="print YAML")
     parser.add_option("-k", "--key", help="print the value at a key, such as duration or topics[0].type")
     parser.add_option("--freq", action="store_true", default=False, help="print how often messages came")
@@ -110,7 +112,9 @@ class TypeChanges(Result):
 
 
 def _check_parser() -> Parser:
-    return Parser("rosbag check BAG", "List the types in a bag that differ from this system's.")
+    return Parser(
+        "rosbag check BAG", "List the types in a bag that differ from this system's.", "check drive.bag"
+    )
 
 
 @TOOL.verb("list the types in a bag that differ from this system's", parser=_check_parser)
@@ -144,6 +148,7 @@ def _filter_parser() -> Parser:
         "rosbag filter [options] INBAG OUTBAG EXPRESSION",
         "Copy the messages for which EXPRESSION is true: a Python expression of topic, m (the message), t (its time: "
         "t.secs, t.to_sec()). It can compute and compare; it cannot import, open or change anything.",
+        "filter drive.bag turns.bag \"topic == '/cmd_vel' and m.angular.z != 0\"",
     )
     parser.add_option(
         "-p", "--print", dest="shown", metavar="PRINT-EXPRESSION", help="print this of each message"
@@ -183,6 +188,7 @@ def _fix_parser() -> Parser:
         "rosbag fix [options] INBAG OUTBAG",
         "Make the messages of a bag ones of this system's types, field by field. Rule files are not read: they are "
         "programs.",
+        "fix old.bag new.bag",
     )
     parser.add_option(
         "--force", action="store_true", default=False,
@@ -237,7 +243,7 @@ def _parser_of(verb: str, text: str, *, compresses: bool = False) -> Callable[[]
     """Return what makes the parser of a verb that rewrites bags."""
 
     def make() -> Parser:
-        parser = Parser(f"rosbag {verb} [options] BAGFILE1 [BAGFILE2 ...]", text)
+        parser = Parser(f"rosbag {verb} [options] BAGFILE1 [BAGFILE2 ...]", text, f"{verb} drive.bag")
         parser.add_option(
             "--output-dir", metavar="DIR", help="write to the folder DIR, and leave the bags as they are"
         )
@@ -321,6 +327,7 @@ def _merge_parser() -> Parser:
     parser = Parser(
         "rosbag merge [options] OUTBAG INBAG1 [INBAG2 ...]",
         "Merge several bags into one, in the order of time.",
+        "merge both.bag first.bag second.bag",
     )
     _compression(parser, Compression.NONE)
     return parser

@@ -173,3 +173,10 @@ def test_bags_are_written_to_another_folder(bag, capsys):
     )
     assert Bag("out/t.bag").get_compression_info().compression == "bz2"
     assert [path.name for path in bag.glob("*.bag")] == ["t.bag"]
+
+
+def test_each_verb_has_help_with_an_example(capsys):
+    from rosmini.cli.rosbag import TOOL
+
+    for verb in TOOL.verbs:
+        assert f"Example:\n  rosmini rosbag {verb} " in run(capsys, verb, "-h")[1]
