@@ -21,8 +21,8 @@ SHELLS = ("bash", "zsh", "powershell")
 PATIENCE_S = 1.0
 """How long a Master may take to answer when a word is completed [s]."""
 
-_OURS = ("run", "world", "aliases", "gz")
-"""Commands of rosmini that are none of ROS's."""
+_ROS = ("ros", "rqt", "catkin_")
+"""How the names of ROS's commands begin; `rosmini test` and others that are ours have no bare name."""
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
@@ -55,7 +55,7 @@ def main(args: argparse.Namespace) -> int:
 
 def names() -> list[str]:
     """Return the commands that have bare names: ROS's."""
-    return [name for name, entry in COMMANDS.items() if entry.folder is None and name not in _OURS]
+    return [name for name, entry in COMMANDS.items() if entry.folder is None and name.startswith(_ROS)]
 
 
 def lines(shell: str, program: list[str]) -> str:

@@ -92,6 +92,11 @@ def test_each_shell_has_its_lines(
         cli.main(["aliases", "tcsh"])
 
 
+def test_only_names_of_ros_are_given() -> None:
+    assert {"rostopic", "roscd", "roslaunch", "rosbag"} <= set(aliases.names())
+    assert not {"test", "run", "world", "lab", "bench", "aliases", "gz"} & set(aliases.names())
+
+
 def test_program_paths_are_quoted() -> None:
     assert "'/a b/rosmini' rostopic \"$@\"" in aliases.lines("bash", ["/a b/rosmini"])
     assert "& '/it''s/rosmini' rostopic @args" in aliases.lines("powershell", ["/it's/rosmini"])
