@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from rosmini.names import canonicalize, resolve_for
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from optparse import Values
 
     from rosmini.introspection.options import Parser
@@ -22,6 +23,16 @@ def global_name(name: str) -> str:
     """Return the global name that a name on a command line means: relative ones are in ``ROS_NAMESPACE``."""
     namespace = canonicalize("/" + os.environ.get("ROS_NAMESPACE", ""))
     return resolve_for(name, f"{namespace.rstrip('/')}/tool")
+
+
+def dashed_remapping(words: Iterable[str]) -> str:
+    """Return what is wrong with the first word like ``--name:=x``, or nothing: ROS takes ``__name:=x`` for itself."""
+    found = next((word for word in words if word.startswith("-") and ":=" in word), "")
+    return (
+        f"{found} is no remapping; ROS's own names begin with two underscores: __{found.lstrip('-')}"
+        if found
+        else ""
+    )
 
 
 def add_duration(parser: Parser) -> None:

@@ -135,15 +135,27 @@ COMMANDS: dict[str, Entry] = {
 }
 
 
+NO_COMMANDS = {
+    "roscpp": "that is the library for nodes in C++; `rosnode` lists nodes, tells about them and ends them",
+    "rospy": "that is the library for nodes in Python; `rosrun PACKAGE SCRIPT` starts a script that imports it",
+    "rosmake": "packages are built by `catkin_make`",
+    "roscreate-pkg": "packages are created by `catkin_create_pkg`",
+}
+"""What is taken for a command, or was one, and what to write."""
+
+
 def chosen(argv: Sequence[str]) -> str | None:
     """The subcommand that `argv` names: its first word that is not an option; None if there is no such word.
 
     Raises `RosminiError` if that word is no subcommand.
     """
-    word = next((word for word in argv if not word.startswith("-")), None)
-    if word is None or word in COMMANDS:
-        return word
-    guess = nearest(word, COMMANDS)
+    words = [word for word in argv if not word.startswith("-")]
+    if not words or words[0] in COMMANDS:
+        return words[0] if words else None
+    word, *rest = words
+    guess = NO_COMMANDS.get(word) or nearest(word, COMMANDS)
+    if rest and f"ros{rest[0]}" in COMMANDS:  # `rostop node list`
+        guess = f"did you mean `{' '.join(['ros' + rest[0], *rest[1:]])}`?"
     raise RosminiError(f"there is no command {word!r}; {guess or 'the commands are: ' + ', '.join(COMMANDS)}")
 
 

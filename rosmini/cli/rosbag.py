@@ -361,13 +361,15 @@ class Started(Result):
 
 def _in_terminal(verb: str, check_words: Callable[[Sequence[str]], object]) -> Callable[[Sequence[str]], int]:
     def run_nodes(words: Sequence[str]) -> int:
-        """Run the node, with those that were given with it."""
-        from rosmini.cli import run
+        """Run the node on the graph of the Master; or, in one process, with those that stand after a `+`."""
+        from rosmini.cli import rosrun, run
 
         own = words[: words.index("+")] if "+" in words else words
         check_words(Remappings.other_arguments(list(own)))
-        keys = ["--keys"] if verb == "play" and "+" not in words and sys.stdin.isatty() else []
-        line = [f"rosbag/{verb}", *keys, *words, "--"]
+        if "+" not in words:
+            keys = ["--keys"] if verb == "play" and sys.stdin.isatty() else []
+            return rosrun.main(argparse.Namespace(package="rosbag", executable=verb, words=[*keys, *words]))
+        line = [f"rosbag/{verb}", *words, "--"]
         return run.main(argparse.Namespace(words=line, sim_time=False, wall_time=True, duration=None))
 
     return run_nodes

@@ -14,6 +14,7 @@ from rosmini.introspection.options import Parser
 from rosmini.names import is_remapping
 from rosmini.packages import PackageIndex
 
+from .arguments import dashed_remapping
 from .collector import seldom
 from .run import nodes_in, tell
 from .signals import end_as_ctrl_c
@@ -161,6 +162,8 @@ def options(words: Sequence[str]) -> tuple[Values, list[str]]:
     else:
         nodes = []
     made = parser()
+    if dashed := dashed_remapping(own):
+        made.error(dashed)
     given = made.parse([*own, *trailing])
     if given.sim_time and given.wall_time:
         made.error("--sim-time and --wall-time exclude each other")

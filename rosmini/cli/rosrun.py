@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import sys
 
+from .arguments import dashed_remapping
 from .collector import seldom
 from .signals import end_as_ctrl_c
 
@@ -43,6 +45,8 @@ def main(args: argparse.Namespace) -> int:
 
     found = find(f"{args.package}/{args.executable}")
     words = tuple(args.words)
+    if dashed := dashed_remapping(words):
+        print(f"rosmini rosrun: {dashed}", file=sys.stderr)
     spec = NodeSpec(found, words) if found.path is None else ScriptSpec(str(found.path), words)
     special = Remappings.from_argv(words).special
     end_as_ctrl_c()

@@ -384,6 +384,8 @@ def _no_file(words: Sequence[str], index: PackageIndex) -> str:
     package, name = words[0], words[1]
     said = f"[{name}] is neither a launch file in package [{package}] nor is [{package}] a launch file name"
     if package not in index:
+        if package in ("ping", "info", "kill"):
+            return f"{said}. A running node is asked by: rosnode {package} {name}"
         hint = nearest(package, index.names())
         return f"{said}: there is no package {package!r}{f'; {hint}' if hint else ''}"
     if _is_executable(index, package, name):
