@@ -146,12 +146,16 @@ def unharmed(graph: Graph) -> Iterator[tuple[Any, list[str]]]:
 
 
 class RawServer:
-    """Listens at a port of this machine and answers what each connection says first with the same bytes, or never."""
+    """Listens at a port of this machine, for one connection at a time.
 
-    def __init__(self, answer: bytes | None) -> None:
+    What each says first is answered with the first of some bytes, and so on, and then it is closed; without any it is
+    held, and nothing is said.
+    """
+
+    def __init__(self, *answers: bytes) -> None:
         self.count = 0
         self.open: list[socket.socket] = []
-        self._answer = answer
+        self._answers = answers
         self._listener = socket.create_server(("127.0.0.1", 0))
         self.port: int = self._listener.getsockname()[1]
         self._thread = threading.Thread(target=self._serve, daemon=True)
@@ -163,9 +167,10 @@ class RawServer:
                 peer, _ = self._listener.accept()
                 self.open.append(peer)
                 with suppress(OSError):
-                    peer.recv(65536)
-                    if self._answer is not None:
-                        peer.sendall(self._answer)
+                    for answer in self._answers:
+                        peer.recv(65536)
+                        peer.sendall(answer)
+                    if self._answers:
                         peer.shutdown(socket.SHUT_WR)
                 self.count += 1
 

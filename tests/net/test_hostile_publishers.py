@@ -42,7 +42,7 @@ class RawPublisher(RawServer):
     """A node that publishes `/evil` and answers each connection with the same bytes."""
 
     def __init__(self, graph: Graph, answer: bytes | None, parameters: Any = None) -> None:
-        super().__init__(answer)
+        super().__init__(*([] if answer is None else [answer]))
         if parameters is None:
             parameters = [1, "", ["TCPROS", "127.0.0.1", self.port]]
         self._slave = XmlRpcServer(network_of(graph).io, lambda *_: parameters)
@@ -60,9 +60,11 @@ def publishing(graph: Graph, answer: bytes | None, parameters: Any = None) -> It
     raw = RawPublisher(graph, answer, parameters)
     node = graph.ask_as("/raw")
     node.ask("registerPublisher", TOPIC, String._type, raw.uri)
-    yield raw
-    node.ask("unregisterPublisher", TOPIC, raw.uri)
-    raw.close()
+    try:
+        yield raw
+    finally:
+        node.ask("unregisterPublisher", TOPIC, raw.uri)
+        raw.close()
 
 
 @pytest.fixture
