@@ -291,7 +291,10 @@ class ServiceClient:
             link = node.graph.transport.connect_service(node.uri, uri, header, cls)
         except TransportInitError as error:
             theirs = self._type_at(uri)
-            if theirs in (cls._type, _OTHER):  # it was refused for something else, such as a header of the user's
+            if theirs in (
+                cls._type,
+                _OTHER,
+            ):  # it was refused for something else, such as a header of the user's
                 msg = f"unable to connect to service [{self.name}]: {error}"
                 raise ServiceException(msg) from error
             msg = (

@@ -35,7 +35,10 @@ async def read_message(
             if connection.they_are_waiting_for_100_continue:
                 go_on = connection.send(h11.InformationalResponse(status_code=100, headers=[]))
                 writer.write(go_on or b"")
-            connection.receive_data(await reader.read(CHUNK))
+            data = await reader.read(CHUNK)
+            if not data and head is None and not connection.trailing_data[0]:
+                return None
+            connection.receive_data(data)
         elif isinstance(event, h11.Request | h11.Response):
             head = event
             _check(next((int(value) for key, value in event.headers if key == b"content-length"), 0))

@@ -17,11 +17,12 @@ from rosmini.graph.master import Master
 from rosmini.graph.master_port import MasterPort
 
 from .addresses import addresses, is_loopback
+from .master_answers import checked, unreachable
 from .master_server import MasterServer
 from .network import Network
 from .pace import Pace
 from .registrations import register_again
-from .remote_master import TIMEOUT_S, RemoteMaster, checked, unreachable
+from .remote_master import TIMEOUT_S, RemoteMaster
 from .watch import Watch
 
 if TYPE_CHECKING:

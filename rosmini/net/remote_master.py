@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import MasterUnreachable, TransportException, shown
+from rosmini.errors import TransportException
 from rosmini.graph.master_port import MasterPort
 
-from .xmlrpc_client import XmlRpcFault
+from .master_answers import checked, unreachable
 
 if TYPE_CHECKING:
     from rosmini.graph.transport import Triple
@@ -50,31 +50,3 @@ class RemoteMaster(MasterPort):
         if self._watch is not None and method.startswith("register"):
             self._watch.begin()
         return triple
-
-
-def checked(uri: str, method: str, answer: Any) -> Triple:
-    """Return an answer of the Master's. Raises ``MasterUnreachable`` if it is none."""
-    if (
-        isinstance(answer, list)
-        and len(answer) == 3
-        and isinstance(answer[0], int)
-        and isinstance(answer[1], str)
-    ):
-        return answer
-    raise MasterUnreachable(
-        f"what answers at {uri} is not a ROS Master: to {method} it said {shown(answer)}. Set ROS_MASTER_URI to the "
-        "address that roscore shows when it starts."
-    )
-
-
-def unreachable(uri: str, error: TransportException) -> MasterUnreachable:
-    """Return the error that says that a Master does not answer, why, and what to do."""
-    if isinstance(error, XmlRpcFault):
-        return MasterUnreachable(
-            f"what answers at {uri} is not a ROS Master: {error}. Set ROS_MASTER_URI to the address that roscore shows "
-            "when it starts."
-        )
-    return MasterUnreachable(
-        f"the Master at {uri} does not answer: {error}. Start it with `rosmini roscore`, or set ROS_MASTER_URI to the "
-        "address of one that runs"
-    )

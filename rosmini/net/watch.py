@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.errors import MasterUnreachable, ROSException, TransportException
 
+from .master_answers import checked
 from .registrations import register_again
 
 if TYPE_CHECKING:
@@ -49,6 +50,8 @@ class Watch:
         self._turn = 0
         self._pid: int | None = None
         self._is_lost = False
+        self._forgotten: dict[str, int] = {}
+        """How many times in a row the Master did not know a node."""
 
     def begin(self) -> None:
         """Begin to watch. Harmless when repeated."""
@@ -79,32 +82,37 @@ class Watch:
         try:
             pid = (await self._ask("getPid", chosen.node.name))[2]
             code, _, uri = await self._ask("lookupNode", chosen.node.name, chosen.node.name)
-        except TransportException as error:
+        except (TransportException, MasterUnreachable) as error:
             if not self._is_lost:
                 self._is_lost = True
                 scheduler.call_soon_threadsafe(partial(self._say_lost, error))
             return
+        if code == 1:
+            self._forgotten.pop(chosen.node.name, None)
         is_new = self._is_lost or self._pid not in (None, pid)
         self._is_lost, self._pid = False, pid
         if is_new:
             await self._io.on_hub(scheduler, partial(self._register_again, nodes, "is back"))
-        elif code != 1:
+        elif code != 1 and self._may_register(chosen):
             await self._io.on_hub(scheduler, partial(self._register_again, [chosen], "has forgotten"))
-        elif uri != chosen.uri:
+        elif code == 1 and uri != chosen.uri:
             await self._io.on_hub(scheduler, partial(self._end_replaced, chosen))
+
+    def _may_register(self, seen: _Seen) -> bool:
+        """Tell whether to register a node that the Master does not know: ever more seldom where that has no effect."""
+        count = self._forgotten[seen.node.name] = self._forgotten.get(seen.node.name, 0) + 1
+        return count & (count - 1) == 0
 
     async def _ask(self, method: str, caller_id: str, *arguments: Any) -> Triple:
         answer = await self._client.request(self._uri, method, (caller_id, *arguments), TIMEOUT_S)
-        if not isinstance(answer, list) or len(answer) != 3:
-            raise TransportException(f"{self._uri} answers, but not as a Master does")
-        return answer
+        return checked(self._uri, method, answer)
 
     # -- in the hub's thread -------------------------------------------------------------------------------------
 
     def _nodes(self) -> list[_Seen]:
         return [_Seen(node, node.uri) for node in self._graph.nodes.values() if node.shutdown_reason is None]
 
-    def _say_lost(self, error: TransportException) -> None:
+    def _say_lost(self, error: Exception) -> None:
         self._say(
             f"the Master at {self._uri} does not answer any more: {error}. Connections stay; this process registers "
             "again when it is back.",

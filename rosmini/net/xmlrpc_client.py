@@ -88,10 +88,12 @@ class XmlRpcClient:
                 f"{uri} does not answer {method} within {timeout:g} s: it hangs, or the way there is blocked"
             )
             raise Unreached(msg, host) from error
-        except (OSError, h11.ProtocolError) as error:
-            msg = (
-                f"{uri} did not answer {method} as a server of XML-RPC does: {type(error).__name__}: {error}"
-            )
+        except OSError as error:
+            raise TransportTerminated(
+                f"the connection to {uri} broke before {method} was answered: {error}"
+            ) from error
+        except h11.ProtocolError as error:
+            msg = f"{uri} did not answer {method} as a server of XML-RPC does: {error}"
             raise TransportException(msg) from error
         values, _ = decode(answer)
         return values[0] if values else None

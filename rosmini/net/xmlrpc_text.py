@@ -94,7 +94,9 @@ def decode(document: bytes) -> tuple[tuple[Any, ...], str | None]:
     except xmlrpc.client.Fault as fault:
         raise XmlRpcFault(fault.faultCode, fault.faultString) from None
     except DefusedXmlException as error:
-        raise TransportException(f"the XML declares entities, as an XML bomb does: {error}") from error
+        raise TransportException(
+            f"the XML declares a document type, as web pages do, or entities, as an XML bomb does"
+        ) from error
     except TransportException:
         raise
     except Exception as error:  # the parser lets out ExpatError, ValueError, IndexError, KeyError ...
