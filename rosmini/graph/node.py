@@ -482,7 +482,7 @@ class Node(ParameterApi):
 
     def accept_subscriber(self, header: Header, sender: Sender) -> Header:
         """Take a subscriber's connection."""
-        publication = self.publications.get(header.get("topic", ""))
+        publication = None if self._stopped else self.publications.get(header.get("topic", ""))
         if publication is None:
             raise TransportInitError(
                 f"[{self.name}] is not a publisher of [{header.get('topic')}]. Topics are "
@@ -492,7 +492,7 @@ class Node(ParameterApi):
 
     def accept_client(self, header: Header) -> Session:
         """Take a service client's connection."""
-        server = self.services.get(header.get("service", ""))
+        server = None if self._stopped else self.services.get(header.get("service", ""))
         if server is None:
             raise TransportInitError(f"[{self.name}] is not a provider of [{header.get('service')}]")
         return server.accept(header)

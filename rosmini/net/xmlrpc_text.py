@@ -95,7 +95,7 @@ def decode(document: bytes) -> tuple[tuple[Any, ...], str | None]:
         raise XmlRpcFault(fault.faultCode, fault.faultString) from None
     except DefusedXmlException as error:
         raise TransportException(
-            f"the XML declares a document type, as web pages do, or entities, as an XML bomb does"
+            "the XML declares a document type, as web pages do, or entities, as an XML bomb does"
         ) from error
     except TransportException:
         raise

@@ -254,3 +254,28 @@ def test_what_a_subscriber_says_after_its_header_is_thrown_away(graph: Graph) ->
             assert tracemalloc.get_traced_memory()[1] < 8 * 2**20
         finally:
             tracemalloc.stop()
+
+
+@pytest.mark.parametrize(
+    "header", [subscribing(), encode_header({"service": "/talker/get_loggers", "md5sum": "*"})]
+)
+def test_who_says_what_for_when_the_node_has_ended_is_refused(graph: Graph, header: bytes) -> None:
+    """Else the connection would stay, with nobody to close it."""
+    talk(graph)
+    port = port_of(graph, "/talker")
+    with at(port) as raw:
+        say(graph, port, encode_header({}))  # the one before it has been accepted, too
+        graph.nodes["/talker"].shutdown()
+        raw.sendall(header)
+        raw.setblocking(False)
+        answer = bytearray()
+
+        def closed() -> bool:
+            with suppress(BlockingIOError):
+                part = raw.recv(65536)
+                answer.extend(part)
+                return not part
+            return False
+
+        until(graph, closed, "its end")
+    assert "is not a" in decode_header(bytes(answer))["error"]
