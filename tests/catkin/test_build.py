@@ -7,8 +7,11 @@ import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from rosmini.catkin import CatkinError, Workspace
 
@@ -371,3 +374,67 @@ def test_what_a_shell_sources_chains_workspaces_and_may_be_sourced_twice(
     assert again.stdout == done.stdout
     ended = run([over.base / "devel/env.sh", "sh", "-c", "echo $ROS_VERSION; exit 7"], env=env)
     assert (ended.stdout, ended.returncode) == ("1\n", 7)
+
+
+def test_what_is_not_rebuilt_is_told_where_it_is_imported(bench: Bench) -> None:
+    bench.package("talk")
+    bench.make()
+    bench.write("talk", "msg/Num.msg", "int8 changed\n")
+    bench.write("talk", "msg/New.msg", "int8 added\n")
+    env = dict(
+        os.environ, ROS_PACKAGE_PATH=str(bench.base / "src"), PYTHONPATH=str(bench.base / "devel" / PYTHON)
+    )
+    stale = run([sys.executable, "-c", "from talk.msg import Num"], env=env, check=True)
+    assert "talk/Num was changed and not rebuilt: run catkin_make" in stale.stderr
+    missing = run([sys.executable, "-c", "import talk.msg; talk.msg.New"], env=env)
+    assert missing.returncode == 1
+    assert "talk/New is in" in missing.stderr
+    assert "but was not built: name it in CMakeLists.txt" in missing.stderr
+    unknown = run([sys.executable, "-c", "import talk.msg; talk.msg.Nowhere"], env=env)
+    assert "the package 'talk' has no msg named 'Nowhere'" in unknown.stderr
+
+
+DAMAGE = st.lists(
+    st.tuples(
+        st.sampled_from(
+            ("package.xml", "CMakeLists.txt", "msg/Num.msg", "srv/Add.srv", "scripts/talker.py", "setup.py")
+        ),
+        st.floats(0, 1, exclude_max=True),
+        st.integers(0, 12),
+        st.one_of(
+            st.binary(max_size=6),
+            st.sampled_from((b"<", b">", b'"', b"${", b"(", b")", b"..", b"/", b"\0", b"\r\n")),
+        ),
+    ),
+    min_size=1,
+    max_size=4,
+)
+
+
+@settings(max_examples=40, deadline=None)
+@given(DAMAGE)
+def test_damaged_packages_are_built_or_told_and_nothing_is_written_elsewhere(
+    damage: list[tuple[str, float, int, bytes]],
+) -> None:
+    with TemporaryDirectory() as folder:
+        bench = Bench(Path(folder).resolve() / "ws")
+        bench.package("talk")
+        bench.write("talk", "setup.py", "setup(packages=['talk'], package_dir={'': 'src'})\n")
+        for name, where, size, new in damage:
+            path = bench.base / "src/talk" / name
+            data = path.read_bytes()
+            at = int(where * len(data))
+            path.write_bytes(data[:at] + new + data[at + size :])
+        before = {
+            path for path in bench.base.parent.rglob("*") if bench.base / "src" in (path, *path.parents)
+        }
+        refused = ""
+        try:
+            report = bench.make()
+        except CatkinError as error:
+            refused = str(error)
+        assert refused or report.status == (1 if report.failed else 0)
+        after = {path for path in bench.base.parent.rglob("*") if bench.base / "src" in (path, *path.parents)}
+        assert after == before
+        assert {path.name for path in bench.base.parent.iterdir()} == {"ws"}
+        assert {path.name for path in bench.base.iterdir()} <= {"src", "build", "devel"}
