@@ -10,7 +10,7 @@ from contextlib import ExitStack, closing
 from typing import TYPE_CHECKING
 
 import pytest
-from rosmini_bench import Figure, Measure, actions, bags, graph, sim, table, transforms, wire
+from rosmini_bench import Figure, Measure, actions, bags, graph, launch_files, sim, table, transforms, wire
 from rosmini_bench.peer import find_rospy
 
 from rosmini.cli.main import main
@@ -35,6 +35,7 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
             *graph.measures(None, 1),
             *actions.measures(None, 1),
             *transforms.measures(None, 1),
+            *launch_files.measures(None, 1),
             *bags.measures(tmp_path, None, 1),
             *sim.measures(None, None, 1),
         ]
@@ -57,6 +58,7 @@ def test_real_rospy_is_measured_beside_it() -> None:
             *graph.measures(rospy, 0.001),
             *actions.measures(rospy, 0.05),
             *transforms.measures(rospy, 0.01),
+            *launch_files.measures(rospy, 0.01),
         ]
         figures = [measure.run(1) for measure in measures]
     finally:

@@ -181,6 +181,9 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         from . import transforms
 
         yield from transforms.measures(rospy, args.scale)
+        from . import launch_files
+
+        yield from launch_files.measures(rospy, args.scale)
         from . import bags
 
         folder = bags.Folder()
