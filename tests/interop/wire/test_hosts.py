@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from ...processes import run
+from ...processes import run, wait_until
 from ..conftest import SYSTEM_PYTHON, need_ros
 from .harness import ROSMINI, Stage
 from .hosts import three_hosts
@@ -75,6 +75,11 @@ def simulator(site: Site, host: Host, name: str) -> Child:
     return child
 
 
+def published(watcher: Peer) -> set[str]:
+    """Return the topics that somebody publishes."""
+    return {topic for topic, _ in watcher.ask("state", "getSystemState")[2][0]}
+
+
 def x_of(watcher: Peer, topic: str) -> Any:
     """Return the position on the newest message of a topic with odometry."""
     watcher.ask("forget", topic)
@@ -85,6 +90,7 @@ def test_one_teleop_drives_two_simulators_on_two_hosts(site: Site, hosts: Hosts,
     names = {"second": hosts.b, "third": hosts.c}
     children = [simulator(site, host, name) for name, host in names.items()]
     topics = [f"/{name}/{topic}" for name in names for topic in ("odom", "base_pose_ground_truth")]
+    wait_until(lambda: set(topics) <= published(watcher), "two simulators")
     for topic in topics:
         watcher.ask("subscribe", topic, ODOMETRY)
     before = {topic: x_of(watcher, topic) for topic in topics}

@@ -20,17 +20,19 @@ pytestmark = pytest.mark.ros
 Peers = tuple["Peer", "Peer"]
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def busy(core: Stage, pair: Peers) -> Peers:
     """The two nodes: each counts and listens to the other."""
-    for peer, other in (pair, pair[::-1]):
+    idle = [(peer, other) for peer, other in (pair, pair[::-1]) if not peer.is_busy]
+    for peer, other in idle:
         peer.ask("advertise", f"{peer.node}/count", "std_msgs/Int32")
         peer.ask("every", f"{peer.node}/count")
         peer.ask("advertise", f"{peer.node}/latched", "std_msgs/String", latch=True)
         peer.ask("publish", f"{peer.node}/latched", ["käse"])
         peer.ask("subscribe", f"{other.node}/count", "std_msgs/Int32")
         peer.ask("subscribe", f"{peer.node}/inbox", "std_msgs/String")
-    for peer, other in (pair, pair[::-1]):
+    for peer, other in idle:
+        peer.is_busy = True
         peer.ask("hear", f"{other.node}/count")
         core.wait_for(f"{peer.node}/count", "subscribers", other.node)
     return pair
