@@ -191,6 +191,10 @@ class BlockingApi:
             lane.submit(task)
         return lane
 
+    def run(self, task: Callable[[], object], name: str | None = None) -> Lane:
+        """Run ``task`` as this node's main program: it may sleep, wait and call services while the graph goes on."""
+        return self.spawn(name or f"{self.name} {getattr(task, '__name__', 'task')}", task)
+
     def guarded(self, callback: Callable[..., object], *arguments: Any, what: str) -> None:
         """Call a user's callback; an error is reported and goes no further."""
         try:

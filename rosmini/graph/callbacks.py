@@ -1,11 +1,11 @@
-"""Telling a user which of their callbacks failed, where, and on which message."""
+"""Users' callbacks: what they are called with, and which of them failed, where, and on which message."""
 
 from __future__ import annotations
 
 import linecache
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosmini.errors import CallbackError
 
@@ -19,6 +19,18 @@ STANDARD_LIBRARY = str(Path(os.__file__).parent) + os.sep
 
 SHOWN_LINES = 12
 """So much of a message is shown."""
+
+
+class Callback(NamedTuple):
+    """A user's function, and what it gets after each message."""
+
+    function: Callable[..., object]
+    arguments: tuple[Any, ...]
+
+    def caller(self) -> Callable[[Any], object]:
+        """Return what calls the user's function with a message."""
+        function, arguments = self.function, self.arguments
+        return (lambda message: function(message, *arguments)) if arguments else function
 
 
 def describe_failure(

@@ -393,10 +393,6 @@ class Node(ParameterApi):
         span = period if isinstance(period, Duration) else Duration.from_sec(period)
         return self.scheduler.on_hub(lambda: Timer(self, span, callback, oneshot=oneshot, reset=reset))
 
-    def run(self, task: Callable[[], object], name: str | None = None) -> Lane:
-        """Run ``task`` as this node's main program: it may sleep, wait and call services while the graph goes on."""
-        return self.spawn(name or f"{self.name} {getattr(task, '__name__', 'task')}", task)
-
     # -- the end -------------------------------------------------------------------------------------------------
 
     def on_shutdown(self, hook: Callable[[], object]) -> None:

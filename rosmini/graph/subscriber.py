@@ -19,6 +19,7 @@ from rosmini.errors import (
 from rosmini.msgs import message_class
 from rosmini.msgs.full_text import class_from
 
+from .callbacks import Callback
 from .mismatch import describe_mismatch, recast
 from .transport import DirectReceiver, LocalTransport, set_header
 
@@ -62,23 +63,13 @@ def _class_of(header: Header, protocol: str, default: Any) -> Any:
     return default
 
 
-class _Callback(NamedTuple):
-    function: Callable[..., object]
-    arguments: tuple[Any, ...]
-
-    def caller(self) -> Callable[[Any], object]:
-        """Return what calls the user's function with a message."""
-        function, arguments = self.function, self.arguments
-        return (lambda message: function(message, *arguments)) if arguments else function
-
-
 class _Way(NamedTuple):
     """How a frozen message reaches the callbacks: its class, what thaws it, what adds the header, what calls each."""
 
     own: Any
     thaw: Callable[[Any], Any] | None
     label: Callable[[Any, Header], None]
-    callbacks: tuple[tuple[Callable[[Any], object], _Callback], ...]
+    callbacks: tuple[tuple[Callable[[Any], object], Callback], ...]
 
 
 class Connection(DirectReceiver):
@@ -97,6 +88,8 @@ class Connection(DirectReceiver):
         self.is_open = False
         self.was_of_use = False
         """True of one that has ended after messages, and not because what came was none."""
+        self.was_left = False
+        """Whether the publisher has left the topic while the connection was being made: it may come to nothing."""
         self._gone = False
         self._draining = False
         self._last: Any = None
@@ -117,7 +110,7 @@ class Connection(DirectReceiver):
                 self.uri, "requestTopic", node.name, subscription.topic, transport.offers(node.uri)
             )
             if code == -1:  # the publisher has left the topic meanwhile
-                subscription.forget(self)
+                subscription.gave_up(self)
                 return
             if code != 1:
                 raise TransportInitError(status)
@@ -140,7 +133,7 @@ class Connection(DirectReceiver):
             return
         self.peer = self.header.get("callerid", "")
         self._keep = self.header.get("latching") == "1"
-        self.is_open = True
+        self.is_open, self.was_left = True, False
         if self.message_class is None or self.message_class._type == "*":
             self.message_class = _class_of(self.header, self.protocol, self.message_class)
         for handle in subscription.handles:
@@ -163,7 +156,9 @@ class Connection(DirectReceiver):
         if self._gone:
             return  # this end left while the connection was being made
         subscription = self.subscription
-        subscription.forget(self)
+        subscription.gave_up(self)
+        if self.was_left:
+            return
         node = subscription.node
         publisher = {"callerid": self.uri, **error.header}
         mine = subscription.message_class._md5sum
@@ -249,17 +244,17 @@ class Connection(DirectReceiver):
         self.way = self.subscription.way(self.message_class)
         return self.way
 
-    def _failed(self, error: Exception, callback: _Callback, message: Any) -> None:
+    def _failed(self, error: Exception, callback: Callback, message: Any) -> None:
         subscription = self.subscription
         subscription.node.callback_failed(error, callback.function, subscription.topic, message)
 
-    def _call(self, callback: _Callback, message: Any) -> None:
+    def _call(self, callback: Callback, message: Any) -> None:
         try:
             callback.caller()(message)
         except Exception as error:
             self._failed(error, callback, message)
 
-    def replay(self, callback: _Callback) -> None:
+    def replay(self, callback: Callback) -> None:
         """Give a late callback the message that the publisher latched, as the others got it."""
         if self._last is not None:
             message = self._last
@@ -324,16 +319,16 @@ class Subscription:
     def update_publishers(self, uris: Iterable[str]) -> None:
         """Connect to new publishers: what ``publisherUpdate`` asks for.
 
-        As in rospy an open connection outlives its registration: the publisher closes it after its last message,
-        which may still be on its way.
+        As in rospy a connection outlives its registration: the publisher closes it after its last message, which may
+        still be on its way, and so may be its answer to who has just connected.
         """
         if self._is_closed:
             return
         self.updates += 1
         self._wanted = wanted = dict.fromkeys(uris)
         self._attempts = {uri: count for uri, count in self._attempts.items() if uri in wanted}
-        for uri in [uri for uri, link in self.connections.items() if uri not in wanted and not link.is_open]:
-            self.connections.pop(uri).close()
+        for uri, link in self.connections.items():
+            link.was_left = link.was_left or (uri not in wanted and not link.is_open)
         for uri in wanted:
             if uri not in self.connections:
                 self.connections[uri] = Connection(self, uri)
@@ -350,6 +345,12 @@ class Subscription:
         if self.connections.get(connection.uri) is connection:
             del self.connections[connection.uri]
 
+    def gave_up(self, connection: Connection) -> None:
+        """Drop a connection that came to nothing; if its publisher left meanwhile and is back, connect to it anew."""
+        self.forget(connection)
+        if connection.was_left:
+            self._connect(connection.uri)
+
     def closed(self, connection: Connection) -> None:
         """Learn that a publisher closed a connection; if it is on the topic again meanwhile, connect to it anew."""
         self.forget(connection)
@@ -358,7 +359,9 @@ class Subscription:
 
     def lost(self, connection: Connection, error: Exception | None) -> None:
         """Learn that a connection failed, or could not be made; say so once, and try again if the way allows it."""
-        self.forget(connection)
+        self.gave_up(connection)
+        if connection.was_left:
+            return
         is_first, was_open = self.is_first_failure(connection), connection.protocol
         again = self._try_again(connection)
         if error is not None and is_first:
@@ -475,7 +478,7 @@ class Subscriber:
         self.topic = subscription.topic
         self.message_class = message_class
         self.queue_size = queue_size
-        self.callback = None if callback is None else _Callback(callback, arguments)
+        self.callback = None if callback is None else Callback(callback, arguments)
         self._numpy = numpy
         self.receipt = receipt
         self._on_connect = on_connect

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
 import socket
 import struct
@@ -10,13 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from rosmini.errors import TypeMismatch
+from rosmini.errors import TransportInitError, TypeMismatch
 from rosmini.graph import Graph
 from rosmini.graph.headers import decode_header, encode_header
 from rosmini.graph.publisher import Publication
 from rosmini.msgs.define import define_message
 from rosmini.msgs.rospy_tutorials.srv import AddTwoInts
 from rosmini.msgs.std_msgs.msg import Int32, String
+from rosmini.net import tcp_transport
 from rosmini.net.network import network_of, tcp
 from rosmini.rospy.msg import AnyMsg
 
@@ -73,6 +75,69 @@ def say(graph: Graph, port: int, text: bytes) -> bytes:
     until(graph, lambda: got)
     thread.join(PATIENCE)
     return got[0]
+
+
+@pytest.mark.parametrize("returns", [False, True], ids=["leaves", "leaves and returns"])
+def test_who_is_still_connecting_hears_the_last_words(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch, returns: bool
+) -> None:
+    """The publisher counts a subscriber that has not read its answer yet; then it publishes, and leaves."""
+    gate, open_topic = asyncio.Event(), tcp_transport.open_topic
+
+    async def open_late(io: Any, host: str, port: int, header: Any) -> Any:
+        opened = await open_topic(io, host, port, header)
+        if header["topic"] == "/t":
+            await gate.wait()
+        return opened
+
+    monkeypatch.setattr(tcp_transport, "open_topic", open_late)
+    heard: list[str] = []
+    talker, listener = graph.node("talker"), graph.node("listener")
+    listener.subscriber("t", String, lambda message: heard.append(message.data))
+    publisher = talker.publisher("t", String, queue_size=10)
+    until(graph, publisher.num_connections)
+    subscription = listener.subscriptions["/t"]
+    news = subscription.updates
+    publisher.publish("last words")
+    publisher.unregister()
+    until(graph, lambda: subscription.updates == news + 1)
+    if returns:
+        publisher = talker.publisher("t", String, queue_size=10)
+        until(graph, lambda: subscription.updates == news + 2)
+    network_of(graph).io.call(gate.set)
+    until(graph, lambda: heard)
+    if returns:
+        until(graph, publisher.num_connections)
+        publisher.publish("back")
+        until(graph, lambda: len(heard) == 2)
+    assert heard == ["last words", "back"][: 1 + returns]
+
+
+def test_a_connection_that_its_publisher_left_meanwhile_is_made_again_when_it_is_back(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    gate, open_topic = asyncio.Event(), tcp_transport.open_topic
+
+    async def refused_late(io: Any, host: str, port: int, header: Any) -> Any:
+        if header["topic"] == "/t" and not gate.is_set():
+            await gate.wait()
+            raise TransportInitError(f"{header['callerid']} comes too late")
+        return await open_topic(io, host, port, header)
+
+    monkeypatch.setattr(tcp_transport, "open_topic", refused_late)
+    talker, listener = graph.node("talker"), graph.node("listener")
+    listener.subscriber("t", String)
+    subscription = listener.subscriptions["/t"]
+    publisher = talker.publisher("t", String, queue_size=10)
+    until(graph, lambda: subscription.connections)
+    news = subscription.updates
+    publisher.unregister()
+    until(graph, lambda: subscription.updates == news + 1)
+    publisher = talker.publisher("t", String, queue_size=10)
+    until(graph, lambda: subscription.updates == news + 2)
+    network_of(graph).io.call(gate.set)
+    until(graph, publisher.num_connections)
+    assert "too late" not in capsys.readouterr().err
 
 
 def test_messages_and_services_cross_the_wire(graph: Graph) -> None:
