@@ -38,7 +38,7 @@ KINDS: dict[str, tuple[Any, bool]] = {
     RESTLESS: (LocalTransport, True),
 }
 
-if "ROSMINI_TEST_TCP" in os.environ:  # on Linux: elsewhere settle() cannot know what is under way on a real wire
+if "ROSMINI_TEST_TCP" in os.environ:  # on Linux, whose /proc tells settle() what is under way on a real wire
     KINDS["tcp-wall"] = (tcp(), False)
 
 
