@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 # What tests more than one folder of the library, or none.
-ACROSS = {"assets", "benchmarks", "browser", "data", "gates", "interop", "jupyter"}
+ACROSS = {"assets", "benchmarks", "browser", "data", "gates", "interop", "jupyter", "report"}
 
 
 def modules_of_tests() -> list[Path]:
