@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from .node_port import NodePort
-    from .transport import Header
+    from .transport import Header, Triple
 
 
 _NO_CLASS = (UnknownType, UnknownPackage, DefinitionError, IllegalName)
@@ -106,9 +106,7 @@ class Connection(DirectReceiver):
         node = subscription.node
         transport = node.graph.transport
         try:
-            code, status, parameters = transport.call(
-                self.uri, "requestTopic", node.name, subscription.topic, transport.offers(node.uri)
-            )
+            code, status, parameters = self._request_topic()
             if code == -1:  # the publisher has left the topic meanwhile
                 subscription.gave_up(self)
                 return
@@ -140,6 +138,20 @@ class Connection(DirectReceiver):
             handle.connected(self.peer)
         node.connections_changed()
 
+    def _request_topic(self) -> Triple:
+        """Ask the publisher how to connect; -1 says that it does not publish the topic."""
+        node, transport = self.subscription.node, self.subscription.node.graph.transport
+        return transport.call(
+            self.uri, "requestTopic", node.name, self.subscription.topic, transport.offers(node.uri)
+        )
+
+    def _has_left(self) -> bool:
+        """Tell whether the publisher left between its two answers, which is no reason to complain."""
+        try:
+            return bool(self._request_topic()[0] == -1)
+        except TransportException:
+            return True  # if it is there after all, the Master still lists it and says so
+
     def _request(self) -> Header:
         subscription = self.subscription
         cls = subscription.message_class
@@ -165,6 +177,8 @@ class Connection(DirectReceiver):
         if "type" in publisher and publisher.get("md5sum", mine) != mine:
             text = describe_mismatch(subscription.topic, publisher, self._request())
             problem: Exception = TypeMismatch(text)
+        elif self._has_left():
+            return
         else:
             who = error.header.get("callerid") or node.master.publisher_at(subscription.topic, self.uri)
             problem = TransportInitError(

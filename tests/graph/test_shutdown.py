@@ -47,6 +47,32 @@ def test_hooks_run_in_order_and_may_still_publish(graph: Graph) -> None:
     assert node.shutdown_reason == "enough"
 
 
+def test_a_publisher_that_leaves_between_its_two_answers_is_no_error(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It says how to connect, leaves, and refuses the connection: the subscriber says nothing and tries no more."""
+    publisher = graph.node("talker").publisher("t", String)
+    connect = graph.transport.connect_topic
+    refusals: list[str] = []
+
+    def connect_late(caller: str, parameters: Any, header: Any, receiver: Any) -> Any:
+        if header["topic"] != "/t":
+            return connect(caller, parameters, header, receiver)
+        publisher.unregister()
+        try:
+            return connect(caller, parameters, header, receiver)
+        except Exception as error:
+            refusals.append(str(error))
+            raise
+
+    monkeypatch.setattr(graph.transport, "connect_topic", connect_late)
+    listener = graph.node("listener")
+    listener.subscriber("t", String, print)
+    until(graph, lambda: refusals)
+    settle(graph)
+    assert len(refusals) == 1
+
+
 def test_a_hook_may_block(graph: Graph) -> None:
     node = graph.node("node")
     before = graph.now()
