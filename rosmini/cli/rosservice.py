@@ -148,7 +148,7 @@ def call_(given: Values, call: Call) -> Result:
             try:
                 node.wait_for_service(name)
             except KeyboardInterrupt:
-                return Result(status=130)
+                return Result()  # as ROS does
             except ROSException as error:  # such as a graph in which nothing more can happen
                 raise _failed(str(error)) from error
         cls = _class_of(call, name)

@@ -375,7 +375,10 @@ class Tool:
 
         end_as_ctrl_c()
         with connect() as graph:
-            return verb.act(given, Call(graph, say, read_line=sys.stdin.readline))
+            try:
+                return verb.act(given, Call(graph, say, read_line=sys.stdin.readline))
+            except KeyboardInterrupt:  # it came between two waits: no failure, as in ROS's tools
+                return Lines()
 
 
 @dataclass(frozen=True)

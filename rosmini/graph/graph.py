@@ -227,6 +227,7 @@ class Graph(GraphCore):
             namespace='/': only these nodes: names or regular expressions with commas between, - excludes
             topics='/': only these topics, in the same form
             direction='right': or 'down'
+            since=None: an earlier state; what is new since then is bold, what is gone is dashed
             title=None: a caption under the picture, and the first words of its text form
         """
         return show("computation_graph", self, **options)

@@ -33,6 +33,9 @@ __all__ = [
     "resolve_launch_arguments",
 ]
 
+__path__: list[str] = []
+"""A package to what imports ``roslaunch.core``."""
+
 core = parent = rlutil = scriptapi = sys.modules[__name__]
 
 

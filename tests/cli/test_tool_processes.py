@@ -82,7 +82,7 @@ def test_ctrl_c_while_a_service_is_waited_for(env: dict[str, str]) -> None:
         wait_until(lambda: "/rosservice_" in ask(env, "rosnode list").stdout, "the tool's node", process)
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=PATIENCE)
-    assert process.returncode == 130
+    assert process.returncode == 0
     assert "Traceback" not in said
     assert "/rosservice_" not in ask(env, "rosnode list").stdout
 

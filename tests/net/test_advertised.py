@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -19,7 +20,8 @@ def told(*registrations: tuple[str, str, str]) -> list[str]:
             advertised.look(*registration)
         await asyncio.gather(*asyncio.all_tasks() - {asyncio.current_task()})
 
-    asyncio.run(look())
+    with ThreadPoolExecutor(1) as pool:  # this thread may have a loop that runs: a browser's
+        pool.submit(lambda: asyncio.run(look())).result()
     return said
 
 
