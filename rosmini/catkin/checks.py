@@ -10,7 +10,7 @@ from pathlib import Path
 from rosmini import files
 from rosmini.errors import DefinitionError, nearest
 from rosmini.markup import Element, parse_file
-from rosmini.packages import MANIFEST, Package, PackageIndex, read_package
+from rosmini.packages import BUILT_IN, MANIFEST, Package, PackageIndex, read_package
 
 from .cmake import CMakeError
 from .findings import Finding, warning
@@ -18,15 +18,6 @@ from .project import CMAKE, Project, read_project
 from .scripts import check_scripts
 
 GOOD_NAME = re.compile(r"[a-z][a-z0-9_-]*\Z")
-
-BUILT_IN = frozenset({
-    "actionlib", "catkin", "cmake_modules", "cpp_common", "dynamic_reconfigure", "gencpp", "geneus", "genlisp",
-    "genmsg", "gennodejs", "genpy", "message_filters", "message_generation", "message_runtime", "rosbag", "rosconsole",
-    "roscpp", "roscpp_serialization", "roscpp_traits", "rosgraph", "roslaunch", "roslib", "rosmaster", "rosmsg",
-    "rosnode", "rosout", "rospack", "rosparam", "rospy", "rosservice", "rostest", "rostime", "rostopic", "rosunit",
-    "roswtf", "tf", "tf2", "tf2_geometry_msgs", "tf2_py", "tf2_ros", "xmlrpcpp",
-})  # fmt: skip
-"""Packages of ROS's core that need no folder here: rosmini brings what scripts use of them."""
 
 BUILD = ("depend", "build_depend")
 RUN = ("depend", "exec_depend", "run_depend")

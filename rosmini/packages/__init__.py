@@ -12,10 +12,11 @@ manifest that is not XML. Manifests are read by catkin_pkg, after defusedxml has
 
 from .executables import NODES_GROUP, SCRIPT_FOLDERS, Executable
 from .folders import MANIFEST, Crawled, assets_dir, crawl, package_around, search_paths
-from .index import LONGEST, SCHEME, PackageIndex
+from .index import BUILT_IN, LONGEST, SCHEME, PackageIndex
 from .manifest import Export, Package, Stack, read_package, read_stack
 
 __all__ = [
+    "BUILT_IN",
     "LONGEST",
     "MANIFEST",
     "NODES_GROUP",

@@ -17,6 +17,15 @@ SCHEME = "package://"
 LONGEST = 300
 """The largest number of characters of an address that an error shows."""
 
+BUILT_IN = frozenset({
+    "actionlib", "catkin", "cmake_modules", "cpp_common", "dynamic_reconfigure", "gencpp", "geneus", "genlisp",
+    "genmsg", "gennodejs", "genpy", "message_filters", "message_generation", "message_runtime", "rosbag", "rosconsole",
+    "roscpp", "roscpp_serialization", "roscpp_traits", "rosgraph", "roslaunch", "roslib", "rosmaster", "rosmsg",
+    "rosnode", "rosout", "rospack", "rosparam", "rospy", "rosservice", "rostest", "rostime", "rostopic", "rosunit",
+    "roswtf", "tf", "tf2", "tf2_geometry_msgs", "tf2_py", "tf2_ros", "xmlrpcpp",
+})  # fmt: skip
+"""Packages of ROS's core that need no folder here: rosmini brings what scripts use of them."""
+
 
 class PackageIndex:
     """The packages below some folders (`search_paths` by default), found when they are first needed.

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.errors import DefinitionError
-from rosmini.packages import SCRIPT_FOLDERS
+from rosmini.packages import BUILT_IN, SCRIPT_FOLDERS
 
 from .findings import Finding
 
@@ -47,7 +47,9 @@ def missing_dependencies(environ: Mapping[str, str], packages: PackageIndex) -> 
     """Find what packages of the user's say that they need, and what is not there."""
     found = []
     for name in _own(environ, packages)[0]:
-        missing = [each for each in packages.find(name).exec_depends if each not in packages]
+        missing = [
+            each for each in packages.find(name).exec_depends if each not in packages and each not in BUILT_IN
+        ]
         if missing:
             found.append(f"{name}: {', '.join(missing)}")
     if found:

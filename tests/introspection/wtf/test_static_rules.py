@@ -18,7 +18,9 @@ MANIFEST = """<package format="2"><name>{}</name><version>1.0.0</version><descri
 def package(tmp_path: Path) -> Path:
     folder = tmp_path / "src" / "mine"
     (folder / "scripts").mkdir(parents=True)
-    (folder / "package.xml").write_text(MANIFEST.format("mine", "<depend>rospy</depend>"), encoding="utf-8")
+    (folder / "package.xml").write_text(
+        MANIFEST.format("mine", "<depend>rospy</depend><depend>my_msgs</depend>"), encoding="utf-8"
+    )
     return folder
 
 
@@ -40,9 +42,7 @@ def test_a_workspace_that_is_well(package: Path) -> None:
     script(package, b"import rospy\n", 0o644, "module.py")
     script(package, b"#!/bin/sh\n", name="not_python")
     index = found(package.parent)
-    assert index.pop("missing_dependencies") == (
-        "mine: rospy",
-    )  # the index of the test has no built-in packages
+    assert index.pop("missing_dependencies") == ("mine: my_msgs",)
     assert index == {}
 
 
