@@ -98,6 +98,7 @@ def _graph_parser() -> Parser:
         "--nodes", default="/", metavar="FILTER", help="names or regular expressions, - excludes"
     )
     parser.add_option("--topics", default="/", metavar="FILTER", help="likewise")
+    parser.add_option("--title", metavar="TEXT", help="a caption under the picture")
     return parser
 
 
@@ -118,7 +119,9 @@ def graph(given: Values, call: Call) -> Shown:
         DEFAULT_HIDE if given.hide is None else [part for part in given.hide.split(",") if part != "none"]
     )
     mode: Any = MODES[given.mode]
-    view = rqt_graph(state, mode=mode, hide=hide, namespace=given.nodes, topics=given.topics)
+    view = rqt_graph(
+        state, mode=mode, hide=hide, namespace=given.nodes, topics=given.topics, title=given.title
+    )
     return _shown(view, "graph", given, call)
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import ROSException, RosminiError
 
 from .logs import DEBUG, ERROR, FATAL, INFO, WARN, internally, once, plainly, throttled, throttled_identical
+from .msproxy import SlaveProxy
 from .names import get_caller_id, get_name
 from .session import any_node, current_node, current_session
 
@@ -28,6 +29,7 @@ __all__ = [
     "is_shutdown_requested",
     "parse_rosrpc_uri",
     "signal_shutdown",
+    "xmlrpcapi",
 ]
 
 ROSRPC = "rosrpc://"
@@ -80,6 +82,11 @@ def get_node_uri() -> str | None:
     """Return the URI of the node's slave API; None before ``init_node``."""
     node = current_node()
     return None if node is None else node.uri
+
+
+def xmlrpcapi(uri: str | None, cache: bool = True) -> SlaveProxy | None:  # noqa: ARG001 - as in ROS
+    """Return what calls the slave API of the node at ``uri``; None for what is not an http address."""
+    return SlaveProxy(uri) if uri is not None and SlaveProxy.accepts(uri) else None
 
 
 def is_initialized() -> bool:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
+from urllib.parse import urlsplit
 
 from rosmini.errors import ROSException
+from rosmini.graph import running_graph
 from rosmini.graph.master_port import METHODS
 
 from .names import resolve_name
@@ -52,6 +54,27 @@ class MasterProxy:
     def get_param_cached(self, key: str) -> Any:
         """Return a parameter's value. Raises ``KeyError``."""
         return self[key]
+
+
+class SlaveProxy:
+    """The slave API of the node at ``uri`` (http://wiki.ros.org/ROS/Slave_API): ``proxy.getPid("/me")``.
+
+    Answers are [code, status, value]. A call raises ``TransportException`` when nobody answers.
+    """
+
+    def __init__(self, uri: str) -> None:
+        self.uri = uri
+
+    @staticmethod
+    def accepts(uri: str) -> bool:
+        """Return whether this is an address such as nodes have."""
+        parts = urlsplit(uri)
+        return parts.scheme in ("http", "https") and bool(parts.netloc)
+
+    def __getattr__(self, key: str) -> Callable[..., Any]:
+        if key.startswith("_"):
+            raise AttributeError(f"the slave API has no method {key}", name=key, obj=self)
+        return partial(running_graph().transport.call, self.uri, key)
 
 
 def published_topics(namespace: str) -> list[list[str]]:

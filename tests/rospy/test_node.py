@@ -9,7 +9,7 @@ import threading
 import pytest
 
 from rosmini import Graph, rospy, set_default_graph
-from rosmini.errors import IllegalName
+from rosmini.errors import IllegalName, TransportException
 from rosmini.graph import default_graph
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.rospy.aliases import rosgraph
@@ -430,3 +430,31 @@ def test_a_callback_of_another_graph_speaks_for_its_own_node(sim: Graph) -> None
         assert "/answers" in node.publications
         assert (rospy.get_name(), rospy.get_param("/where")) == ("/main", "default")
         assert "/answers" not in sim.nodes["/main"].publications
+
+
+def test_a_program_calls_the_slave_api_of_another_node(programs):
+    def main():
+        rospy.init_node("asker")
+        publisher = default_graph().node("crier").publisher("news", String, latch=True)
+        publisher.publish("extra")
+        uri = rosgraph.Master("/asker").lookupNode("/crier")
+        rosgraph.Master("/crier").unregisterPublisher("/news", uri)  # nobody finds it through the Master
+        heard = []
+        rospy.Subscriber("news", String, lambda message: heard.append(message.data))
+        rospy.sleep(0.5)
+        before = list(heard)
+        told = rospy.core.xmlrpcapi(rospy.get_node_uri()).publisherUpdate("/master", "/news", [uri])
+        rospy.sleep(0.5)
+        return rospy.core.xmlrpcapi(uri).getPid("/asker")[0], before, told[0], heard
+
+    assert programs(main) == (1, [], 1, ["extra"])
+
+
+def test_an_address_of_nobody_does_not_answer(programs):
+    def main():
+        rospy.init_node("asker")
+        with pytest.raises(TransportException):
+            rospy.core.xmlrpcapi("http://nobody:1/").getPid("/asker")
+        return rospy.core.xmlrpcapi(None), rospy.core.xmlrpcapi("rosrpc://nobody:1")
+
+    assert programs(main) == (None, None)
