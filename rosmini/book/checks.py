@@ -7,6 +7,7 @@ what is wrong with the answer and a hint, or that it is right. What "right" mean
 
 from __future__ import annotations
 
+import ast
 import importlib
 import importlib.util
 import math
@@ -31,11 +32,32 @@ class UnknownExercise(RosminiError):
 
 
 class Wrong(RosminiError):
-    """The answer is wrong: the message says what is wrong with it, `hint` what to look at."""
+    """The answer is wrong: the message says what is wrong with it, `hint` what to look at, `view` shows it."""
 
-    def __init__(self, message: str, hint: str = "") -> None:
+    def __init__(self, message: str, hint: str = "", view: Any = None) -> None:
         super().__init__(message)
         self.hint = hint
+        self.view = view
+
+
+@dataclass(frozen=True)
+class Script:
+    """An answer that is a script: the name of its file, and its text."""
+
+    name: str
+    source: str
+
+    @property
+    def has_gaps(self) -> bool:
+        """Whether it still has a bare `...` where the reader is to write; false for what is not Python."""
+        try:
+            tree = ast.parse(self.source)
+        except SyntaxError:
+            return False
+        return any(
+            isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and node.value.value is ...
+            for node in ast.walk(tree)
+        )
 
 
 class Status(Enum):
@@ -48,42 +70,43 @@ class Status(Enum):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a check found, and the text that the reader sees."""
+    """What a check found, the text that the reader sees, and what shows it: None, or a picture."""
 
     status: Status
     text: str
+    view: Any = None
 
 
 @dataclass(frozen=True)
 class Exercise:
     """One exercise: its number ("11.2"), what is said about a right answer, and the function that examines one.
 
-    `examine(answer)` raises `Wrong` (most simply through `expect`) or returns.
+    `examine(answer)` raises `Wrong` (most simply through `expect`) or returns what shows the answer at work, or None.
     """
 
     number: str
     praise: str
-    examine: Callable[[Any], None]
+    examine: Callable[[Any], Any]
 
     def grade(self, answer: Any) -> Verdict:
         """Examine `answer`. An exception out of the reader's code is a wrong answer, not an error of the check."""
         if is_stub(answer):
             return self._verdict(Status.NOT_ATTEMPTED)
         try:
-            self.examine(answer)
+            view = self.examine(answer)
         except Wrong as wrong:
             hint = f"\nHint: {wrong.hint}" if wrong.hint else ""
-            return self._verdict(Status.WRONG, f"{wrong}{hint}")
+            return self._verdict(Status.WRONG, f"{wrong}{hint}", wrong.view)
         except Exception as error:
             return self._verdict(Status.WRONG, f"Your code raised {type(error).__name__}: {error}")
-        return self._verdict(Status.RIGHT, self.praise)
+        return self._verdict(Status.RIGHT, self.praise, view)
 
-    def _verdict(self, status: Status, more: str = "") -> Verdict:
+    def _verdict(self, status: Status, more: str = "", view: Any = None) -> Verdict:
         text = f"Exercise {self.number}: {status.value}."
-        return Verdict(status, f"{text} {more}" if more else text)
+        return Verdict(status, f"{text} {more}" if more else text, view)
 
 
-def exercise(number: str, *, praise: str) -> Callable[[Callable[[Any], None]], Exercise]:
+def exercise(number: str, *, praise: str) -> Callable[[Callable[[Any], Any]], Exercise]:
     """Make an `Exercise` of the decorated function, which examines an answer."""
     return lambda examine: Exercise(number, praise, examine)
 
@@ -138,11 +161,16 @@ def expect_heard(publisher: Publisher) -> None:
 
 
 def check(number: str, answer: Any) -> None:
-    """Print what is to be said about `answer` to exercise `number` ("11.2").
+    """Print what is to be said about `answer` to exercise `number` ("11.2"), and show what a robot did with it.
 
     Raises `UnknownExercise` if there is no such exercise.
     """
-    print(find(number).grade(answer).text)
+    verdict = find(number).grade(answer)
+    print(verdict.text)
+    if verdict.view is not None:
+        from IPython.core.display_functions import display
+
+        display(verdict.view)  # type: ignore[no-untyped-call]
 
 
 def find(number: str) -> Exercise:
@@ -166,9 +194,11 @@ def exercises_of(chapter: str) -> Iterator[Exercise]:
 
 
 def is_stub(answer: Any) -> bool:
-    """Whether the reader has not begun: `...`, something that holds `...`, or a function or class that does nothing."""
+    """Whether the reader has not begun: `...`, what holds `...`, or a function, class or script that does nothing."""
     if answer is ...:
         return True
+    if isinstance(answer, Script):
+        return answer.has_gaps
     if isinstance(answer, dict):
         return any(is_stub(value) for value in answer.values())
     if isinstance(answer, list | tuple):

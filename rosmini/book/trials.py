@@ -1,0 +1,96 @@
+"""Trials of scripts: a fresh graph with a TurtleBot3, in which the answer to an exercise has to prove itself.
+
+The reader's own graph has no part in it. Time is simulated and the trial has an end, so that a script that runs for
+ever does no harm; what scripts print is kept, and what ends one is part of the verdict.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, cast
+
+from rosmini.graph import Graph
+from rosmini.scripts import Console, ScriptHandle, ScriptSpec, rosrun
+
+from .checks import Script, Wrong
+
+if TYPE_CHECKING:
+    from types import TracebackType
+    from typing import Self
+
+    from rosmini.sim.simulator import Simulator
+
+
+class Trial:
+    """A graph of its own with a simulated TurtleBot3 Burger, to be used in a ``with`` block.
+
+    Args:
+        world: the name of the simulator's world.
+        parameters: of the simulator, as rosrun takes them: ``"_x:=1.0"``.
+
+    A `Wrong` that leaves the block has the picture of the drive so far, and names the first error that a script logged.
+
+    """
+
+    def __init__(self, world: str = "room", *parameters: str) -> None:
+        from rosmini.sim.recorder import Recorder
+
+        self.graph = Graph(strict=False)
+        self._console = Console(self.graph.scheduler, prefix=False, capture_output=True)
+        self._scripts: list[ScriptHandle] = []
+        started = rosrun(
+            "rosmini_sim", "simulator", f"_world:={world}", *parameters, graph=self.graph, capture_output=True
+        )
+        self.robot = cast("Simulator", cast("Any", started).instance())
+        self._recorder = Recorder(self.graph, self.robot)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """End the graph, and add to a `Wrong` what was seen."""
+        try:
+            if isinstance(error, Wrong):
+                error.view = self.view()
+                if (said := self._first_error()) and said not in str(error):
+                    error.args = (f"{error} Your script logged: {said}",)
+        finally:
+            self.graph.shutdown()
+
+    @property
+    def output(self) -> str:
+        """What the scripts have printed so far."""
+        return self._console.captured or ""
+
+    def start(self, script: Script, *args: str) -> ScriptHandle:
+        """Start a script with the arguments that rosrun would hand over, and return its handle."""
+        spec = ScriptSpec(script.name, args, source=script.source)
+        handle = ScriptHandle(self.graph, spec, lambda: self._console, owns_console=False)
+        self._scripts.append(handle)
+        handle.start()
+        return handle
+
+    def run(self, seconds: float) -> None:
+        """Let graph time pass. Raises `Wrong` if a script has failed by then."""
+        self.graph.run(seconds)
+        for handle in self._scripts:
+            if handle.poll():
+                last = self.output.strip().rpartition("\n")[2] or f"exit status {handle.poll()}"
+                raise Wrong(
+                    f"{handle.spec.path} ended with an error: {last}", "the last line says what; mend it"
+                )
+
+    def view(self) -> Any:
+        """Return the picture of the drive so far; None before the robot was seen."""
+        from rosmini.sim.recording import RecordingError
+
+        try:
+            return self._recorder.recording().show(title="What the robot did")
+        except RecordingError:
+            return None
+
+    def _first_error(self) -> str:
+        """Return the first line of the first error that was logged, without its time."""
+        lines = [line for line in self.output.splitlines() if line.startswith("[ERROR]")]
+        return lines[0].partition("]: ")[2] if lines else ""
