@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import UsageError, nearest
 
+from . import failing
 from .completion import candidates
 from .main import COMMANDS
 
@@ -40,6 +41,7 @@ def register(shell: Any) -> None:
                 no_var_expand(_documented(magic, name, entry.summary)), "line", name
             )
             shell.set_hook("complete_command", _complete, str_key=f"%{name}")
+    failing.register(shell)
 
 
 def _documented(magic: Callable[[str], Result], name: str, summary: str) -> Callable[[str], Result]:

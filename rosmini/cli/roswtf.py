@@ -1,4 +1,4 @@
-"""`rosmini roswtf`: what is probably wrong with the environment and with the graph, and what to do about it.
+"""`rosmini roswtf`: what is probably wrong with the environment, a launch file and the graph, and what to do about it.
 
 ``TOOL.run(graph=graph).findings`` is the same in Python (http://wiki.ros.org/roswtf).
 """
@@ -16,6 +16,7 @@ from rosmini.introspection.wtf import graph_rules, heard_rules, static_rules
 from rosmini.introspection.wtf.findings import Finding, summary
 from rosmini.introspection.wtf.heard_rules import Heard, Transform
 from rosmini.introspection.wtf.survey import survey
+from rosmini.packages import PackageIndex, package_around
 
 from .listening import Span, tool_node
 from .verbs import Call, Result, Tool
@@ -24,17 +25,19 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from optparse import Values
 
+    from rosmini.launch import Plan
+
 TOOL = Tool(
     "roswtf", "what is probably wrong with the graph, and what to do about it",
-    purpose="finding what is wrong", only_verb="look",
+    purpose="finding what is wrong", only_verb="look", takes_arguments=True,
 )  # fmt: skip
 add_parser, main = TOOL.add_parser, TOOL.main
 
 LISTEN_S = 1.0
 """How long transforms and errors are listened for, if nobody says how long [s]."""
 RULE = "=" * 80
-ROSOUT_ERROR = 8
-"""rosgraph_msgs/Log: ERROR; FATAL is above it."""
+ROSOUT_WARN, ROSOUT_ERROR = 4, 8
+"""rosgraph_msgs/Log: WARN and ERROR; FATAL is above them."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,8 +65,9 @@ class Diagnosis(Result):
 
 def _parser() -> Parser:
     parser = Parser(
-        "rosmini roswtf", "%prog [options]", "Say what is probably wrong, and what to do about it.",
-        example="  rosmini roswtf",
+        "rosmini roswtf", "%prog [options] [launch file | package file] [arg:=value...]",
+        "Say what is probably wrong, and what to do about it; with a launch file, also with that.",
+        example="  rosmini roswtf\n  rosmini roswtf turtlebot3_gazebo turtlebot3_world.launch model:=burger",
     )  # fmt: skip
     parser.flag("--offline", dest="offline", help="only check the environment and the packages")
     parser.add_option(
@@ -76,29 +80,50 @@ def _parser() -> Parser:
 @TOOL.verb("look for what is wrong", parser=_parser, only_asks=lambda given: given.offline)
 def look(given: Values, call: Call) -> Diagnosis:
     """Look at everything."""
-    context, static = _static()
+    packages = PackageIndex()
+    context, static = _static(packages)
+    plan = _plan(given.words, packages)
+    if isinstance(plan, Finding):
+        static.append(plan)
+    elif plan is not None:
+        from rosmini.launch.wtf import static_findings
+
+        static += static_findings(plan, packages, os.environ)
     if given.offline:
         return Diagnosis(
-            context=context, static=static, online=None, offline_because="The graph was not looked at."
+            context=context, static=tuple(static), online=None, offline_because="The graph was not looked at."
         )
     try:
         heard = _listen(call, given.duration)
         graph = survey(call.peers)
     except MasterUnreachable as error:
-        return Diagnosis(context=context, static=static, online=None, offline_because=str(error), status=1)
+        return Diagnosis(
+            context=context, static=tuple(static), online=None, offline_because=str(error), status=1
+        )
     online = [found for rule in graph_rules.RULES for found in rule(graph)]
     online += [found for tf_rule in heard_rules.RULES for found in tf_rule(heard)]
-    return Diagnosis(context=context, static=static, online=tuple(online))
+    if plan is not None and not isinstance(plan, Finding):
+        from rosmini.launch.wtf import online_findings
+
+        online += online_findings(plan, graph)
+    return Diagnosis(context=context, static=tuple(static), online=tuple(online))
 
 
-def _static() -> tuple[str, tuple[Finding, ...]]:
+def _plan(words: list[str], packages: PackageIndex) -> Plan | Finding | None:
+    """Return what the launch file means that the words name, or what is wrong with it; None without words."""
+    if not words:
+        return None
+    from rosmini.launch.wtf import load
+
+    return load(words, packages)
+
+
+def _static(packages: PackageIndex) -> tuple[str, list[Finding]]:
     """Return which package this folder belongs to, and what is wrong with the environment."""
     from rosmini.net.addresses import addresses
-    from rosmini.packages import PackageIndex, package_around
 
     here = package_around(Path.cwd() / "package.xml")
     context = f"Package: {here.name}" if here else "No package or stack in the current directory"
-    packages = PackageIndex()
     found = [each for rule in static_rules.RULES for each in rule(os.environ, packages)]
     try:
         warning = addresses().warning
@@ -107,7 +132,7 @@ def _static() -> tuple[str, tuple[Finding, ...]]:
     else:
         if warning:
             found.append(Finding("addresses", "WARNING", warning))
-    return context, tuple(found)
+    return context, found
 
 
 def _listen(call: Call, seconds: float) -> Heard:
@@ -134,6 +159,8 @@ def _listen(call: Call, seconds: float) -> Heard:
         def log(message: Any) -> None:
             if message.level >= ROSOUT_ERROR:
                 heard.errors.append((message.name, message.msg))
+            elif message.level >= ROSOUT_WARN:
+                heard.warnings.append((message.name, message.msg))
 
         tf = message_class("tf2_msgs/TFMessage")
         node.subscriber("/tf", tf, transforms(False))

@@ -170,7 +170,8 @@ class Tool:
     it a tool on the wire, which acts on the graph of the Master at ``ROS_MASTER_URI``: what it is a tool for, in the
     ``overview`` that it prints, as ROS's do, where the first word is none of its commands. ``failure_status`` is the
     exit status where no Master answers. A tool that ``needs_graph`` not only reads files.
-    A tool that does one thing only, as roswtf, names its ``only_verb``, which is then not among the words.
+    A tool that does one thing only, as roswtf, names its ``only_verb``, which is then not among the words. One that
+    ``takes_arguments`` of launch files, ``name:=value``, gets them; of others such words are remappings.
     """
 
     name: str
@@ -183,6 +184,7 @@ class Tool:
     failure_status: int = 1
     needs_graph: bool = True
     only_verb: str = ""
+    takes_arguments: bool = False
     verbs: dict[str, Verb] = field(default_factory=dict)
 
     def verb(
@@ -300,7 +302,7 @@ class Tool:
         own, nodes = _before_plus(words)
         own = self._with_verb(own)
         if self.purpose:
-            own = [word for word in own if not is_remapping(word)]
+            own = [word for word in own if self.takes_arguments or not is_remapping(word)]
             if not own or (own[0] not in {*self.verbs, "--help", "help"}):
                 return self._not_a_verb(own)
         try:

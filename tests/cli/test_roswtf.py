@@ -63,6 +63,17 @@ def a_callback_that_fails(graph: Graph) -> None:
     graph.node("clockwork").timer(0.2, lambda _: publisher.publish("x"))
 
 
+def a_first_message_that_is_lost(graph: Graph) -> None:
+    node = graph.node("talker")
+    publisher = node.publisher("chatter", String)
+    node.timer(0.7, lambda _: publisher.publish("x"), oneshot=True)
+
+
+def no_way_for_the_robot(graph: Graph) -> None:
+    node = graph.node("move_base")
+    node.timer(0.3, lambda _: node.logwarn("DWA planner failed to produce path."))
+
+
 def transforms(*links: tuple[str, str, str]) -> Callable[[Graph], None]:
     """Nodes that send transforms: (node, parent, child)."""
 
@@ -109,6 +120,8 @@ def small_inflation(graph: Graph) -> None:
         (two_drivers, ["several_drivers"]),
         (private_parameters_of_another_name, ["strangers_parameters"]),
         (small_inflation, ["small_inflation"]),
+        (a_first_message_that_is_lost, ["logged_warnings"]),
+        (no_way_for_the_robot, ["logged_warnings"]),
     ],
     ids=lambda each: getattr(each, "__name__", None),
 )
@@ -118,6 +131,47 @@ def test_it_finds_what_beginners_lose_days_to(
     make(graph)
     graph.run(0.5)
     assert rules(look(graph)) == expected
+
+
+def test_a_launch_file_is_looked_at_too(graph: Graph, tmp_path: Path) -> None:
+    file = tmp_path / "a.launch"
+    file.write_text('<launch><node pkg="turtlebot3_nope" type="x" name="x"/></launch>', encoding="utf-8")
+    assert rules(look(graph, str(file))) == ["launch_missing"]
+    assert rules(look(graph, str(file.with_name("b.launch")))) == ["launch_file"]
+    file.write_text(
+        '<launch><arg name="which"/><param name="x" value="$(arg which)"/></launch>', encoding="utf-8"
+    )
+    assert rules(look(graph, str(file), "which:=1")) == []
+    assert rules(look(graph, str(file))) == ["launch_missing"]
+
+
+def test_in_a_terminal_a_launch_file_has_its_arguments(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "a.launch"
+    file.write_text('<launch><arg name="which"/></launch>', encoding="utf-8")
+    assert cli.main(["roswtf", "--offline", str(file), "which:=1"]) == 0
+    assert "No errors or warnings" in capsys.readouterr().out
+
+
+def test_a_workspace_that_the_terminal_was_not_set_up_for(
+    graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = tmp_path / "ws" / "src" / "mine"
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text(
+        '<package format="2"><name>mine</name><version>0.0.1</version><description>x</description>'
+        '<maintainer email="a@example.org">A</maintainer><license>BSD</license></package>',
+        encoding="utf-8",
+    )
+    (package.parent / "CMakeLists.txt").write_text("", encoding="utf-8")
+    monkeypatch.chdir(package)
+    monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
+    (finding,) = look(graph, "--offline").findings
+    assert finding.rule == "unused_workspace"
+    assert "catkin_make, and then" in finding.advice
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(package.parent))
+    assert rules(look(graph, "--offline")) == []
 
 
 def test_it_takes_as_long_as_it_is_told_and_leaves_nothing(graph: Graph) -> None:

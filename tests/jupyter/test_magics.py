@@ -50,3 +50,16 @@ def test_words_are_completed(new_kernel: Any) -> None:
     ):
         reply = new_kernel.client.complete(line, len(line), reply=True, timeout=300)
         assert word in reply["content"]["matches"], reply
+
+
+def test_below_a_traceback_stands_what_roswtf_knows(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\nfrom rosmini import default_graph, install\ninstall()\nimport rospy")
+    new_kernel.ok(
+        "from std_msgs.msg import String\n_ = default_graph().node('talker').publisher('chatter', String)"
+    )
+    cell = new_kernel.run("rospy.init_node('me')\nrospy.wait_for_message('/chater', String, timeout=2)")
+    assert len(cell.errors) == 1
+    assert cell.stdout.endswith(
+        "roswtf: ERROR Nothing in the graph is called /chater; did you mean /chatter?\n"
+    )
+    assert new_kernel.run("1 / 0").stdout == ""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 MANIFEST = (
     "<package format='2'><name>speaking</name><version>1.0.0</version><description>-</description>"
-    "<maintainer email='a@b.c'>-</maintainer><license>BSD</license></package>"
+    "<maintainer email='a@example.org'>A</maintainer><license>BSD</license></package>"
 )
 
 TALKER = """#!/usr/bin/env python3

@@ -1,4 +1,4 @@
-"""The rules on what was heard for a while: the transforms on ``/tf``, and errors on ``/rosout``."""
+"""The rules on what was heard for a while: the transforms on ``/tf``, and errors and warnings on ``/rosout``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from .findings import Finding
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
 MOST_SHOWN = 10
 """How many lines of the log are shown."""
@@ -33,25 +33,29 @@ class Transform(NamedTuple):
 
 @dataclass(frozen=True)
 class Heard:
-    """What was heard while ``roswtf`` listened: transforms, and (node, text) of errors in the log."""
+    """What was heard while ``roswtf`` listened: transforms, and (node, text) of errors and warnings in the log."""
 
     transforms: list[Transform] = field(default_factory=list)
     errors: list[tuple[str, str]] = field(default_factory=list)
+    warnings: list[tuple[str, str]] = field(default_factory=list)
 
 
 def logged_errors(heard: Heard) -> Iterator[Finding]:
     """Find errors that nodes logged: an exception in a callback is logged, and the node goes on."""
-    counts: dict[str, int] = {}
-    for node, text in heard.errors:
-        line = f"{node}: {' '.join(text.split())[:160]}"
-        counts[line] = counts.get(line, 0) + 1
-    shown = [line if count == 1 else f"{line} ({count} times)" for line, count in sorted(counts.items())]
+    shown = _counted(heard.errors)
     if shown:
         yield Finding(
-            "logged_errors", "ERROR", "Nodes logged errors in this time:", tuple(shown[:MOST_SHOWN]),
+            "logged_errors", "ERROR", "Nodes logged errors in this time:", shown,
             "rospy logs what a callback raises and goes on: `bad callback` names the function. The whole text is in "
             "the node's console and in rqt_console.",
         )  # fmt: skip
+
+
+def logged_warnings(heard: Heard) -> Iterator[Finding]:
+    """Find warnings that nodes logged: lost first messages, repeated transforms, planners that find no way."""
+    shown = _counted(heard.warnings)
+    if shown:
+        yield Finding("logged_warnings", "WARNING", "Nodes logged warnings in this time:", shown)
 
 
 def repeated_senders(heard: Heard) -> Iterator[Finding]:
@@ -133,12 +137,23 @@ def old_transforms(heard: Heard) -> Iterator[Finding]:
 
 RULES: tuple[Callable[[Heard], Iterator[Finding]], ...] = (
     logged_errors,
+    logged_warnings,
     repeated_senders,
     several_parents,
     several_trees,
     loops,
     old_transforms,
 )
+
+
+def _counted(logged: Iterable[tuple[str, str]]) -> tuple[str, ...]:
+    """Return the first lines of a log, sorted, each once."""
+    counts: dict[str, int] = {}
+    for node, text in logged:
+        line = f"{node}: {' '.join(text.split())[:160]}"
+        counts[line] = counts.get(line, 0) + 1
+    shown = [line if count == 1 else f"{line} ({count} times)" for line, count in sorted(counts.items())]
+    return tuple(shown[:MOST_SHOWN])
 
 
 def _root(frame: str, parent: dict[str, str]) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.errors import DefinitionError
-from rosmini.packages import BUILT_IN, SCRIPT_FOLDERS
+from rosmini.packages import BUILT_IN, SCRIPT_FOLDERS, crawl
 
 from .findings import Finding
 
@@ -60,6 +60,24 @@ def missing_dependencies(environ: Mapping[str, str], packages: PackageIndex) -> 
         )  # fmt: skip
 
 
+def unused_workspace(environ: Mapping[str, str], packages: PackageIndex) -> Iterator[Finding]:
+    """Find a catkin workspace around the working folder that this terminal was not set up for."""
+    here = Path.cwd()
+    found = next((each for each in (here, *here.parents) if (each / "src" / "CMakeLists.txt").exists()), None)
+    if found is None:
+        return
+    source = (found / "src").resolve()
+    if any(packages.path(name).resolve().is_relative_to(source) for name in packages.names()):
+        return
+    if any(crawl(source)) and str(source) not in environ.get("ROS_PACKAGE_PATH", ""):
+        is_built = (found / "devel" / "setup.sh").is_file()
+        yield Finding(
+            "unused_workspace", "WARNING", "The packages of the workspace in this folder are not found here:",
+            (str(found),),
+            f"In each terminal that uses it: {'' if is_built else 'catkin_make, and then '}. {found}/devel/setup.sh",
+        )  # fmt: skip
+
+
 def scripts_that_cannot_start(environ: Mapping[str, str], packages: PackageIndex) -> Iterator[Finding]:
     """Find scripts that rosrun would not start: no run bit, no first line that names Python, Windows' line ends."""
     found = []
@@ -80,6 +98,7 @@ RULES: tuple[Callable[[Mapping[str, str], PackageIndex], Iterator[Finding]], ...
     missing_folders,
     broken_manifests,
     missing_dependencies,
+    unused_workspace,
     scripts_that_cannot_start,
 )
 
