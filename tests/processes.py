@@ -1,7 +1,11 @@
-"""Child processes of the tests: each leads a session of its own, and the whole session is gone when the test is."""
+"""Child processes of the tests: each leads a session of its own, and the whole session is gone when the test is.
+
+All of them are gone when the tests' own process is, even one that was killed.
+"""
 
 from __future__ import annotations
 
+import atexit
 import os
 import signal
 import socket
@@ -9,6 +13,7 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager, suppress
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -19,6 +24,34 @@ if TYPE_CHECKING:
 PATIENCE = 300.0
 """How many seconds a test waits for what must come on the slowest machine; usually it comes at once."""
 
+MARK = "ROSMINI_TEST_PROCESS"
+"""The environment variable that tells which process of the tests started a program, or what started it."""
+
+GUARD = """
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.SIG_IGN)
+sys.stdin.read()
+for pid in filter(str.isdigit, os.listdir("/proc")):
+    try:
+        with open(f"/proc/{pid}/environ", "rb") as file:
+            if sys.argv[1].encode() in file.read().split(b"\\0"):
+                os.kill(int(pid), signal.SIGKILL)
+    except OSError:
+        pass
+"""
+"""What waits for the end of the tests, however they end, and kills what carries their mark (as Linux tells it)."""
+
+
+@cache
+def mark() -> str:
+    """Return the mark of this process; on Linux nothing that carries it outlives this process, however it ends."""
+    found = f"{os.getpid()}-{time.monotonic_ns()}"
+    if sys.platform == "linux":
+        words = [sys.executable, "-ISc", GUARD, f"{MARK}={found}"]
+        guard = subprocess.Popen(words, stdin=subprocess.PIPE, env={}, start_new_session=True)
+        atexit.register(guard.communicate)
+    return found
+
 
 @contextmanager
 def start(words: Sequence[object], *, env: Mapping[str, str] | None = None, **options: Any) -> Iterator[Any]:
@@ -28,6 +61,7 @@ def start(words: Sequence[object], *, env: Mapping[str, str] | None = None, **op
     """
     environment = dict(os.environ if env is None else env)
     environment.setdefault("PYTHONIOENCODING", "utf-8")
+    environment[MARK] = mark()
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "encoding": "utf-8"}
     process = subprocess.Popen(
         [str(word) for word in words], env=environment, start_new_session=True, **(quiet | options)

@@ -90,3 +90,32 @@ def test_an_ignored_sigint_means_something_again(tmp_path):
     done = run([sys.executable, "-c", code, sys.executable, *tests])
     assert "1 passed" in done.stdout, done.stdout + done.stderr
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+ORPHANS = """
+import sys
+sys.path.insert(0, {root!r})
+from tests.processes import start
+
+PARENT = '''
+import subprocess, sys, time
+child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)"], start_new_session=True)
+print(child.pid, flush=True)
+time.sleep(1000)
+'''
+with start([sys.executable, "-c", PARENT], stdout=None) as process:
+    print(process.pid, flush=True)
+    process.wait()
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_nothing_outlives_tests_that_are_killed():
+    """Neither what they started nor what that started in a session of its own."""
+    command = [sys.executable, "-c", ORPHANS.format(root=str(ROOT))]
+    with start(command, stdout=subprocess.PIPE) as process:
+        pids = [int(process.stdout.readline()) for _ in range(2)]
+        process.kill()  # alone: as the system does that is out of memory
+        process.wait()
+        for pid in pids:
+            wait_until(lambda pid=pid: not is_running(pid), f"the end of {pid}")

@@ -18,7 +18,7 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...processes import PATIENCE, free_port, run, start, wait_until
+from ...processes import free_port, run, start, wait_until
 from ..conftest import SYSTEM_PYTHON
 
 if TYPE_CHECKING:
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
 PEER = Path(__file__).with_name("peer.py")
 ROSMINI = [sys.executable, str(PEER.with_name("ours.py"))]
-ANSWER_S = 60.0
-"""How long a peer may take for an answer; one that takes longer says where it is, and ends."""
 PACKAGE = "wire_peers"
 ALL_REAL = os.environ.get("ROSMINI_WIRE_ALL_REAL") == "1"
 """Real ROS in the place of ours everywhere: so one sees that the tests ask for what ROS does."""
@@ -75,13 +73,12 @@ class Child:
         self._position += found[0].end() if fresh else 0
         return found[0]
 
-    def wait(self, condition: Any, what: str, patience: float = PATIENCE) -> None:
+    def wait(self, condition: Any, what: str) -> None:
         """Wait until a condition holds that this process brings about; what it wrote is in the error."""
         try:
             wait_until(
                 lambda: condition() or (self.process.poll() is not None and not condition()),
                 what,
-                patience=patience,
             )
             if not condition():
                 raise AssertionError(f"no {what}: its process ended with {self.process.returncode}")
@@ -171,7 +168,7 @@ class Peer(Child):
 
     def _answer(self) -> Any:
         try:
-            self.wait(self.has_answered, f"answer {self.answers} of {self.name}", ANSWER_S)
+            self.wait(self.has_answered, f"answer {self.answers} of {self.name}")
         except AssertionError as error:
             error.add_note(self._stacks())
             self.kill()  # it would answer the next test with what this one asked

@@ -172,12 +172,15 @@ def test_rosbag_records_both_and_plays_to_both(core: Stage, busy: Peers) -> None
     bag = core.home / "both.bag"
     topics = [f"{peer.node}/{name}" for peer in busy for name in ("count", "latched")]
     record = core.start("record", ["rosbag", "record", "-O", bag, *topics])
-    for topic in topics:
-        record.wait_for(rf"Subscribing to {topic}")
     for peer, other in (busy, busy[::-1]):
+        peer.ask("connected", f"{peer.node}/latched", 1)
+        peer.ask("connected", f"{peer.node}/count", 2)
         other.ask("forget", f"{peer.node}/count")
         other.ask("hear", f"{peer.node}/count", 10)
     assert record.interrupt() == 0
+    wait_until(
+        bag.is_file, "the end of the recorder, which `rosbag record` waits for a quarter of a second only"
+    )
     info = core.tool("rosbag", "info", "-y", str(bag))
     found = {topic["topic"]: topic for topic in yaml.safe_load(info)["topics"]}
     assert {name: (found[name]["type"]) for name in topics} == {
