@@ -73,7 +73,8 @@ def start(words: Sequence[object], *, env: Mapping[str, str] | None = None, **op
         process.wait()
         for stream in (process.stdin, process.stdout, process.stderr):
             if stream is not None:
-                stream.close()
+                with suppress(BrokenPipeError):  # it ended before it had read all
+                    stream.close()
 
 
 def kill(process: Any) -> None:

@@ -35,7 +35,7 @@ def fill(message, content):
 
 
 def plain(message):
-    return yaml.safe_load(str(message))
+    return yaml.load(str(message), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
 
 
 def advertise(topic, type, **options):
@@ -71,13 +71,14 @@ def unadvertise(topic):
 
 
 def subscribe(topic, type="*", what="message", **options):
-    """Hear messages; with `what`, only their "header" or the "size" of their text."""
+    """Hear messages; with `what`, only their "header", the "size" of their text, or the "x" of an odometry."""
     heard[topic] = []
     cls = rospy.AnyMsg if type == "*" else roslib.message.get_message_class(type)
     look = {
         "message": plain,
         "header": lambda message: message._connection_header,
         "size": lambda message: [len(message.data), len(set(message.data))],
+        "x": lambda message: message.pose.pose.position.x,
     }[what]
     subscribers[topic] = rospy.Subscriber(
         topic, cls, lambda message: heard[topic].append(look(message)), **options

@@ -83,7 +83,7 @@ def published(watcher: Peer) -> set[str]:
 def x_of(watcher: Peer, topic: str) -> Any:
     """Return the position on the newest message of a topic with odometry."""
     watcher.ask("forget", topic)
-    return watcher.ask("hear", topic)[-1]["pose"]["pose"]["position"]["x"]
+    return watcher.ask("hear", topic)[-1]
 
 
 def test_one_teleop_drives_two_simulators_on_two_hosts(site: Site, hosts: Hosts, watcher: Peer) -> None:
@@ -92,7 +92,7 @@ def test_one_teleop_drives_two_simulators_on_two_hosts(site: Site, hosts: Hosts,
     topics = [f"/{name}/{topic}" for name in names for topic in ("odom", "base_pose_ground_truth")]
     wait_until(lambda: set(topics) <= published(watcher), "two simulators")
     for topic in topics:
-        watcher.ask("subscribe", topic, ODOMETRY)
+        watcher.ask("subscribe", topic, ODOMETRY, what="x", queue_size=1)
     before = {topic: x_of(watcher, topic) for topic in topics}
     for name, host in names.items():
         uri = watcher.ask("state", "lookupNode", f"/{name}/{name}")[2]
