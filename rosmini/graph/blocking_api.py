@@ -237,3 +237,8 @@ class BlockingApi:
         return f"node {self.name} was shut down" + (
             f": {self.shutdown_reason}" if self.shutdown_reason else ""
         )
+
+    def _require_running(self, what: str) -> None:
+        if self.shutdown_reason is not None:
+            msg = f"{self._shutdown_message()}; it cannot {what} any more. Make a new node."
+            raise ROSException(msg)

@@ -31,12 +31,13 @@ from rosmini.time import Duration
 
 from .clock import GraphClock, Rate, Timer, TimerEvent, TopicClock
 from .master_port import MasterProxy
-from .parameter_api import ParameterApi
 from .publisher import Publication, Publisher
 from .rosout import LEVELS, Logger, logger_services
-from .service import ServiceClient, ServiceServer, Session, timed_out
+from .service import timed_out
+from .service_api import ServiceApi
 from .slave import SlaveApi
-from .subscriber import Subscriber, Subscription
+from .subscriber import Subscriber
+from .subscription import Subscription
 from .transport import extra_fields
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ if TYPE_CHECKING:
     from .transport import Header, Sender, Triple
 
 
-class Node(ParameterApi):
+class Node(ServiceApi):
     """A node of a :class:`~rosmini.graph.graph.Graph`; made by ``graph.node(name)`` or ``Node(name)``.
 
     Args:
@@ -91,7 +92,7 @@ class Node(ParameterApi):
         """Called once, when the node has been shut down and the Master has forgotten it."""
         self.publications: dict[str, Publication] = {}
         self.subscriptions: dict[str, Subscription] = {}
-        self.services: dict[str, ServiceServer] = {}
+        self.services = {}
         self._hooks: list[Callable[[], object]] = []
         self.timers: dict[Timer, None] = {}
         """The timers that run."""
@@ -133,12 +134,6 @@ class Node(ParameterApi):
 
     def __repr__(self) -> str:
         return f"<Node {self.name}{' (shut down)' if self._stopped else ''}>"
-
-    # -- names ---------------------------------------------------------------------------------------------------
-
-    def resolve(self, name: str) -> str:
-        """Return the global name that ``name`` means here: namespace, private names and remappings applied."""
-        return resolve(name, self.namespace, self.name, self.remappings)
 
     # -- topics --------------------------------------------------------------------------------------------------
 
@@ -309,72 +304,6 @@ class Node(ParameterApi):
             subscriber.unregister()
         return waiter.value
 
-    # -- services ------------------------------------------------------------------------------------------------
-
-    def service(
-        self, name: str, service_class: Any, handler: Callable[[Any], Any], *, numpy: bool = True
-    ) -> ServiceServer:
-        """Offer a service: ``handler(request)`` returns the response.
-
-        Raises ``ROSException`` if this node offers it already.
-        """
-
-        def make() -> ServiceServer:
-            resolved = self.resolve(name)
-            self._require_running(f"offer {resolved}")
-            if resolved in self.services:
-                msg = (
-                    f"service [{resolved}] is already offered by {self.name}: "
-                    "shut the first one down before offering it again"
-                )
-                raise ROSException(msg)
-            server = self.services[resolved] = ServiceServer(
-                self, resolved, service_class, handler, numpy=numpy
-            )
-            uri = self.graph.transport.service_uri(self.uri)
-            try:
-                self.master.register("registerService", resolved, uri, self.uri, warn=self.logerr)
-            except ROSException:
-                del self.services[resolved]
-                raise
-            return server
-
-        return self.scheduler.on_hub(make)
-
-    def service_client(
-        self,
-        name: str,
-        service_class: Any,
-        *,
-        persistent: bool = False,
-        numpy: bool = True,
-        headers: Header | None = None,
-    ) -> ServiceClient:
-        """Return what calls a service, whether it is there yet or not.
-
-        ``headers`` are further fields of the connection header.
-        """
-        return ServiceClient(
-            self, self.resolve(name), service_class, persistent=persistent, numpy=numpy, headers=headers
-        )
-
-    def drop_service(self, server: ServiceServer) -> None:
-        """Withdraw a service. For the server only."""
-        if self.services.get(server.name) is server:
-            del self.services[server.name]
-        uri = self.graph.transport.service_uri(self.uri)
-        self.master.unregister("unregisterService", server.name, uri, warn=self.logwarn)
-
-    def wait_for_service(self, name: str, timeout: float | None = None) -> None:
-        """Block until somebody offers the service. Raises ``ROSException`` after ``timeout`` seconds."""
-        resolved = self.resolve(name)
-        self.wait_for_master(
-            lambda: self.master.find("lookupService", resolved) is not None,
-            timeout,
-            f"the service {resolved} to be offered",
-            lambda: f"nobody offers {resolved}",
-        )
-
     # -- what runs by itself -------------------------------------------------------------------------------------
 
     def rate(self, hz: float, *, reset: bool = False) -> Rate:
@@ -465,11 +394,6 @@ class Node(ParameterApi):
                 problem = problem or error
         return problem
 
-    def _require_running(self, what: str) -> None:
-        if self.shutdown_reason is not None:
-            msg = f"{self._shutdown_message()}; it cannot {what} any more. Make a new node."
-            raise ROSException(msg)
-
     # -- called across the transport seam ------------------------------------------------------------------------
 
     def slave_call(self, method: str, *arguments: Any) -> Triple:
@@ -485,13 +409,6 @@ class Node(ParameterApi):
                 f"{self.slave.getPublications('')[2]}"
             )
         return publication.accept(header, sender)
-
-    def accept_client(self, header: Header) -> Session:
-        """Take a service client's connection."""
-        server = None if self._stopped else self.services.get(header.get("service", ""))
-        if server is None:
-            raise TransportInitError(f"[{self.name}] is not a provider of [{header.get('service')}]")
-        return server.accept(header)
 
     def next_connection_id(self) -> int:
         """Return a number for a new connection."""

@@ -102,6 +102,10 @@ class ParameterApi(BlockingApi, LoggingApi):
     _parameter_told: dict[str, Any]
     _parameter_lane: Lane | None
 
+    def resolve(self, name: str) -> str:
+        """Return the global name that ``name`` means here: namespace, private names and remappings applied."""
+        return resolve(name, self.namespace, self.name, self.remappings)
+
     def resolve_parameter(self, name: str) -> str:
         """Return the global name that a parameter's ``name`` means here; as in rospy its characters are not checked."""
         return resolve(name, self.namespace, self.name, self.remappings, what="parameter name", check=False)

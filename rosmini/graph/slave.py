@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from .connection import Connection
     from .node_port import NodePort
     from .publisher import Publication
-    from .subscriber import Connection, Subscription
+    from .subscription import Subscription
     from .transport import Sender, Triple
 
 METHODS = frozenset(

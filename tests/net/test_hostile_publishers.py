@@ -12,7 +12,7 @@ import pytest
 
 from rosmini.graph import Graph
 from rosmini.graph.headers import encode_header
-from rosmini.graph.subscriber import LONGEST_RETRY_S, RETRY_S
+from rosmini.graph.subscription import LONGEST_RETRY_S, RETRY_S
 from rosmini.msgs.std_msgs.msg import Empty, String
 from rosmini.net import tcp_transport, xmlrpc_client
 from rosmini.net.network import network_of

@@ -1,0 +1,191 @@
+"""A node's side of a topic that it subscribes to: which publishers it is connected to, and who gets what arrives."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from .connection import Connection, Way
+from .transport import set_header
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from .node_port import NodePort
+    from .subscriber import Subscriber
+    from .transport import Header
+
+RETRY_S = 0.5
+LONGEST_RETRY_S = 32.0
+"""After how many seconds a connection is tried again: twice as many each time, as in rospy."""
+
+
+def _assign_header(message: Any, header: Header) -> None:
+    """Set it on whatever a subscriber of its own kind makes of a message."""
+    message._connection_header = header
+
+
+class Subscription:
+    """A node's side of a topic that it subscribes to."""
+
+    def __init__(self, node: NodePort, topic: str, message_class: Any) -> None:
+        self.node = node
+        self.topic = topic
+        self.message_class = message_class
+        self.handles: list[Subscriber] = []
+        self.connections: dict[str, Connection] = {}
+        self.queue_size: int | None = None
+        self.tcp_nodelay = False
+        """Whether publishers elsewhere are asked to send each message at once."""
+        self.updates = 0
+        """How many times the Master has told who publishes the topic."""
+        self._first: Subscriber | None = None
+        self._wanted: dict[str, None] = {}
+        self._is_closed = False
+        self._attempts: dict[str, int] = {}
+        """How many times in a row a connection to a publisher came to nothing."""
+
+    def disagrees_with(self, message_class: Any) -> bool:
+        """Tell whether a further subscriber of this node cannot be one with ``message_class``."""
+        sums = self.message_class._md5sum, message_class._md5sum
+        return "*" not in sums and sums[0] != sums[1]
+
+    def update_publishers(self, uris: Iterable[str]) -> None:
+        """Connect to new publishers: what ``publisherUpdate`` asks for.
+
+        As in rospy a connection outlives its registration: the publisher closes it after its last message, which may
+        still be on its way, and so may be its answer to who has just connected.
+        """
+        if self._is_closed:
+            return
+        self.updates += 1
+        self._wanted = wanted = dict.fromkeys(uris)
+        self._attempts = {uri: count for uri, count in self._attempts.items() if uri in wanted}
+        for uri, link in self.connections.items():
+            link.was_left = link.was_left or (uri not in wanted and not link.is_open)
+        for uri in wanted:
+            if uri not in self.connections:
+                self.connections[uri] = Connection(self, uri)
+
+    def publishers_moved(self, uris: Mapping[str, str]) -> None:
+        """Take up new addresses of publishers in this process, by the old ones; connections stay as they are."""
+        for connection in self.connections.values():
+            connection.uri = uris.get(connection.uri, connection.uri)
+        self.connections = {connection.uri: connection for connection in self.connections.values()}
+        self._wanted = {uris.get(uri, uri): None for uri in self._wanted}
+
+    def forget(self, connection: Connection) -> None:
+        """Drop a connection that is closed or was refused."""
+        if self.connections.get(connection.uri) is connection:
+            del self.connections[connection.uri]
+
+    def gave_up(self, connection: Connection) -> None:
+        """Drop a connection that came to nothing; if its publisher left meanwhile and is back, connect to it anew."""
+        self.forget(connection)
+        if connection.was_left:
+            self._connect(connection.uri)
+
+    def closed(self, connection: Connection) -> None:
+        """Learn that a publisher closed a connection; if it is on the topic again meanwhile, connect to it anew."""
+        self.forget(connection)
+        if not self._try_again(connection):
+            self._connect(connection.uri)
+
+    def lost(self, connection: Connection, error: Exception | None) -> None:
+        """Learn that a connection failed, or could not be made; say so once, and try again if the way allows it."""
+        self.gave_up(connection)
+        if connection.was_left:
+            return
+        is_first, was_open = self.is_first_failure(connection), connection.protocol
+        again = self._try_again(connection)
+        if error is not None and is_first:
+            node, who = self.node, connection.peer or connection.uri
+            hope = (
+                "tried again while the Master lists it" if again else "made again when a publisher registers"
+            )
+            what = f"{node.name} cannot connect to {who}, which publishes {self.topic} at {connection.uri}"
+            if was_open:
+                what = f"the connection of {node.name} to {who} on {self.topic} failed and was closed"
+                what += f": {type(error).__name__}"
+            node.logwarn(f"{what}: {error}. It is {hope}.")
+
+    def is_first_failure(self, connection: Connection) -> bool:
+        """Tell whether the attempts before this connection to its publisher, if there were any, had no success."""
+        return connection.was_of_use or connection.uri not in self._attempts
+
+    def _try_again(self, connection: Connection) -> bool:
+        """Connect again later; each time without a message in between later still, as in rospy.
+
+        At once the first time only: a publisher that closes each connection after a message is not asked all the time.
+        """
+        uri = connection.uri
+        if self._is_closed or not self.handles or uri not in self._wanted:
+            return False
+        attempt = self._attempts.get(uri, 0)
+        attempt = min(attempt, 1) if connection.was_of_use else attempt
+        self._attempts[uri] = attempt + 1
+        delay = min(RETRY_S * 2 ** (attempt - 1), LONGEST_RETRY_S) if attempt else 0.0
+        return self.node.graph.transport.retry(uri, delay, partial(self._connect, uri))
+
+    def _connect(self, uri: str) -> None:
+        if not self._is_closed and self.handles and uri in self._wanted and uri not in self.connections:
+            self.connections[uri] = Connection(self, uri)
+
+    def add(self, handle: Subscriber) -> None:
+        """Add a subscriber of this node; it gets what connected publishers latched.
+
+        All subscribers of a node get the same object, of the kind that the first asked for, as in rospy.
+        """
+        first = self._first = self._first or handle
+        self.handles.append(handle)
+        self._changed()
+        if handle.wants_other_than(first):
+            self.node.logwarn(
+                f"{self.node.name} subscribes to {self.topic} already, as {first.wish}: "
+                f"this subscriber of {handle.wish} gets the same messages, as in rospy. "
+                "Subscribe in another node, or give both the same type."
+            )
+        if handle.callback is not None:
+            for connection in self.connections.values():
+                connection.replay(handle.callback)
+
+    def remove(self, handle: Subscriber) -> None:
+        """Remove a subscriber; the last one leaves the topic."""
+        self.handles.remove(handle)
+        self._changed()
+        if not self.handles:
+            self.node.drop_subscription(self)
+
+    def num_open(self) -> int:
+        """Return the number of connected publishers."""
+        return sum(connection.is_open for connection in self.connections.values())
+
+    def _changed(self) -> None:
+        sizes = [handle.queue_size for handle in self.handles]
+        self.queue_size = None if not all(sizes) else max((size for size in sizes if size), default=None)
+        for connection in self.connections.values():
+            connection.way = None
+
+    def way(self, message_class: Any) -> Way:
+        """Return how messages of a class reach the callbacks."""
+        first = self._first
+        callbacks = [handle.callback for handle in self.handles if handle.callback is not None]
+        return Way(
+            None if self.message_class._type == "*" else self.message_class,
+            None if first is None else first.thaw_for(message_class),
+            set_header if first is None or first.receipt is None else _assign_header,
+            tuple((callback.caller(), callback) for callback in callbacks),
+        )
+
+    def end(self) -> None:
+        """Close because the node shuts down: the handles receive no more."""
+        for handle in self.handles:
+            handle.detach()
+        self.close()
+
+    def close(self) -> None:
+        """Close all connections; none is made again, whatever news of publishers is still on its way."""
+        self._is_closed = True
+        for connection in list(self.connections.values()):
+            connection.close()
+        self.connections.clear()
