@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .errors import RosminiError
     from .graph import Graph, Node, default_graph, set_default_graph
+    from .notebook.waiting import wait
     from .rospy import install, uninstall
     from .scripts import rosrun
     from .time import Duration, Time
@@ -30,6 +31,7 @@ _HOMES = {
     "rosrun": "rosmini.scripts",
     "set_default_graph": "rosmini.graph",
     "uninstall": "rosmini.rospy",
+    "wait": "rosmini.notebook.waiting",
 }
 
 __all__ = [
@@ -43,6 +45,7 @@ __all__ = [
     "rosrun",
     "set_default_graph",
     "uninstall",
+    "wait",
 ]
 
 
@@ -57,10 +60,17 @@ def __getattr__(name: str) -> Any:
 
 
 def load_ipython_extension(shell: Any) -> None:
-    """Give a notebook ROS's commands as line magics: what ``%load_ext rosmini`` does."""
+    """Make a notebook one whose cells are terminals: what ``%load_ext rosmini`` does."""
     import importlib
 
-    importlib.import_module("rosmini.cli.magics").register(shell)
+    importlib.import_module("rosmini.notebook.extension").load(shell)
+
+
+def unload_ipython_extension(shell: Any) -> None:
+    """Undo that: what ``%unload_ext rosmini`` does."""
+    import importlib
+
+    importlib.import_module("rosmini.notebook.extension").unload(shell)
 
 
 def __dir__() -> list[str]:

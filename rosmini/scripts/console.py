@@ -20,11 +20,12 @@ class Console:
     Args:
         scheduler: the graph's, which goes on while a script waits for input.
         stdin: a text, pieces of text with the second at which each arrives, a file, a function that returns a line, or
-            None for the host's.
+            None for the host's; or a :class:`~rosmini.scripts.stdin.Feed`.
         stdout: where output goes; the host's if not given.
         stderr: where errors and warnings go; the host's if not given.
         prefix: put ``[name]`` before each line.
         capture_output: keep output and errors in :attr:`captured` instead.
+        sink: where several consoles write to together, instead of all that.
 
     """
 
@@ -37,9 +38,10 @@ class Console:
         stderr: TextIO | None = None,
         prefix: bool = True,
         capture_output: bool = False,
+        sink: OutputSink | None = None,
     ) -> None:
         self._captured = io.StringIO() if capture_output else None
-        self.sink = OutputSink(
+        self.sink = sink or OutputSink(
             self._captured or stdout or sys.stdout, self._captured or stderr or sys.stderr, prefix=prefix
         )
         self.feed = make_feed(scheduler, stdin)

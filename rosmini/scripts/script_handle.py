@@ -7,7 +7,7 @@ import signal
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ROSInterruptException, ScriptError
 from rosmini.graph.lanes import LaneExit
@@ -96,6 +96,11 @@ class ScriptHandle(LaneHandle):
     def name(self) -> str:
         """The name of its node, or of its file before it has one."""
         return Path(self.spec.path).stem if self._context is None else self._context.name
+
+    @property
+    def node(self) -> Any:
+        """The node that it initialised at its latest start, or None."""
+        return None if self._context is None else self._context.node
 
     @property
     def context(self) -> ScriptContext:

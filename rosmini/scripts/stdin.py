@@ -328,6 +328,8 @@ def make_feed(scheduler: Scheduler, stdin: Any) -> Feed:
     """Return the feed for ``stdin``: a text, timed pieces of text, a file, a function, or None for the host's own."""
     if stdin is None:
         return _host_feed(scheduler, sys.stdin) if sys.stdin is not None else SuppliedFeed(scheduler, "")
+    if isinstance(stdin, Feed):
+        return stdin
     if callable(stdin):
         return CallableFeed(stdin)
     if hasattr(stdin, "readline"):

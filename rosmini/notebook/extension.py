@@ -1,0 +1,96 @@
+"""What ``%load_ext rosmini`` does to an IPython shell."""
+
+from __future__ import annotations
+
+import atexit
+import sys
+from typing import TYPE_CHECKING, Any
+
+from rosmini.cli import magics
+from rosmini.rospy.importer import install, ros_is_installed, uninstall
+
+from . import node_cell
+from .session import begin_session, end_session, session_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+def load(shell: Any) -> None:
+    """Make a notebook one whose cells are terminals; a second call changes nothing.
+
+    ``import rospy`` is rosmini's from now on, ROS's commands are line magics, and there is a new graph in simulated
+    time.
+    """
+    if is_loaded(shell):
+        return
+    install(shadow=True)
+    tell_which_ros()
+    magics.register(shell)
+    session = begin_session(shell)
+    shell.events.register("pre_run_cell", session.look)
+    atexit.register(end_session, shell)
+    _register(shell, "line", "roscore", lambda line: roscore(shell, line), roscore.__doc__)
+    _register(
+        shell,
+        "line",
+        "rosrun",
+        lambda line: node_cell.rosrun(session_of(shell), line),
+        node_cell.rosrun.__doc__,
+    )
+    _register(
+        shell,
+        "cell",
+        "node",
+        lambda line, cell: node_cell.node(session_of(shell), line, cell),
+        node_cell.node.__doc__,
+    )
+
+
+def unload(shell: Any) -> None:
+    """Undo :func:`load`: end the graph, remove the notebook's package, and leave ``import rospy`` alone."""
+    if not is_loaded(shell):
+        return
+    shell.events.unregister("pre_run_cell", session_of(shell).look)
+    atexit.unregister(end_session)
+    end_session(shell)
+    uninstall()
+
+
+def is_loaded(shell: Any) -> bool:
+    """Return whether the shell has a session."""
+    return vars(shell).get("rosmini_session") is not None
+
+
+def tell_which_ros() -> None:
+    """Say which rospy an import finds from now on, where there are two."""
+    loaded = getattr(sys.modules.get("rospy"), "__file__", None)
+    if loaded is not None and "rosmini" not in loaded:
+        print("rosmini: rospy was imported before; restart the kernel, and %load_ext rosmini first.")
+    elif ros_is_installed():
+        print("rosmini: `import rospy` is rosmini's in this notebook, not that of the installed ROS.")
+
+
+def roscore(shell: Any, line: str) -> None:
+    """End the graph with all that runs in it, and begin anew: the same time, the same seed, a new Master.
+
+    Raises ``UsageError`` for arguments: this roscore takes none.
+    """
+    from rosmini.errors import UsageError
+
+    if line.strip():
+        raise UsageError(
+            f"%roscore takes no arguments, not {line.strip()!r}: in a notebook it begins anew, and is all"
+        )
+    session = session_of(shell)
+    session.look()
+    session.begin()
+    print(f"ROS_MASTER_URI={session.graph.master_uri}\nstarted core service [/rosout]")
+
+
+def _register(shell: Any, kind: str, name: str, act: Callable[..., None], text: str | None) -> None:
+    """Register a magic of which only ``$name`` is replaced."""
+    from IPython.core.magic import no_var_expand
+
+    act.__name__, act.__doc__ = name, text
+    shell.register_magic_function(no_var_expand(act), kind, name)

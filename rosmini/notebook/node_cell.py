@@ -1,0 +1,131 @@
+"""``%%node talker.py [args]``: the cell is a script, and runs as a node."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from rosmini.cli.magics import words as words_of
+from rosmini.errors import ScriptError, UsageError
+from rosmini.scripts import Console, ScriptHandle, ScriptSpec, find
+from rosmini.scripts.node_handle import NodeHandle, NodeSpec
+from rosmini.scripts.source import compile_script
+
+from .runs import RunKey
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from .session import Session
+
+SHEBANG = "#!/usr/bin/env python3"
+"""The first line of a script: it takes the place of the magic's line, so that line numbers agree."""
+
+STDIN = "--stdin"
+
+
+@dataclass(frozen=True)
+class Words:
+    """The words of a line: what to start, its arguments, and what its standard input is to be, if that is given."""
+
+    what: tuple[str, ...]
+    args: tuple[str, ...]
+    stdin: str | None
+
+    @classmethod
+    def of(cls, line: str, name: str, count: int, usage: str, variables: Mapping[str, Any]) -> Words:
+        """Read a line whose first ``count`` words say what to start. Raises ``UsageError``, with the ``usage``."""
+        words = words_of(line, name, variables)
+        stdin: str | None = None
+        if STDIN in words:
+            at = words.index(STDIN)
+            if at + 1 == len(words):
+                raise UsageError(
+                    f"{STDIN} takes the text to be typed, such as {STDIN} '3\\n4'. Usage: {usage}"
+                )
+            stdin = words[at + 1].replace("\\n", "\n").removesuffix("\n") + "\n"
+            del words[at : at + 2]
+        what = words[:count]
+        wrong = next((word for word in what if word.startswith("-")), None)
+        if wrong is not None:
+            raise UsageError(f"unknown option {wrong!r}. Usage: {usage}")
+        if len(what) < count:
+            raise UsageError(f"usage: {usage}")
+        return cls(tuple(what), tuple(words[count:]), stdin)
+
+
+def node(session: Session, line: str, cell: str) -> None:
+    """Write the cell as a script into the notebook's package, and start it up to where it blocks.
+
+    Raises ``UsageError`` for a line that makes no sense, and ``ScriptError`` for a cell that is no Python: then nothing
+    was written or ended.
+    """
+    given = Words.of(line, "%node", 1, f"%%node NAME.py [ARGS] [{STDIN} TEXT]", session.shell.user_ns)
+    name = given.what[0]
+    if not name.endswith(".py"):
+        raise UsageError(f"%%node writes a Python script: call it {name.partition('.')[0]}.py, not {name}")
+    text = f"{SHEBANG}\n{cell}"
+    session.package.file("scripts", name)
+    _check(session, name, text)
+    path = session.package.write("scripts", name, text, may_run=True)
+    _start_script(session, str(path), name, given)
+
+
+def rosrun(session: Session, line: str) -> None:
+    """Start an executable of a package up to where it blocks, as `rosrun PACKAGE EXECUTABLE [ARGS] &` does.
+
+    Raises ``UsageError`` for a line that makes no sense, and as :func:`rosmini.rosrun` does.
+    """
+    usage = f"%rosrun PACKAGE EXECUTABLE [ARGS] [{STDIN} TEXT]"
+    given = Words.of(line, "rosrun", 2, usage, session.shell.user_ns)
+    package, name = given.what
+    found = find(f"{package}/{name}")
+    if found.path is not None:
+        _start_script(session, str(found.path), name, given)
+        return
+    graph = session.graph
+    console = partial(Console, graph.scheduler, stdin="", sink=session.sink)
+    session.look()
+    session.runs.start(
+        RunKey.of(f"{package}/{name}", given.args),
+        name,
+        lambda: NodeHandle(graph, NodeSpec(found, given.args), console),
+    )
+
+
+def _start_script(session: Session, path: str, title: str, given: Words) -> None:
+    """Start a script; what it asks for comes from ``--stdin``, or from the reader."""
+    graph = session.graph
+    advice = f"add {STDIN} TEXT to the line that starts {title}"
+    stdin = session.typed(advice) if given.stdin is None else given.stdin
+    console = partial(Console, graph.scheduler, stdin=stdin, sink=session.sink)
+    session.look()
+    session.runs.start(
+        RunKey.of(path, given.args),
+        title,
+        lambda: ScriptHandle(graph, ScriptSpec(path, given.args), console, seed=_seed(given.args)),
+    )
+
+
+def _seed(args: Sequence[str]) -> str:
+    """Return what distinguishes the random numbers of two runs of one file."""
+    return f"0/{' '.join(args)}"
+
+
+def _check(session: Session, name: str, text: str) -> None:
+    """Raise ``ScriptError`` for what is no Python, shown as IPython shows it in a cell."""
+    try:
+        compile_script(text.encode(), name)
+    except ScriptError as error:
+        cause = error.__cause__
+        if isinstance(cause, SyntaxError):
+            vars(error)["_render_traceback_"] = partial(_shown, session.shell, cause, str(error))
+        raise
+
+
+def _shown(shell: Any, cause: SyntaxError, text: str) -> list[str]:
+    """Return what IPython shows of a syntax error, and what we know besides."""
+    lines: list[str] = shell.SyntaxTB.structured_traceback(type(cause), cause, [])
+    known = text.partition("\n")[0]
+    return lines if "this is not Python" in known else [*lines, known]

@@ -1,0 +1,111 @@
+"""What runs in a notebook: started by a cell, known by what was started, and restarted when the cell is run again."""
+
+from __future__ import annotations
+
+import signal
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from rosmini.graph.event_queue import span_ns
+from rosmini.names import Remappings
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from rosmini.graph import Graph
+    from rosmini.scripts import NodeHandle, ScriptHandle
+
+GRACE_S = 3.0
+"""How many seconds of graph time a run has to end after Ctrl-C."""
+
+
+class RunKey(NamedTuple):
+    """What a run is known by: its file (or ``package/executable``), and ``__ns`` and ``__name`` of its arguments."""
+
+    what: str
+    namespace: str
+    name: str
+
+    @classmethod
+    def of(cls, what: str, words: Sequence[str]) -> RunKey:
+        """Return the key of a command line. Raises ``ROSInitException`` for a remapping that is wrong."""
+        given = Remappings.from_argv(words)
+        return cls(what, given.namespace or "", given.node_name or "")
+
+
+@dataclass
+class Run:
+    """A run, and what cells call it."""
+
+    title: str
+    handle: ScriptHandle | NodeHandle
+
+    @property
+    def node_name(self) -> str:
+        """The name of its node, or "" while it has none."""
+        node = self.handle.node
+        return "" if node is None else str(node.name)
+
+    @property
+    def is_running(self) -> bool:
+        """True until it has ended."""
+        return self.handle.poll() is None
+
+
+class Runs:
+    """All runs of a graph.
+
+    ``say`` writes a line into the cell; ``changed`` is called with the number of those that run.
+    """
+
+    def __init__(self, graph: Graph, say: Callable[[str], object], changed: Callable[[int], object]) -> None:
+        self._graph = graph
+        self._say = say
+        self._changed = changed
+        self._runs: dict[RunKey, Run] = {}
+
+    def start(self, key: RunKey, title: str, make: Callable[[], ScriptHandle | NodeHandle]) -> Run:
+        """Start what ``make`` makes, up to where it blocks; no time passes. One of this key is ended first.
+
+        Raises what ``make`` raises.
+        """
+        handle = make()
+        self._end(key)
+        run = self._runs[key] = Run(title, handle)
+        handle.on_start = self._count
+        handle.on_end = lambda status: self._ended(run, status)
+        handle.start()
+        self._graph.run(0)
+        if handle.poll() == 0 and run.node_name:
+            self._say(
+                f"{title} has ended, and its node {run.node_name} with it; rospy.spin() keeps a node alive."
+            )
+        return run
+
+    def _end(self, key: RunKey) -> None:
+        """Ask the run of a key to end, as Ctrl-C does, and end it if it does not."""
+        run = self._runs.get(key)
+        if run is None or not run.is_running:
+            return
+        run.handle.send_signal(signal.SIGINT)
+        until_ns = self._graph.scheduler.now_ns() + span_ns(GRACE_S, "the time to end")
+        self._graph.scheduler.run(until_ns, lambda: not run.is_running)
+        if run.is_running:
+            run.handle.kill()
+            self._say(f"{run.title} did not end within {GRACE_S:g} s of Ctrl-C, and was killed.")
+
+    def _count(self) -> None:
+        self._changed(sum(run.is_running for run in self._runs.values()))
+
+    def _ended(self, run: Run, status: int) -> None:
+        self._count()
+        node = run.handle.node
+        if node is not None and "same name" in (node.shutdown_reason or ""):
+            newer = [each for each in self._runs.values() if each.is_running and each.node_name == node.name]
+            for each in newer:
+                self._say(
+                    f"{each.title} and {run.title} both call their node {node.name}: "
+                    f"the Master has ended the older one, that of {run.title}."
+                )
+        elif status > 0:
+            self._say(f"{run.title} has ended with exit status {status}.")

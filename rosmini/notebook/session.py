@@ -1,0 +1,124 @@
+"""What one notebook has besides its variables: a graph in simulated time, a package, and what its cells started."""
+
+from __future__ import annotations
+
+import contextvars
+import io
+import os
+from contextlib import nullcontext, redirect_stderr, redirect_stdout
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import RosminiError
+from rosmini.graph import Graph, default_graph, set_default_graph
+from rosmini.scripts import current_script
+
+from .output import CellSink, TypedFeed
+from .package import NotebookPackage
+from .runs import Runs
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_ATTRIBUTE = "rosmini_session"
+
+
+class Session:
+    """The ROS side of one notebook; an attribute of its IPython shell.
+
+    The notebook's graph is the default graph. It does not raise what a callback of a script lets out: that is logged,
+    as in ROS.
+    """
+
+    def __init__(self, shell: Any) -> None:
+        self.shell = shell
+        self.package = NotebookPackage()
+        self.sink = CellSink(self._in_cell)
+        self._cell = contextvars.copy_context()
+        self._process = os.getpid()
+        self.begin()
+
+    @property
+    def graph(self) -> Graph:
+        """The graph on which all commands of the notebook act."""
+        return default_graph()
+
+    def begin(self) -> None:
+        """End the graph with all that runs in it, and begin with a new one at the same time and with the same seed."""
+        try:
+            self._end_graph()
+        finally:
+            graph = Graph(strict=False)
+            graph.notebook = True
+            set_default_graph(graph)
+            self.runs = Runs(graph, self.say, self._count)
+            self._count(0)
+
+    def _end_graph(self) -> None:
+        """Shut all nodes down; what they print meanwhile went to terminals of theirs, and is not shown."""
+        ended = set_default_graph(None)
+        if ended is None:
+            return
+        nowhere = io.StringIO()
+        self.sink.mute(muted=True)
+        try:
+            with redirect_stdout(nowhere), redirect_stderr(nowhere):
+                ended.shutdown("roscore ends")
+        finally:
+            self.sink.mute(muted=False)
+
+    def end(self) -> None:
+        """End the graph and remove the package. Only in the process that began; a fork of it owns nothing."""
+        if os.getpid() == self._process:
+            try:
+                self._end_graph()
+            finally:
+                self.package.close()
+
+    # -- cells ---------------------------------------------------------------------------------------------------
+
+    def look(self, *_: object) -> None:
+        """Note the cell that runs now: the caller's."""
+        self._cell = contextvars.copy_context()
+        self.sink.look()
+
+    def say(self, text: str) -> None:
+        """Print a line of the notebook's own into the cell."""
+        self.sink.flush()
+        self.sink.stdout.write(f"{text}\n")
+
+    def typed(self, advice: str) -> TypedFeed:
+        """Return standard input from the reader, who types below the cell; ``advice`` is for where nobody can."""
+        return TypedFeed(self._ask, advice)
+
+    def _ask(self, ask: Callable[[], str]) -> str:
+        script = current_script(self.graph.scheduler)
+        with nullcontext() if script is None else script.put_aside():
+            return self._cell.copy().run(ask)
+
+    def _count(self, running: int) -> None:
+        self.sink.prefix = running > 1
+
+    def _in_cell(self, text: str) -> str:
+        return text
+
+
+def begin_session(shell: Any) -> Session:
+    """Return the session of an IPython shell, made now if it has none."""
+    if vars(shell).get(_ATTRIBUTE) is None:
+        vars(shell)[_ATTRIBUTE] = Session(shell)
+    return session_of(shell)
+
+
+def session_of(shell: Any) -> Session:
+    """Return the session of an IPython shell. Raises ``RosminiError`` where ``%load_ext rosmini`` has not run."""
+    found: Session | None = vars(shell).get(_ATTRIBUTE)
+    if found is None:
+        raise RosminiError("this notebook has no graph: begin it with %load_ext rosmini")
+    return found
+
+
+def end_session(shell: Any) -> None:
+    """End the session of an IPython shell, if it has one."""
+    found: Session | None = vars(shell).pop(_ATTRIBUTE, None)
+    if found is not None:
+        found.end()

@@ -1,0 +1,201 @@
+"""``%%node``: a cell is a script, and runs as a node."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from .conftest import Notebook
+
+TALKER = """\
+import rospy
+from std_msgs.msg import String
+
+rospy.init_node("talker")
+pub = rospy.Publisher("chatter", String, queue_size=10, latch=True)
+rate = rospy.Rate(1)
+while not rospy.is_shutdown():
+    pub.publish("hello")
+    print("said hello at", rospy.get_time())
+    rate.sleep()
+"""
+
+LISTENER = """\
+import rospy
+from std_msgs.msg import String
+
+def hear(message):
+    print("heard", message.data)
+
+rospy.init_node("listener")
+rospy.Subscriber("chatter", String, hear)
+rospy.spin()
+"""
+
+
+def test_a_cell_runs_to_where_it_blocks_and_no_time_passes(notebook: Notebook) -> None:
+    before = notebook.session.graph.now()
+    assert notebook.ok(f"%%node talker.py\n{TALKER}") == "said hello at 1000.0\n"
+    assert notebook.session.graph.now() == before
+    assert notebook.ok("import rosmini; rosmini.wait(2)") == "said hello at 1001.0\nsaid hello at 1002.0\n"
+
+
+def test_names_stand_before_the_lines_when_several_run(notebook: Notebook) -> None:
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    assert notebook.ok(f"%%node listener.py\n{LISTENER}") == "[listener] heard hello\n"
+    assert (
+        notebook.ok("import rosmini; rosmini.wait(1)")
+        == "[talker] said hello at 1001.0\n[listener] heard hello\n"
+    )
+
+
+def test_the_file_is_a_script_of_the_notebooks_package(notebook: Notebook) -> None:
+    notebook.ok("word = 'two words'")
+    written = notebook.ok("%%node where.py one $word _rate:=5\nimport sys, rospkg\nprint(sys.argv[1:])")
+    assert written == "['one', 'two words', '_rate:=5']\n"
+    path = notebook.session.package.file("scripts", "where.py")
+    assert path.read_text(encoding="utf-8").startswith("#!/usr/bin/env python3\nimport sys")
+    assert os.access(path, os.X_OK)
+    assert notebook.ok("%rosrun notebook where.py") == "[]\n"
+
+
+def test_the_lines_of_an_error_are_the_cells(notebook: Notebook) -> None:
+    written = notebook.ok("%%node bad.py\nimport rospy\n\nprint(1 / 0)")
+    assert 'bad.py", line 4, in <module>\n    print(1 / 0)' in written
+    assert "bad.py has ended with exit status 1." in written
+    assert notebook.ok("%rosnode list") == "/rosout\n"
+
+
+def test_a_syntax_error_is_the_cells_and_ends_nothing(notebook: Notebook) -> None:
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    written = notebook.fails("%%node talker.py\nimport rospy\nx = = 3")
+    assert "talker.py:3" in written and "SyntaxError" in written and "x = = 3" in written
+    assert "/talker" in notebook.ok("%rosnode list")
+    assert notebook.ok("import rosmini; rosmini.wait(1)") == "said hello at 1001.0\n"
+    assert "print(...)" in notebook.fails("%%node old.py\nprint 3")
+
+
+def test_running_the_cell_again_restarts_it(notebook: Notebook) -> None:
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    assert notebook.ok(f"%%node talker.py\n{TALKER.replace('hello', 'hi')}") == "said hi at 1000.0\n"
+    assert notebook.ok("import rosmini; rosmini.wait(1)") == "said hi at 1001.0\n"
+    assert notebook.ok("%rosnode list") == "/rosout\n/talker\n"
+
+
+def test_what_does_not_end_is_killed_after_three_seconds(notebook: Notebook) -> None:
+    stubborn = (
+        "import time\nprint('up')\nwhile True:\n    try:\n        time.sleep(1)\n"
+        "    except BaseException:\n        pass\n"
+    )
+    notebook.ok(f"%%node stubborn.py\n{stubborn}")
+    before = notebook.session.graph.now().to_sec()
+    written = notebook.ok(f"%%node stubborn.py\n{stubborn}")
+    assert written == "stubborn.py did not end within 3 s of Ctrl-C, and was killed.\nup\n"
+    assert notebook.session.graph.now().to_sec() == before + 3
+
+
+def test_the_same_file_under_another_name_is_another_run(notebook: Notebook) -> None:
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    notebook.ok("%rosrun notebook talker.py __name:=second")
+    notebook.ok("%rosrun notebook talker.py __ns:=/other")
+    assert notebook.ok("%rosnode list") == "/other/talker\n/rosout\n/second\n/talker\n"
+
+
+def test_of_two_scripts_with_one_node_name_the_older_ends_and_both_are_named(notebook: Notebook) -> None:
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    written = notebook.ok("%%node other.py\nimport rospy\nrospy.init_node('talker')\nrospy.spin()")
+    assert "other.py and talker.py both call their node /talker" in written
+    assert notebook.ok("%rosnode list") == "/rosout\n/talker\n"
+
+
+def test_a_failing_callback_is_logged_and_no_command_fails(notebook: Notebook) -> None:
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    notebook.ok(f"%%node listener.py\n{LISTENER.replace('message.data', '1 / 0')}")
+    written = notebook.ok("import rosmini; rosmini.wait(1)")
+    assert "ZeroDivisionError" in written and "listener.py, line 6, in hear" in written
+    assert "/listener" in notebook.ok("%rosnode list")
+
+
+def test_a_node_that_ends_at_once_is_told(notebook: Notebook) -> None:
+    written = notebook.ok("%%node short.py\nimport rospy\nrospy.init_node('short')")
+    assert written == ("short.py has ended, and its node /short with it; rospy.spin() keeps a node alive.\n")
+    assert notebook.ok("%%node hello.py\nprint('hello')") == "hello\n"
+
+
+def test_a_script_that_never_blocks_lets_time_pass(notebook: Notebook) -> None:
+    notebook.ok("%%node busy.py\nimport rospy\nrospy.init_node('busy')\nn = 0\nwhile True:\n    n += 1")
+    assert "/busy" in notebook.ok("%rosnode list")
+    notebook.ok("import rosmini; rosmini.wait(0.1)")
+
+
+def test_input_comes_from_the_line(notebook: Notebook) -> None:
+    ask = "print('hello', input('who? '), input())"
+    assert notebook.ok(f"%%node ask.py --stdin 'Ada\\nBob'\n{ask}") == "who? hello Ada Bob\n"
+    assert notebook.ok("%rosrun notebook ask.py --stdin 'A\\nB'") == "who? hello A B\n"
+    assert "EOFError" in notebook.ok("%rosrun notebook ask.py --stdin A")
+
+
+def test_input_comes_from_the_reader_while_time_stands_still(
+    notebook: Notebook, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    answers = iter(["Ada", "Bob"])
+    monkeypatch.setattr("builtins.input", lambda *_: next(answers))
+    notebook.ok(
+        "%%node tick.py\nimport rospy\nrospy.init_node('tick')\nrospy.Timer(rospy.Duration(1), print)\nrospy.spin()"
+    )
+    before = notebook.session.graph.now()
+    written = notebook.ok("%%node ask.py\nprint('hello', input('who? '), input())")
+    assert "hello Ada Bob" in written
+    assert notebook.session.graph.now() == before
+
+
+def test_where_nobody_can_type_the_script_fails_and_says_what_to_do(
+    notebook: Notebook, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> str:
+        raise NotImplementedError("no frontend")
+
+    monkeypatch.setattr("builtins.input", refuse)
+    assert "add --stdin TEXT" in notebook.ok("%%node ask.py\ninput('who? ')")
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("", "usage: %%node NAME.py [ARGS]"),
+        ("--fast talker.py", "unknown option '--fast'"),
+        ("talker", "call it talker.py"),
+        ("talker.sh", "call it talker.py"),
+        ("../talker.py", "is not a file name"),
+        (".talker.py", "is not a file name"),
+        ("talker.py --stdin", "takes the text to be typed"),
+        ("talker.py a:=b:=c", "one ':=' is enough"),
+        ("talker.py | head", "runs no shell"),
+        ("$nope.py", "no variable nope"),
+    ],
+)
+def test_a_line_that_makes_no_sense(notebook: Notebook, line: str, said: str) -> None:
+    assert said in notebook.fails(f"%%node {line}\npass")
+    assert not (notebook.session.package.folder / "scripts").is_dir() or "a:=b" in line
+
+
+def test_rosrun_of_what_is_not_there(notebook: Notebook) -> None:
+    assert "usage: %rosrun PACKAGE EXECUTABLE" in notebook.fails("%rosrun turtlesim")
+    assert "no package" in notebook.fails("%rosrun nope nope")
+    assert "no executable" in notebook.fails("%rosrun rosmini_sim nope")
+
+
+def test_a_built_in_node_runs_too_and_again(notebook: Notebook) -> None:
+    notebook.ok("%rosrun rosmini_sim simulator")
+    assert "/scan" in notebook.ok("%rostopic list")
+    notebook.ok("%rosrun rosmini_sim simulator")
+    assert notebook.ok("%rosnode list") == "/rosout\n/simulator\n"
+
+
+def test_the_file_of_the_package_does_not_change_while_python_is_wrong(notebook: Notebook) -> None:
+    notebook.ok("%%node a.py\nprint(1)")
+    notebook.fails("%%node a.py\nprint(")
+    path: Path = notebook.session.package.file("scripts", "a.py")
+    assert "print(1)" in path.read_text(encoding="utf-8")

@@ -1,0 +1,110 @@
+"""``%load_ext rosmini`` and ``%roscore``: a notebook's graph begins, and begins again."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import Any
+
+import pytest
+
+import rosmini
+from rosmini.errors import RosminiError
+from rosmini.notebook import extension
+from rosmini.notebook.session import session_of
+
+from .conftest import Notebook
+from .test_node_cell import LISTENER, TALKER
+
+RUN_ALL = (
+    "%roscore",
+    f"%%node talker.py\n{TALKER}",
+    f"%%node listener.py\n{LISTENER}",
+    "import rosmini, random; rosmini.wait(3)",
+    "%%node dice.py\nimport random\nprint(random.random())",
+    "%rostopic echo -n 2 /chatter",
+    "%rosnode list",
+    "%rosrun rosmini_sim simulator",
+    "%rostopic echo -n 1 /odom",
+    "%rosnode info /talker",
+)
+
+
+def test_run_all_twice_gives_equal_outputs(notebook: Notebook) -> None:
+    first = [notebook.ok(cell) for cell in RUN_ALL]
+    assert first[0] == "ROS_MASTER_URI=http://localhost:11311/\nstarted core service [/rosout]\n"
+    assert [notebook.ok(cell) for cell in RUN_ALL] == first
+
+
+def test_roscore_ends_all_runs_as_ros_does(notebook: Notebook) -> None:
+    notebook.ok("ended = []")
+    notebook.ok(
+        "%%node tidy.py\nimport atexit, rospy\nrospy.init_node('tidy')\n"
+        "rospy.on_shutdown(lambda: rospy.set_param('/seen', rospy.core.is_shutdown_requested()))\n"
+        "rospy.on_shutdown(lambda: print('bye'))\nrospy.spin()"
+    )
+    graph = notebook.session.graph
+    assert notebook.ok("%roscore").startswith("ROS_MASTER_URI=")
+    assert graph.nodes == {}
+    assert graph.scheduler.waiting() == ()
+    assert notebook.session.graph is not graph
+    assert notebook.session.graph.now().to_sec() == 1000
+    assert notebook.ok("%rosnode list") == "/rosout\n"
+
+
+def test_roscore_takes_no_arguments(notebook: Notebook) -> None:
+    assert "takes no arguments" in notebook.fails("%roscore -p 11312")
+
+
+def test_imports_are_those_of_a_robot(notebook: Notebook) -> None:
+    notebook.ok("import rospy\nfrom std_msgs.msg import String\nfrom geometry_msgs.msg import Twist")
+    assert notebook.ok("print(rospy.__name__, String._type)") == "rosmini.rospy std_msgs/String\n"
+
+
+def test_the_notebook_can_itself_be_a_node(notebook: Notebook) -> None:
+    notebook.ok(f"%%node listener.py\n{LISTENER}")
+    notebook.ok("import rospy\nfrom std_msgs.msg import String\nrospy.init_node('notebook')")
+    notebook.ok("pub = rospy.Publisher('chatter', String, queue_size=1)\nrospy.sleep(0.1)")
+    assert notebook.ok("pub.publish('from a cell')\nrospy.sleep(0.1)") == "heard from a cell\n"
+    assert notebook.ok("%rosnode list") == "/listener\n/notebook\n/rosout\n"
+    notebook.ok("%roscore")
+    notebook.ok("rospy.init_node('notebook')")
+    assert notebook.ok("%rosnode list") == "/notebook\n/rosout\n"
+
+
+def test_loading_twice_changes_nothing(notebook: Notebook) -> None:
+    session, graph = notebook.session, notebook.session.graph
+    notebook.ok("%load_ext rosmini")
+    extension.load(notebook.shell)
+    assert notebook.session is session
+    assert notebook.session.graph is graph
+
+
+def test_unloading_leaves_nothing(notebook: Notebook) -> None:
+    folder, before = notebook.session.package.workspace, list(sys.meta_path)
+    assert folder.is_dir()
+    notebook.ok("%unload_ext rosmini")
+    assert not folder.exists()
+    assert len(sys.meta_path) < len(before)
+    assert str(folder) not in os.environ.get("ROS_PACKAGE_PATH", "")
+    with pytest.raises(RosminiError, match="%load_ext rosmini"):
+        session_of(notebook.shell)
+    assert "begin it with %load_ext rosmini" in notebook.fails("%roscore")
+
+
+def test_it_works_in_a_folder_without_write_permission(
+    notebook: Notebook, tmp_path: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    tmp_path.chmod(0o500)
+    assert notebook.ok("%%node a.py\nprint(1)") == "1\n"
+    tmp_path.chmod(0o700)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_wait_takes_seconds(notebook: Notebook) -> None:
+    with pytest.raises(RosminiError, match="the time to wait is a number of seconds"):
+        rosmini.wait(-1)
+    before = notebook.session.graph.now().to_sec()
+    assert notebook.ok("import rosmini; rosmini.wait(2.5)") == ""
+    assert notebook.session.graph.now().to_sec() == before + 2.5
