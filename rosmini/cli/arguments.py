@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.names import canonicalize, resolve_for
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
     from optparse import Values
 
     from rosmini.introspection.options import Parser
@@ -32,6 +33,16 @@ def dashed_remapping(words: Iterable[str]) -> str:
         f"{found} is no remapping; ROS's own names begin with two underscores: __{found.lstrip('-')}"
         if found
         else ""
+    )
+
+
+def below_here(call: Call) -> Callable[[str], object]:
+    """Return what prints a text with paths; in Python those below the working folder are relative to it."""
+    here = str(Path.cwd())
+    return (
+        call.say
+        if call.in_terminal
+        else lambda text: call.say(text.replace(here + os.sep, "").replace(here, "."))
     )
 
 

@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
-import argparse
-import sys
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .arguments import below_here
+from .verbs import ArgumentParser, Call, Result, Tool, VerbError
+
+if TYPE_CHECKING:
+    import argparse
+
+TOOL = Tool("catkin_create_pkg", "make a new package", needs_graph=False, only_verb="create")
+add_parser, main = TOOL.add_parser, TOOL.main
 
 
-def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
-    """Add `catkin_create_pkg`."""
-    parser = subparsers.add_parser(
-        "catkin_create_pkg",
-        help="make a new package",
-        description=__doc__,
+@dataclass(frozen=True, kw_only=True)
+class Created(Result):
+    """A package that was made, in the folder ``path``."""
+
+    path: Path
+
+
+def _parser() -> ArgumentParser:
+    parser = ArgumentParser(
+        "rosmini catkin_create_pkg",
+        "Make a new package in a folder of its own.",
         epilog="for example, in the src of a workspace: rosmini catkin_create_pkg example_pkg std_msgs rospy",
     )
     parser.add_argument("name", help="the name of the package")
@@ -37,19 +51,18 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     return parser
 
 
-def main(args: argparse.Namespace) -> int:
-    """Make it; 2 if that cannot be, as the original."""
+@TOOL.verb("make a new package", parser=_parser)
+def create(given: argparse.Namespace, call: Call) -> Created:
+    """Make it. Raises ``VerbError`` with the original's status if that cannot be."""
     from rosmini.catkin import CatkinError, NewPackage, create_package
 
     new = NewPackage(
-        args.name, tuple(dict.fromkeys(args.dependencies)), args.description, tuple(args.license), tuple(args.author),
-        tuple(args.maintainer), args.pkg_version, tuple(args.sys_deps), tuple(args.boost_comps), args.meta,
+        given.name, tuple(dict.fromkeys(given.dependencies)), given.description, tuple(given.license),
+        tuple(given.author), tuple(given.maintainer), given.pkg_version, tuple(given.sys_deps),
+        tuple(given.boost_comps), given.meta,
     )  # fmt: skip
     try:
-        odd = create_package(new, Path.cwd())
+        odd = create_package(new, Path.cwd(), below_here(call))
     except (CatkinError, OSError) as error:
-        print(f"catkin_create_pkg: error: {error}", file=sys.stderr)
-        return 2
-    for each in odd:
-        print(f"WARNING: {each}", file=sys.stderr)
-    return 0
+        raise VerbError(f"catkin_create_pkg: error: {error}", 2) from error
+    return Created(path=Path.cwd() / new.name, complaints=tuple(f"WARNING: {each}" for each in odd))

@@ -2,33 +2,41 @@
 
 from __future__ import annotations
 
-import argparse
-import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .arguments import below_here
+from .verbs import ArgumentParser, Call, Result, Tool, VerbError
+
+if TYPE_CHECKING:
+    import argparse
+
+TOOL = Tool(
+    "catkin_init_workspace", "make a folder the source space of a workspace", needs_graph=False, only_verb="init"
+)  # fmt: skip
+add_parser, main = TOOL.add_parser, TOOL.main
 
 
-def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
-    """Add `catkin_init_workspace`."""
-    parser = subparsers.add_parser(
-        "catkin_init_workspace",
-        help="make a folder the source space of a workspace",
-        description=__doc__,
+def _parser() -> ArgumentParser:
+    parser = ArgumentParser(
+        "rosmini catkin_init_workspace",
+        "Make a folder the source space of a workspace.",
         epilog="for example: mkdir -p ws/src && rosmini catkin_init_workspace ws/src",
     )
     parser.add_argument("workspace", nargs="?", default=".", help="the folder (default: the working folder)")
     return parser
 
 
-def main(args: argparse.Namespace) -> int:
-    """Do it; 2 if that cannot be, as the original."""
+@TOOL.verb("make a folder the source space of a workspace", parser=_parser)
+def init(given: argparse.Namespace, call: Call) -> Result:
+    """Do it. Raises ``VerbError`` with the original's status if that cannot be."""
     from rosmini.catkin import CatkinError, init_workspace
 
-    folder = Path.cwd() / args.workspace
+    folder = Path.cwd() / given.workspace
     try:
         if not folder.is_dir():
             raise CatkinError(f'The folder "{folder}" does not exist; mkdir -p {folder}')
-        print(f'Created file "{init_workspace(folder)}"')
+        below_here(call)(f'Created file "{init_workspace(folder)}"')
     except (CatkinError, OSError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+        raise VerbError(str(error), 2) from error
+    return Result()

@@ -1,18 +1,27 @@
-"""`rosmini catkin_make`: builds a catkin workspace: messages, services, actions, scripts, and what a shell sources.
-
-C++ is not compiled; that is told, and all else is built.
-"""
+"""`rosmini catkin_make`: builds a catkin workspace: messages, services, actions, scripts, and what a shell sources."""
 
 from __future__ import annotations
 
 import argparse
-import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from rosmini.catkin import Workspace
+from .arguments import below_here
+from .verbs import ArgumentParser, Call, Result, Tool, VerbError
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.catkin import Workspace
+    from rosmini.catkin.build import Report
+
+TOOL = Tool("catkin_make", "build a catkin workspace", needs_graph=False, only_verb="make")
+add_parser, main = TOOL.add_parser, TOOL.main
+
+DESCRIPTION = """\
+Build a catkin workspace: messages, services, actions, scripts, and what a shell sources. C++ is not compiled; that is
+told, and all else is built."""
 EPILOG = """\
 Targets are `all` (the default), `clean`, which removes build and devel, and the names of packages; `install` and
 `run_tests` are told as what they are. Options of CMake and make (-DNAME=VALUE, -j4) are accepted and have no effect.
@@ -35,12 +44,17 @@ NOT_HERE = {
 }
 
 
-def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
-    """Add `catkin_make`."""
-    parser = subparsers.add_parser(
-        "catkin_make",
-        help="build a catkin workspace",
-        description=__doc__,
+@dataclass(frozen=True, kw_only=True)
+class Made(Result):
+    """What was built: ``report`` names the packages that were built, were up to date, or failed."""
+
+    report: Report | None = None
+
+
+def _parser() -> ArgumentParser:
+    parser = ArgumentParser(
+        "rosmini catkin_make",
+        DESCRIPTION,
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
@@ -64,49 +78,54 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     return parser
 
 
-def main(args: argparse.Namespace) -> int:
-    """Build it; 1 if a package could not be built."""
-    from rosmini.catkin import CatkinError, Workspace, init_workspace, make
+@TOOL.verb("build a catkin workspace", parser=_parser)
+def make(given: argparse.Namespace, call: Call) -> Made:
+    """Build it; the status is 1 if a package could not be built. Raises ``VerbError`` if nothing can be."""
+    from rosmini.catkin import CatkinError, Workspace
 
-    base = Path.cwd() / args.directory
-    print(f"Base path: {base}")
+    base, say = Path.cwd() / given.directory, below_here(call)
+    say(f"Base path: {base}")
     try:
-        workspace = Workspace.at(base, args.source, args.build)
-        print(
+        workspace = Workspace.at(base, given.source, given.build)
+        say(
             f"Source space: {workspace.source}\nBuild space: {workspace.build}\nDevel space: {workspace.devel}"
         )
-        targets = [each for each in args.targets if each != "all"]
-        for each in [each for each in targets if each in NOT_HERE]:
-            print(f"{each}: {NOT_HERE[each]}", file=sys.stderr)
-            targets.remove(each)
-        if "clean" in targets:
-            return _clean(workspace)
-        if not (workspace.source / "CMakeLists.txt").exists():
-            print(f'Created file "{init_workspace(workspace.source)}"')
-        only = [*args.pkg, *args.only_pkg_with_deps, *targets]
-        report = make(workspace, only, with_dependencies=bool(args.only_pkg_with_deps))
+        return _make(workspace, given, call, say)
     except CatkinError as error:
-        print(error, file=sys.stderr)
-        return 1
+        raise VerbError(str(error)) from error
     except OSError as error:
-        print(f"cannot write {error.filename}: {error.strerror}", file=sys.stderr)
-        return 1
+        raise VerbError(f"cannot write {error.filename}: {error.strerror}") from error
+
+
+def _make(workspace: Workspace, given: argparse.Namespace, call: Call, say: Callable[[str], object]) -> Made:
+    from rosmini.catkin import init_workspace
+    from rosmini.catkin import make as build
+
+    targets = [each for each in given.targets if each != "all"]
+    for each in [each for each in targets if each in NOT_HERE]:
+        call.warn(f"{each}: {NOT_HERE[each]}")
+        targets.remove(each)
+    if "clean" in targets:
+        _clean(workspace, say)
+        return Made()
+    if not (workspace.source / "CMakeLists.txt").exists():
+        say(f'Created file "{init_workspace(workspace.source)}"')
+    only = [*given.pkg, *given.only_pkg_with_deps, *targets]
+    report = build(workspace, only, with_dependencies=bool(given.only_pkg_with_deps), say=say)
     for finding in report.findings:
-        print(finding, file=sys.stderr)
-    print(f"{len(report.built)} built, {len(report.fresh)} up to date, {len(report.failed)} failed")
-    if report.failed:
-        print(f"not built: {', '.join(report.failed)}", file=sys.stderr)
-    elif report.built:
-        print(f"In each shell that uses it: . {workspace.devel / 'setup.sh'}")
-    return report.status
+        call.warn(str(finding))
+    say(f"{len(report.built)} built, {len(report.fresh)} up to date, {len(report.failed)} failed")
+    complaints = (f"not built: {', '.join(report.failed)}",) if report.failed else ()
+    if report.built and not report.failed and call.in_terminal:
+        say(f"In each shell that uses it: . {workspace.devel / 'setup.sh'}")
+    return Made(report=report, complaints=complaints, status=report.status)
 
 
-def _clean(workspace: Workspace) -> int:
+def _clean(workspace: Workspace, say: Callable[[str], object]) -> None:
     """Remove what was built."""
     import shutil
 
     for folder in (workspace.build, workspace.devel):
         if (folder / ".built_by").is_file() and not folder.is_symlink():
             shutil.rmtree(folder)
-            print(f"Removed {folder}")
-    return 0
+            say(f"Removed {folder}")

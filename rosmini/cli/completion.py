@@ -104,4 +104,8 @@ def _of_kind(kind: str, peers: Peers) -> list[str]:
             return SERVICE.all()
         case "package":
             return [*MESSAGE.packages(), *SERVICE.packages()]
+        case "location":
+            from rosmini.packages import PackageIndex
+
+            return PackageIndex().names()
     return []

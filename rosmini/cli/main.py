@@ -114,15 +114,15 @@ COMMANDS: dict[str, Entry] = {
     "rosstack": Entry(
         "rosmini.cli.rosstack", "stacks and metapackages: where they are, what is in them", is_magic=True
     ),
-    "roscd": Entry("rosmini.cli.roscd", "print the folder of a package, for cd"),
-    "rosls": Entry("rosmini.cli.rosls", "list what is in the folder of a package"),
-    "rosversion": Entry("rosmini.cli.rosversion", "the version of a package"),
+    "roscd": Entry("rosmini.cli.roscd", "go to the folder of a package", is_magic=True),
+    "rosls": Entry("rosmini.cli.rosls", "list what is in the folder of a package", is_magic=True),
+    "rosversion": Entry("rosmini.cli.rosversion", "the version of a package", is_magic=True),
     "aliases": Entry("rosmini.cli.aliases", "lines for a shell: bare names (rostopic ...) and completion"),
     "catkin_init_workspace": Entry(
-        "rosmini.cli.catkin_init_workspace", "make a folder the source space of a workspace"
+        "rosmini.cli.catkin_init_workspace", "make a folder the source space of a workspace", is_magic=True
     ),
-    "catkin_create_pkg": Entry("rosmini.cli.catkin_create_pkg", "make a new package"),
-    "catkin_make": Entry("rosmini.cli.catkin_make", "build a catkin workspace"),
+    "catkin_create_pkg": Entry("rosmini.cli.catkin_create_pkg", "make a new package", is_magic=True),
+    "catkin_make": Entry("rosmini.cli.catkin_make", "build a catkin workspace", is_magic=True),
     "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
     "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),
     "book": Entry("book.tools.book", "build the book from the stored outputs and open it", "."),

@@ -1,12 +1,12 @@
 """`rosmini roscd`: where a package is, for `cd`: no program can change the folder of the shell that runs it.
 
-The shell function is ``roscd() { cd "$(rosmini roscd "$@")"; }``.
+The shell function is ``roscd() { cd "$(rosmini roscd "$@")"; }``. In Python it changes the working folder itself.
 """
 
 from __future__ import annotations
 
-import argparse
 import os
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,21 +14,36 @@ from rosmini import files
 from rosmini.errors import RosminiError, UnknownPackage, nearest
 from rosmini.packages import PackageIndex
 
+from .verbs import ArgumentParser, Call, Result, Tool
+
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Mapping
 
 LOG = "log"
 """The name by which `roscd` and `rosls` know the folder of log files, and no package."""
 
 
-def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
-    """Add `roscd`."""
-    parser = subparsers.add_parser(
-        "roscd",
-        help="print the folder of a package, for cd",
-        description=__doc__,
+TOOL = Tool("roscd", "go to the folder of a package", needs_graph=False, only_verb="go")
+add_parser, main = TOOL.add_parser, TOOL.main
+
+
+@dataclass(frozen=True, kw_only=True)
+class Folder(Result):
+    """Where ``roscd`` goes; the text is what a terminal needs for its `cd`."""
+
+    path: Path
+    is_entered: bool
+
+    def __str__(self) -> str:
+        return "" if self.is_entered else str(self.path)
+
+
+def _parser() -> ArgumentParser:
+    parser = ArgumentParser(
+        "rosmini roscd",
+        "Print the folder of a package, for cd; in a notebook, go there.",
         epilog="for example: cd $(rosmini roscd turtlebot3_description/urdf)",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("location", nargs="?", help="PACKAGE or PACKAGE/FOLDER; by default the workspace")
     return parser
@@ -76,10 +91,12 @@ def workspace(environ: Mapping[str, str]) -> Path:
     )
 
 
-def main(args: argparse.Namespace) -> int:
-    """Print the folder."""
-    path = located(args.location, "cd to") if args.location else workspace(os.environ)
+@TOOL.verb("go to the folder of a package", parser=_parser, takes="location")
+def go(given: argparse.Namespace, call: Call) -> Folder:
+    """Go to the folder; a terminal prints it. Raises ``RosminiError`` if there is none."""
+    path = located(given.location, "cd to") if given.location else workspace(os.environ)
     if not path.is_dir():
         raise RosminiError(f"{path} is a file, not a folder; its folder is {path.parent}")
-    print(path)
-    return 0
+    if not call.in_terminal:
+        os.chdir(path)
+    return Folder(path=path, is_entered=not call.in_terminal)

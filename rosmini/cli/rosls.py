@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rosmini import files
 
 from .roscd import located
+from .verbs import ArgumentParser, Call, Lines, Tool
+
+if TYPE_CHECKING:
+    import argparse
+
+TOOL = Tool("rosls", "list what is in the folder of a package", needs_graph=False, only_verb="list")
+add_parser, main = TOOL.add_parser, TOOL.main
 
 
-def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
-    """Add `rosls`."""
-    parser = subparsers.add_parser(
-        "rosls",
-        help="list what is in the folder of a package",
-        description=__doc__,
+def _parser() -> ArgumentParser:
+    parser = ArgumentParser(
+        "rosmini rosls",
+        "What is in the folder of a package.",
         epilog="for example: rosmini rosls turtlebot3_description/urdf",
     )
     parser.add_argument(
@@ -31,8 +36,7 @@ def names(path: Path) -> list[str]:
     )
 
 
-def main(args: argparse.Namespace) -> int:
-    """Print it."""
-    found = names(located(args.location, "access") if args.location else Path())
-    print("\n".join(found), end="\n" if found else "")
-    return 0
+@TOOL.verb("list what is in the folder of a package", name="list", parser=_parser, takes="location")
+def _list(given: argparse.Namespace, _call: Call) -> Lines:
+    """What is in it."""
+    return Lines(lines=tuple(names(located(given.location, "access") if given.location else Path())))

@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
-import argparse
 import os
-import sys
+from typing import TYPE_CHECKING
 
 from rosmini.errors import UnknownPackage, nearest
 from rosmini.packages import PackageIndex
 
-EPILOG = "for example: rosmini rosversion std_msgs"
+from .verbs import ArgumentParser, Call, Lines, Tool
+
+if TYPE_CHECKING:
+    import argparse
+
 DISTRIBUTION = "noetic"
 """The ROS that rosmini is, where ROS_DISTRO names no other."""
 
+TOOL = Tool("rosversion", "the version of a package", needs_graph=False, only_verb="version")
+add_parser, main = TOOL.add_parser, TOOL.main
 
-def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> argparse.ArgumentParser:
-    """Add `rosversion`."""
-    parser = subparsers.add_parser(
-        "rosversion", help="the version of a package", description=__doc__, epilog=EPILOG
+
+def _parser() -> ArgumentParser:
+    parser = ArgumentParser(
+        "rosmini rosversion",
+        "The version of a package, or the name of the distribution.",
+        epilog="for example: rosmini rosversion std_msgs",
     )
     parser.add_argument("-s", "--skip-newline", action="store_true", help="end without a newline")
     what = parser.add_mutually_exclusive_group(required=True)
@@ -34,22 +41,19 @@ def version(package: str, index: PackageIndex) -> str:
     return index.find(package).version or "<unversioned>"
 
 
-def main(args: argparse.Namespace) -> int:
-    """Print it; 1 if there is no such package."""
-    end = "" if args.skip_newline else "\n"
-    if args.distro:
-        print(os.environ.get("ROS_DISTRO") or DISTRIBUTION, end=end)
-        return 0
+@TOOL.verb("the version of a package", name="version", parser=_parser, takes="location")
+def _version(given: argparse.Namespace, _call: Call) -> Lines:
+    """The version; the status is 1 if there is no such package."""
+    end = "" if given.skip_newline else "\n"
+    if given.distro:
+        return Lines(lines=(os.environ.get("ROS_DISTRO") or DISTRIBUTION,), end=end)
     index = PackageIndex()
-    if args.all:
-        print("\n".join(f"{name}: {version(name, index)}" for name in index.names()), end=end)
-        return 0
+    if given.all:
+        return Lines(lines=tuple(f"{name}: {version(name, index)}" for name in index.names()), end=end)
     try:
-        print(version(args.package, index), end=end)
+        return Lines(lines=(version(given.package, index),), end=end)
     except UnknownPackage:
-        hint = nearest(args.package, [*index.names(), *index.stacks()])
-        print(f"Cannot locate [{args.package}]")
-        if hint:
-            print(hint, file=sys.stderr)
-        return 1
-    return 0
+        hint = nearest(given.package, [*index.names(), *index.stacks()])
+        return Lines(
+            lines=(f"Cannot locate [{given.package}]",), complaints=(hint,) if hint else (), status=1
+        )

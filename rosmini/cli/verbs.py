@@ -53,6 +53,8 @@ class Result:
     complaints: tuple[str, ...] = ()
     status: int = 0
     """The exit status."""
+    end: str = "\n"
+    """What a terminal prints after the text."""
     always_printed: ClassVar[bool] = False
     """True if an empty text is printed, too, as an empty line: ROS's tools do that with lists."""
 
@@ -330,7 +332,7 @@ class Tool:
             return self.failure_status
         text = str(result)
         if text or result.always_printed:
-            print(text)
+            print(text, end=result.end)
         for complaint in result.complaints:
             print(complaint, file=sys.stderr)
         return result.status

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Iterator
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,7 +13,7 @@ import pytest
 from rosmini import Graph, set_default_graph
 from rosmini.cli import magics
 from rosmini.cli.main import COMMANDS
-from rosmini.cli.verbs import Tool
+from rosmini.cli.verbs import Tool, VerbError
 from rosmini.errors import UsageError
 from rosmini.msgs.std_msgs.msg import String
 
@@ -122,3 +123,31 @@ def test_verbs_without_an_end_take_five_seconds_and_say_so(
     magics.run(shell, "rostopic", f"{line} --duration 1")
     magics.run(shell, "rostopic", "echo -n 2 /chatter")
     assert "of graph time" not in capsys.readouterr().out
+
+
+def test_a_workspace_is_made_in_cells(
+    shell: Any, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As in a terminal; what is printed has no folders in it that are another reader's."""
+    (tmp_path / "ws" / "src").mkdir(parents=True)
+    monkeypatch.chdir(tmp_path / "ws" / "src")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "ws" / "src"))
+    made: Any = magics.run(shell, "catkin_create_pkg", "example_pkg std_msgs rospy")
+    assert made.path == tmp_path / "ws" / "src" / "example_pkg"
+    monkeypatch.chdir(tmp_path / "ws")
+    report: Any = magics.run(shell, "catkin_make", "")
+    assert report.report.built == ["example_pkg"]
+    printed = capsys.readouterr().out
+    assert "Created file example_pkg/package.xml" in printed
+    assert "Base path: .\n" in printed
+    assert "1 built, 0 up to date, 0 failed" in printed
+    assert str(tmp_path) not in printed
+    magics.run(shell, "rosversion", "example_pkg")
+    magics.run(shell, "rosls", "example_pkg")
+    assert capsys.readouterr().out == "0.0.0\nCMakeLists.txt\npackage.xml\nsrc\n"
+    magics.run(shell, "roscd", "example_pkg")
+    assert capsys.readouterr().out == ""
+    assert Path.cwd() == made.path
+    with pytest.raises(VerbError, match="File exists"):
+        monkeypatch.chdir(tmp_path / "ws" / "src")
+        magics.run(shell, "catkin_create_pkg", "example_pkg")
