@@ -89,6 +89,8 @@ class Node(ServiceApi):
         self.master = MasterProxy(graph, self.name, self.is_shutdown)
         self.shutdown_reason: str | None = None
         self.on_exit: Callable[[], object] | None = None
+        self.program: Any = None
+        """The object behind a built-in node, such as a `Simulator`, once it is set up."""
         """Called once, when the node has been shut down and the Master has forgotten it."""
         self.publications: dict[str, Publication] = {}
         self.subscriptions: dict[str, Subscription] = {}

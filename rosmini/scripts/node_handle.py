@@ -100,7 +100,7 @@ class NodeHandle(LaneHandle):
 
     def _set_up(self, node: Node, ready: Waiter) -> None:
         try:
-            self._instance = self._entry(node, *self._others)
+            node.program = self._instance = self._entry(node, *self._others)
         except BaseException as error:
             gone = isinstance(error, LaneExit | ROSInterruptException) or (
                 isinstance(error, ROSException) and node.shutdown_reason is not None

@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 
 from rosmini.geometry.angles import yaw_from_quaternion
 from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.graph import running_graph
 from rosmini.msgs import message_class
 
 from .markers import first_poses, obstacles_of
 from .models import LidarModel, RobotModel
 from .recording import Moved, Recording, RecordingError, since
 from .shapes import simple_parts
+from .simulation import Simulation
 from .world import Obstacle, World
 
 if TYPE_CHECKING:
@@ -45,9 +47,9 @@ class Recorder:
     was reset, a bag in a loop), a new run begins.
 
     Args:
-        graph: where the robot is.
-        simulator: what has `world` and `model`; or give these two. If it has several robots, all that are there now are
-            recorded.
+        graph: where the robot is; the default graph if not given.
+        simulator: what has `world` and `model`; or give these two; or neither, for the one simulation that runs in
+            the graph. If it has several robots, all that are there now are recorded.
         world: what the robot drives in.
         model: which robot it is.
         namespace: that of the robot's topics, and of this node.
@@ -58,13 +60,13 @@ class Recorder:
         scan: what the robots call the topic of their laser: `scan`, or, in Stage, `base_scan`.
 
     Raises:
-        RecordingError: neither a simulator nor a world and a model are given.
+        RecordingError: neither a simulator nor a world and a model are given, and it is not one simulation that runs.
 
     """
 
     def __init__(
         self,
-        graph: Graph,
+        graph: Graph | None = None,
         simulator: Simulated | None = None,
         *,
         world: World | None = None,
@@ -74,6 +76,9 @@ class Recorder:
         things: str | None = None,
         scan: str = SCAN,
     ) -> None:
+        graph = running_graph() if graph is None else graph
+        if simulator is None and world is None and model is None:
+            simulator = _only_simulation(graph)
         robots: dict[str, Any] = {}
         first = ""
         if simulator is not None:
@@ -185,6 +190,21 @@ class Recorder:
     def stamp(self, header: Any) -> int:
         """A header's time [ns]; that of arrival where the sender left it out."""
         return header.stamp.to_nsec() or self.node.clock.now_ns()
+
+
+def _only_simulation(graph: Graph) -> Any:
+    """Return the simulation that runs in a graph. Raises `RecordingError` unless there is exactly one."""
+    found = {name: node.program for name, node in graph.nodes.items() if isinstance(node.program, Simulation)}
+    if len(found) != 1:
+        there = (
+            f"{len(found)} simulations run in this graph ({', '.join(found)})"
+            if found
+            else "no simulation runs"
+        )
+        raise RecordingError(
+            f"{there}: start one (rosrun rosmini_sim simulator), or say what to record: Recorder(graph, simulator)"
+        )
+    return next(iter(found.values()))
 
 
 def _resolved(simulator: Any, namespace: str) -> str:

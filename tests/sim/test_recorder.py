@@ -263,6 +263,19 @@ def test_a_recorder_has_to_know_world_and_robot(graph):
         Recorder(graph, world=WORLD)
 
 
+def test_without_a_simulator_it_finds_the_one_that_runs(graph):
+    simulator = rosrun("rosmini_sim", "simulator", "_world:=room", graph=graph).instance()
+    assert graph.nodes["/simulator"].program is simulator
+    recorder = Recorder(graph)
+    graph.run(1.0)
+    assert recorder.recording().world.name == "room"
+    rosrun("rosmini_sim", "simulator", "__ns:=other", graph=graph).instance()
+    with pytest.raises(
+        RecordingError, match=r"2 simulations run in this graph \(/simulator, /other/simulator\)"
+    ):
+        Recorder(graph, name="second")
+
+
 def test_a_pose_without_an_orientation_is_an_error_at_the_message(graph, robot, recorder):
     robot.truth.publish(Odometry())
     with pytest.raises(CallbackError) as caught:
