@@ -64,6 +64,9 @@ RQT = {
     "bag": "what is in a bag, over time",
     "tf_tree": "the tree of frames",
     "image_view": "the next image on a topic",
+    "publisher": "publish on topics, from a form",
+    "service_caller": "call services, from a form",
+    "logger_level": "how much each node logs, from a form",
 }
 """The tools of rqt, each a verb of `rosmini rqt`."""
 

@@ -6,6 +6,7 @@ In a terminal a picture is a page, which is opened in the browser; in a notebook
 
 from __future__ import annotations
 
+import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +20,7 @@ from .main import RQT
 from .verbs import Call, Result, Tool, VerbError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
     from optparse import Values
 
     from rosmini.viz.view import View
@@ -275,6 +276,48 @@ def image_view(given: Values, call: Call) -> Shown:
             f"no image came on {name} in {given.duration:g} s; `rosmini rostopic info {name}` says who publishes it"
         )
     return _shown(image_picture(heard[0], title=name), "image_view", given, call)
+
+
+# -- what is operated --------------------------------------------------------------------------------------------------
+
+PANELS = {
+    "publisher": (
+        "MessagePublisher",
+        "",
+        "rostopic pub -r 10 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.2}}'",
+    ),
+    "service_caller": ("ServiceCaller", "[SERVICE]", "rosservice call /SERVICE VALUES"),
+    "logger_level": ("LoggerLevel", "[NODE]", "rosservice call /NODE/set_logger_level rosout DEBUG"),
+}
+"""The panels: the class, its words, and the command that does the same in a terminal, where a page operates nothing."""
+
+
+def _panel(verb: str) -> None:
+    """Add the verb that opens a panel in a notebook."""
+    kind, usage, instead = PANELS[verb]
+
+    def parser() -> Parser:
+        text = f"A form in a notebook: %rqt_{verb}. In a terminal do: rosmini {instead}"
+        return Parser("rqt", f"rosmini rqt_{verb} {usage}".rstrip(), text, example=f"  %rqt_{verb}")
+
+    def in_terminal(_words: Sequence[str]) -> int:
+        print(
+            f"rqt_{verb} is a form in a notebook (%rqt_{verb}). In a terminal do:\n  rosmini {instead}",
+            file=sys.stderr,
+        )
+        return 2
+
+    @TOOL.verb(RQT[verb], name=verb, parser=parser, in_terminal=in_terminal)
+    def show(given: Values, call: Call) -> Shown:
+        from rosmini.widgets import rqt
+
+        if len(given.words) > (1 if usage else 0):
+            parser().error(f"rqt_{verb} takes {usage or 'no words'}")
+        return Shown(view=vars(rqt)[kind](call.graph, *map(global_name, given.words)))
+
+
+for _verb in PANELS:
+    _panel(_verb)
 
 
 def _pass(call: Call, seconds: float) -> None:

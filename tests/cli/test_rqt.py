@@ -13,7 +13,7 @@ import pytest
 import rosmini.cli.main as cli
 from rosmini import Graph
 from rosmini.bag import Bag
-from rosmini.cli.rqt import TOOL, Shown
+from rosmini.cli.rqt import PANELS, TOOL, Shown
 from rosmini.cli.verbs import Call, VerbError
 from rosmini.errors import UsageError
 from rosmini.msgs.geometry_msgs.msg import TransformStamped
@@ -93,6 +93,24 @@ def test_every_command_of_its_own_is_a_verb_and_the_reverse() -> None:
     assert set(TOOL.verbs) == {*cli.RQT, "plugins"}
     result = TOOL.alone("msg").run("std_msgs/String")
     assert str(result) == str(TOOL.run("msg", "std_msgs/String"))
+
+
+@pytest.mark.parametrize("line", ["publisher", "service_caller /talker/get_loggers", "logger_level talker"])
+def test_a_panel_opens_in_a_notebook_and_goes_on(graph: Graph, line: str) -> None:
+    panel = shown(graph, line).view
+    assert panel.text.startswith(f"rqt_{line.split(maxsplit=1)[0]}\n")
+    assert f"/rqt_{line.split(maxsplit=1)[0]}" in graph.nodes
+    with pytest.raises(UsageError):
+        shown(graph, f"{line} a b")
+
+
+@pytest.mark.parametrize(("verb", "instead"), [(verb, entry[2]) for verb, entry in PANELS.items()])
+def test_a_terminal_names_the_command_that_does_the_same(
+    verb: str, instead: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main([f"rqt_{verb}"]) == 2
+    assert f"rosmini {instead}" in capsys.readouterr().err
+    assert instead.split(maxsplit=1)[0] in cli.COMMANDS
 
 
 def test_the_table_of_plugins_has_nine_groups_and_names_every_tool_that_is_here() -> None:

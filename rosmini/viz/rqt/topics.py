@@ -97,16 +97,17 @@ def _fields(message: Any, depth: int = 1) -> Iterator[tuple[int, str, str, str]]
                 yield depth + 1, f"[{number}]", kind.partition("[")[0], ""
                 yield from _fields(one, depth + 2)
         else:
-            yield depth, name, kind, _value(value)
+            yield depth, name, kind, value_text(value)
 
 
-def _value(value: Any) -> str:
+def value_text(value: Any) -> str:
+    """Return the value of a field in one short line."""
     if hasattr(value, "to_sec"):
         return f"{value.to_sec():.3f}"
     if isinstance(value, float):
         return f"{value:.4g}"
     if isinstance(value, list | tuple | bytes) and len(value) > MOST_ELEMENTS:
-        head = ", ".join(_value(one) for one in value[:MOST_ELEMENTS])
+        head = ", ".join(value_text(one) for one in value[:MOST_ELEMENTS])
         return f"({head}, ...), {len(value)} elements"
     text = repr(value) if isinstance(value, str | bytes) else str(value)
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."

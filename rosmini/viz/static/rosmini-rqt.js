@@ -1,0 +1,155 @@
+/* A panel of rqt in a live notebook: the kernel sends it as HTML with form controls, and hears what is done with them.
+   A plain script that sets `globalThis.rosminiRqt`; `render({ model, el })` is what anywidget calls.
+
+   To the kernel:   {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "start"} let the graph go on,
+                    {type: "set", key, value} a control was operated.
+   From the kernel: {type: "sheet", html} what the panel shows now, {type: "alive"} the same as before, {type: "said", text},
+                    {type: "still"} nobody drives the graph; {type: "gone", text}.
+
+   What is new is put into the page without touching the rest, so that neither the focus nor what is being typed is lost. */
+
+(() => {
+  "use strict";
+
+  const BEAT_MS = 500;
+  const PATIENCE_MS = 3000;
+  const typed = new WeakSet(); // fields that somebody is writing into
+
+  /* Make an element like another one, with as few changes as that takes. */
+  function morph(old, made) {
+    for (const { name } of [...old.attributes]) if (!made.hasAttribute(name)) old.removeAttribute(name);
+    for (const { name, value } of made.attributes) if (old.getAttribute(name) !== value) old.setAttribute(name, value);
+    if (old.matches("style, .rq-drawing")) {
+      if (old.innerHTML !== made.innerHTML) old.innerHTML = made.innerHTML;
+      return;
+    }
+    const [before, after] = [[...old.childNodes], [...made.childNodes]];
+    after.forEach((node, i) => {
+      const present = before[i];
+      if (!present) old.append(node);
+      else if (present.nodeName !== node.nodeName || present.dataset?.key !== node.dataset?.key) present.replaceWith(node);
+      else if (node.nodeType === Node.ELEMENT_NODE) morph(present, node);
+      else if (present.data !== node.data) present.data = node.data;
+    });
+    before.slice(after.length).forEach((node) => node.remove());
+    settle(old, made);
+  }
+
+  /* What a control shows is no attribute of it any more once it was operated. */
+  function settle(old, made) {
+    if (!old.dataset.key || (old.matches(":focus") && typed.has(old))) return;
+    if (old.type === "checkbox") old.checked = made.hasAttribute("checked");
+    else if (old.nodeName === "SELECT") old.value = (made.querySelector("[selected]") ?? made.options[0])?.value ?? "";
+    else if (old.nodeName === "INPUT" && old.value !== made.getAttribute("value")) old.value = made.getAttribute("value");
+  }
+
+  class Panel {
+    constructor(model, el) {
+      this.model = model;
+      this.heard = performance.now();
+      this.sheets = 0;
+      this.host = document.createElement("div");
+      this.host.innerHTML = model.get("data").html;
+      this.pill = document.createElement("p");
+      this.pill.className = "rq-pill";
+      this.pill.setAttribute("role", "status");
+      this.startButton = document.createElement("button");
+      Object.assign(this.startButton, { type: "button", textContent: "Start the graph", hidden: true });
+      this.startButton.addEventListener("click", () => this.tell({ type: "start" }));
+      el.replaceChildren(this.host, this.pill, this.startButton);
+      this.note("ready");
+      this.receive = (content) => this.hear(content);
+      model.on("msg:custom", this.receive);
+      for (const kind of ["change", "click", "input", "keydown"]) this.host.addEventListener(kind, (event) => this[kind](event));
+      this.timer = setInterval(() => this.beat(), BEAT_MS);
+      this.tell({ type: "hello" });
+    }
+
+    // -- from the hand ------------------------------------------------------------------------------------------------
+
+    change({ target }) {
+      if (!target.dataset?.key || target.nodeName === "BUTTON") return;
+      typed.delete(target);
+      this.set(target.dataset.key, target.type === "checkbox" ? target.checked : target.value);
+    }
+
+    click({ target }) {
+      const button = target.closest("button[data-key]");
+      if (button) this.set(button.dataset.key, true);
+      const picked = target.closest("[data-picks] .rm-node, [data-picks] .rm-topic");
+      const name = picked?.querySelector("title")?.textContent.replace(/^(node|topic) /, "").split(/[ :]/)[0];
+      if (name) this.set(picked.closest("[data-picks]").dataset.picks, name);
+    }
+
+    input({ target }) {
+      typed.add(target);
+    }
+
+    keydown(event) {
+      event.stopPropagation(); // a notebook has commands on single keys
+    }
+
+    set(key, value) {
+      this.tell({ type: "set", key, value });
+    }
+
+    // -- to and from the kernel ---------------------------------------------------------------------------------------
+
+    tell(content) {
+      try {
+        this.model.send(content);
+      } catch (error) {
+        this.note("no kernel: run the cell of this panel again");
+      }
+    }
+
+    hear(content) {
+      this.heard = performance.now();
+      this.startButton.hidden = content.type !== "still";
+      switch (content.type) {
+        case "sheet": {
+          const made = document.createElement("div");
+          made.innerHTML = content.html;
+          morph(this.host, made);
+          this.sheets += 1;
+          this.note("live");
+          break;
+        }
+        case "alive": this.note("live"); break;
+        case "still": this.note("the graph stands still"); break;
+        case "said": this.note(content.text); break;
+        default: this.end(content.text);
+      }
+    }
+
+    end(text) {
+      this.over = true;
+      this.host.querySelector("fieldset")?.setAttribute("disabled", "");
+      this.note(text);
+    }
+
+    note(text) {
+      if (this.pill.textContent !== text) this.pill.textContent = text;
+    }
+
+    beat() {
+      if (document.hidden) this.heard = performance.now(); // nobody looks, and nothing comes
+      if (this.over || document.hidden) return;
+      this.tell({ type: "beat" });
+      if (performance.now() - this.heard > PATIENCE_MS) this.note("waiting for the kernel; if it was restarted, run the cell of this panel again");
+    }
+
+    close() {
+      clearInterval(this.timer);
+      this.model.off("msg:custom", this.receive);
+    }
+  }
+
+  function render({ model, el }) {
+    const panel = new Panel(model, el);
+    el.rosminiPanel = panel; // for those who measure
+    return () => panel.close();
+  }
+
+  globalThis.rosminiRqt = { render };
+})();

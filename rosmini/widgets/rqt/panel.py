@@ -1,0 +1,190 @@
+"""A panel: a tool of rqt with controls, in a live notebook, in a script and in a page."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from rosmini.errors import RosminiError, nearest
+from rosmini.graph import Node
+from rosmini.graph.notebook import kernel_shell
+from rosmini.names import resolve
+from rosmini.viz.book_form import book_form
+from rosmini.viz.svg import element
+from rosmini.viz.view import MimeBundle, View, ViewError
+
+from .markup import page
+from .parts import Bar, Control, Part, Words, controls, text_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import TypeVar
+
+    from rosmini.graph import Graph
+
+    from .parts import Value
+
+    T = TypeVar("T")
+
+
+class PanelNode(Node):
+    """The node of a panel. A new panel of its name takes its place without a complaint: a cell was run again."""
+
+
+class Panel(View):
+    """A tool of rqt on a graph. What a hand does in a page, :meth:`set` does in a script.
+
+    Args:
+        graph: the graph that is looked at.
+        name: of the panel's node, without which another of the kind takes this one's place; the tool's by default.
+
+    """
+
+    tool: ClassVar[str]
+    """What the tool is called: ``rqt_console``."""
+    heading: ClassVar[str]
+    """What rqt's menu calls it: ``Console``."""
+    plugin: ClassVar[str]
+    """What a perspective calls it: ``rqt_console/Console``."""
+
+    def __init__(self, graph: Graph, *, name: str | None = None) -> None:
+        self.graph = graph
+        self.message = ""
+        """What the last thing that was done did, or why it was refused."""
+        self._failed = False
+        self._link: Any = None
+        name = name or self.tool
+        before = graph.nodes.get(resolve(name, "/"))
+        if isinstance(before, PanelNode):
+            before.shutdown("a new panel took its place")
+        self._node = PanelNode(name, graph)
+
+    @property
+    def node(self) -> Node:
+        """What acts on the graph."""
+        return self._node
+
+    # -- for each kind of panel -----------------------------------------------------------------------------------
+
+    @abstractmethod
+    def parts(self) -> Sequence[Part]:
+        """What it shows now, from top to bottom."""
+
+    @abstractmethod
+    def _operate(self, key: Sequence[str], value: Any) -> None:
+        """Do what a control stands for; ``key`` is the control's, split at ``/``."""
+
+    def settings(self) -> dict[str, Any]:
+        """What a perspective keeps of it, by the names that the real plugin has for it."""
+        return {}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Take what a perspective kept. What makes no sense is left out."""
+
+    # -- operating it ---------------------------------------------------------------------------------------------
+
+    def set(self, key: str, value: object = True) -> None:
+        """Operate the control of a key: tick a box, write into a field, press a button.
+
+        Raises:
+            ViewError: there is no such control, or it cannot have this value.
+            RosminiError: what it stands for failed.
+
+        """
+
+        def find() -> Control:
+            known = {control.key: control for control in controls(self.parts())}
+            if key not in known:
+                hint = nearest(key, known) or f"it has {', '.join(sorted(known))}"
+                raise ViewError(f"{self.tool} has no control {key!r:.80}; {hint}")
+            return known[key]
+
+        self._try(lambda: self._set(self._on_hub(find), value))
+
+    def _set(self, control: Control, given: object) -> None:
+        value: Value = control.taken(given)
+        self._require()
+        self._operate(control.key.split("/"), value)
+
+    def _try(self, action: Callable[[], T]) -> T:
+        """Do it; keep what is wrong with it as the message."""
+        self.message, self._failed = "", False
+        try:
+            return action()
+        except RosminiError as error:
+            self.message, self._failed = str(error), True
+            raise
+
+    @property
+    def gone(self) -> str | None:
+        """Why there is nothing to operate any more, or None."""
+        return f"the node {self.node.name} was shut down" if self.node.is_shutdown() else None
+
+    def _require(self) -> None:
+        if self.gone is not None:
+            raise ViewError(f"{self.tool} has ended: {self.gone}. Open it again.")
+
+    def close(self) -> None:
+        """End it, as one closes a window. Harmless when repeated."""
+        self.node.shutdown("the panel was closed")
+
+    def _on_hub(self, function: Callable[[], T]) -> T:
+        return self.graph.scheduler.on_hub(function)
+
+    # -- showing --------------------------------------------------------------------------------------------------
+
+    def _all(self) -> list[Part]:
+        found = list(self.parts())
+        why = self.gone
+        if why is not None:
+            found.append(Words(why, is_bad=True))
+        elif self.message:
+            found.append(Words(self.message, is_bad=self._failed))
+        return found
+
+    @property
+    def text(self) -> str:
+        """The name of the tool, and what it shows."""
+        return f"{self.tool}\n{self._on_hub(lambda: text_of(self._all()))}".rstrip()
+
+    @property
+    def alt(self) -> str:
+        """The panel in a sentence or two."""
+        first = self.text.split("\n")[1:4]
+        return f"The panel {self.heading} of rqt. {'; '.join(' '.join(line.split()) for line in first)}"
+
+    def markup(self, *, live: bool) -> str:
+        """What it shows, as HTML."""
+        return self._on_hub(lambda: page(self.heading, self._all(), live=live))
+
+    def _images(self) -> dict[str, bytes]:
+        return {}
+
+    @property
+    def html(self) -> str:
+        """The panel as a page has it: as it stands, and nothing in it can be operated."""
+        return element("figure", self.markup(live=False), class_="rosmini-figure", style="margin:0.5em 0")
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> MimeBundle:
+        """A live widget in a notebook; in the book, and where no kernel runs, the page."""
+        if book_form() or kernel_shell() is None:
+            return super()._repr_mimebundle_(include, exclude)
+        data, metadata = self.link.mimebundle()
+        return {**data, "text/plain": self.text}, metadata
+
+    @property
+    def link(self) -> Any:
+        """What goes between this panel and its page in a live notebook. Raises `ViewError` without anywidget."""
+        if self._link is None:
+            from .panel_link import PanelLink
+
+            self._link = PanelLink(self)
+        return self._link
+
+
+def bar(*cells: str | Control) -> Bar:
+    """Return a bar of these controls and words."""
+    return Bar(cells)

@@ -1,0 +1,142 @@
+"""A panel of rqt in a live notebook: what goes between the kernel and the page that shows it.
+
+As with the view of a simulation (`rosmini.widgets.view_link`), what a page sends goes through the scheduler's inbox,
+from whatever thread it comes, and everything else happens in the graph. A page is sent the panel's HTML when that has
+changed, while somebody looks, a few times a second.
+"""
+
+from __future__ import annotations
+
+import time
+from contextlib import suppress
+from functools import partial
+from typing import TYPE_CHECKING, Any, Protocol
+
+from rosmini.errors import RosminiError
+from rosmini.viz.view import MimeBundle, ViewError
+from rosmini.widgets.page import module
+from rosmini.widgets.teleop import TeleopError
+
+try:
+    from rosmini.widgets.live import LEFT_S, PageWidget, answer_in_subshells
+except TeleopError as error:
+    raise ViewError(
+        "a panel in a live notebook needs anywidget, which is not installed here: `pip install 'rosmini[book]'`. "
+        "panel.set() and the panel's own functions work without it."
+    ) from error
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rosmini.graph import Graph, Node
+
+SCRIPTS = ("rosmini-rqt.js",)
+LOOK_S = 0.2
+"""How often what a panel shows is looked at [s]."""
+QUIET_S = 0.6
+"""How often a page learns that the kernel answers, where nothing has changed [s]."""
+
+
+class LinkedPanel(Protocol):
+    """A panel, as its page sees it: :class:`~rosmini.widgets.rqt.panel.Panel`."""
+
+    graph: Graph
+
+    @property
+    def node(self) -> Node:
+        """The panel's own."""
+
+    @property
+    def gone(self) -> str | None:
+        """Why there is nothing to operate any more."""
+
+    def set(self, key: str, value: object = True) -> None:
+        """Operate a control."""
+
+    def markup(self, *, live: bool) -> str:
+        """What it shows."""
+
+
+class PanelLink:
+    """Takes what the page of a panel sends, and sends it what it shows. `clock` is the wall's, in seconds."""
+
+    def __init__(self, panel: LinkedPanel, clock: Callable[[], float] = time.monotonic) -> None:
+        self.panel = panel
+        self._clock = clock
+        self._heard = clock()
+        self._last_sent = 0.0
+        self._last = panel.markup(live=True)
+        self._cancel: Callable[[], None] | None = None
+        self.widget = PageWidget(_esm=module(SCRIPTS, "rosminiRqt"), data={"html": self._last})
+        answer_in_subshells(self.widget.comm)
+        self.widget.on_msg(self.receive)
+
+    def mimebundle(self) -> MimeBundle:
+        """The widget for Jupyter."""
+        return self.widget._repr_mimebundle_() or ({}, {})
+
+    def receive(self, _widget: object, content: dict[str, Any], _buffers: object) -> None:
+        """Take a message of the page, in any thread: see `rosmini-rqt.js`."""
+        self._heard = self._clock()
+        panel, kind = self.panel, content.get("type")
+        graph, node = panel.graph, panel.node
+        if panel.gone is not None:
+            self._send({"type": "gone", "text": panel.gone})
+            return
+        try:
+            if kind in ("set", "start") and not graph.is_live:
+                graph.live()
+        except RosminiError as error:
+            self._send({"type": "said", "text": str(error)})
+            return
+        if not graph.is_live and not graph.scheduler.driven:
+            self._send({"type": "still"})
+            return
+        graph.scheduler.call_soon_threadsafe(
+            lambda: node.spawn(f"{node.name} page", partial(self._take, kind, content))
+        )
+
+    # -- in the graph --------------------------------------------------------------------------------------------
+
+    def _take(self, kind: str | None, content: dict[str, Any]) -> None:
+        if kind == "set":
+            with suppress(RosminiError):  # the panel shows what is wrong
+                self.panel.set(str(content.get("key")), content.get("value"))
+        if kind == "hello":
+            self._last = ""
+        self._look(at_once=kind != "beat")
+
+    def _look(self, *, at_once: bool = False) -> None:
+        """Send what is new, and come again."""
+        if self._cancel is not None:
+            if not at_once:
+                return
+            self._cancel()
+        self._cancel = None
+        now = self._clock()
+        if self.panel.gone is not None:
+            self._send({"type": "gone", "text": self.panel.gone})
+            return
+        if now - self._heard > LEFT_S:
+            return
+        if at_once or now - self._last_sent >= LOOK_S:
+            self._show(now)
+        scheduler = self.panel.graph.scheduler
+        self._cancel = scheduler.call_at(scheduler.now_ns() + round(LOOK_S * 1e9), self._due).cancel
+
+    def _due(self) -> None:
+        self._cancel = None
+        self.panel.node.guarded(self._look, what="panel")
+
+    def _show(self, now: float) -> None:
+        html = self.panel.markup(live=True)
+        if html != self._last:
+            self._send({"type": "sheet", "html": html})
+        elif now - self._last_sent >= QUIET_S:
+            self._send({"type": "alive"})
+        else:
+            return
+        self._last, self._last_sent = html, now
+
+    def _send(self, content: dict[str, Any]) -> None:
+        self.widget.send(content)

@@ -1,0 +1,145 @@
+"""What goes between a panel and its page, with the page played by the test and the wall's clock set by it."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from types import SimpleNamespace
+
+import pytest
+
+from rosmini.errors import RosminiError
+from rosmini.viz.view import ViewError
+from rosmini.widgets.rqt import MessagePublisher
+from rosmini.widgets.rqt.panel_link import LOOK_S, PanelLink
+
+
+class Page:
+    """A page of a panel: says what it is told to, and keeps what it is sent."""
+
+    def __init__(self, panel) -> None:
+        self.panel, self.graph = panel, panel.graph
+        self.wall = 100.0
+        self.sent: list[dict] = []
+        self.lives = 0
+        panel.graph.live = self.live
+        self.link = PanelLink(panel, clock=lambda: self.wall)
+        self.link.widget.send = lambda content, buffers=None: self.sent.append(content)
+
+    def live(self) -> None:
+        self.lives += 1
+        self.graph._live = SimpleNamespace(running=True, stop=lambda: None)
+
+    def say(self, kind: str, **more) -> None:
+        self.link.receive(self.link.widget, {"type": kind, **more}, [])
+
+    def run(self, seconds: float, *, beats: bool = True) -> None:
+        for i in range(round(seconds * 20)):
+            if beats and i % 10 == 0:
+                self.say("beat")
+            self.wall += 0.05
+            self.graph.run(0.05)
+
+    def kinds(self) -> list[str]:
+        return [content["type"] for content in self.sent]
+
+
+@pytest.fixture
+def page(graph):
+    return Page(MessagePublisher(graph))
+
+
+def test_what_the_page_does_is_done_and_shown(page):
+    page.say("set", key="add")
+    page.run(0.1)
+    assert list(page.panel.publications) == [1]
+    assert page.lives == 1
+    assert "publish /cmd_vel" in page.sent[0]["html"]
+
+
+def test_what_is_refused_is_shown_too(page):
+    page.say("set", key="rate", value="-1")
+    page.run(0.1)
+    assert "is a number from 0 to 1000" in page.sent[-1]["html"]
+
+
+def test_a_sheet_is_sent_when_something_changed_and_else_a_sign_of_life(page):
+    page.live()
+    page.say("hello")
+    page.run(0.5)
+    assert page.kinds() == ["sheet"]
+    page.run(3.0)
+    assert set(page.kinds()[1:]) == {"alive"}
+    page.panel.add("/x", "std_msgs/Float64")
+    page.run(2 * LOOK_S)
+    assert page.kinds()[-1] == "sheet"
+
+
+def test_nobody_looks_and_nothing_is_sent(page):
+    page.live()
+    page.say("hello")
+    page.run(10, beats=False)
+    before = len(page.sent)
+    page.panel.add("/x", "std_msgs/Float64")
+    page.run(2, beats=False)
+    assert len(page.sent) == before
+    page.run(1)
+    assert len(page.sent) > before
+
+
+def test_a_graph_that_stands_still_stays_so_until_something_is_done(page):
+    page.say("hello")
+    page.say("beat")
+    assert page.kinds() == ["still", "still"]
+    assert page.lives == 0
+    page.say("start")
+    assert page.lives == 1
+
+
+def test_where_the_graph_cannot_go_on_by_itself_the_page_is_told(page):
+    def live():
+        raise RosminiError("no event loop")
+
+    page.graph.live = live
+    page.say("start")
+    assert page.sent == [{"type": "said", "text": "no event loop"}]
+
+
+def test_messages_may_come_from_any_thread(page):
+    page.live()
+    thread = threading.Thread(target=page.say, args=("set",), kwargs={"key": "add"})
+    thread.start()
+    thread.join()
+    page.run(0.1)
+    assert list(page.panel.publications) == [1]
+
+
+def test_the_end_is_told(page):
+    page.live()
+    page.say("hello")
+    page.run(0.1)
+    page.panel.close()
+    page.say("beat")
+    assert page.sent[-1] == {"type": "gone", "text": "the node /rqt_publisher was shut down"}
+
+
+def test_a_notebook_gets_a_widget_and_a_page_gets_html(page, monkeypatch):
+    monkeypatch.setattr("rosmini.widgets.rqt.panel.kernel_shell", object)
+    monkeypatch.delenv("ROSMINI_DISPLAY", raising=False)
+    data, _ = page.panel._repr_mimebundle_()
+    assert "application/vnd.jupyter.widget-view+json" in data
+    assert data["text/plain"] == page.panel.text
+    monkeypatch.setenv("ROSMINI_DISPLAY", "book")
+    data, _ = page.panel._repr_mimebundle_()
+    assert set(data) == {"text/plain", "text/html"}
+    assert "disabled" in data["text/html"]
+
+
+def test_without_anywidget_it_is_said_what_to_install(graph, monkeypatch):
+    for name in ("rosmini.widgets.live", "rosmini.widgets.rqt.panel_link"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    panel = MessagePublisher(graph)
+    with pytest.raises(ViewError, match="needs anywidget"):
+        _ = panel.link
+    panel.add("/x", "std_msgs/Float64")
