@@ -111,17 +111,17 @@ class ProcessHandle(LaneHandle):
                 output.close()
         self._has_started = True
         self._guard.started(self._process.pid)
-        self._look_again()
+        self._schedule_poll()
 
-    def _look_again(self) -> None:
-        self.scheduler.call_at(self.scheduler.now_ns() + POLL_NS, self._look)
+    def _schedule_poll(self) -> None:
+        self.scheduler.call_at(self.scheduler.now_ns() + POLL_NS, self._poll)
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         process = self._process
         if process is None or not self._running:
             return
         if process.poll() is None:
-            self._look_again()
+            self._schedule_poll()
         else:
             self._guard.ended(process.pid)
             self._has_ended(process.returncode)

@@ -45,7 +45,7 @@ class Device:
     """
 
     always = True
-    """False for what may be skipped while nobody wants it: then `wanted` is asked first."""
+    """False if it may be skipped while nobody needs it: then `wanted` is asked first."""
     order: ClassVar[float] = 100.0
     """TurtleBot3's: time 0, drive 10, transforms 20, joints 30, truth 40, laser 50, IMU 60, battery 70, bumper 75,
     board 80, cameras 90."""
@@ -60,11 +60,11 @@ class Device:
         self.rate = float(rate)
 
     def wanted(self) -> bool:
-        """Return whether anybody wants it; only asked if not `always`."""
+        """Return whether anybody needs it; only asked if not `always`."""
         return True
 
     def due(self, stamp: Stamp, number: int, /) -> None:
-        """Do what is due, for the `number`th time from 1 on; what was not wanted is counted too."""
+        """Do what is due, for the `number`th time, counted from 1; skipped instants are counted too."""
 
     def reset(self) -> None:
         """Return to the initial state, because the world does; a sensor need not do anything."""
@@ -87,16 +87,16 @@ class Device:
 
 @dataclass(frozen=True)
 class HostState:
-    """Everything a host, its engine and its devices go on from. It can be pickled."""
+    """Everything that a host, its engine and its devices need to continue. It can be pickled."""
 
     time_ns: int
     zero_ns: int
     next_ns: int | None
     engine: Any
-    beats: dict[float, tuple[int, int]]
-    """Rate: the start, and the number of the next instant."""
+    instants: dict[float, tuple[int, int]]
+    """For each rate: its start, and the number of its next instant."""
     devices: dict[str, tuple[int, Any]]
-    """Name: how many beats came before its first, and its own state."""
+    """For each name: how many instants of its rate came before its first, and its own state."""
 
 
 class Host:
@@ -122,7 +122,7 @@ class Host:
         self._speed = _speed(speed)
         self._paused = paused
         self._time_ns = self._zero_ns = round(engine.now * SECOND)  # since the engine began
-        self._clock_ns = self.clock.now_ns()  # what the clock showed at _time_ns
+        self._clock_ns = self.clock.now_ns()  # the clock's time at _time_ns
         self._groups: dict[float, DeviceGroup] = {}
         self._order: tuple[DeviceGroup, ...] = ()
         self._devices: dict[str, Device] = {}
@@ -132,7 +132,7 @@ class Host:
         self._ended = False
         self._serving = False
         self.on_time: list[Callable[[], object]] = []
-        """Called when time was paused, resumed, stepped or set."""
+        """Called after time was paused, resumed, stepped or set."""
         node.on_shutdown(self.end)
 
     def __repr__(self) -> str:
@@ -165,7 +165,7 @@ class Host:
     @speed.setter
     def speed(self, speed: float) -> None:
         speed = _speed(speed)
-        self._hold()
+        self._rebase()
         self._speed = speed
         self._plan()
 
@@ -184,7 +184,7 @@ class Host:
             if self._cancel is not None and self._due_ns <= self._at():  # its event has not been reached yet
                 self._forget()
                 self._serve(self._due_ns)
-            self._hold()
+            self._rebase()
             self._paused = True
             self._forget()
             self.tell_time()
@@ -198,9 +198,11 @@ class Host:
             self.tell_time()
 
     def step(self, seconds: float) -> None:
-        """Let so much of the world's time pass at once. Raises `RosminiError` unless it is paused."""
+        """Let `seconds` of the world's time pass at once. Raises `RosminiError` unless it is paused."""
         if not self._paused:
-            msg = f"the world {self.engine.world.name!r} can only be stepped while its time stands: pause it first"
+            msg = (
+                f"the world {self.engine.world.name!r} can only be stepped while it is paused: pause it first"
+            )
             raise RosminiError(msg)
         if not 0 < seconds < float("inf"):
             msg = f"a step has to take a positive number of seconds, not {seconds}"
@@ -219,13 +221,13 @@ class Host:
         self.tell_time()
 
     def tell_time(self) -> None:
-        """Call all of `on_time`."""
+        """Call all callbacks of `on_time`."""
         for callback in self.on_time:
             callback()
 
     def reset_time(self) -> None:
-        """Start the world's time at 0 again; with `from_zero` stamps too. The devices go on counting."""
-        self._hold()
+        """Start the world's time at 0 again; with `from_zero` stamps too. The devices keep their counts."""
+        self._rebase()
         now = self._zero_ns = self._time_ns
         for group in self._order:
             group.skip(now)
@@ -238,19 +240,19 @@ class Host:
         self.tell_time()
 
     def end(self) -> None:
-        """Stop for good: nothing is due any more. The devices stay open. Harmless when repeated."""
+        """Stop for good: nothing is due after this. The devices stay open. Harmless when repeated."""
         self._ended = True
         self._forget()
 
     def _at(self) -> int:
-        """The time now [ns since the engine began]."""
+        """Return the time now [ns since the engine began]."""
         if self._paused:
             return self._time_ns
         passed = self.clock.now_ns() - self._clock_ns
         return self._time_ns + (passed if self._speed == 1 else round(passed * self._speed))
 
-    def _hold(self) -> None:
-        """Count from now on."""
+    def _rebase(self) -> None:
+        """Make now the instant from which the world's time is counted."""
         self._time_ns = self._at()
         self._clock_ns = self.clock.now_ns()
         self.catch_up()
@@ -261,7 +263,7 @@ class Host:
         return divmod(self._on_clock(time_ns), SECOND)
 
     def _on_clock(self, time_ns: int) -> int:
-        """What the clock shows then."""
+        """Return the clock's time at an instant of the world."""
         if self._paused:
             return self.clock.now_ns()
         ahead = time_ns - self._time_ns
@@ -319,9 +321,9 @@ class Host:
         return self._devices[name]
 
     def count(self, device: Device) -> int:
-        """The number of a device's instants up to the engine's now: what the last `due` got."""
+        """Return the number of a device's instants up to the engine's now: what the last `due` was given."""
         group = self._groups[device.rate]
-        # the engine may be a nanosecond short of an instant, whose number is a fraction of one
+        # the engine may be a nanosecond short of an instant, and would miss it
         return group.after(round(self.engine.now * SECOND) + 1) - 1 - group.before[device.name]
 
     def rng(self, name: str) -> np.random.Generator:
@@ -336,7 +338,7 @@ class Host:
             device.reset()
 
     def _arrange(self) -> None:
-        """Sort the groups: devices have come or gone."""
+        """Sort the groups again, after a device was added or removed."""
         groups = sorted(self._groups.values(), key=lambda group: group.devices[0].order)
         self._order = tuple(groups)
         self._plan()
@@ -362,7 +364,7 @@ class Host:
         self._cancel = self.clock.call_at(self._on_clock(due_ns), self._wake)
 
     def _wake(self) -> None:
-        """Go on. An event without a lane: nothing in it blocks."""
+        """Serve what is due. This event has no lane: nothing in it blocks."""
         due = self._due_ns
         self._cancel = None
         try:
@@ -411,7 +413,7 @@ class Host:
             zero_ns=self._zero_ns,
             next_ns=None if self._cancel is None else self._due_ns,
             engine=self.engine.state(),
-            beats={rate: (group.start_ns, group.number) for rate, group in self._groups.items()},
+            instants={rate: (group.start_ns, group.number) for rate, group in self._groups.items()},
             devices={
                 name: (self._groups[device.rate].before[name], device.state())
                 for name, device in self._devices.items()
@@ -419,7 +421,7 @@ class Host:
         )
 
     def restore(self, state: HostState) -> None:
-        """Go on from a saved state. Raises `RosminiError` for what is none, or is of other devices."""
+        """Continue from a saved state. Raises `RosminiError` if it is not one, or is of other devices."""
         if not isinstance(state, HostState):
             what = type(state).__name__
             raise RosminiError(
@@ -433,9 +435,9 @@ class Host:
                 f"(missing: {', '.join(gone) or 'none'}; additional: {', '.join(new) or 'none'})"
             )
             raise RosminiError(msg)
-        if set(state.beats) != set(self._groups):
+        if set(state.instants) != set(self._groups):
             then, now = (
-                ", ".join(f"{rate:g}" for rate in sorted(each)) for each in (state.beats, self._groups)
+                ", ".join(f"{rate:g}" for rate in sorted(each)) for each in (state.instants, self._groups)
             )
             msg = f"the devices of the host {self.node.name} have other rates ({now} Hz) than in the state ({then} Hz)"
             raise RosminiError(msg)
@@ -446,10 +448,10 @@ class Host:
             device = self._devices[name]
             self._groups[device.rate].before[name] = before
             device.restore(own)
-        self._devices = {name: self._devices[name] for name in state.devices}  # in the order of then
-        self._groups = {rate: self._groups[rate] for rate in state.beats}
+        self._devices = {name: self._devices[name] for name in state.devices}  # in the saved order
+        self._groups = {rate: self._groups[rate] for rate in state.instants}
         for rate, group in self._groups.items():
-            group.start_ns, number = state.beats[rate]
+            group.start_ns, number = state.instants[rate]
             group.to(number)
             group.devices = [each for each in self._devices.values() if each.rate == rate]
             group.sort()
@@ -464,6 +466,6 @@ class Host:
 
 def _speed(speed: float) -> float:
     if not 0 < speed < float("inf"):
-        msg = f"a world's speed has to be a positive number of its seconds in one of the clock, not {speed}"
+        msg = f"a world's speed is its seconds per second of the clock, a positive number, not {speed}"
         raise RosminiError(msg)
     return speed

@@ -33,14 +33,15 @@ from rosmini.sim.world import Obstacle, World, WorldError
 
 from .bodies import AT_REST, Surface, Velocity
 from .contacts import Touch
+from .cross_sections import obstacle_part, robot_parts
 from .engine_state import EngineState, RobotState
 from .ground import Ground
 from .instant import STEP, to_ns
+from .laser_view import LaserView
 from .odometry import RealWheels
 from .placing import free_pose
 from .population import Population
 from .robot import Robot, make_robot
-from .sights import Sights, parts_of, parts_of_robot
 from .stepper import VIEW, Stepper
 from .sweep import Sweeps
 
@@ -83,14 +84,14 @@ class Engine:
         for obstacle in world.obstacles:
             if not obstacle.fixed:
                 self._all.take_in(obstacle)
-        self._stepper.look_again()
+        self._stepper.invalidate_clearance()
 
     def _begin(self, world: World) -> None:
         """Be in a world in which there is nothing yet but what is fixed."""
         self._world: World | None = world
         self._plain = world
         self._obstacles = {obstacle.name: obstacle for obstacle in world.obstacles}
-        self._all.sights = Sights(world)
+        self._all.laser_view = LaserView(world)
         self.contacts.ground = Ground(world)
         for obstacle in world.obstacles:
             if obstacle.fixed:
@@ -109,9 +110,9 @@ class Engine:
         return self._all.now
 
     @property
-    def sights(self) -> Sights:
+    def laser_view(self) -> LaserView:
         """What lasers see."""
-        return self._all.sights
+        return self._all.laser_view
 
     @property
     def changed(self) -> int:
@@ -164,7 +165,7 @@ class Engine:
         del self.robots[name]
         self.trails.forget(name)
         self.contacts.remove(name)
-        self.sights.forget_viewer(name)
+        self.laser_view.forget_viewer(name)
         self._changed(gone.pose, gone.model.reach)
 
     def robot(self, name: str) -> Robot:
@@ -314,7 +315,7 @@ class Engine:
         self.trails.forget(name)
         self.contacts.remove(name)
         self.movers.pop(name, None)
-        self.sights.remove(name)
+        self.laser_view.remove(name)
         self._changed(pose, self.contacts.reach_of(gone))
 
     def obstacle(self, name: str) -> Obstacle:
@@ -454,7 +455,7 @@ class Engine:
     def scenery(self, name: str, lidar: LidarModel | None = None) -> tuple[Floats, Floats]:
         """What the laser of a robot can see in the frame map, other robots too: segments (n, 4) and discs (m, 3)."""
         viewer = self.robot(name)
-        return self.sights.of(
+        return self.laser_view.of(
             lidar or viewer.model.laser,
             viewer,
             list(self.robots.values()),
@@ -490,9 +491,9 @@ class Engine:
 
         What belongs to the robot `name` is left out: no camera sees its own robot.
         """
-        found = [parts_of(o) for o in self.world.obstacles if o.fixed]
-        found += [parts_of(crate.obstacle, crate.pose) for crate in self.contacts.crates if crate.shown]
-        found += [parts_of(mover.obstacle, mover.pose) for mover in self.movers.values()]
+        found = [obstacle_part(o) for o in self.world.obstacles if o.fixed]
+        found += [obstacle_part(crate.obstacle, crate.pose) for crate in self.contacts.crates if crate.shown]
+        found += [obstacle_part(mover.obstacle, mover.pose) for mover in self.movers.values()]
         return found + [
-            part for each in self.robots.values() if each.name != name for part in parts_of_robot(each)
+            part for each in self.robots.values() if each.name != name for part in robot_parts(each)
         ]

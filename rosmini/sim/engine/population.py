@@ -10,9 +10,9 @@ from rosmini.sim.world import Obstacle, World
 from .bodies import Crate
 from .contacts import Contacts
 from .instant import Instant
+from .laser_view import LaserView
 from .movers import Mover
 from .robot import Robot, Thing
-from .sights import Sights
 from .trails import Trails
 
 
@@ -25,7 +25,7 @@ class Population:
         self.movers: dict[str, Mover] = {}
         self.contacts = Contacts(self.instant)
         self.trails = Trails()
-        self.sights = Sights(World("void"))
+        self.laser_view = LaserView(World("void"))
         self.changed = 0
         """How often something came, went, or was put elsewhere."""
 
@@ -50,7 +50,7 @@ class Population:
             self.note(mover)
         else:
             self.contacts.ground.insert(obstacle)
-            self.sights.insert(obstacle)
+            self.laser_view.insert(obstacle)
 
     @property
     def now(self) -> float:

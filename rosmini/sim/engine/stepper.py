@@ -81,7 +81,7 @@ class Stepper:
         self._disturbed = False
         self._haste = 0.0
         self._remembers = False
-        self.look_again()
+        self.invalidate_clearance()
 
     # -- what happens when ---------------------------------------------------------------------------------------
 
@@ -129,8 +129,8 @@ class Stepper:
         if robot.haste > self._haste or robot.room_left(self._instant.ns) < robot.haste * left:
             self._plan_next()
 
-    def look_again(self) -> None:
-        """Learn that something came, went, or was put elsewhere."""
+    def invalidate_clearance(self) -> None:
+        """Note that something came, went, or was put elsewhere."""
         self._drivers = self._all.drivers
         self._change_ns = None
         self._plan_next()
@@ -144,7 +144,7 @@ class Stepper:
         self._group = None
         for each in self._all.moving:
             each.room = 0.0
-        self.look_again()
+        self.invalidate_clearance()
 
     # -- who may touch anything ----------------------------------------------------------------------------------
 
@@ -358,4 +358,4 @@ class Stepper:
         for body in bodies:
             if isinstance(body.owner, (Robot, Mover)):
                 body.owner.room = 0.0
-        self.look_again()
+        self.invalidate_clearance()

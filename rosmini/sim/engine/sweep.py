@@ -26,7 +26,7 @@ from rosmini.sim.models import LidarModel
 from rosmini.sim.sensors.lidar import measured
 
 from . import sweep_kernel
-from .sights import Cut, at_poses, cut_obstacle, stacked
+from .cross_sections import CrossSection, at_each_pose, obstacle_section, stack
 from .sweep_kernel import TOGETHER
 from .trails import Later, Trails, between
 
@@ -138,11 +138,11 @@ class Sweeps:
             if k != own:
                 a, b, d, e = sides[k]
                 template = (segments[a:b], discs[d:e])
-                cuts.append(at_poses(template, between(*self._track(k), middles)))
+                cuts.append(at_each_pose(template, between(*self._track(k), middles)))
                 rays.append(tuple(np.repeat(spans, len(part), axis=0) for part in template))
         segment_rays, disc_rays = (np.vstack(each) for each in zip(*rays, strict=True))
         ranges = raycast.raycast_each(
-            *stacked(cuts), places, angles, reach, segment_rays=segment_rays, disc_rays=disc_rays
+            *stack(cuts), places, angles, reach, segment_rays=segment_rays, disc_rays=disc_rays
         )
         return measured(lidar, ranges if noise is None else ranges + noise)
 
@@ -194,14 +194,16 @@ class Sweeps:
             if crate.shown:
                 yield crate.obstacle.name, crate.pose, crate.reach, None
 
-    def _still(self, viewer: Robot, lidar: LidarModel) -> Cut:
+    def _still(self, viewer: Robot, lidar: LidarModel) -> CrossSection:
         """Return what the laser can see of what did not move."""
         robots, moved, moment = self._standing, 0.0, (self._moment, "")
         own = self._numbers.get(viewer.name)
         if own is not None:
             robots, moment = [viewer, *robots], (self._moment, viewer.name)
             moved = 2 * (self._around[own, 2] + math.hypot(*lidar.mount[:2]))
-        return self._population.sights.of(lidar, viewer, robots, self._crates, self._movers, moment, moved)
+        return self._population.laser_view.of(
+            lidar, viewer, robots, self._crates, self._movers, moment, moved
+        )
 
     def _outlines(self, height: float) -> tuple[Ints, Floats, Floats]:
         """Return the outlines of what moved, each in its own frame: which rows are whose, segments and discs."""
@@ -211,15 +213,15 @@ class Sweeps:
             for column, part in ((0, 0), (2, 1)):
                 sides[:, column + 1] = np.cumsum([len(cut[part]) for cut in cuts])
                 sides[1:, column] = sides[:-1, column + 1]
-            self._cuts[height] = (sides, *stacked(cuts))
+            self._cuts[height] = (sides, *stack(cuts))
         return self._cuts[height]
 
-    def _outline(self, name: str, height: float) -> Cut:
+    def _outline(self, name: str, height: float) -> CrossSection:
         everything = self._population
         if name in everything.robots:
-            return everything.sights.template(everything.robots[name].model, height)
+            return everything.laser_view.template(everything.robots[name].model, height)
         owner = everything.movers[name] if name in everything.movers else everything.contacts.loose[name]
-        return cut_obstacle(owner.obstacle, height, (0.0, 0.0, 0.0))
+        return obstacle_section(owner.obstacle, height, (0.0, 0.0, 0.0))
 
 
 def _around(poses: Sequence[Pose], reach: float) -> tuple[float, float, float]:

@@ -6,8 +6,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rosmini.sim.engine.laser_view import LaserView
 from rosmini.sim.engine.nearby import Nearby, boxes_around
-from rosmini.sim.engine.sights import Sights
 from rosmini.sim.models import BURGER
 from rosmini.sim.world import World
 
@@ -52,9 +52,9 @@ def test_a_laser_sees_the_same_walls_wherever_it_jumps_in_a_large_world():
     middles, half = rng.uniform(-30, 30, (3000, 2)), rng.uniform(-0.5, 0.5, (3000, 2))
     half[:5] *= 40.0
     world = World("large", walls=np.hstack([middles - half, middles + half]))
-    sights, radius = Sights(world), BURGER.laser.range_max
+    view, radius = LaserView(world), BURGER.laser.range_max
     for x, y in rng.uniform(-35, 35, (20, 2)).tolist():
-        found, _ = sights.fixed_around("burger", x, y, 0.1, radius)
+        found, _ = view.fixed_around("burger", x, y, 0.1, radius)
         begin, along = world.walls[:, :2], world.walls[:, 2:] - world.walls[:, :2]
         part = (((np.array([x, y]) - begin) * along).sum(axis=1) / (along * along).sum(axis=1)).clip(0, 1)
         away = np.linalg.norm(begin + part[:, None] * along - (x, y), axis=1)

@@ -12,7 +12,7 @@ import pytest
 from rosmini.geometry.poses import arc
 from rosmini.geometry.raycast import raycast
 from rosmini.sim.engine import Engine
-from rosmini.sim.engine.sights import cut_model
+from rosmini.sim.engine.cross_sections import robot_section
 from rosmini.sim.models import BURGER
 from rosmini.sim.motion import Walk
 from rosmini.sim.world import Box, Cylinder, Obstacle, World
@@ -123,7 +123,7 @@ def test_another_robot_is_seen_where_it_is_at_each_beams_time():
     engine.command("other", 0.22, 0.0)
     engine.advance(1.0)
     ranges, _ = engine.sweep("r", 0.2 / 360)
-    _, discs = cut_model(BURGER, LASER.mount[2])
+    _, discs = robot_section(BURGER, LASER.mount[2])
     exact = np.full(360, np.inf)
     for i in BEAMS:
         x, y, theta = arc(other.pose, 0.22, 0.0, -i * 0.2 / 360)

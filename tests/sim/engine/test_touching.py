@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from rosmini.sim.engine import Engine, RobotGone
@@ -138,6 +138,7 @@ def test_a_laser_that_looks_ahead_and_sits_askew_sees_what_is_there():
 
 @given(st.floats(0.01, 0.45))
 def test_a_laser_sees_the_circle_of_a_ball_at_its_own_height(height):
+    assume(abs(height - 0.4) > 1e-9)  # at its very top the circle is a point
     ball = Obstacle("ball", Sphere(0.2), (1.0, 0.0, 0.0))
     assert ball.height == 0.4
     engine = make(World("ball", (ball,)), burger=(0.0, 0.0, 0.0))

@@ -20,7 +20,7 @@ from rosmini.geometry.angles import yaw_from_quaternion
 from rosmini.graph import Graph
 from rosmini.msgs import message_class, service_class
 from rosmini.scripts import run_source
-from rosmini.sim.engine import RobotGone, sights
+from rosmini.sim.engine import RobotGone, laser_view
 from rosmini.sim.stage import StageError
 from rosmini.sim.stage.node import Stageros
 from rosmini.sim.world import WorldError
@@ -199,15 +199,15 @@ def test_a_world_that_is_paused_in_stages_window_runs_where_there_is_none(bench)
     assert len(ours.heard["clock"]) == 10
 
 
-def test_many_robots_with_many_lasers_are_made_a_crowd_once_a_height_and_step(bench, monkeypatch):
+def test_many_robots_with_many_lasers_are_placed_once_a_height_and_step(bench, monkeypatch):
     made = []
 
-    class Counted(sights.Crowd):
+    class Counted(laser_view.RobotSections):
         def __init__(self, models, *args):
             made.append(len(models))
             super().__init__(models, *args)
 
-    monkeypatch.setattr(sights, "Crowd", Counted)
+    monkeypatch.setattr(laser_view, "RobotSections", Counted)
     rangers = "".join(
         f"ranger( pose [0 0 {z} 0] sensor( range [0 8] samples 9 fov 90 ) )" for z in (-0.1, -0.1, -0.2, -0.2)
     )
