@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from . import pictures, stubs, worlds
+from .drawings import DRAWINGS
 from .meshes import turtlebot3
 
 CHECKOUT = Path(__file__).resolve().parents[2]
@@ -16,6 +17,8 @@ def texts() -> dict[str, str]:
     for name, text in turtlebot3.files().items():
         made[f"assets/ros/turtlebot3_description/meshes/{name}"] = text
     made["book/static/talker_listener.svg"] = pictures.talker_and_listener() + "\n"
+    for name, drawing in DRAWINGS.items():
+        made[f"book/static/drawings/{name}.svg"] = drawing + "\n"
     return made
 
 

@@ -5,17 +5,20 @@
 - What sphinx-thebe adds to each page (a script from a CDN, declared twice) is taken out.
 - The chatter of the theme's scripts in the browser's console is taken out too.
 - The style sheet and the scripts of `rosmini.viz` come along, and meshcat's viewer if a page needs it.
+- The directive `drawing` puts a drawing of `book/static/drawings` into a prose page, with a caption.
 """
 
 from __future__ import annotations
 
 import shutil
+from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.transforms import SphinxTransform
+from sphinx.util.docutils import SphinxDirective
 
 from book.tools.pages import VIEWER_CALL
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
@@ -33,6 +36,10 @@ BOXES: dict[str, tuple[str, ...]] = {
     "Tip": ("tip",),
     "Warning": ("warning",),
 }
+
+
+DRAWINGS = Path(__file__).resolve().parents[1] / "static" / "drawings"
+"""The drawings of the prose pages, which `assets/generate` makes."""
 
 
 def mathml(tex: str, *, display: bool) -> str:
@@ -93,6 +100,27 @@ def make_box(quote: nodes.block_quote, title: str) -> nodes.admonition:
     return nodes.admonition("", nodes.title("", title), *body, classes=[*BOXES[title], "box"])
 
 
+class Drawing(SphinxDirective):
+    """A drawing by the name of its file, inline so that it follows the page's theme; its caption is the content."""
+
+    required_arguments = 1
+    has_content = True
+    option_spec: ClassVar[dict[str, Any]] = {}
+
+    def run(self) -> list[nodes.Node]:
+        """Return the figure. Raises docutils' error for a name that is no drawing, and for one without a caption."""
+        self.assert_has_content()
+        drawings = {path.stem: path for path in sorted(DRAWINGS.glob("*.svg"))}
+        path = drawings.get(self.arguments[0])
+        if path is None:
+            raise self.error(f"there is no drawing {self.arguments[0]}; there are {', '.join(drawings)}")
+        self.env.note_dependency(str(path))
+        caption = f"<figcaption>{escape(' '.join(self.content))}</figcaption>"
+        svg = path.read_text(encoding="utf-8").strip()
+        figure = f'<figure class="rosmini-figure">{svg}{caption}</figure>'
+        return [nodes.raw("", figure, format="html")]
+
+
 def silence_thebe(app: Sphinx) -> None:
     """Disconnect what sphinx-thebe does to each page: the book starts no remote kernels."""
     for listeners in app.events.listeners.values():
@@ -144,6 +172,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     """Register all of it with Sphinx."""
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_block_math, None))
     app.add_transform(QuoteBoxes)
+    app.add_directive("drawing", Drawing)
     app.connect("builder-inited", prepare, priority=1)
     app.connect("build-finished", copy_viewer, priority=998)
     # After every extension has copied its scripts.

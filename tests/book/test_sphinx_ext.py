@@ -37,6 +37,11 @@ By {eq}`eq:omega` it turns.
 
 > Plain words begin this one.
 
+```{drawing} ros_parts
+Figure 1.1: Four parts
+& no more.
+```
+
 <details>
 <summary>Solution to exercise 11.1</summary>
 
@@ -48,19 +53,20 @@ print("solved")
 """
 
 
-@pytest.fixture(scope="module")
-def html(tmp_path_factory):
+CONFIGURATION = (
+    "extensions = ['myst_nb', 'sphinx_thebe', 'book.tools.sphinx_ext']\n"
+    "html_math_renderer = 'mathml'\nmyst_enable_extensions = ['dollarmath']\nhtml_theme = 'sphinx_book_theme'\n"
+    "thebe_config = {'always_load': False}\nhtml_context = {'default_mode': 'auto'}\n"
+)
+
+
+def build(source, page):
+    """Build a book of one page in `source`, and return the warnings."""
     from sphinx.application import Sphinx
     from sphinx.util.docutils import docutils_namespace
 
-    source = tmp_path_factory.mktemp("source")
-    (source / "conf.py").write_text(
-        "extensions = ['myst_nb', 'sphinx_thebe', 'book.tools.sphinx_ext']\n"
-        "html_math_renderer = 'mathml'\nmyst_enable_extensions = ['dollarmath']\nhtml_theme = 'sphinx_book_theme'\n"
-        "thebe_config = {'always_load': False}\nhtml_context = {'default_mode': 'auto'}\n",
-        encoding="utf-8",
-    )
-    (source / "index.md").write_text(PAGE, encoding="utf-8")
+    (source / "conf.py").write_text(CONFIGURATION, encoding="utf-8")
+    (source / "index.md").write_text(page, encoding="utf-8")
     warnings = StringIO()
     with docutils_namespace():
         app = Sphinx(
@@ -74,7 +80,13 @@ def html(tmp_path_factory):
             warningiserror=False,
         )
         app.build()
-    assert warnings.getvalue() == ""
+    return warnings.getvalue()
+
+
+@pytest.fixture(scope="module")
+def html(tmp_path_factory):
+    source = tmp_path_factory.mktemp("source")
+    assert build(source, PAGE) == ""
     return source / "out"
 
 
@@ -112,6 +124,13 @@ def test_solutions_are_folded_with_their_code_highlighted(page):
     assert 'class="highlight-python' in details
 
 
+def test_a_drawing_is_inline_with_its_caption(page):
+    figure = re.search(r'<figure class="rosmini-figure">(.*?)</figure>', page, re.DOTALL)[1]
+    assert figure.startswith("<svg ")
+    assert 'aria-label="Four boxes' in figure
+    assert figure.endswith("</svg><figcaption>Figure 1.1: Four parts &amp; no more.</figcaption>")
+
+
 def test_thebe_is_silent(page):
     assert "THEBE_JS_URL" not in page
     assert "sphinx-thebe.js" not in page
@@ -138,3 +157,15 @@ def test_the_theme_writes_nothing_to_the_console(html):
     scripts = list((html / "_static").rglob("*.js"))
     assert scripts
     assert [path.name for path in scripts if "console.log(" in path.read_text(encoding="utf-8")] == []
+
+
+@pytest.mark.parametrize(
+    ("directive", "problem"),
+    [
+        ("```{drawing} ros_part\nA caption.\n```", "there is no drawing ros_part; there are "),
+        ("```{drawing} ../logo-light\nA caption.\n```", "there is no drawing ../logo-light"),
+        ("```{drawing} ros_parts\n```", "Content block expected"),
+    ],
+)
+def test_a_drawing_that_does_not_exist_or_has_no_caption_is_refused(tmp_path, directive, problem):
+    assert problem in build(tmp_path, f"# A page\n\n{directive}\n")
