@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     import nbformat
 
 CELL_TIMEOUT_S = 300
-MAX_CODE_LINES = 20
+MAX_CODE_LINES, MAX_SCRIPT_LINES = 20, 50
+"""Of a cell, and of one that is a script."""
 
 KERNELSPEC = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
 LANGUAGE = {"name": "python"}
@@ -111,8 +112,9 @@ def cell_problems(cell: nbformat.NotebookNode) -> Iterator[str]:
     if uncomparable:
         yield f"uses {uncomparable[1]}, whose output nbval cannot compare"
     lines = [line for line in cell.source.splitlines() if line.strip() and not line.strip().startswith("#")]
-    if len(lines) > MAX_CODE_LINES:
-        yield f"has {len(lines)} lines of code, over {MAX_CODE_LINES}: split it, or move a helper into rosmini"
+    most = MAX_SCRIPT_LINES if cell.source.startswith("%%node ") else MAX_CODE_LINES
+    if len(lines) > most:
+        yield f"has {len(lines)} lines of code, over {most}: split it, or move a helper into rosmini"
     for output in cell.outputs:
         yield from output_problems(output)
 

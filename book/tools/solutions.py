@@ -1,7 +1,8 @@
 """The hidden solutions of a notebook's exercises, and the notebook with them in place of the stubs.
 
-A stub is a code cell whose first line is `# Exercise 11.2`. Its solution is the first Python block of the Markdown
-cell with `<summary>Solution to exercise 11.2</summary>` in it.
+A stub is a code cell whose first line is `# Exercise 11.2`, or a script: a cell whose first line is `%%node NAME.py`,
+and whose second one is that. Its solution is the first Python block of the Markdown cell with `<summary>Solution to
+exercise 11.2</summary>` in it; the line of the magic stays.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from rosmini.errors import RosminiError
 if TYPE_CHECKING:
     import nbformat
 
-STUB = re.compile(r"\A#\s*Exercise\s+(\d+\.\d+)\b")
+STUB = re.compile(r"\A(%%node [^\n]*\n|)#\s*Exercise\s+(\d+\.\d+)\b")
 SOLUTION = re.compile(r"<summary>Solution to exercise (\d+\.\d+)</summary>(.*?)</details>", re.DOTALL)
 PYTHON = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 CHECK = re.compile(r"^check\(\s*[\"'](\d+\.\d+)[\"']", re.MULTILINE)
@@ -32,7 +33,7 @@ def stubs(notebook: nbformat.NotebookNode) -> dict[str, int]:
         for place, cell in enumerate(notebook.cells)
         if cell.cell_type == "code"
     )
-    return {match[1]: place for match, place in found if match}
+    return {match[2]: place for match, place in found if match}
 
 
 def checks(notebook: nbformat.NotebookNode) -> dict[str, int]:
@@ -67,7 +68,9 @@ def solved(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
             raise SolutionError(f"no {what} for exercise {', '.join(missing)}")
     copied = copy.deepcopy(notebook)
     for number, place in at.items():
-        copied.cells[place].source = f"# Exercise {number}\n{code[number]}"
+        cell = copied.cells[place]
+        ((magic, _),) = STUB.findall(cell.source)
+        cell.source = f"{magic}# Exercise {number}\n{code[number]}"
     return copied
 
 

@@ -11,6 +11,7 @@ import ast
 import importlib
 import importlib.util
 import math
+import re
 import types
 from dataclasses import dataclass
 from enum import Enum
@@ -18,6 +19,7 @@ from numbers import Real
 from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.errors import RosminiError, nearest
+from rosmini.packages import PackageIndex
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -27,8 +29,16 @@ if TYPE_CHECKING:
     from rosmini.msgs.message import Message
 
 
+NOTEBOOK = "notebook"
+"""The package in which a notebook's scripts are."""
+
+
 class UnknownExercise(RosminiError):
     """There is no exercise with that number."""
+
+
+class NoAnswer(RosminiError):
+    """There is no script to be checked."""
 
 
 class Wrong(RosminiError):
@@ -160,17 +170,34 @@ def expect_heard(publisher: Publisher) -> None:
     )
 
 
-def check(number: str, answer: Any) -> None:
+def check(number: str, *answer: Any) -> None:
     """Print what is to be said about `answer` to exercise `number` ("11.2"), and show what a robot did with it.
 
-    Raises `UnknownExercise` if there is no such exercise.
+    Without an answer it is the script that a `%%node` cell with `# Exercise 11.2` in its second line has written.
+    Raises `UnknownExercise` if there is no such exercise, and `NoAnswer` if no such cell was run.
     """
-    verdict = find(number).grade(answer)
+    verdict = find(number).grade(*(answer or (written(number),)))
     print(verdict.text)
     if verdict.view is not None:
         from IPython.core.display_functions import display
 
         display(verdict.view)  # type: ignore[no-untyped-call]
+
+
+def written(number: str) -> Script:
+    """The script in the notebook's package whose second line names the exercise; the latest, if there are several.
+
+    Raises `NoAnswer` if there is none.
+    """
+    index = PackageIndex()
+    found = index.path(NOTEBOOK).glob("scripts/*.py") if NOTEBOOK in index else ()
+    line = re.compile(rf"[^\n]*\n#\s*Exercise\s+{re.escape(number)}(?!\.?\d)")
+    for path in sorted(found, key=lambda path: path.stat().st_mtime_ns, reverse=True):
+        if line.match(source := path.read_text(encoding="utf-8")):
+            return Script(path.name, source)
+    raise NoAnswer(
+        f"exercise {number} has no script yet: run the %%node cell that has `# Exercise {number}` in its second line"
+    )
 
 
 def find(number: str) -> Exercise:

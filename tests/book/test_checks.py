@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import pkgutil
 import types
 
@@ -10,7 +11,7 @@ import pytest
 
 import rosmini.book.exercises
 from rosmini.book import checks
-from rosmini.book.checks import Status, UnknownExercise, check, exercise, expect, is_stub
+from rosmini.book.checks import NoAnswer, Status, UnknownExercise, check, exercise, expect, is_stub
 
 
 @exercise("98.1", praise="Six wheels it is.")
@@ -93,6 +94,48 @@ def test_check_prints_and_returns_nothing(monkeypatch, capsys):
     assert capsys.readouterr().out == "Exercise 98.1: right. Six wheels it is.\n"
     with pytest.raises(UnknownExercise, match=r"there is no exercise '98\.9'; did you mean 98\.1 or 98\.2\?"):
         check("98.9", 6)
+
+
+@pytest.fixture
+def scripts(tmp_path, monkeypatch):
+    """The folder of a notebook's scripts, and exercise 98.1, which takes one."""
+    folder = tmp_path / "notebook" / "scripts"
+    folder.mkdir(parents=True)
+    (tmp_path / "notebook" / "package.xml").write_text(
+        "<package><name>notebook</name><version>0.0.0</version></package>", encoding="utf-8"
+    )
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    taken = exercise("98.1", praise="Read.")(lambda script: expect("six" in script.source, script.name))
+    monkeypatch.setattr(checks, "find", lambda number: taken)
+    return folder
+
+
+def put(folder, name, *lines, second=0):
+    path = folder / name
+    path.write_text("\n".join(["#!/usr/bin/env python3", *lines]), encoding="utf-8")
+    os.utime(path, ns=(second, second))
+
+
+def test_without_an_answer_the_script_of_the_cell_is_checked(scripts, capsys):
+    put(scripts, "other.py", "# Exercise 98.10", "five = 5")
+    put(scripts, "wheels.py", "# Exercise 98.1: wheels", "...")
+    check("98.1")
+    put(scripts, "wheels.py", "# Exercise 98.1: wheels", "five = 5", second=1)
+    check("98.1")
+    put(scripts, "renamed.py", "# Exercise 98.1", "six = 6", second=2)
+    check("98.1")
+    assert capsys.readouterr().out == (
+        "Exercise 98.1: not attempted yet.\nExercise 98.1: not right yet. wheels.py\nExercise 98.1: right. Read.\n"
+    )
+
+
+def test_a_cell_that_was_not_run_is_said(scripts, monkeypatch):
+    put(scripts, "other.py", "x = 1", "# Exercise 98.1")
+    with pytest.raises(NoAnswer, match=r"run the %%node cell that has `# Exercise 98\.1` in its second line"):
+        check("98.1")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", "")
+    with pytest.raises(NoAnswer):
+        check("98.1")
 
 
 @pytest.mark.parametrize("number", ["97.1", "x", "", "../..", "11"])

@@ -33,6 +33,13 @@ def test_the_solution_takes_the_place_of_the_stub():
     assert nb.cells[0].source.endswith("names = ..."), "the notebook itself was changed"
 
 
+def test_the_line_of_the_magic_stays_with_a_script():
+    nb = chapter(stub="%%node names.py _n:=3\n# Exercise 11.1\n...", check='check("11.1")')
+    assert solutions.stubs(nb) == {"11.1": 0}
+    solved = solutions.solved(nb)
+    assert solved.cells[0].source == '%%node names.py _n:=3\n# Exercise 11.1\nnames = sorted(["b", "a"])'
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
