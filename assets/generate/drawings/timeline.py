@@ -25,7 +25,7 @@ APART = 19.0
 ROW = 18.0
 LEFT = 150.0
 SPAN = (2010, 2032)
-PER_YEAR = 22.5
+PER_YEAR = 19.0
 
 
 def down(when: float) -> float:
