@@ -19,13 +19,13 @@ from rosmini.errors import (
 from rosmini.msgs import message_class
 from rosmini.msgs.full_text import class_from
 
+from .callbacks import Callback
 from .mismatch import describe_mismatch, recast
 from .transport import DirectReceiver, LocalTransport, set_header
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from .callbacks import Callback
     from .subscription_port import SubscriptionPort
     from .transport import Header, Triple
 
@@ -245,8 +245,31 @@ class Connection(DirectReceiver):
                 self.on_drained()
 
     def _find_way(self) -> Way:
-        self.way = self.subscription.way(self.message_class)
+        way = self.subscription.way(self.message_class)
+        self.way = way if self.subscription.node.scheduler.history is None else self._recorded(way)
         return self.way
+
+    def _recorded(self, way: Way) -> Way:
+        """Return a way on which it is recorded what is delivered, and that callbacks act on it."""
+        node, topic, thaw = self.subscription.node, self.subscription.topic, way.thaw
+        history = node.scheduler.history
+        if not way.callbacks:
+            return way
+        first = way.callbacks[0][1].function
+
+        def note(message: Any) -> Any:
+            history.delivered(node.name, self.peer, topic, message, first)
+            return message if thaw is None else thaw(message)
+
+        def forget(_: Any) -> None:
+            history.act_on(None)
+
+        callbacks = (*way.callbacks, (forget, Callback(forget, ())))
+        return Way(way.own, note, way.label, callbacks)
+
+    def record(self) -> None:
+        """Learn that from now on, or no more, it is recorded what happens."""
+        self.way = None
 
     def _failed(self, error: Exception, callback: Callback, message: Any) -> None:
         subscription = self.subscription

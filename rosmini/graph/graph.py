@@ -10,10 +10,12 @@ from rosmini.errors import RosminiError
 
 from .console import Console
 from .graph_core import GraphCore
+from .history import History
 from .live import Errand, LiveDrive
 from .master_port import LEAVE_NS
 from .node import Node
 from .notebook import kernel_loop
+from .recording import Recording
 from .show import find_extension, show
 from .transport import LocalTransport
 from .workers import running_scheduler
@@ -79,6 +81,7 @@ class Graph(GraphCore):
             self.scheduler.ask_driver = self._run_errand
         self._nodes_started = 0
         self._online: Any = None
+        self._recordings = 0
         if rosout and self.master.is_local:
             self.start_rosout()
 
@@ -231,6 +234,34 @@ class Graph(GraphCore):
             title=None: a caption under the picture, and the first words of its text form
         """
         return show("computation_graph", self, **options)
+
+    def record(self) -> Recording:
+        """Record from now on who calls whom, who sends what to whom, and what each of it was caused by.
+
+        Call ``stop()`` on the result to end that, or use it in a ``with`` statement. ``%roswhy`` and ``%rossequence``
+        answer from what is recorded. A graph that does not record spends nothing on it.
+        """
+        return self.scheduler.on_hub(self._record)
+
+    def _record(self) -> Recording:
+        self._recordings += 1
+        if self.scheduler.history is None:
+            self._set_history(History(self.scheduler, self.nodes))
+        return Recording(self.scheduler.history, lambda: self.scheduler.on_hub(self._record_no_more))
+
+    def _record_no_more(self) -> None:
+        self._recordings -= 1
+        if not self._recordings:
+            self._set_history(None)
+
+    def _set_history(self, history: History | None) -> None:
+        self.scheduler.history = history
+        for node in self.nodes.values():
+            for publication in node.publications.values():
+                publication.record()
+            for subscription in node.subscriptions.values():
+                for connection in subscription.connections.values():
+                    connection.record()
 
     def console(self, **options: Any) -> Console:
         """Keep the log messages of all nodes from now on; the options are those of :class:`Console`."""

@@ -60,6 +60,8 @@ class Hub(Protocol):
     """The identifier of the thread that runs the queue."""
     ready: deque[Callable[[], object]]
     ask_driver: Callable[[Waiter], Callable[[], None]]
+    history: Any
+    """What records what happens, or None."""
 
     def take_hub(self, *, to_wait: bool = False) -> bool:
         """Move the hub to the calling thread, which is about to drive; return False if it cannot be moved."""
@@ -105,6 +107,7 @@ class Lane:
         "_busy",
         "_scheduler",
         "_tasks",
+        "cause",
         "context",
         "dead",
         "name",
@@ -112,6 +115,7 @@ class Lane:
         "on_error",
         "on_exit",
         "waiter",
+        "woken",
     )
 
     def __init__(
@@ -134,6 +138,10 @@ class Lane:
         self._busy = False
         self.waiter: Waiter | None = None
         """What the lane is parked for. Set by the scheduler only."""
+        self.cause: int | None = None
+        """The number of the event that its task acts on, where the graph records what happens."""
+        self.woken: tuple[int, int] | None = None
+        """The time at which an event woke the lane, and the number of that event."""
         self._activate_ref = self._activate
 
     def __repr__(self) -> str:
@@ -229,7 +237,7 @@ class Waiter:
     queue itself until it is woken.
     """
 
-    __slots__ = ("_error", "_event", "_hub", "done", "greenlet", "queued", "reason", "value")
+    __slots__ = ("_error", "_event", "_hub", "cause", "done", "greenlet", "queued", "reason", "value")
 
     def __init__(self, hub: Hub, reason: str) -> None:
         self._hub = hub
@@ -240,6 +248,8 @@ class Waiter:
         self._event: threading.Event | None = None
         self.greenlet: greenlet | None = None
         """The parked code. For the scheduler only, as is the next one."""
+        self.cause: int | None = None
+        """The number of the event that woke it, where the graph records what happens."""
         self.queued = False
         """True when :meth:`resume` is among the events that are due."""
 
@@ -259,6 +269,8 @@ class Waiter:
             self.value = value
             self._error = error
             self.done = True
+            if hub.history is not None:
+                self.cause = hub.history.cause()
             self._go_on()
 
     def _go_on(self) -> None:

@@ -110,10 +110,21 @@ class MasterProxy:
         """Return the Master's answer: [code, status, value]. Raises ``MasterUnreachable``."""
         port = self._host.master
         if port.is_local:
-            answer: Triple = getattr(port, method)(self._caller_id, *arguments)
-            return answer
+            return self._reach(port, method, arguments)
         with self._turn():
-            return port.call(method, self._caller_id, *arguments)
+            return self._reach(port, method, arguments)
+
+    def _reach(self, port: MasterPort, method: str, arguments: tuple[Any, ...]) -> Triple:
+        """Return a port's answer, and have it recorded where the graph records what happens."""
+        answer: Triple
+        if port.is_local:
+            answer = getattr(port, method)(self._caller_id, *arguments)
+        else:
+            answer = port.call(method, self._caller_id, *arguments)
+        history = self._host.scheduler.history
+        if history is not None:
+            history.called(self._caller_id, "", method, arguments, answer)
+        return answer
 
     def ask(self, method: str, *arguments: Any) -> Any:
         """Return the value of the Master's answer.
@@ -140,12 +151,11 @@ class MasterProxy:
         """
         port = self._host.master
         if port.is_local:
-            answer: Triple = getattr(port, method)(self._caller_id, *arguments)
-            return answer
+            return self._reach(port, method, arguments)
         with self._turn():
             while True:
                 try:
-                    return self._host.master.call(method, self._caller_id, *arguments)
+                    return self._reach(self._host.master, method, arguments)
                 except MasterUnreachable as error:
                     if self._is_over():
                         raise
@@ -167,7 +177,7 @@ class MasterProxy:
         """
         port = self._host.master
         if port.is_local:
-            getattr(port, method)(self._caller_id, *arguments)
+            self._reach(port, method, arguments)
             return
         scheduler = self._host.scheduler
         with self._turn():
@@ -176,7 +186,7 @@ class MasterProxy:
                 if port.leave_by is not None and started >= port.leave_by:
                     return
                 try:
-                    self._host.master.call(method, self._caller_id, *arguments)
+                    self._reach(self._host.master, method, arguments)
                 except MasterUnreachable as error:
                     port.leave_by = port.leave_by or started + LEAVE_NS
                     if scheduler.now_ns() + RETRY_NS >= port.leave_by:

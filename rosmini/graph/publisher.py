@@ -85,7 +85,7 @@ class Publication:
         self._wires = tuple(sender for sender in self._list if sender.wants_bytes)
         self._near = tuple(sender for sender in self._list if not sender.wants_bytes)
         self.send = self._send
-        if len(self._list) == 1 and not self._latch:
+        if len(self._list) == 1 and not self._latch and self._scheduler.history is None:
             sender = self._list[0]
             if sender.receiver is not None:
                 self.send = self._way_to(sender, sender.receiver)
@@ -143,7 +143,13 @@ class Publication:
         else:
             self._scheduler.call_soon_threadsafe(lambda: self._hand_out(frozen))
 
+    def record(self) -> None:
+        """Learn that from now on, or no more, it is recorded what happens."""
+        self._connections_changed()
+
     def _hand_out(self, frozen: Any, *, warn: bool = True) -> None:
+        if self._scheduler.history is not None:
+            self._scheduler.history.published(self.node.name, self.topic, frozen)
         if self._latch:
             self._latched = self._copy(frozen)
         senders = self._near
@@ -172,7 +178,12 @@ class Publication:
 
     def _copy(self, frozen: Any) -> Any:
         """Return a frozen message of which one receiver may become the owner."""
-        return frozen if self._thaw_numpy is None else self._thaw_numpy(frozen)
+        if self._thaw_numpy is None:
+            return frozen
+        copy = self._thaw_numpy(frozen)
+        if self._scheduler.history is not None:
+            self._scheduler.history.same(copy, frozen)
+        return copy
 
     def _warn_unheard(self) -> None:
         self._warned = True

@@ -60,6 +60,8 @@ class Scheduler(EventQueue):
         """Finds who drives while another thread waits; what it returns is called when that takes long."""
         self.graph: Any = None
         """The graph that this scheduler runs, if any."""
+        self.history: Any = None
+        """What records what happens in the graph, if it was asked to: a :class:`~rosmini.graph.history.History`."""
         self._reference = weakref.ref(self)
         self._home = self.thread
         self._owner_lock = threading.Lock()
@@ -231,6 +233,8 @@ class Scheduler(EventQueue):
         finally:
             del self._parked[waiter]
             waiter.greenlet = lane.waiter = None
+            if waiter.cause is not None:
+                lane.woken = self.now_ns(), waiter.cause
             self.enter_lane(lane)
             if lane is self.root:
                 self._end_drive()

@@ -180,6 +180,9 @@ class Session:
         self._lane.post(partial(self._answer, request, reply))
 
     def _answer(self, request: Any, reply: Callable[[Any, str | None], None]) -> None:
+        history = self.server.node.scheduler.history
+        if history is not None:
+            history.serve(request)
         try:
             response, problem = self.server.respond(request, self._client_header), None
         except ServiceException as error:
@@ -189,6 +192,8 @@ class Session:
         if reply in self._pending:
             self._pending.remove(reply)
             reply(response, problem)
+        if history is not None:
+            history.act_on(None)
 
     def close(self) -> None:
         """Learn that the client has gone."""
@@ -254,6 +259,9 @@ class ServiceClient:
 
     def _call(self, frozen: Any) -> Any:
         link = self._link or self._connect()
+        history, request = self.node.scheduler.history, None
+        if history is not None:
+            request = history.requested(self.node.name, link.header.get("callerid", ""), self.name, frozen)
         waiter = self.node.waiter(f"the service {self.name}", remote=link.is_remote)
         try:
             link.call(frozen, lambda response, problem: waiter.wake((response, problem)))
@@ -262,6 +270,8 @@ class ServiceClient:
             if not self.persistent:
                 link.close()
         response, problem = waiter.value
+        if request is not None:
+            history.answered(request, response, problem)
         if problem is not None:
             if self.persistent and problem.startswith("transport error"):
                 self.close()

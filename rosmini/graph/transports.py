@@ -20,6 +20,7 @@ class Transports:
     """
 
     def __init__(self, scheduler: Scheduler, makers: Sequence[Callable[[Scheduler], Transport]]) -> None:
+        self._scheduler = scheduler
         self.ways = [make(scheduler) for make in makers]
         self._here: dict[str, str] = {}
         """The nodes of this process: their URIs by those of their services."""
@@ -80,7 +81,12 @@ class Transports:
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
         """Call a method of a node's slave API; may block. Raises ``TransportException`` when nobody answers."""
-        return self._way_to(uri).call(uri, method, *arguments)
+        answer = self._way_to(uri).call(uri, method, *arguments)
+        history = self._scheduler.history
+        if history is not None:
+            caller, *rest = arguments
+            history.called(caller, uri, method, tuple(rest), answer)
+        return answer
 
     def connect_topic(
         self, caller: str, parameters: list[Any], header: Header, receiver: Receiver
@@ -88,7 +94,12 @@ class Transports:
         """Open a topic connection in the way that was agreed on; see :class:`~rosmini.graph.transport.Transport`."""
         for way in self.ways:
             if isinstance(parameters, list) and parameters and parameters[0] == way.protocol:
-                return way.connect_topic(caller, parameters, header, receiver)
+                answer, close = way.connect_topic(caller, parameters, header, receiver)
+                history = self._scheduler.history
+                if history is not None:
+                    publisher = answer.get("callerid", "")
+                    history.connected(header["callerid"], publisher, header["topic"], answer.get("type", ""))
+                return answer, close
         raise TransportInitError(f"the publisher answered with {shown(parameters)}, which was not offered")
 
     def connect_service(

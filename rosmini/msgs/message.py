@@ -52,8 +52,10 @@ class Message(MessageContract):
     (http://wiki.ros.org/msg, http://docs.ros.org/en/noetic/api/genpy/html/).
     """
 
-    __slots__ = ("_connection_header",)
+    __slots__ = ("_cause", "_connection_header")
 
+    _cause: int
+    """The number of its publication, where a graph records what happens."""
     _connection_header: dict[str, Any] | None
 
     _freeze = _Compiled()

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from rosmini.errors import nearest
+from rosmini.graph.recording import Call, Recording
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import MARGIN, arrow, box, name, rule, text
 from rosmini.viz.layout import Rect, Route
 from rosmini.viz.metrics import text_width
 from rosmini.viz.svg import document, element
 from rosmini.viz.view import Picture, ViewError
+from rosmini.viz.words import plural
 
-__all__ = ["Call", "sequence_diagram"]
-
-Call = tuple[str, str, str, str | None]
-"""(who, whom, what, the answer or None): a call, or a message, which has no answer."""
+__all__ = ["Call", "recorded_calls", "sequence_diagram"]
 
 COLOURS = ["page", "ink", "line", "label", "muted", "node-fill", "node-line", "group-line"]
 HEAD = 30.0
@@ -49,6 +49,31 @@ def sequence_diagram(calls: Iterable[Call], *, title: str) -> Picture:
         f"{who} to {whom}: {what}." for who, whom, what, _ in made
     )
     return Picture(_draw(actors, arrows, title, alt), text=words, alt=alt, caption=title)
+
+
+def recorded_calls(
+    recording: Recording,
+    *,
+    names: Sequence[str] = (),
+    everything: bool = False,
+    since: float | None = None,
+    limit: int = 40,
+    title: str | None = None,
+) -> Picture:
+    """Draw what happened in a graph while it recorded; the arguments are those of ``Recording.show``.
+
+    Raises ``ViewError`` when nothing of it happened.
+    """
+    calls = recording.calls(*names, everything=everything, since=since)
+    about = f" about {', '.join(names)}" if names else ""
+    if not calls:
+        known = recording.names()
+        hints = [hint for name in names if name not in known and (hint := nearest(name, known))]
+        hint = "; ".join(hints) or "let time pass while the graph records, or ask about less"
+        raise ViewError(f"nothing was recorded{about}: {hint}")
+    rest = len(calls) - limit
+    more = f" (and {plural(rest, 'more call')} after these)" if rest > 0 else ""
+    return sequence_diagram(calls[:limit], title=f"{title or f'What happened{about}'}{more}")
 
 
 Arrow = tuple[str, str, str, bool]
