@@ -1,0 +1,121 @@
+"""``%%node`` in a real kernel: where output appears, who types, and what an interrupt and a restart leave behind."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+TALKER = """\
+import rospy
+rospy.init_node("talker")
+rate = rospy.Rate(1)
+n = 0
+while not rospy.is_shutdown():
+    print("turn", n)
+    n += 1
+    rate.sleep()
+"""
+
+ASK = "%%node ask.py\nprint('hello', input('who? '))"
+
+
+def folder_of(kernel: Any) -> Path:
+    cell = kernel.ok(
+        "from rosmini.notebook.session import session_of\nprint(session_of(get_ipython()).package.workspace)"
+    )
+    return Path(cell.stdout.strip())
+
+
+def test_what_a_node_prints_appears_in_the_cell_in_which_time_passes(new_kernel: Any) -> None:
+    assert new_kernel.ok("%load_ext rosmini").stdout == ""
+    assert new_kernel.ok("%roscore").stdout.startswith("ROS_MASTER_URI=")
+    started = new_kernel.ok(f"%%node talker.py\n{TALKER}")
+    assert started.stdout == "turn 0\n"
+    waited = new_kernel.ok("import rosmini\nrosmini.wait(2)")
+    assert waited.stdout == "turn 1\nturn 2\n"
+    assert started.stdout == "turn 0\n"
+    assert new_kernel.ok("import rospy\nrospy.init_node('here')\nrospy.sleep(1)").stdout == "turn 3\n"
+
+
+def test_an_interrupt_ends_the_cell_and_the_nodes_go_on(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    new_kernel.ok(f"%%node talker.py\n{TALKER}")
+    waiting = new_kernel.send("rosmini.wait(10_000_000)")
+    new_kernel.until(lambda: "turn 10" in waiting.stdout, "some turns")
+    new_kernel.interrupt()
+    new_kernel.until(lambda: waiting.idle, "the end of the cell")
+    assert waiting.errors == ["KeyboardInterrupt"]
+    assert "site-packages" not in waiting.tracebacks[0]
+    assert new_kernel.ok("rosmini.wait(1)").stdout.startswith("turn ")
+    assert new_kernel.ok("%rosnode list").stdout == "/rosout\n/talker\n"
+
+
+def test_the_start_of_a_script_that_never_comes_back_can_be_interrupted(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    endless = "print('up', flush=True)\nsum(1 for _ in iter(int, 1))"  # no loop of its own in which others get their turn
+    cell = new_kernel.send(f"%%node endless.py\n{endless}")
+    new_kernel.until(lambda: "up" in cell.stdout, "the script")
+    new_kernel.interrupt()
+    new_kernel.until(lambda: "Press Ctrl-C again" in cell.stderr, "what is waited for")
+    assert "endless.py, line 3" in cell.stderr
+    new_kernel.interrupt()
+    new_kernel.until(lambda: cell.idle, "the end of the cell")
+    assert new_kernel.ok("rosmini.wait(1)\nprint('on')").stdout == "on\n"
+    assert new_kernel.ok(f"%%node talker.py\n{TALKER}").stdout == "turn 0\n"
+
+
+def ask(kernel: Any, code: str) -> Any:
+    """Send a cell of a reader who can type."""
+    kernel.client.allow_stdin = True
+    return kernel._cell(kernel.client.execute(code, allow_stdin=True))
+
+
+def test_the_reader_types_below_the_cell_in_which_time_passes(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    cell = ask(new_kernel, ASK)
+    request = new_kernel.client.get_stdin_msg(timeout=300)
+    assert request["parent_header"]["msg_id"] == cell.id
+    new_kernel.client.input("Ada")
+    new_kernel.until(lambda: cell.idle, "the end of the cell")
+    assert cell.stdout == "who? hello Ada\n"
+    assert cell.errors == []
+
+    # a question that comes later belongs to the later cell
+    new_kernel.ok("%%node later.py\nimport time\ntime.sleep(1)\nprint('hello', input('who? '))")
+    cell = ask(new_kernel, "rosmini.wait(2)")
+    request = new_kernel.client.get_stdin_msg(timeout=300)
+    assert request["parent_header"]["msg_id"] == cell.id
+    new_kernel.client.input("Bob")
+    new_kernel.until(lambda: cell.idle, "the end of the cell")
+    assert cell.stdout == "who? hello Bob\n"
+
+
+def test_an_interrupt_while_the_reader_types_ends_the_cell(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    cell = ask(new_kernel, ASK)
+    new_kernel.client.get_stdin_msg(timeout=300)
+    new_kernel.interrupt()
+    new_kernel.until(lambda: cell.idle, "the end of the cell")
+    assert cell.errors == ["KeyboardInterrupt"]
+    cell = ask(new_kernel, "rosmini.wait(1)")
+    new_kernel.client.get_stdin_msg(timeout=300)
+    new_kernel.client.input("Ada")
+    new_kernel.until(lambda: cell.idle, "the end of the cell")
+    assert "hello Ada" in cell.stdout
+
+
+def test_where_nobody_can_type_the_script_says_what_to_do(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore")
+    assert "add --stdin TEXT" in new_kernel.ok(ASK).stderr
+    assert new_kernel.ok(ASK.replace("ask.py", "ask.py --stdin Ada")).stdout == "who? hello Ada\n"
+
+
+def test_a_restart_while_nodes_run_leaves_no_folder(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    new_kernel.ok(f"%%node talker.py\n{TALKER}")
+    folder = folder_of(new_kernel)
+    assert folder.is_dir()
+    new_kernel.restart()
+    assert not folder.exists()
+    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    assert new_kernel.ok(f"%%node talker.py\n{TALKER}").stdout == "turn 0\n"
