@@ -30,13 +30,13 @@ OPERATORS = "|<>;&"
 _VARIABLE = re.compile(r"\$(?:(\$)|([A-Za-z_]\w*))")
 
 
-def register(shell: Any) -> None:
-    """Register the commands as line magics of an IPython shell, with completion of their words."""
+def register(shell: Any, *, say: Callable[[str], object] = print) -> None:
+    """Register the commands as line magics of an IPython shell, with completion of their words; ``say`` prints."""
     from IPython.core.magic import no_var_expand
 
     for name, entry in COMMANDS.items():
         if entry.is_magic:
-            magic = partial(run, shell, name)
+            magic = partial(run, shell, name, say=say)
             shell.register_magic_function(
                 no_var_expand(_documented(magic, name, entry.summary)), "line", name
             )
@@ -71,16 +71,27 @@ def tool(name: str) -> Tool:
     return found
 
 
-def run(shell: Any, name: str, line: str) -> Result:
-    """Do what a line says, print it, and return the result. Raises as :meth:`rosmini.cli.verbs.Tool.run` does."""
-    result = tool(name).run(*words(line, name, shell.user_ns), tells_time=True)
+def run(
+    shell: Any,
+    name: str,
+    line: str,
+    *,
+    say: Callable[[str], object] = print,
+    console: Mapping[str, Any] | None = None,
+) -> Result:
+    """Do what a line says, print it, and return the result; ``console`` is for nodes that it starts.
+
+    Raises as :meth:`rosmini.cli.verbs.Tool.run` does.
+    """
+    split = words(line, name, shell.user_ns)
+    result = tool(name).run(*split, say=say, tells_time=True, console=console)
     view = getattr(result, "view", None)
     if view is not None:
         from IPython.core.display_functions import display
 
         display(view)  # type: ignore[no-untyped-call]
     for text in filter(None, ("" if view else str(result), *result.complaints)):
-        print(text)
+        say(text)
     _show_no_more(result, shell)
     return result
 

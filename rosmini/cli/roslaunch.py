@@ -115,8 +115,8 @@ def _launch_here(given: Values, call: Call) -> Result:
         return answer(given, plan, packages)
     plan = changed(plan, given)
     plan.warnings += differences(plan)
-    say = partial(print, file=sys.stdout, flush=True)
-    launch = Launch(plan, call.graph, in_graph(call.graph, packages), say=say, warn=say)
+    make = in_graph(call.graph, packages, **call.console)
+    launch = Launch(plan, call.graph, make, say=call.say, warn=call.say)
     launch.start()
     if given.duration is not None:
         launch.wait(given.duration)

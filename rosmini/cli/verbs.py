@@ -25,7 +25,7 @@ from rosmini.names import is_remapping
 from .signals import end_as_ctrl_c
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from rosmini.graph import Graph
     from rosmini.introspection.peers import Peers
@@ -95,6 +95,8 @@ class Call:
     read_line: Callable[[], str] | None = None
     tells_time: bool = False
     """Whether a verb says for how long it goes on by itself."""
+    console: Mapping[str, Any] = field(default_factory=dict)
+    """The options of the :class:`rosmini.scripts.Console` of nodes that a verb starts."""
 
     @property
     def graph(self) -> Graph:
@@ -249,6 +251,7 @@ class Tool:
         graph: Graph | None = None,
         say: Callable[[str], object] = print,
         tells_time: bool = False,
+        console: Mapping[str, Any] | None = None,
     ) -> Result:
         """Do what the words say, on ``graph`` (the default graph if not given), and return the result.
 
@@ -265,7 +268,8 @@ class Tool:
             return verb.act(given, Call(cast("Peers", None), say))
         from rosmini.graph import running_graph
 
-        return verb.act(given, Call(running_graph() if graph is None else graph, say, tells_time=tells_time))
+        used = running_graph() if graph is None else graph
+        return verb.act(given, Call(used, say, tells_time=tells_time, console=console or {}))
 
     def alone(self, verb: str) -> Tool:
         """Return the tool that does one of the verbs only: ``rqt_graph`` for ``graph`` of ``rqt``."""

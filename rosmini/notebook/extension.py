@@ -7,10 +7,11 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from rosmini.cli import magics
+from rosmini.errors import UsageError
 from rosmini.rospy.importer import install, ros_is_installed, uninstall
 
 from . import node_cell
-from .session import begin_session, end_session, session_of
+from .session import Session, begin_session, end_session, session_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,25 +27,17 @@ def load(shell: Any) -> None:
         return
     install(shadow=True)
     tell_which_ros()
-    magics.register(shell)
     session = begin_session(shell)
+    magics.register(shell, say=session.say)
     shell.events.register("pre_run_cell", session.look)
     atexit.register(end_session, shell)
-    _register(shell, "line", "roscore", lambda line: roscore(shell, line), roscore.__doc__)
-    _register(
-        shell,
-        "line",
-        "rosrun",
-        lambda line: node_cell.rosrun(session_of(shell), line),
-        node_cell.rosrun.__doc__,
-    )
-    _register(
-        shell,
-        "cell",
-        "node",
-        lambda line, cell: node_cell.node(session_of(shell), line, cell),
-        node_cell.node.__doc__,
-    )
+    for kind, name, act in (
+        ("line", "roscore", roscore),
+        ("line", "rosrun", node_cell.rosrun),
+        ("line", "roslaunch", node_cell.roslaunch),
+        ("cell", "node", node_cell.node),
+    ):
+        _register(shell, kind, name, act)
 
 
 def unload(shell: Any) -> None:
@@ -71,26 +64,26 @@ def tell_which_ros() -> None:
         print("rosmini: `import rospy` is rosmini's in this notebook, not that of the installed ROS.")
 
 
-def roscore(shell: Any, line: str) -> None:
+def roscore(session: Session, line: str) -> None:
     """End the graph with all that runs in it, and begin anew: the same time, the same seed, a new Master.
 
     Raises ``UsageError`` for arguments: this roscore takes none.
     """
-    from rosmini.errors import UsageError
-
     if line.strip():
         raise UsageError(
             f"%roscore takes no arguments, not {line.strip()!r}: in a notebook it begins anew, and is all"
         )
-    session = session_of(shell)
     session.look()
     session.begin()
-    print(f"ROS_MASTER_URI={session.graph.master_uri}\nstarted core service [/rosout]")
+    session.say(f"ROS_MASTER_URI={session.graph.master_uri}\nstarted core service [/rosout]")
 
 
-def _register(shell: Any, kind: str, name: str, act: Callable[..., None], text: str | None) -> None:
-    """Register a magic of which only ``$name`` is replaced."""
+def _register(shell: Any, kind: str, name: str, act: Callable[..., object]) -> None:
+    """Register a magic of which only ``$name`` is replaced; ``act`` is given the session first."""
     from IPython.core.magic import no_var_expand
 
-    act.__name__, act.__doc__ = name, text
-    shell.register_magic_function(no_var_expand(act), kind, name)
+    def magic(*texts: str) -> object:
+        return act(session_of(shell), *texts)
+
+    magic.__name__, magic.__doc__ = name, act.__doc__
+    shell.register_magic_function(no_var_expand(magic), kind, name)

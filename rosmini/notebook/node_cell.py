@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rosmini.cli.magics import run
 from rosmini.cli.magics import words as words_of
 from rosmini.errors import ScriptError, UsageError
 from rosmini.scripts import Console, ScriptHandle, ScriptSpec, find
@@ -17,12 +20,18 @@ from .runs import RunKey
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from rosmini.cli.verbs import Result
+    from rosmini.launch import Launch
+
     from .session import Session
 
 SHEBANG = "#!/usr/bin/env python3"
 """The first line of a script: it takes the place of the magic's line, so that line numbers agree."""
 
 STDIN = "--stdin"
+
+_SPEAKS = re.compile(r"\bprint\b|\blog(?:debug|info|warn|err|fatal)|\blogging\b|\bstd(?:out|err)\b|\binput\b")
+"""What is in a script that prints."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +100,25 @@ def rosrun(session: Session, line: str) -> None:
         RunKey.of(f"{package}/{name}", given.args),
         name,
         lambda: NodeHandle(graph, NodeSpec(found, given.args), console),
+        speaks=False,
     )
+
+
+def roslaunch(session: Session, line: str) -> Result:
+    """Start the nodes of launch files, or answer what is asked about them, as the command does.
+
+    Raises as the command does.
+    """
+    session.look()
+    console = {"stdin": "", "sink": session.sink}
+    results: list[Result] = []
+
+    def start() -> Launch | None:
+        results.append(run(session.shell, "roslaunch", line, say=session.say, console=console))
+        return getattr(results[0], "launch", None)
+
+    session.runs.launch(words_of(line, "roslaunch", session.shell.user_ns), start)
+    return results[0]
 
 
 def _start_script(session: Session, path: str, title: str, given: Words) -> None:
@@ -105,6 +132,7 @@ def _start_script(session: Session, path: str, title: str, given: Words) -> None
         RunKey.of(path, given.args),
         title,
         lambda: ScriptHandle(graph, ScriptSpec(path, given.args), console, seed=_seed(given.args)),
+        speaks=_SPEAKS.search(Path(path).read_text(encoding="utf-8", errors="replace")) is not None,
     )
 
 

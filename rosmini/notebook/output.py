@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rosmini.scripts.stdin import Blocker
+    from rosmini.scripts.streams import ScriptOutput
 
 _A_MOMENT_NS = 1_000_000
 
@@ -57,12 +58,23 @@ class CellStream(io.TextIOBase):
 
 
 class CellSink(OutputSink):
-    """Where all scripts of a notebook write to."""
+    """Where all scripts of a notebook write to; ``names_stand`` tells whether lines begin with the node's name."""
 
-    def __init__(self, rewrite: Callable[[str], str]) -> None:
+    def __init__(self, rewrite: Callable[[str], str], names_stand: Callable[[], bool]) -> None:
+        self._names_stand = names_stand
         self._streams = (CellStream("stdout", rewrite), CellStream("stderr", rewrite))
         out, err = (cast("TextIO", stream) for stream in self._streams)
-        super().__init__(out, err, prefix=False)
+        super().__init__(out, err)
+
+    def _label(self, owner: ScriptOutput) -> str:
+        return super()._label(owner) if self._names_stand() else ""
+
+    def say(self, text: str) -> None:
+        """Write a line that is no node's, after what is unfinished."""
+        if self._open is not None:
+            self._open.finish()
+        self.stdout.write(f"{text}\n")
+        self.stdout.flush()
 
     def look(self) -> None:
         """Note where the process writes to now."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from rosmini.errors import UsageError
+
+from .folder import TemporaryFolder
 
 NAME = "notebook"
 """What the package is called: the same whether the notebook is open in JupyterLab or VS Code or run by a test."""
@@ -39,8 +40,8 @@ class NotebookPackage:
     """
 
     def __init__(self) -> None:
-        self._temporary = TemporaryDirectory(prefix="rosmini-", ignore_cleanup_errors=True)
-        self.workspace = Path(self._temporary.name).resolve()
+        self._temporary = TemporaryFolder()
+        self.workspace = self._temporary.path
         """The folder of a catkin workspace around it."""
         self.folder = self.workspace / "src" / NAME
         """The package's folder."""
@@ -86,4 +87,4 @@ class NotebookPackage:
             os.environ.pop(_VARIABLE, None)
         else:
             os.environ[_VARIABLE] = self._path_before
-        self._temporary.cleanup()
+        self._temporary.remove()

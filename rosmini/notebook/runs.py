@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from rosmini.graph.event_queue import span_ns
 from rosmini.names import Remappings
+from rosmini.scripts import ScriptHandle
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from rosmini.graph import Graph
-    from rosmini.scripts import NodeHandle, ScriptHandle
+    from rosmini.launch import Launch
+    from rosmini.scripts import NodeHandle
 
 GRACE_S = 3.0
 """How many seconds of graph time a run has to end after Ctrl-C."""
@@ -39,6 +41,8 @@ class Run:
 
     title: str
     handle: ScriptHandle | NodeHandle
+    speaks: bool
+    """Whether its source looks as if it prints anything."""
 
     @property
     def node_name(self) -> str:
@@ -55,24 +59,42 @@ class Run:
 class Runs:
     """All runs of a graph.
 
-    ``say`` writes a line into the cell; ``changed`` is called with the number of those that run.
+    ``say`` writes a line into the cell.
     """
 
-    def __init__(self, graph: Graph, say: Callable[[str], object], changed: Callable[[int], object]) -> None:
+    def __init__(self, graph: Graph, say: Callable[[str], object]) -> None:
         self._graph = graph
         self._say = say
-        self._changed = changed
         self._runs: dict[RunKey, Run] = {}
+        self._launches: dict[tuple[str, ...], Launch] = {}
 
-    def start(self, key: RunKey, title: str, make: Callable[[], ScriptHandle | NodeHandle]) -> Run:
+    def several_speak(self) -> bool:
+        """Return whether more than one of those that run may print."""
+        launched = (made.handle for launch in self._launches.values() for made in launch.running)
+        speakers = sum(run.speaks and run.is_running for run in self._runs.values())
+        scripts = sum(isinstance(handle, ScriptHandle) and handle.poll() is None for handle in launched)
+        return speakers + scripts > 1
+
+    def launch(self, words: Sequence[str], start: Callable[[], Launch | None]) -> None:
+        """Start launch files, up to where their nodes block. What these words have launched before ends first."""
+        before = self._launches.pop(tuple(words), None)
+        if before is not None:
+            before.stop()
+        made = start()
+        if made is not None:
+            self._launches[tuple(words)] = made
+            self._graph.run(0)
+
+    def start(
+        self, key: RunKey, title: str, make: Callable[[], ScriptHandle | NodeHandle], *, speaks: bool
+    ) -> Run:
         """Start what ``make`` makes, up to where it blocks; no time passes. One of this key is ended first.
 
         Raises what ``make`` raises.
         """
         handle = make()
         self._end(key)
-        run = self._runs[key] = Run(title, handle)
-        handle.on_start = self._count
+        run = self._runs[key] = Run(title, handle, speaks)
         handle.on_end = lambda status: self._ended(run, status)
         handle.start()
         self._graph.run(0)
@@ -94,11 +116,7 @@ class Runs:
             run.handle.kill()
             self._say(f"{run.title} did not end within {GRACE_S:g} s of Ctrl-C, and was killed.")
 
-    def _count(self) -> None:
-        self._changed(sum(run.is_running for run in self._runs.values()))
-
     def _ended(self, run: Run, status: int) -> None:
-        self._count()
         node = run.handle.node
         if node is not None and "same name" in (node.shutdown_reason or ""):
             newer = [each for each in self._runs.values() if each.is_running and each.node_name == node.name]

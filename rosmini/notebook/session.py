@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import RosminiError
 from rosmini.graph import Graph, default_graph, set_default_graph
 from rosmini.scripts import current_script
+from rosmini.viz.book_form import book_form
 
+from .book_text import book_text
 from .output import CellSink, TypedFeed
 from .package import NotebookPackage
 from .runs import Runs
@@ -32,7 +34,7 @@ class Session:
     def __init__(self, shell: Any) -> None:
         self.shell = shell
         self.package = NotebookPackage()
-        self.sink = CellSink(self._in_cell)
+        self.sink = CellSink(self._in_cell, self._several_speak)
         self._cell = contextvars.copy_context()
         self._process = os.getpid()
         self.begin()
@@ -50,8 +52,7 @@ class Session:
             graph = Graph(strict=False)
             graph.notebook = True
             set_default_graph(graph)
-            self.runs = Runs(graph, self.say, self._count)
-            self._count(0)
+            self.runs = Runs(graph, self.say)
 
     def _end_graph(self) -> None:
         """Shut all nodes down; what they print meanwhile went to terminals of theirs, and is not shown."""
@@ -83,8 +84,7 @@ class Session:
 
     def say(self, text: str) -> None:
         """Print a line of the notebook's own into the cell."""
-        self.sink.flush()
-        self.sink.stdout.write(f"{text}\n")
+        self.sink.say(text)
 
     def typed(self, advice: str) -> TypedFeed:
         """Return standard input from the reader, who types below the cell; ``advice`` is for where nobody can."""
@@ -95,11 +95,11 @@ class Session:
         with nullcontext() if script is None else script.put_aside():
             return self._cell.copy().run(ask)
 
-    def _count(self, running: int) -> None:
-        self.sink.prefix = running > 1
+    def _several_speak(self) -> bool:
+        return self.runs.several_speak()
 
     def _in_cell(self, text: str) -> str:
-        return text
+        return book_text(text, self.package.workspace) if book_form() else text
 
 
 def begin_session(shell: Any) -> Session:

@@ -178,11 +178,17 @@ def _second_call(session: Session, arguments: _Arguments) -> str:
 def spin() -> None:
     """Block until the node is shut down; callbacks go on meanwhile.
 
-    Raises ``ROSInitException`` before ``init_node``.
+    Raises ``ROSInitException`` before ``init_node``, and ``ROSException`` in a plain cell of a notebook, which would
+    never end.
     """
-    node = current_node()
+    node, session = current_node(), current_session()
+    if session.is_main and session.graph.notebook:
+        raise ROSException(
+            "rospy.spin() never comes back, so a plain cell cannot call it. A script that spins is a cell of its own, "
+            "which begins with %%node NAME.py; in a plain cell rosmini.wait(3) lets callbacks run for three seconds"
+        )
     if node is None:
-        if current_session().is_shutdown():
+        if session.is_shutdown():
             return
         raise ROSInitException(
             "client code must call rospy.init_node() first: without a node rospy.spin() has nothing to wait for"

@@ -29,12 +29,14 @@ import signal
 import sys
 import warnings
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
 from rosmini.graph.lanes import LaneExit
+from rosmini.graph.workers import running_scheduler
 from rosmini.packages import package_around
 
 from .environment import ScriptEnviron, folders_of_the_users
@@ -436,6 +438,18 @@ class ScriptContext:
     def event_class(self) -> Any:
         """Return the script's ``threading.Event``."""
         return self.thread_classes["Event"]
+
+
+def _leave_child() -> None:
+    """See to it that the child of a script that forked ends where it blocks or has ended: the graph is its parent's."""
+    scheduler = running_scheduler()
+    context = None if scheduler is None else scheduler.current().context
+    if isinstance(context, ScriptContext):
+        vars(context)["leave"] = partial(os._exit, 0)
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_leave_child)
 
 
 def _no_fork_hook(**_hooks: object) -> None:

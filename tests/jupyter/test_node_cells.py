@@ -52,7 +52,8 @@ def test_an_interrupt_ends_the_cell_and_the_nodes_go_on(new_kernel: Any) -> None
 
 def test_the_start_of_a_script_that_never_comes_back_can_be_interrupted(new_kernel: Any) -> None:
     new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
-    endless = "print('up', flush=True)\nsum(1 for _ in iter(int, 1))"  # no loop of its own in which others get their turn
+    # no loop of its own, in which others would get their turn
+    endless = "print('up', flush=True)\nsum(1 for _ in iter(int, 1))"
     cell = new_kernel.send(f"%%node endless.py\n{endless}")
     new_kernel.until(lambda: "up" in cell.stdout, "the script")
     new_kernel.interrupt()
@@ -119,3 +120,23 @@ def test_a_restart_while_nodes_run_leaves_no_folder(new_kernel: Any) -> None:
     assert not folder.exists()
     new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     assert new_kernel.ok(f"%%node talker.py\n{TALKER}").stdout == "turn 0\n"
+
+
+def test_a_script_that_forks_is_one_script_here(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    forks = (
+        "import os, time\nchild = os.fork()\nif not child:\n    time.sleep(1)\nprint(os.waitpid(child, 0)[1])"
+    )
+    assert new_kernel.ok(f"%%node forks.py\n{forks}").stdout == "0\n"
+    ends = "import os\nchild = os.fork()\nif child:\n    print(os.waitpid(child, 0)[1])"
+    assert new_kernel.ok(f"%%node ends.py\n{ends}").stdout == "0\n"
+    assert new_kernel.ok("rosmini.wait(2)\nprint('on')").stdout == "on\n"
+
+
+def test_two_notebooks_have_nothing_in_common(new_kernel: Any, shared_kernel: Any) -> None:
+    for kernel in (new_kernel, shared_kernel):
+        kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    new_kernel.ok(f"%%node talker.py\n{TALKER}")
+    assert shared_kernel.ok("%rosnode list").stdout == "/rosout\n"
+    assert "no executable" in shared_kernel.run("%rosrun notebook talker.py").tracebacks[0]
+    assert folder_of(new_kernel) != folder_of(shared_kernel)

@@ -199,3 +199,31 @@ def test_the_file_of_the_package_does_not_change_while_python_is_wrong(notebook:
     notebook.fails("%%node a.py\nprint(")
     path: Path = notebook.session.package.file("scripts", "a.py")
     assert "print(1)" in path.read_text(encoding="utf-8")
+
+
+def test_a_node_that_prints_nothing_needs_no_name(notebook: Notebook) -> None:
+    notebook.ok("%%node quiet.py\nimport rospy\nrospy.init_node('quiet')\nrospy.spin()")
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    assert notebook.ok("import rosmini; rosmini.wait(1)") == "said hello at 1001.0\n"
+
+
+def test_a_launch_file_starts_its_nodes_and_starts_them_again(notebook: Notebook) -> None:
+    notebook.session.package.write("scripts", "talker.py", f"#!/usr/bin/env python3\n{TALKER}", may_run=True)
+    notebook.session.package.write(
+        "launch", "two.launch",
+        '<launch><node pkg="notebook" type="talker.py" name="one" output="screen"/>'
+        '<node pkg="notebook" type="talker.py" name="two" output="screen"/></launch>',
+    )  # fmt: skip
+    written = notebook.ok("_ = %roslaunch notebook two.launch")
+    assert written.startswith("process[one-1]: started\nprocess[two-2]: started\n")
+    assert written.endswith("[one] said hello at 1000.0\n[two] said hello at 1000.0\n")
+    assert notebook.ok("%rosnode list") == "/one\n/rosout\n/two\n"
+    assert "[two-2] killing on exit" in notebook.ok("_ = %roslaunch notebook two.launch")
+    assert notebook.ok("%rosnode list") == "/one\n/rosout\n/two\n"
+    assert "roslaunch" in notebook.ok("%roslaunch -h")
+
+
+def test_a_plain_cell_does_not_spin(notebook: Notebook) -> None:
+    written = notebook.fails("import rospy\nrospy.init_node('here')\nrospy.spin()")
+    assert "%%node NAME.py" in written
+    assert notebook.ok("%rosnode list") == "/here\n/rosout\n"

@@ -108,3 +108,27 @@ def test_wait_takes_seconds(notebook: Notebook) -> None:
     before = notebook.session.graph.now().to_sec()
     assert notebook.ok("import rosmini; rosmini.wait(2.5)") == ""
     assert notebook.session.graph.now().to_sec() == before + 2.5
+
+
+def test_where_ros_is_installed_too_one_line_says_whose_rospy_it_is(
+    shell: Any, capsys: pytest.CaptureFixture[str], tmp_path: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "rospy.py").write_text("ours = False", encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    notebook = Notebook(shell, capsys)
+    written = notebook.ok("%load_ext rosmini")
+    assert (
+        written == "rosmini: `import rospy` is rosmini's in this notebook, not that of the installed ROS.\n"
+    )
+    assert notebook.ok("import rospy\nprint(rospy.__name__)") == "rosmini.rospy\n"
+
+
+def test_a_rospy_that_was_imported_before_is_named(
+    shell: Any, capsys: pytest.CaptureFixture[str], tmp_path: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "rospy.py").write_text("ours = False", encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    notebook = Notebook(shell, capsys)
+    notebook.ok("import rospy")
+    assert "restart the kernel" in notebook.ok("%load_ext rosmini")
+    del sys.modules["rospy"]

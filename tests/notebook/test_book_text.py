@@ -1,0 +1,34 @@
+"""What differs from machine to machine has one form in the book."""
+
+from __future__ import annotations
+
+import pytest
+
+from rosmini.notebook.book_text import book_text
+from rosmini.packages.folders import assets_dir
+
+from .conftest import Notebook
+
+
+def test_paths_numbers_and_times(notebook: Notebook) -> None:
+    workspace = notebook.session.package.workspace
+    text = f"{workspace}/src/notebook {assets_dir()}/ros/tf Pid: 17 pid [18]\ntime=1.2ms ping average: 0.3ms 1.2ms 17"
+    assert book_text(text, workspace) == (
+        "~/catkin_ws/src/notebook /opt/ros/noetic/share/tf Pid: 4242 pid [4242]\n"
+        "time=0.42ms ping average: 0.42ms 1.2ms 17"
+    )
+
+
+def test_cells_print_the_books_form_where_the_book_is_made(
+    notebook: Notebook, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    workspace = str(notebook.session.package.workspace)
+    bad = "%%node bad.py\n1 / 0"
+    assert workspace in notebook.ok(bad)
+    assert workspace in notebook.ok("%rospack find notebook")
+    monkeypatch.setenv("ROSMINI_DISPLAY", "book")
+    assert 'File "~/catkin_ws/src/notebook/scripts/bad.py", line 2' in notebook.ok(bad)
+    assert notebook.ok("%rospack find notebook") == "~/catkin_ws/src/notebook\n"
+    assert notebook.ok("%rospack find rosmini_sim") == "/opt/ros/noetic/share/rosmini_sim\n"
+    assert "Pid: 4242" in notebook.ok("%rosnode info /rosout")
+    assert "time=0.42ms" in notebook.ok("%rosnode ping -c 1 /rosout")
