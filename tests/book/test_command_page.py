@@ -5,12 +5,16 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from rosmini.cli.main import COMMANDS
+import pytest
 
-ROWS = [
-    line.split("|")[1:-1]
-    for line in (Path(__file__).parents[2] / "book" / "commands.md").read_text(encoding="utf-8").splitlines()
-    if line.startswith("|") and "`rosmini " in line
+from rosmini.cli.main import COMMANDS, main
+
+PAGE = (Path(__file__).parents[2] / "book" / "commands.md").read_text(encoding="utf-8")
+ROWS = [line.split("|")[1:-1] for line in PAGE.splitlines() if line.startswith("|") and "`rosmini " in line]
+SHOWN = [
+    command.split("\n", 1)
+    for block in re.findall(r"```console\n(.*?)```", PAGE, re.DOTALL)
+    for command in block.split("$ rosmini ")[1:]
 ]
 
 
@@ -33,3 +37,16 @@ def test_the_verbs_on_the_page_are_there() -> None:
                 assert verb in tool.verbs, f"{name} {verb}"
                 checked += 1
     assert checked > 40
+
+
+def test_commands_are_shown() -> None:
+    assert len(SHOWN) >= 4
+
+
+@pytest.mark.parametrize(("command", "output"), SHOWN)
+def test_a_command_that_is_shown_prints_what_is_shown(
+    command: str, output: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("ROS_MASTER_URI", raising=False)
+    assert main(command.split()) == 0
+    assert capsys.readouterr().out.strip() == output.strip()

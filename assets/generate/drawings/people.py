@@ -9,17 +9,17 @@ from rosmini.viz.style import LABEL_SIZE, LIGHT, LINE_WIDTH, TEXT_SIZE
 from rosmini.viz.svg import element
 
 FIRMS: tuple[tuple[str, str], ...] = (
-    ("Stanford", "STAIR, Personal Robotics Program"),
+    ("Stanford", "STAIR, PR1"),
     ("Willow Garage", "2006 to 2014"),
     ("OSRF", "2012: ROS, Gazebo"),
-    ("Suitable Technologies", "remote presence: Beam"),
-    ("Industrial Perception", "robots that see and load"),
+    ("Suitable Technologies", "Beam"),
+    ("Industrial Perception", "robots that see"),
     ("Redwood Robotics", "2012: arms"),
     ("Unbounded Robotics", "2013 to 2014"),
     ("Savioke", "robots in hotels"),
-    ("Clearpath Robotics", "2014: looks after the PR2s"),
+    ("Clearpath Robotics", "2014: care of PR2s"),
     ("OSRA", "2024: the alliance"),
-    ("Intrinsic (Alphabet)", "2022: OSRF's engineers"),
+    ("Intrinsic (Alphabet)", "2022: OSRF's firm"),
     ("Google", "2013: bought both"),
     ("Fetch Robotics", "2021: bought by Zebra"),
 )
