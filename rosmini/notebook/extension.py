@@ -11,6 +11,7 @@ from rosmini.errors import UsageError
 from rosmini.rospy.importer import install, ros_is_installed, uninstall
 
 from . import node_cell
+from .completion import complete
 from .session import Session, begin_session, end_session, session_of
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ def load(shell: Any) -> None:
     session = begin_session(shell)
     magics.register(shell, say=session.say)
     shell.events.register("pre_run_cell", session.look)
+    shell.set_hook("complete_command", complete, str_key="%rosrun")
     atexit.register(end_session, shell)
     for kind, name, act in (
         ("line", "roscore", roscore),

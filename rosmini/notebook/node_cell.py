@@ -75,10 +75,9 @@ def node(session: Session, line: str, cell: str) -> None:
     if not name.endswith(".py"):
         raise UsageError(f"%%node writes a Python script: call it {name.partition('.')[0]}.py, not {name}")
     text = f"{SHEBANG}\n{cell}"
-    session.package.file("scripts", name)
+    path = session.package.file("scripts", name)
     _check(session, name, text)
-    path = session.package.write("scripts", name, text, may_run=True)
-    _start_script(session, str(path), name, given)
+    _start_script(session, path, name, given, text)
 
 
 def rosrun(session: Session, line: str) -> None:
@@ -91,7 +90,7 @@ def rosrun(session: Session, line: str) -> None:
     package, name = given.what
     found = find(f"{package}/{name}")
     if found.path is not None:
-        _start_script(session, str(found.path), name, given)
+        _start_script(session, found.path, name, given)
         return
     graph = session.graph
     console = partial(Console, graph.scheduler, stdin="", sink=session.sink)
@@ -121,18 +120,25 @@ def roslaunch(session: Session, line: str) -> Result:
     return results[0]
 
 
-def _start_script(session: Session, path: str, title: str, given: Words) -> None:
-    """Start a script; what it asks for comes from ``--stdin``, or from the reader."""
+def _start_script(session: Session, path: Path, title: str, given: Words, text: str | None = None) -> None:
+    """Start the script at ``path``, which is written first if its text is given.
+
+    What it asks for comes from ``--stdin``, or from the reader.
+    """
     graph = session.graph
     advice = f"add {STDIN} TEXT to the line that starts {title}"
     stdin = session.typed(advice) if given.stdin is None else given.stdin
     console = partial(Console, graph.scheduler, stdin=stdin, sink=session.sink)
+
+    def make() -> ScriptHandle:
+        if text is not None:
+            session.package.write("scripts", path.name, text, may_run=True)
+        return ScriptHandle(graph, ScriptSpec(str(path), given.args), console, seed=_seed(given.args))
+
+    source = path.read_text(encoding="utf-8", errors="replace") if text is None else text
     session.look()
     session.runs.start(
-        RunKey.of(path, given.args),
-        title,
-        lambda: ScriptHandle(graph, ScriptSpec(path, given.args), console, seed=_seed(given.args)),
-        speaks=_SPEAKS.search(Path(path).read_text(encoding="utf-8", errors="replace")) is not None,
+        RunKey.of(str(path), given.args), title, make, speaks=_SPEAKS.search(source) is not None
     )
 
 

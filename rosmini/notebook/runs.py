@@ -88,15 +88,16 @@ class Runs:
     def start(
         self, key: RunKey, title: str, make: Callable[[], ScriptHandle | NodeHandle], *, speaks: bool
     ) -> Run:
-        """Start what ``make`` makes, up to where it blocks; no time passes. One of this key is ended first.
+        """Start what ``make`` makes, up to where it blocks; no time passes. The earlier run of this key ends first.
 
         Raises what ``make`` raises.
         """
-        handle = make()
         self._end(key)
-        run = self._runs[key] = Run(title, handle, speaks)
+        handle = make()
+        run = Run(title, handle, speaks)
         handle.on_end = lambda status: self._ended(run, status)
         handle.start()
+        self._runs[key] = run
         self._graph.run(0)
         if handle.poll() == 0 and run.node_name:
             self._say(

@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Any
+
+import nbformat
+
+from book.tools.notebooks import KERNELSPEC, LANGUAGE
+
+from ..processes import run
 
 TALKER = """\
 import rospy
@@ -140,3 +147,71 @@ def test_two_notebooks_have_nothing_in_common(new_kernel: Any, shared_kernel: An
     assert shared_kernel.ok("%rosnode list").stdout == "/rosout\n"
     assert "no executable" in shared_kernel.run("%rosrun notebook talker.py").tracebacks[0]
     assert folder_of(new_kernel) != folder_of(shared_kernel)
+
+
+def test_a_roscore_that_is_interrupted_begins_anew_nevertheless(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    hangs = "import rospy, sys\nrospy.init_node('hangs')\ndef hang():\n    sum(1 for _ in iter(int, 1))\n"
+    new_kernel.ok(f"%%node hangs.py\n{hangs}rospy.on_shutdown(hang)\nrospy.spin()")
+    cell = new_kernel.send("print('now', flush=True)\n%roscore")
+    new_kernel.until(lambda: "now" in cell.stdout, "the cell")
+
+    def ended() -> bool:
+        new_kernel.interrupt()
+        return cell.idle
+
+    new_kernel.until(ended, "the end of the cell")
+    assert new_kernel.ok("%rosnode list").stdout == "/rosout\n"
+    assert new_kernel.ok(f"%%node talker.py\n{TALKER}").stdout == "turn 0\n"
+
+
+def test_words_of_rosrun_are_completed(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore\n")
+    new_kernel.ok(f"%%node talker.py\n{TALKER}")
+    for line, word in (
+        ("%rosrun note", "notebook"),
+        ("%rosrun notebook ta", "talker.py"),
+        ("%rosrun rosmini_sim s", "simulator"),
+    ):
+        reply = new_kernel.client.complete(line, len(line), reply=True, timeout=300)
+        assert word in reply["content"]["matches"], reply
+
+
+def test_the_stored_form_is_the_same_in_every_run(tmp_path: Path, root: Path) -> None:
+    path = tmp_path / "chapter.ipynb"
+    notebook = nbformat.v4.new_notebook(metadata={"kernelspec": KERNELSPEC, "language_info": LANGUAGE})
+    codes = (
+        "%load_ext rosmini\n%roscore",
+        f"%%node talker.py\n{TALKER}",
+        ASK.replace("ask.py", "ask.py --stdin Ada"),
+        "import rosmini\nrosmini.wait(2)",
+        "%rosnode info /talker",
+        "%rosnode ping -c 2 /talker",
+        "%rospack find notebook",
+        "%%node bad.py\nimport rospy\n1 / 0",
+        "%rosrun rosmini_sim simulator",
+        "%rostopic echo -n 1 /odom",
+        "%rostopic hz /scan",
+    )
+    notebook.cells = [nbformat.v4.new_code_cell(code, id=f"c{at}") for at, code in enumerate(codes)]
+    nbformat.write(notebook, path)
+    run([sys.executable, "-m", "book.tools.notebooks", "execute", path], cwd=root, check=True)
+    stored = path.read_text(encoding="utf-8")
+    assert "Pid: 4242" in stored
+    assert "who? hello Ada" in stored
+    assert "~/catkin_ws/src/notebook" in stored
+    words = (
+        "-m",
+        "pytest",
+        "-q",
+        "-n0",
+        "--nbval",
+        "--nbval-current-env",
+        "-p",
+        "no:cacheprovider",
+        "--rootdir",
+        root,
+    )
+    done = run([sys.executable, *words, "-c", root / "pyproject.toml", path], cwd=root)
+    assert done.returncode == 0, done.stdout
+    assert f"{len(codes)} passed" in done.stdout
