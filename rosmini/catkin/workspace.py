@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rosmini import files
-from rosmini.packages import MANIFEST, crawl
+from rosmini.packages import DEVEL_MARKER, MANIFEST, crawl
 
 from .findings import CatkinError, Finding
 from .project import CMAKE
@@ -16,7 +16,7 @@ from .project import CMAKE
 TOOL = "rosmini catkin_make"
 """What is in ``.built_by``: the original tools refuse folders that another tool built, and so does ours."""
 
-MARKER = ".catkin"
+MARKER = DEVEL_MARKER
 """The file by which a devel space is known; it names the source space."""
 
 

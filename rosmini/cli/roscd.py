@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from rosmini import files
 from rosmini.errors import RosminiError, UnknownPackage, nearest
-from rosmini.packages import PackageIndex
+from rosmini.packages import DEVEL_MARKER, PackageIndex
 
 from .verbs import ArgumentParser, Call, Result, Tool
 
@@ -83,7 +83,7 @@ def workspace(environ: Mapping[str, str]) -> Path:
     if environ.get("ROS_WORKSPACE"):
         return Path(environ["ROS_WORKSPACE"])
     for part in environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep):
-        if part and Path(part, ".catkin").is_file():
+        if part and Path(part, DEVEL_MARKER).is_file():
             return Path(part)
     raise RosminiError(
         "Neither ROS_WORKSPACE is set nor a catkin workspace is listed in CMAKE_PREFIX_PATH.  Please set ROS_WORKSPACE "

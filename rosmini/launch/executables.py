@@ -32,23 +32,28 @@ class Program(NamedTuple):
 
 
 def program(node: NodePlan, packages: PackageIndex, environ: Mapping[str, str]) -> Program:
-    """Return how a node is started in a process of its own.
+    """Return how a node is started in a process of its own. Raises as `program_of` does."""
+    return program_of(node.package, node.type, packages, environ)
+
+
+def program_of(package: str, name: str, packages: PackageIndex, environ: Mapping[str, str]) -> Program:
+    """Return how ``package/name`` is started in a process of its own.
 
     Built-in nodes and Python scripts are run by `rosmini rosrun`, other files of packages by themselves, and so are the
     executables of a ROS that is installed. Raises ``UnknownPackage`` or ``ScriptError`` if there is none.
     """
     try:
-        found = packages.find_executable(node.package, node.type)
+        found = packages.find_executable(package, name)
     except RosminiError:
-        installed = _installed(node.package, node.type, environ)
+        installed = _installed(package, name, environ)
         if installed is None:
             raise
         return Program((installed,), os.path.dirname(installed))  # noqa: PTH120
     if found.path is None:
-        return Program((*ROSRUN, node.package, node.type), os.getcwd())  # noqa: PTH109
+        return Program((*ROSRUN, package, name), os.getcwd())  # noqa: PTH109
     folder = str(found.path.parent)
     if is_python(found):
-        return Program((*ROSRUN, node.package, node.type), folder)
+        return Program((*ROSRUN, package, name), folder)
     return Program((str(found.path),), folder)
 
 

@@ -10,13 +10,14 @@ The crawl is ours and not rospkg's, whose order depends on the file system, and 
 manifest that is not XML. Manifests are read by catkin_pkg, after defusedxml has found no harm in them.
 """
 
-from .executables import NODES_GROUP, SCRIPT_FOLDERS, Executable
+from .executables import DEVEL_MARKER, NODES_GROUP, SCRIPT_FOLDERS, Executable
 from .folders import MANIFEST, Crawled, assets_dir, crawl, package_around, search_paths
 from .index import BUILT_IN, LONGEST, SCHEME, PackageIndex
 from .manifest import Export, Package, Stack, read_package, read_stack
 
 __all__ = [
     "BUILT_IN",
+    "DEVEL_MARKER",
     "LONGEST",
     "MANIFEST",
     "NODES_GROUP",

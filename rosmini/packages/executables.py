@@ -17,6 +17,9 @@ NODES_GROUP = "rosmini.nodes"
 
 SCRIPT_FOLDERS = ("scripts", "nodes", "src", "bin")  # in the order of preference
 
+DEVEL_MARKER = ".catkin"
+"""The file by which a devel space is known."""
+
 
 @dataclass(frozen=True)
 class Executable:
@@ -72,6 +75,22 @@ def files_of(folder: Path) -> list[Path]:
 def scripts(folder: Path) -> list[Path]:
     """The files of a package that can be run, in the order of preference."""
     return [path for path in files_of(folder) if _can_run(path, folder)]
+
+
+def built(package: str, folder: Path) -> list[Path]:
+    """The executables that a build of a catkin workspace made for a package: ``devel/lib/PACKAGE``.
+
+    The devel spaces are those of ``CMAKE_PREFIX_PATH``, and that of the workspace in whose ``src`` the package is.
+    """
+    spaces = [Path(part) for part in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if part]
+    spaces += [above.parent / "devel" for above in folder.parents if above.name == "src"]
+    found: dict[str, Path] = {}
+    for space in spaces:
+        if (space / DEVEL_MARKER).is_file():
+            for path in sorted((space / "lib" / package).glob("*")):
+                if path.is_file() and has_run_bit(path):
+                    found.setdefault(path.name, path)
+    return list(found.values())
 
 
 def _can_run(path: Path, package: Path) -> bool:

@@ -9,7 +9,7 @@ from pathlib import Path
 from rosmini import files
 from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage, nearest
 
-from .executables import Executable, built_in_nodes, files_of, has_run_bit, scripts
+from .executables import Executable, built, built_in_nodes, files_of, has_run_bit, scripts
 from .folders import MANIFEST, ROSBUILD_MANIFEST, crawl, search_paths
 from .manifest import Package, Stack, read_heading, read_package, read_stack
 
@@ -138,13 +138,15 @@ class PackageIndex:
         built_in = built_in_nodes(package)
         if package not in self and built_in:
             return sorted(built_in)
-        return sorted({*built_in, *(path.name for path in scripts(self.path(package)))})
+        folder = self.path(package)
+        return sorted({*built_in, *(path.name for path in (*scripts(folder), *built(package, folder)))})
 
     def find_executable(self, package: str, name: str) -> Executable:
         """What ``rosrun package name`` starts: a script or program in the package, else a built-in node.
 
         A program has the run bit; a Python script in ``scripts/``, ``nodes/``, ``src/`` or ``bin/`` needs none.
-        Of several files of that name, the one in the first of these folders is taken. Raises `UnknownPackage`,
+        Of several files of that name, the one in the first of these folders is taken; then come what a build has made,
+        in ``devel/lib/PACKAGE`` of the workspace. Raises `UnknownPackage`,
         and `ScriptError` if there is no such executable (with the nearest names) or it may not be run.
         """
         built_in = built_in_nodes(package)
@@ -153,6 +155,9 @@ class PackageIndex:
             for path in scripts(folder):
                 if path.name == name:
                     return Executable(package, name, path=path, has_run_bit=has_run_bit(path))
+            for path in built(package, folder):
+                if path.name == name:
+                    return Executable(package, name, path=path)
         else:
             folder = None
         if name in built_in:

@@ -268,3 +268,27 @@ def test_a_host_that_does_not_resolve_and_one_that_cannot_reach_back_are_told(se
     assert "'no-such-host.invalid' does not resolve" in said
     listener.send_signal(signal.SIGINT)
     listener.wait(PATIENCE)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a POSIX program")
+def test_what_a_build_made_is_found_and_a_program_is_run_as_itself(workspace: Path) -> None:
+    """`devel/lib/PACKAGE`, where C++ nodes are that catkin has compiled, and scripts that CMakeLists.txt installs."""
+    made = workspace / "devel" / "lib" / "speaking"
+    made.mkdir(parents=True)
+    (workspace / "devel" / ".catkin").write_text(str(workspace / "src"), encoding="utf-8")
+    (made / "compiled").write_text('#!/bin/sh\necho "$0 $*"\nexit 3\n', encoding="utf-8")
+    (made / "script.py").write_text(FAILING, encoding="utf-8")
+    for path in made.iterdir():
+        path.chmod(0o755)
+    kept = {name: text for name, text in os.environ.items() if not name.startswith(("ROS_", "CMAKE_"))}
+    env = {**kept, "ROS_PACKAGE_PATH": str(workspace / "src")}
+    done = run([*ROSMINI, "rosrun", "speaking", "compiled", "__name:=x", "-v"], env=env)
+    assert (done.returncode, done.stdout) == (3, f"{made / 'compiled'} __name:=x -v\n")
+    asked = run([*ROSMINI, "rosrun", "speaking", "compild"], env=env)
+    assert "did you mean compiled?" in asked.stderr
+    nodes = '<node pkg="speaking" type="compiled" name="a"/><node pkg="speaking" type="script.py" name="b"/>'
+    (workspace / "a.launch").write_text(f"<launch>{nodes}</launch>", encoding="utf-8")
+    shown = run([*ROSMINI, "roslaunch", "--args", "/a", str(workspace / "a.launch")], env=env)
+    assert shown.stdout == f"{made / 'compiled'} __name:=a\n"
+    checked = run([*ROSMINI, "roslaunch", "--check", str(workspace / "a.launch")], env=env)
+    assert "all is there" in checked.stdout
