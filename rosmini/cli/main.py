@@ -102,6 +102,12 @@ COMMANDS: dict[str, Entry] = {
     "roswtf": Entry(
         "rosmini.cli.roswtf", "what is probably wrong with the graph, and what to do about it", is_magic=True
     ),
+    "roswhy": Entry(
+        "rosmini.cli.roswhy", "why the last message on a topic came: the chain of its causes", is_magic=True
+    ),
+    "rossequence": Entry(
+        "rosmini.cli.rossequence", "who called whom, and sent what to whom, as it happened", is_magic=True
+    ),
     "rosparam": Entry(
         "rosmini.cli.rosparam", "parameters: get, set, load, dump, delete and list them", is_magic=True
     ),

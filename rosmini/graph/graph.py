@@ -249,6 +249,12 @@ class Graph(GraphCore):
             self._set_history(History(self.scheduler, self.nodes))
         return Recording(self.scheduler.history, lambda: self.scheduler.on_hub(self._record_no_more))
 
+    @property
+    def recorded(self) -> Recording | None:
+        """All that this graph has recorded, if it records."""
+        history: History | None = self.scheduler.history
+        return None if history is None else Recording(history, lambda: None, from_start=True)
+
     def _record_no_more(self) -> None:
         self._recordings -= 1
         if not self._recordings:

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import linecache
 import os
+import re
 import sys
+from ast import literal_eval
 from bisect import bisect_left
 from collections import Counter, deque
 from dataclasses import dataclass
@@ -44,6 +46,8 @@ UNRECORDED = frozenset(["/rosout_agg", "/clock"])
 """Topics whose messages are not recorded: they repeat what others say, and are many."""
 
 STANDARD_LIBRARY = str(Path(os.__file__).parent) + os.sep
+_MAGIC = re.compile(r"get_ipython\(\)\.run_line_magic\(('\w+', (?:'[^'\\\\]*'|\"[^\"\\\\]*\"))\)")
+
 OTHERS = ("site-packages", "dist-packages")
 
 _set_cause: Callable[[Message, int], None] = Message.__dict__["_cause"].__set__
@@ -352,10 +356,16 @@ class History:
         key = (code, line)
         place = self._places.get(key)
         if place is None:
-            text = linecache.getline(code.co_filename, line).strip() if with_text else ""
+            text = _as_written(linecache.getline(code.co_filename, line).strip()) if with_text else ""
             file = Path(source_of(code.co_filename)).name
             place = self._places[key] = Place(file, line, code.co_name, text)
         return place
+
+
+def _as_written(text: str) -> str:
+    """Return a line of a program as its author wrote it: IPython turns `%rostopic ...` into a call."""
+    magic = _MAGIC.fullmatch(text)
+    return text if magic is None else " ".join(literal_eval(f"({magic[1]})")).join(("%", ""))
 
 
 def _is_others(filename: str) -> bool:

@@ -34,9 +34,9 @@ class Recording:
     [('/talker', 'Master', 'setParam(/rate, 10)', '0')]
     """
 
-    def __init__(self, history: History, end: Callable[[], None]) -> None:
+    def __init__(self, history: History, end: Callable[[], None], *, from_start: bool = False) -> None:
         self.history = history
-        self._start = history.next_number
+        self._start = 0 if from_start else history.next_number
         self._stop: int | None = None
         self._end = end
 

@@ -51,6 +51,7 @@ class Session:
         finally:
             graph = Graph(strict=False)
             graph.notebook = True
+            graph.record()  # %roswhy asks about what was, and nobody knows before what that will be
             set_default_graph(graph)
             self.runs = Runs(graph, self.say)
 
