@@ -116,7 +116,7 @@ class SlaveApi:
             publish.setdefault(topic, []).append([number, 0, getattr(sender, "sent", 0), True])
         subscribe: dict[str, list[Any]] = {topic: [] for topic in self._subscribed}
         for topic, link in now.into:
-            subscribe.setdefault(topic, []).append([link.id, 0, link.dropped, link.is_open])
+            subscribe.setdefault(topic, []).append([link.id, link.bytes_received, link.dropped, link.is_open])
         stats = [
             [[topic, 0, rows] for topic, rows in publish.items()],
             [[topic, rows] for topic, rows in subscribe.items()],

@@ -112,6 +112,8 @@ class DirectReceiver(ABC):
         """How many messages the callbacks got."""
         self.dropped = 0
         """How many messages were dropped because too many waited."""
+        self.bytes_received = 0
+        """How many bytes of messages were taken from a wire."""
         self.info = ""
         """What ``getBusInfo`` says of the connection, as :attr:`Sender.info`."""
         self.on_drained: Callable[[], None] | None = None

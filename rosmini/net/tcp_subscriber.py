@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 BATCH = 1000
 """So many messages are handed over at once."""
 
+LENGTH_SIZE = 4
+"""So many bytes before each message say how long it is."""
+
 HELD = 1024 * 1024
 """When more bytes wait for callbacks than this, and no queue size drops them, nothing more is read."""
 
@@ -106,6 +109,7 @@ class TopicInlet:
             except Exception as error:
                 self._fail(error, len(batch))
                 return
+            receiver.bytes_received += sum(map(len, batch)) + LENGTH_SIZE * len(batch)
             receiver.deliver(messages)
         elif self._has_ended:
             self._finish()

@@ -823,8 +823,7 @@ def test_a_closed_graph_is_collected_with_all_that_was_in_it(kind: str) -> None:
         node.run(node.spin)
         node.run(lambda: node.wait_for_message("never", String))
         node.on_shutdown(lambda: None)
-        graph.run(3.0)
-        assert len(graph.scheduler.waiting()) >= 3
+        until(graph, lambda: len(graph.scheduler.waiting()) >= 3)
         close(graph)
 
     graph = make(kind)

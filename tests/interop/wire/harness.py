@@ -347,6 +347,23 @@ class Stage:
         except AssertionError as error:
             raise AssertionError(f"{error}; there are {self.who(name, role)}") from None
 
+    def wait_until_heard(self, prefix: str, topics: list[str]) -> None:
+        """Wait until the only node whose name begins so has got messages on all of these topics."""
+        names: set[str] = set()
+
+        def has_heard() -> bool:
+            names.update(name for name in self.nodes() if name.startswith(prefix))
+            if not names:
+                return False
+            (name,) = names
+            with xmlrpc.client.ServerProxy(self.master("lookupNode", name)) as slave:
+                answer: Any = slave.getBusStats("/test")
+            _, subscribed, *_ = answer[2] if answer[0] == 1 else answer  # roscpp's has no code
+            size = {topic: sum(link[1] for link in links) for topic, links in subscribed}
+            return all(size.get(topic) for topic in topics)
+
+        wait_until(has_heard, f"messages on {topics}")
+
     # ---- the end ----
 
     def __enter__(self) -> Stage:

@@ -115,9 +115,8 @@ def test_our_rosbag_records_both(core: Stage, busy: Peers) -> None:
     bag = core.home / "ours_of_both.bag"
     topics = [f"{peer.node}/{name}" for peer in busy for name in ("count", "latched")]
     record = core.start("record", [*ROSMINI, "rosrun", "rosbag", "record", "-O", bag, *topics])
+    core.wait_until_heard("/record", topics)
     for peer, other in (busy, busy[::-1]):
-        peer.ask("connected", f"{peer.node}/latched", 1)
-        peer.ask("connected", f"{peer.node}/count", 2)
         other.ask("forget", f"{peer.node}/count")
         other.ask("hear", f"{peer.node}/count", 10)
     record.interrupt()

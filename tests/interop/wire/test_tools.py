@@ -172,9 +172,8 @@ def test_rosbag_records_both_and_plays_to_both(core: Stage, busy: Peers) -> None
     bag = core.home / "both.bag"
     topics = [f"{peer.node}/{name}" for peer in busy for name in ("count", "latched")]
     record = core.start("record", ["rosbag", "record", "-O", bag, *topics])
+    core.wait_until_heard("/record", topics)
     for peer, other in (busy, busy[::-1]):
-        peer.ask("connected", f"{peer.node}/latched", 1)
-        peer.ask("connected", f"{peer.node}/count", 2)
         other.ask("forget", f"{peer.node}/count")
         other.ask("hear", f"{peer.node}/count", 10)
     assert record.interrupt() == 0
