@@ -199,6 +199,7 @@ class Recorder:
         except OSError:
             self._finish()
             raise
+        self._drain()
         if options.publish:
             string = message_class("std_msgs/String")
             self.node.publisher("begin_write", string, latch=True).publish(str(self._files.path))
@@ -296,8 +297,10 @@ class Recorder:
             self.dropped += 1
 
     def _drain(self) -> None:
-        """Write what is queued."""
+        """Write what is queued, once the file is open: the Master may take its time for each topic before that."""
         self._draining = False
+        if self._files is None or self._files.bag is None:
+            return
         try:
             while self._queue:
                 key, time, data = self._queue.popleft()

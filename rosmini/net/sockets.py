@@ -47,6 +47,22 @@ def listen(bind: str, port: int) -> socket.socket:
     return listener
 
 
+KEEPALIVE = {"TCP_KEEPIDLE": 60, "TCP_KEEPINTVL": 10, "TCP_KEEPCNT": 9}
+"""As in rospy and roscpp: after a minute of silence the peer is asked, every ten seconds, nine times at most."""
+
+
+def prepare(connection: socket.socket) -> None:
+    """Set what each connection has: all is sent at once, and a host that has gone is noticed though nothing is sent.
+
+    Who publishes sends what it has at the end of each event, in one piece: to wait for more would only delay it.
+    """
+    connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    if all(hasattr(socket, name) for name in KEEPALIVE):
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+        for name, value in KEEPALIVE.items():
+            connection.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
+
+
 def literal(host: str, port: int) -> Address | None:
     """Return the address that needs no look-up, or None."""
     try:
@@ -106,7 +122,7 @@ async def connect(host: str, port: int) -> socket.socket:
     made = socket.socket(family, socket.SOCK_STREAM)
     try:
         made.setblocking(False)
-        made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        prepare(made)
         await asyncio.get_running_loop().sock_connect(made, address)
     except OSError as error:
         made.close()

@@ -13,7 +13,7 @@ from rosmini.graph.headers import decode_fields, encode_header
 
 from .frames import FrameReader
 from .service_server import TcpClient
-from .sockets import listen
+from .sockets import listen, prepare
 from .tcp_publisher import TcpSender
 from .tcp_stream import Stream
 from .xmlrpc_text import NOT_XML
@@ -93,9 +93,8 @@ class TcpServer:
             name = self.endpoint.name
             self.warn(f"{name} takes no connections for a moment: {error}", (name, "accept"))
             return
-        # Who publishes sends what it has at the end of each event, in one piece: to wait for more would only delay it.
         with suppress(OSError):  # it has gone again
-            sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            prepare(sock)
         self.waiting[_Arrival(self, sock, peer[0])] = None
         if len(self.waiting) > WAITING:
             next(iter(self.waiting)).give_up(f"{WAITING} others wait, too")

@@ -21,6 +21,7 @@ from rosmini.graph.byte_transport import ByteTransport
 from rosmini.msgs import message_class
 from rosmini.time import Time
 
+from ..graph.restless_master import RestlessMaster
 from ..processes import PATIENCE, run, start
 
 String = message_class("std_msgs/String")
@@ -613,3 +614,22 @@ def test_ctrl_c_ends_a_recording_in_good_order(tmp_path):
     assert len(numbers) >= 50
     assert numbers == list(range(numbers[0], numbers[-1] + 1))
     assert not (tmp_path / "x.bag.active").exists()
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_arrives_before_all_topics_are_subscribed_to_is_recorded(graph, tmp_path, seed):
+    """A Master elsewhere takes its time for each of the topics."""
+    RestlessMaster(graph, seed)
+    topics = [f"/t{number}" for number in range(5)]
+
+    def work() -> None:
+        talker = graph.node("talker")
+        for topic in topics:
+            talker.publisher(topic, String, latch=True).publish(topic)
+        recorder = record(graph, tmp_path / "x", *topics)
+        talker.sleep(5.0)
+        recorder.stop()
+
+    lane = graph.node("main").run(work)
+    graph.run(until=lambda: lane.idle)
+    assert sorted(topic for topic, _, _ in Bag(tmp_path / "x.bag")) == topics
