@@ -67,6 +67,7 @@ RQT = {
     "publisher": "publish on topics, from a form",
     "service_caller": "call services, from a form",
     "logger_level": "how much each node logs, from a form",
+    "reconfigure": "parameters of nodes that run, from a form",
 }
 """The tools of rqt, each a verb of `rosmini rqt`."""
 

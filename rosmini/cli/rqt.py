@@ -62,6 +62,25 @@ def _parser(verb: str, usage: str, description: str, example: str, seconds: floa
     return parser
 
 
+def _add_live(parser: Parser) -> Parser:
+    """Add the option that asks for what goes on."""
+    parser.add_option(
+        "--live", action="store_true", default=False, help="in a notebook: a panel that goes on"
+    )
+    return parser
+
+
+def _live(kind: str, call: Call, *words: str, **options: Any) -> Shown:
+    """Open a panel of `rosmini.widgets.rqt`. Raises ``VerbError`` in a terminal, where a page operates nothing."""
+    if call.in_terminal:
+        raise VerbError(
+            "--live is for notebooks: what is written in a terminal is a page, and nothing in it goes on"
+        )
+    from rosmini.widgets import rqt
+
+    return Shown(view=vars(rqt)[kind](call.graph, *words, **options))
+
+
 def _shown(view: View, verb: str, given: Values, call: Call) -> Shown:
     """Write the page that was asked for; in a terminal open one in the browser if none was."""
     if given.output:
@@ -99,31 +118,47 @@ def _graph_parser() -> Parser:
         "--nodes", default="/", metavar="FILTER", help="names or regular expressions, - excludes"
     )
     parser.add_option("--topics", default="/", metavar="FILTER", help="likewise")
+    parser.add_option("--group", metavar="LIST", help="what is one box: actions, images, tf, none")
+    parser.add_option(
+        "--namespaces", type="int", default=2, metavar="N", help="how deep boxes around them nest"
+    )
+    parser.add_option(
+        "--highlight", default="", metavar="NAME", help="a node or topic, and what is beside it"
+    )
     parser.add_option("--title", metavar="TEXT", help="a caption under the picture")
-    return parser
+    return _add_live(parser)
 
 
 @TOOL.verb(RQT["graph"], parser=_graph_parser, only_asks=True)
 def graph(given: Values, call: Call) -> Shown:
     """Draw the computation graph."""
     from rosmini.introspection.nodes import names, silent
-    from rosmini.viz.rqt.graph import DEFAULT_HIDE, rqt_graph
+    from rosmini.viz.rqt.graph import DEFAULT_GROUP, DEFAULT_HIDE, rqt_graph
     from rosmini.viz.rqt.graph_state import CALLER_ID, GraphState
 
+    options: dict[str, Any] = {
+        "mode": MODES[given.mode],
+        "hide": _switches(given.hide, DEFAULT_HIDE),
+        "group": _switches(given.group, DEFAULT_GROUP),
+        "namespaces": given.namespaces,
+        "namespace": given.nodes,
+        "topics": given.topics,
+        "highlight": given.highlight,
+    }
+    if given.live:
+        return _live("NodeGraph", call, **options)
     master = call.peers.ask_as(CALLER_ID)
     state = GraphState.of(
         master.ask("getSystemState"),
         master.ask("getTopicTypes"),
         unreachable=silent(call.peers, names(call.peers)),
     )
-    hide: Any = (
-        DEFAULT_HIDE if given.hide is None else [part for part in given.hide.split(",") if part != "none"]
-    )
-    mode: Any = MODES[given.mode]
-    view = rqt_graph(
-        state, mode=mode, hide=hide, namespace=given.nodes, topics=given.topics, title=given.title
-    )
-    return _shown(view, "graph", given, call)
+    return _shown(rqt_graph(state, title=given.title, **options), "graph", given, call)
+
+
+def _switches(given: str | None, default: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what a list of switches turns on."""
+    return default if given is None else tuple(part for part in given.split(",") if part != "none")
 
 
 def _definition(verb: str, example: str) -> None:
@@ -181,7 +216,7 @@ def bag(given: Values, call: Call) -> Shown:
 
 def _plot_parser() -> Parser:
     text = "Numbers in messages over time; x:y stands for two fields beside one another."
-    return _parser("plot", "[options] FIELD...", text, "/odom/pose/pose/position/x:y", 5.0)
+    return _add_live(_parser("plot", "[options] FIELD...", text, "/odom/pose/pose/position/x:y", 5.0))
 
 
 @TOOL.verb(RQT["plot"], parser=_plot_parser)
@@ -192,13 +227,14 @@ def plot(given: Values, call: Call) -> Shown:
     fields = [
         global_name(word.partition("[")[0]) + word[len(word.partition("[")[0]) :] for word in given.words
     ]
+    if given.live:
+        return _live("Plot", call, *fields)
     return _shown(rqt_plot(call.graph, *fields, duration=given.duration), "plot", given, call)
 
 
 def _topic_parser() -> Parser:
-    return _parser(
-        "topic", "[options] [TOPIC...]", "All topics; of those named, the last values.", "/odom", 2.0
-    )
+    text = "All topics; of those named, the last values."
+    return _add_live(_parser("topic", "[options] [TOPIC...]", text, "/odom", 2.0))
 
 
 @TOOL.verb(RQT["topic"], parser=_topic_parser)
@@ -207,6 +243,8 @@ def topic(given: Values, call: Call) -> Shown:
     from rosmini.viz.rqt.topics import rqt_topic
 
     expand = [global_name(word) for word in given.words]
+    if given.live:
+        return _live("TopicMonitor", call, *expand)
     return _shown(rqt_topic(call.graph, expand=expand, duration=given.duration), "topic", given, call)
 
 
@@ -215,7 +253,7 @@ def _console_parser() -> Parser:
         "console", "[options]", "What nodes log in this time.", "--level WARN --duration 10", 5.0
     )
     parser.add_option("--level", default="DEBUG", metavar="LEVEL", help="the lowest level: DEBUG to FATAL")
-    return parser
+    return _add_live(parser)
 
 
 @TOOL.verb(RQT["console"], parser=_console_parser)
@@ -223,6 +261,8 @@ def console(given: Values, call: Call) -> Shown:
     """Show what nodes log."""
     from rosmini.viz.rqt import rqt_console
 
+    if given.live:
+        return _live("LogConsole", call, level=given.level)
     log = call.graph.console()
     try:
         _pass(call, given.duration)
@@ -287,6 +327,7 @@ PANELS = {
         "rostopic pub -r 10 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.2}}'",
     ),
     "service_caller": ("ServiceCaller", "[SERVICE]", "rosservice call /SERVICE VALUES"),
+    "reconfigure": ("DynamicReconfigure", "[NODE]", "rosservice call /NODE/set_parameters VALUES"),
     "logger_level": ("LoggerLevel", "[NODE]", "rosservice call /NODE/set_logger_level rosout DEBUG"),
 }
 """The panels: the class, its words, and the command that does the same in a terminal, where a page operates nothing."""
@@ -309,11 +350,9 @@ def _panel(verb: str) -> None:
 
     @TOOL.verb(RQT[verb], name=verb, parser=parser, in_terminal=in_terminal)
     def show(given: Values, call: Call) -> Shown:
-        from rosmini.widgets import rqt
-
         if len(given.words) > (1 if usage else 0):
             parser().error(f"rqt_{verb} takes {usage or 'no words'}")
-        return Shown(view=vars(rqt)[kind](call.graph, *map(global_name, given.words)))
+        return _live(kind, call, *map(global_name, given.words))
 
 
 for _verb in PANELS:

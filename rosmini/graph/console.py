@@ -21,15 +21,19 @@ class Console:
         graph: whose log.
         limit: how many messages to keep, the newest; rqt_console's own limit if not given.
         name: of the node that listens.
+        node: listens instead of one of its own, and goes on when the console is closed.
 
     """
 
-    def __init__(self, graph: GraphCore, *, limit: int = 20000, name: str = "rqt_console") -> None:
+    def __init__(
+        self, graph: GraphCore, *, limit: int = 20000, name: str = "rqt_console", node: Node | None = None
+    ) -> None:
         self._messages: deque[Any] = deque(maxlen=limit)
         self.total = 0
         """How many messages came; those over the limit are gone."""
-        self._node = Node(name, graph)
-        self._node.subscriber("/rosout_agg", graph.log_class, self._take)
+        listener = Node(name, graph) if node is None else node
+        self._own = listener if node is None else None
+        self._subscriber = listener.subscriber("/rosout_agg", graph.log_class, self._take)
 
     def _take(self, message: Any) -> None:
         self.total += 1
@@ -47,7 +51,9 @@ class Console:
 
     def close(self) -> None:
         """Listen no more. What came is kept."""
-        self._node.shutdown("the console was closed")
+        self._subscriber.unregister()
+        if self._own is not None:
+            self._own.shutdown("the console was closed")
 
     def __repr__(self) -> str:
         return f"<Console with {len(self._messages)} messages>"

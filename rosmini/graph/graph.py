@@ -231,6 +231,7 @@ class Graph(GraphCore):
             topics='/': only these topics, in the same form
             direction='right': or 'down'
             since=None: an earlier state; what is new since then is bold, what is gone is dashed
+            highlight='': a node or topic: what it hears is blue, what hears it green, all else pale
             title=None: a caption under the picture, and the first words of its text form
         """
         return show("computation_graph", self, **options)

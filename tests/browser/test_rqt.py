@@ -8,9 +8,18 @@ from types import SimpleNamespace
 import pytest
 
 from rosmini import Graph
+from rosmini.dynamic_reconfigure import Description, ParameterGroup, ReconfigurableParameter, Server
+from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import SetBool
 from rosmini.viz.embed import STATIC
-from rosmini.widgets.rqt import LoggerLevel, MessagePublisher, ServiceCaller
+from rosmini.widgets.rqt import (
+    DynamicReconfigure,
+    LogConsole,
+    LoggerLevel,
+    MessagePublisher,
+    NodeGraph,
+    ServiceCaller,
+)
 from rosmini.widgets.rqt.panel_link import SCRIPTS, PanelLink
 
 pytestmark = pytest.mark.browser
@@ -183,6 +192,41 @@ def test_a_level_is_chosen_and_each_control_has_a_name(show, graph, theme, share
         "all => all.map((one) => one.ariaLabel || one.textContent.trim())"
     )
     assert all(names)
+
+
+def test_a_slider_is_moved_with_keys(show, graph):
+    gain = ReconfigurableParameter("gain", "double", 0, "how strong", 0.5, 0.0, 2.0)
+    server = Server(
+        graph.node("robot"), Description(ParameterGroup("Default", parameters=(gain,))), lambda c, _: c
+    )
+    opened = show(DynamicReconfigure(graph, "/robot"))
+    slider = opened.page.get_by_role("slider", name="gain (slider)")
+    slider.focus()
+    opened.page.keyboard.press("End")
+    opened.pump()
+    assert server.config["gain"] == 2.0
+    assert opened.control("value/gain").input_value() == "2"
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_a_click_on_a_node_highlights_it(show, graph, theme, shared_tmp):
+    graph.node("talker").publisher("/chatter", String)
+    graph.node("listener").subscriber("/chatter", String, lambda _: None)
+    opened = show(NodeGraph(graph), theme=theme)
+    opened.page.locator(".rm-node", has_text="/talker").click()
+    opened.pump()
+    assert opened.panel.options["highlight"] == "/talker"
+    assert "/talker" in opened.page.locator(".rm-chosen").text_content()
+    assert "/listener" in opened.page.locator(".rm-node.rm-out").text_content()
+    opened.page.screenshot(path=shared_tmp / f"rqt_graph_{theme}.png")
+
+
+def test_what_is_logged_appears(show, graph):
+    opened = show(LogConsole(graph))
+    opened.choose("level", "WARN")
+    graph.nodes["/lamp"].logwarn("<i>hot</i>")
+    opened.pump(0.5)
+    assert "<i>hot</i>" in opened.page.get_by_role("region", name="Log messages").inner_text()
 
 
 def test_an_ended_panel_is_disabled_and_says_why(show, graph):

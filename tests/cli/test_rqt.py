@@ -95,13 +95,35 @@ def test_every_command_of_its_own_is_a_verb_and_the_reverse() -> None:
     assert str(result) == str(TOOL.run("msg", "std_msgs/String"))
 
 
-@pytest.mark.parametrize("line", ["publisher", "service_caller /talker/get_loggers", "logger_level talker"])
+@pytest.mark.parametrize(
+    "line", ["publisher", "service_caller /talker/get_loggers", "logger_level talker", "reconfigure"]
+)
 def test_a_panel_opens_in_a_notebook_and_goes_on(graph: Graph, line: str) -> None:
     panel = shown(graph, line).view
     assert panel.text.startswith(f"rqt_{line.split(maxsplit=1)[0]}\n")
     assert f"/rqt_{line.split(maxsplit=1)[0]}" in graph.nodes
     with pytest.raises(UsageError):
         shown(graph, f"{line} a b")
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "graph --live --highlight /talker --group none",
+        "plot --live number/data",
+        "topic --live chatter",
+        "console --live",
+    ],
+)
+def test_what_goes_on_is_for_notebooks(graph: Graph, line: str) -> None:
+    panel = shown(graph, line).view
+    graph.run(1.0)
+    assert panel.text.startswith(f"rqt_{line.split(maxsplit=1)[0]}\n")
+    assert f"/rqt_{line.split(maxsplit=1)[0]}" in graph.nodes
+    verb = TOOL.verbs[line.split(maxsplit=1)[0]]
+    given = verb.parser().parse(line.split()[1:])
+    with pytest.raises(VerbError, match="--live is for notebooks"):
+        verb.act(given, Call(graph, read_line=input))
 
 
 @pytest.mark.parametrize(("verb", "instead"), [(verb, entry[2]) for verb, entry in PANELS.items()])

@@ -75,7 +75,7 @@ def rqt_console(
         and (not text or wanted(message.msg))
         and not (exclude and unwanted(message.msg))
         and (topic in ("", "/") or any(matches(name, topic) for name in message.topics))
-        and location in _location(message)
+        and location in location_of(message)
         and (start is None or message.header.stamp.to_sec() >= _seconds(start))
         and (end is None or message.header.stamp.to_sec() <= _seconds(end))
     ]
@@ -101,7 +101,8 @@ class LogTable(View):
         self.columns = tuple(columns)
         self.total = total
         self.title = title
-        self._marks = list(marks)
+        self.marks = list(marks)
+        """Which of them are highlighted."""
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -123,7 +124,7 @@ class LogTable(View):
             for number in range(len(self.columns))
         ]
         lines = [head]
-        for row, mark in zip(cells, self._marks, strict=True):
+        for row, mark in zip(cells, self.marks, strict=True):
             parts = [cell.split("\n") for cell in row]
             for number in range(max(len(part) for part in parts)):
                 shown = [part[number] if number < len(part) else "" for part in parts]
@@ -152,7 +153,7 @@ class LogTable(View):
                 "".join(_data(message, column) for column in self.columns),
                 class_="marked" if mark else None,
             )
-            for message, mark in zip(self.rows, self._marks, strict=True)
+            for message, mark in zip(self.rows, self.marks, strict=True)
         )
         if not self.rows:
             body = element("tr", element("td", "no message passes the filters", colspan=len(self.columns)))
@@ -176,12 +177,12 @@ def _cell(message: Any, column: Column) -> str:
         case "message":
             return str(message.msg)
         case "location":
-            return _location(message)
+            return location_of(message)
         case "topics":
             return ", ".join(message.topics)
 
 
-def _location(message: Any) -> str:
+def location_of(message: Any) -> str:
     """Where the message was logged: the file without its folder, which differs between machines."""
     if not message.file:
         return ""

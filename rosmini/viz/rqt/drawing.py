@@ -8,6 +8,7 @@ from rosmini.viz.graph_drawing import name as label_of
 from rosmini.viz.layout import Edge, Layout, Rect, Route, Vertex, layered
 from rosmini.viz.layout.model import Direction
 from rosmini.viz.metrics import text_width
+from rosmini.viz.rqt.highlight import Highlight
 from rosmini.viz.rqt.selection import Selection
 from rosmini.viz.svg import document, element, escape
 
@@ -26,22 +27,52 @@ CHANGES = (
 """What is new since an earlier state is bold, what is gone pale and dashed."""
 
 
-def draw(selection: Selection, *, namespaces: int, direction: Direction, title: str, alt: str) -> str:
+def _lit(kind: str, colour: str) -> str:
+    scope, ink = f".rosmini-svg .rm-{kind}", style.variable(colour)
+    return (
+        f"{scope} ellipse,{scope} rect,{scope} path:first-of-type{{stroke:{ink};stroke-width:2.8}}"
+        f"{scope} path:last-of-type{{fill:{ink}}}{scope} text{{font-weight:bold}}"
+    )
+
+
+LIT = {"chosen": "vermilion", "in": "blue", "out": "green", "both": "purple"}
+HIGHLIGHTS = ".rosmini-svg .rm-pale{opacity:0.35}" + "".join(_lit(*each) for each in LIT.items())
+"""The node or topic that is highlighted, what it hears (in), what hears it (out), and, pale, all else."""
+
+
+def draw(
+    selection: Selection,
+    *,
+    namespaces: int,
+    direction: Direction,
+    title: str,
+    alt: str,
+    highlight: Highlight | None = None,
+) -> str:
     """The SVG of a selection. `namespaces` is how deep boxes around namespaces nest, 0 for none."""
     vertices, edges, labels = _graph(selection, namespaces)
+    names = [*(vertex.name for vertex in vertices), *(edge.name for edge in edges)]
+    looks = dict.fromkeys(names, " rm-pale") if highlight else {}
+    looks |= {part: f" rm-{kind}" for part, kind in highlight.parts.items()} if highlight else {}
     layout = layered(vertices, edges, direction=direction)
     if not vertices:
         return _nothing(title, alt)
     groups = sorted(layout.groups.items(), key=lambda group: (len(group[0]), group[0]))
     parts = [_group(path, rect) for path, rect in groups]
     parts += [
-        _edge(layout.edges[edge.name], edge, labels, _change(edge.name, selection))
+        _edge(layout.edges[edge.name], edge, labels, _change(edge.name, selection) + looks.get(edge.name, ""))
         for edge in sorted(edges, key=lambda e: e.name)
     ]
-    parts += [_vertex(vertex, layout, selection) for vertex in sorted(vertices, key=lambda v: v.name)]
+    parts += [
+        _vertex(vertex, layout, selection, looks.get(vertex.name, ""))
+        for vertex in sorted(vertices, key=lambda v: v.name)
+    ]
     parts += [_group_name(path, rect) for path, rect in groups]
-    css = _css() + (CHANGES if selection.added or selection.removed else "")
-    return drawing(parts, layout, title=title, alt=alt, css=css, colours=COLOURS)
+    css = (
+        _css() + (CHANGES if selection.added or selection.removed else "") + (HIGHLIGHTS if highlight else "")
+    )
+    colours = COLOURS + ([*LIT.values()] if highlight else [])
+    return drawing(parts, layout, title=title, alt=alt, css=css, colours=colours)
 
 
 def _graph(selection: Selection, namespaces: int) -> tuple[list[Vertex], list[Edge], dict[str, str]]:
@@ -84,7 +115,7 @@ def _namespaces(name: str) -> list[str]:
     return ["/" + "/".join(parts[: i + 1]) for i in range(len(parts))]
 
 
-def _vertex(vertex: Vertex, layout: Layout, selection: Selection) -> str:
+def _vertex(vertex: Vertex, layout: Layout, selection: Selection, look: str) -> str:
     rect = layout.vertices[vertex.name]
     name = vertex.name[2:]
     if vertex.shape == "ellipse":
@@ -100,7 +131,7 @@ def _vertex(vertex: Vertex, layout: Layout, selection: Selection) -> str:
         tip = f"topic {name}" + (f" [{selection.types[name]}]" if name in selection.types else "")
         if members:
             tip = f"{name}: {', '.join(members)}"
-    kind += _change(vertex.name, selection)
+    kind += _change(vertex.name, selection) + look
     return element("g", element("title", escape(tip)) + shape + label_of(name, rect), class_=f"rm-{kind}")
 
 

@@ -9,6 +9,7 @@ from rosmini.viz.layout import Direction
 from rosmini.viz.rqt.condensing import condensed
 from rosmini.viz.rqt.drawing import draw
 from rosmini.viz.rqt.graph_state import graph_state
+from rosmini.viz.rqt.highlight import highlighted
 from rosmini.viz.rqt.selection import Group, Hide, Mode, select
 from rosmini.viz.rqt.wording import alt_text, text_form
 from rosmini.viz.view import Picture
@@ -28,6 +29,7 @@ def rqt_graph(
     topics: str = "/",
     direction: Direction = "right",
     since: object = None,
+    highlight: str = "",
     title: str | None = None,
 ) -> Picture:
     """Draw who publishes what to whom, as rqt_graph does (wiki.ros.org/rqt_graph).
@@ -49,10 +51,12 @@ def rqt_graph(
         topics: filter for topics, in the same form.
         direction: "right" as rqt_graph, or "down".
         since: an earlier state, in any form of `source`: what is new since then is drawn in bold, what is gone dashed.
+        highlight: a node or topic that is drawn: what it hears is blue, what hears it green, all else pale.
         title: a caption under the picture, and the first words of its text form.
 
     Raises:
-        ViewError: the source has no graph state, or a mode, switch or filter is not known.
+        ViewError: the source has no graph state, or a mode, switch or filter is not known, or nothing of the name
+            to highlight is drawn.
 
     """
     state = shown = graph_state(source)
@@ -65,5 +69,15 @@ def rqt_graph(
     selected = select(shown, mode, hide=hide, group=group, nodes=namespace, topics=topics)
     selection = condensed(replace(selected, added=added, removed=removed))
     text, alt = text_form(selection, title), alt_text(selection)
-    svg = draw(selection, namespaces=namespaces, direction=direction, title=title or "rqt_graph", alt=alt)
+    found = highlighted(selection, highlight) if highlight else None
+    if found is not None:
+        text, alt = f"{text}\n{found.text}", f"{alt} {found.text[0].upper()}{found.text[1:]}."
+    svg = draw(
+        selection,
+        namespaces=namespaces,
+        direction=direction,
+        title=title or "rqt_graph",
+        alt=alt,
+        highlight=found,
+    )
     return Picture(svg, text=text, alt=alt, caption=title)

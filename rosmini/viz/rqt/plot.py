@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
@@ -64,13 +65,13 @@ def expanded(name: str) -> list[str]:
 
 def _heard(graph: Any, names: list[str], duration: float) -> tuple[Samples, float]:
     found = {name: find_topic(graph, name) for name in names}
-    series = {name: _Series(name, topic.path) for name, topic in found.items()}
+    series = {name: Series(name, topic.path) for name, topic in found.items()}
 
     def subscribe(node: Any) -> None:
         for one, topic in zip(series.values(), found.values(), strict=True):
             node.subscriber(topic.topic, class_of(topic.type), hearer(one), numpy=False)
 
-    def hearer(one: _Series) -> Callable[[Any], None]:
+    def hearer(one: Series) -> Callable[[Any], None]:
         return lambda message: one.take(graph.now().to_sec(), message)
 
     begin = listen(graph, "rqt_plot", duration, subscribe)
@@ -84,21 +85,21 @@ def _read(bag: Any, names: Iterable[str]) -> tuple[Samples, float]:
         topic = next((each for each in topics if f"{name}/".startswith(f"{each}/")), None)
         if topic is None:
             raise ViewError(f"the bag has no topic of {name}; it has {', '.join(topics)}")
-        series = _Series(name, name[len(topic) :])
+        series = Series(name, name[len(topic) :])
         for _, message, time in bag.read_messages(topics=[topic]):
             series.take(time.to_sec(), message)
         samples[name] = series.points()
     return samples, min((times[0] for times, _ in samples.values() if times), default=0.0)
 
 
-class _Series:
+class Series:
     """The values of one field. What is wrong with it is said at the end: a callback is no place for that."""
 
     def __init__(self, name: str, path: str) -> None:
         self._name = name
         self._times: list[float] = []
         self._values: list[float] = []
-        self._problem = ""
+        self.problem = ""
         try:
             self._read = reader(path)
         except FieldError as error:
@@ -106,24 +107,29 @@ class _Series:
 
     def take(self, time: float, message: Any) -> None:
         """Add the field of a message that came at a time [s]."""
-        if self._problem:
+        if self.problem:
             return
         try:
             value = self._read(message)
         except FieldError as error:
-            self._problem = str(error)
+            self.problem = str(error)
             return
         value = value.to_sec() if hasattr(value, "to_sec") else value
         if not isinstance(value, Real):
-            self._problem = (
+            self.problem = (
                 f"it is a {type(value).__name__} and no number; go on with one of its fields or elements"
             )
             return
         self._times.append(time)
         self._values.append(float(value))
 
+    def forget(self, before: float) -> None:
+        """Forget what came before a time [s]."""
+        count = bisect_left(self._times, before)
+        del self._times[:count], self._values[:count]
+
     def points(self) -> tuple[list[float], list[float]]:
         """Return times and values. Raises ``ViewError`` if the field was none, or no number."""
-        if self._problem:
-            raise ViewError(f"{self._name}: {self._problem}")
+        if self.problem:
+            raise ViewError(f"{self._name}: {self.problem}")
         return self._times, self._values

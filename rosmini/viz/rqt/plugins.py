@@ -8,7 +8,7 @@ COLUMNS = ("Group", "Plugin", "Package", "Here")
 
 PLUGINS: tuple[tuple[str, str, str, str], ...] = (
     ("Actions", "Action Type Browser", "rqt_action", "rqt_action"),
-    ("Configuration", "Dynamic Reconfigure", "rqt_reconfigure", "dynamic_reconfigure.client.Client"),
+    ("Configuration", "Dynamic Reconfigure", "rqt_reconfigure", "rqt_reconfigure"),
     ("Configuration", "Launch", "rqt_launch", "roslaunch"),
     ("Introspection", "Node Graph", "rqt_graph", "rqt_graph"),
     ("Introspection", "Package Graph", "rqt_dep", "rospack depends"),

@@ -41,39 +41,53 @@ def rqt_topic(
         ViewError: the duration is not positive.
 
     """
-    known = {name: kind for name, kind in sorted(types(graph)) if class_of(kind) is not None}
-    sizes = {name: Sizes(WINDOW) for name in known}
-    arrivals = {name: Arrivals(-1) for name in known}
-    last: dict[str, Any] = {}
+    known = known_topics(graph)
+    heard = {name: Heard() for name in known}
 
     def subscribe(node: Any) -> None:
         for name, kind in known.items():
-            node.subscriber(name, class_of(kind), hearer(name), numpy=False)
+            node.subscriber(name, class_of(kind), hearer(heard[name]), numpy=False)
 
-    def hearer(name: str) -> Any:
-        def hear(message: Any) -> None:
-            now = graph.now().to_nsec()
-            message.serialize(written := BytesIO())
-            sizes[name].heard(now / 1e9, len(written.getvalue()))
-            arrivals[name].heard(now)
-            last[name] = message
-
-        return hear
+    def hearer(one: Heard) -> Any:
+        return lambda message: one.hear(graph.now().to_nsec(), message)
 
     end = listen(graph, "rqt_topic", duration, subscribe) + duration
     rows: list[tuple[str, ...]] = []
     for name, kind in known.items():
-        weight, rate = sizes[name].weight(end), arrivals[name].statistics()
-        rows.append(
-            (name, kind, f"{_bytes(weight.rate)}/s" if weight else "unknown", f"{rate.rate:.2f}" if rate else "unknown",
-             "" if name in last else "not heard"),
-        )  # fmt: skip
-        if name in expand and name in last:
+        one = heard[name]
+        rows.append((name, kind, *one.figures(end), "not heard" if one.last is None else ""))
+        if name in expand and one.last is not None:
             rows += [
                 ("  " * depth + field, kind, "", "", value)
-                for depth, field, kind, value in _fields(last[name])
+                for depth, field, kind, value in fields_of(one.last)
             ]
     return Table(COLUMNS, rows, title=title, noun="topic")
+
+
+def known_topics(graph: Graph) -> dict[str, str]:
+    """Return the topics whose messages can be read here, sorted, and their types."""
+    return {name: kind for name, kind in sorted(types(graph)) if class_of(kind) is not None}
+
+
+class Heard:
+    """What came on a topic: how often, how much, the last of it. ``window`` is the number of messages that count."""
+
+    def __init__(self, window: int = WINDOW) -> None:
+        self.last: Any = None
+        self._sizes = Sizes(window)
+        self._arrivals = Arrivals(window)
+
+    def hear(self, now_ns: int, message: Any) -> None:
+        """Note a message that came at a time."""
+        message.serialize(written := BytesIO())
+        self._sizes.heard(now_ns / 1e9, len(written.getvalue()))
+        self._arrivals.heard(now_ns)
+        self.last = message
+
+    def figures(self, now: float) -> tuple[str, str]:
+        """Return bandwidth and rate at a time [s]; ``unknown`` if too little came since they were asked for."""
+        weight, rate = self._sizes.weight(now), self._arrivals.statistics()
+        return f"{_bytes(weight.rate)}/s" if weight else "unknown", f"{rate.rate:.2f}" if rate else "unknown"
 
 
 def _bytes(count: float) -> str:
@@ -84,18 +98,18 @@ def _bytes(count: float) -> str:
     return f"{count:.2f}MB"
 
 
-def _fields(message: Any, depth: int = 1) -> Iterator[tuple[int, str, str, str]]:
+def fields_of(message: Any, depth: int = 1) -> Iterator[tuple[int, str, str, str]]:
     """Yield depth, name, type and value of every field; of a message that is a field, its own are below it."""
     for name, kind in zip(message.__slots__, message._slot_types, strict=True):
         value = getattr(message, name)
         if isinstance(value, Message):
             yield depth, name, kind, ""
-            yield from _fields(value, depth + 1)
+            yield from fields_of(value, depth + 1)
         elif isinstance(value, list | tuple) and value and isinstance(value[0], Message):
             yield depth, name, kind, plural(len(value), "element")
             for number, one in enumerate(value[:MOST_ELEMENTS]):
                 yield depth + 1, f"[{number}]", kind.partition("[")[0], ""
-                yield from _fields(one, depth + 2)
+                yield from fields_of(one, depth + 2)
         else:
             yield depth, name, kind, value_text(value)
 

@@ -134,6 +134,7 @@ CSS = (
     + _rule(".rq-bar", display="flex", flex_wrap="wrap", gap="6px 14px", align_items="center", padding="8px 12px")
     + _rule("label", display="inline-flex", gap="6px", align_items="center", margin="0", color="inherit")
     + _rule("input,select,button", **_BOX, padding="3px 8px", min_height="28px", margin="0", max_width="22em")
+    + f".{NAME} *{{box-sizing:border-box}}"
     + _rule("input[type=checkbox]", min_height="16px", width="16px", height="16px", accent_color=variable("blue"))
     + _rule("input[type=range]", padding="0", border="0", min_width="9em", accent_color=variable("blue"))
     + _rule("input[type=number]", width="7.5em")

@@ -126,7 +126,9 @@ class PanelLink:
 
     def _due(self) -> None:
         self._cancel = None
-        self.panel.node.guarded(self._look, what="panel")
+        node = self.panel.node
+        if not node.is_shutdown():  # a lane, since Master and nodes may be asked, which can take time
+            node.spawn(f"{node.name} page", self._look)
 
     def _show(self, now: float) -> None:
         html = self.panel.markup(live=True)

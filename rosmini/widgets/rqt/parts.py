@@ -75,7 +75,7 @@ class Control:
     @property
     def text(self) -> str:
         """The value as a cell of a table shows it."""
-        if self.kind == "button":
+        if self.kind in ("button", "slider"):  # a slider stands beside the number
             return ""
         if isinstance(self.value, bool):
             return "[x]" if self.value else "[ ]"
