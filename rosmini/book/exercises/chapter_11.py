@@ -1,126 +1,175 @@
-"""What is right in the exercises of chapter 11, Nodes and the Master."""
+"""What is right in the exercises of chapter 11, Nodes and the Master: scripts, each tried on a robot of its own."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from rosmini.book.checks import exercise, expect, expect_heard, expect_node, expect_type
-from rosmini.graph import Graph
-from rosmini.msgs.std_msgs.msg import Int32, String
+from rosmini.book.checks import Script, exercise, expect
+from rosmini.book.trials import Trial
+from rosmini.msgs.geometry_msgs.msg import Twist
 
-ADDRESS = "http://by-hand:1/"
+WALL_X = 3.3
+"""Where the east wall of the room begins [m]; a robot in the origin looks at it."""
+
+NEAR_M, TOUCH_M = 0.5, 0.11
+"""How far from the wall the middle of the robot may stand at most, and where its front touches [m]."""
+
+DRIVER = """
+import rospy
+from geometry_msgs.msg import Twist
+
+def drive(event):
+    cmd_vel.publish(command)
+
+rospy.init_node("driver")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+command = Twist()
+command.linear.x, command.angular.z = {speed}, {turn}
+rospy.Timer(rospy.Duration(0.1), drive)
+rospy.spin()
+"""
 
 
-# ---- 11.1: rosnode list ----
+def driver(name: str = "driver.py", speed: float = 0.2, turn: float = 0.0) -> Script:
+    """Return a script that sends one command ten times a second [m/s, rad/s]."""
+    return Script(name, DRIVER.format(speed=speed, turn=turn))
 
 
-def _all_registered(master: Any) -> list[str]:
-    state = master.getSystemState("/check")[2]
-    return sorted({node for registry in state for _, nodes in registry for node in nodes})
+def way(trial: Trial, seconds: float) -> float:
+    """Let time pass, and return how far the robot is then from where it was [m]."""
+    x, y, _ = trial.robot.truth()
+    trial.run(seconds)
+    new_x, new_y, _ = trial.robot.truth()
+    return math.hypot(new_x - x, new_y - y)
 
 
-@exercise("11.1", praise="This is what `rosnode list` does: it asks the Master, and only the Master.")
-def node_list(answer: Any) -> None:
-    """The names of all nodes that a Master knows, sorted."""
-    with Graph() as graph:
-        master = graph.master
-        graph.node("talker").publisher("chatter", String)
-        master.registerPublisher("/only_publishes", "/a", "std_msgs/String", ADDRESS)
-        master.registerSubscriber("/only_subscribes", "/b", "std_msgs/String", ADDRESS)
-        master.registerService("/only_serves", "/c", "rosrpc://by-hand:1", ADDRESS)
-        found = answer(master)
-        expected = _all_registered(master)
-    expect_type(found, list, "It returned", "a list", "sorted(...) makes a list")
-    expect(
-        all(isinstance(name, str) for name in found),
-        "The list holds something else than names.",
-        "the value of getSystemState is three lists; each entry of them is [name, [node, node, ...]]",
-    )
-    missing = [name for name in expected if name not in found]
-    expect(
-        not missing,
-        f"A node is missing: {', '.join(missing)}.",
-        "a node may only publish, only subscribe, or only offer a service: look at all three lists",
-    )
-    extra = [name for name in found if name not in expected]
-    expect(not extra, f"Not known to that Master: {', '.join(extra)}.", "ask the master that you are given")
-    expect(len(found) == len(set(found)), "Some nodes are there twice.", "a set keeps one of each")
-    expect(found == sorted(found), "The names are not in alphabetical order.", "sorted(...)")
+# ---- 11.1: stop before the wall ----
+
+
+@exercise("11.1", praise="From two starts it came near the wall, and stood. It looks where it goes.")
+def stop(answer: Script) -> Any:
+    """The robot drives up to a wall and stands before it, wherever it starts."""
+    _stops_from(answer, 1.2)
+    return _stops_from(answer, 0.0)
+
+
+def _stops_from(answer: Script, start: float) -> Any:
+    with Trial("room", f"_x:={start}") as trial:
+        trial.start(answer)
+        trial.run(25.0)
+        x, _, _ = trial.robot.truth()
+        moved = way(trial, 1.0)
+        expect(x > start + 0.1, "The robot did not drive.", "publish a Twist on cmd_vel at every scan")
+        gap = WALL_X - x
+        expect(gap > TOUCH_M, "The robot ran against the wall.", "compare scan.ranges[0] with a distance")
+        expect(moved < 0.01, "After 25 s it still drives.", "a command of zero makes it stand")
+        expect(
+            gap < NEAR_M + 0.01,
+            f"It stands {gap:.2f} m from the wall; come nearer than half a metre.",
+            "beam 0 looks straight ahead; it starts 3 cm behind the middle of the robot",
+        )
+        return trial.view()
 
 
 # ---- 11.2: a node in the middle ----
 
+WISHES = ((0.2, 0.0), (0.1, 1.0), (-0.08, -0.6), (0.0, 0.0))
 
-@exercise("11.2", praise="Neither end knows that your node exists: they know the topics only.")
-def doubler(answer: Any) -> None:
-    """A node that publishes twice each number that it receives."""
-    got: list[int] = []
-    with Graph() as graph:
-        answer(graph)
-        expect_node(graph, "/doubler")
-        sink = graph.node("sink").subscriber("doubled", Int32, lambda message: got.append(message.data))
-        feed = graph.node("feed").publisher("number", Int32)
-        graph.run(0.1)
-        expect_heard(feed)
-        expect(sink.num_connections(), "Nobody publishes /doubled.", "publisher(...) with the type Int32")
-        for number in (3, -5, 21):
-            feed.publish(number)
-        graph.run(0.1)
-    expect(
-        got == [6, -10, 42],
-        f"For 3, -5 and 21 it published {', '.join(map(str, got)) or 'nothing'}, not 6, -10, 42.",
-        "the number is message.data; publish from the callback",
-    )
+
+@exercise("11.2", praise="Neither the driver nor the robot knows that your node is between them.")
+def gentle(answer: Script) -> Any:
+    """What comes on /wish goes to /cmd_vel at half the speed."""
+    got: list[tuple[float, float]] = []
+    with Trial("arena") as trial:
+        trial.start(answer)
+        listener, wisher = trial.graph.node("listener"), trial.graph.node("wisher")
+        listener.subscriber("cmd_vel", Twist, lambda m: got.append((m.linear.x, m.angular.z)))
+        wish = wisher.publisher("wish", Twist, queue_size=10)
+        trial.run(2.0)
+        expect(not got, "It sent a command before anybody wished for one.", "publish in the callback only")
+        expect(wish.num_connections(), "Nobody subscribes to /wish.", "rospy.Subscriber, with the type Twist")
+        for speed, turn in WISHES:
+            command = Twist()
+            command.linear.x, command.angular.z = speed, turn
+            wish.publish(command)
+            trial.run(0.2)
+        wanted = [(speed / 2, turn / 2) for speed, turn in WISHES]
+        said = f"For {len(WISHES)} wishes it sent {len(got)} commands, not {len(WISHES)}."
+        expect(len(got) == len(wanted), said, "one command for each wish, published in the callback")
+        for (speed, turn), sent in zip(WISHES, got, strict=True):
+            expect(
+                math.isclose(sent[0], speed / 2) and math.isclose(sent[1], turn / 2),
+                f"For the wish {speed} m/s, {turn} rad/s it sent {sent[0]:g} m/s, {sent[1]:g} rad/s.",
+                "half of linear.x, and half of angular.z",
+            )
+        trial.start(driver(turn=0.5), "cmd_vel:=wish")
+        trial.run(12.0)
+        return trial.view()
 
 
 # ---- 11.3: the reader as the Master ----
 
 
-@exercise("11.3", praise="That one call is all that the Master ever says to a subscriber.")
-def introduce(answer: Any) -> None:
-    """A publisher and a subscriber are brought together without the Master."""
-    got: list[str] = []
-    with Graph() as graph:
-        talker, listener = graph.node("crier"), graph.node("passer_by")
-        listener.subscriber("news", String, lambda message: got.append(message.data))
-        graph.master.unregisterSubscriber("/passer_by", "/news", listener.uri)
-        news = talker.publisher("news", String, latch=True)
-        graph.master.unregisterPublisher("/crier", "/news", talker.uri)
-        answer(talker, listener, "/news")
-        news.publish("extra")
-        graph.run(0.1)
-        known = [topic for registry in graph.master.getSystemState("/check")[2][:2] for topic, _ in registry]
-    expect(
-        "/news" not in known,
-        "You registered them at the Master. Leave the Master out of it.",
-        "speak to the subscriber itself, through its slave API",
-    )
-    expect(
-        got == ["extra"],
-        "The subscriber still does not know the publisher.",
-        "subscriber.slave.publisherUpdate(caller, topic, list of addresses); a node's address is its uri",
-    )
+@exercise("11.3", praise="One call, and the robot drives. It is all that the Master would have done.")
+def introduce(answer: Script) -> Any:
+    """A driver and a robot are brought together, of which the Master has forgotten what they have in common."""
+    with Trial("arena") as trial:
+        graph = trial.graph
+        simulator = graph.nodes["/simulator"].uri
+        graph.ask_as("/simulator").call("unregisterSubscriber", "/cmd_vel", simulator)
+        trial.start(driver(turn=0.4))
+        trial.run(1.0)
+        graph.ask_as("/driver").call("unregisterPublisher", "/cmd_vel", graph.nodes["/driver"].uri)
+        trial.start(answer)
+        moved = way(trial, 3.0)
+        state = graph.ask_as("/check").call("getSystemState")[2]
+        known = {
+            node
+            for registry in state[:2]
+            for topic, nodes in registry
+            if topic == "/cmd_vel"
+            for node in nodes
+        }
+        expect(
+            not known & {"/simulator", "/driver"},
+            "You registered them at the Master. Leave the Master's directory alone.",
+            "speak to the subscriber itself: rospy.core.xmlrpcapi(address)",
+        )
+        expect(
+            moved > 0.2,
+            "The robot does not drive: it still does not know the driver.",
+            'publisherUpdate("/master", topic, list of the publishers\' addresses), called at the subscriber',
+        )
+        return trial.view()
 
 
-# ---- 11.4: the first message ----
+# ---- 11.4: too many drivers ----
 
 
-@exercise("11.4", praise="It waited for the connection, not for some seconds and good luck.")
-def say_hello(answer: Any) -> None:
-    """A single message arrives, though the publisher was made a moment ago and the subscriber comes late."""
-    got: list[str] = []
-    with Graph() as graph:
-        publisher = graph.node("talker").publisher("chatter", String, queue_size=10)
-        late = graph.node("late")
-
-        def arrive() -> None:
-            late.sleep(7.0)
-            late.subscriber("chatter", String, lambda message: got.append(message.data))
-
-        late.run(arrive)
-        answer(publisher)
-        graph.run(10.0)
-    expect(
-        got, "The message was lost: nobody was connected when you published.", "wait for a subscriber first"
-    )
-    expect(got == ["hello"], f"What arrived is {got!r}, not one 'hello'.", "publish once")
+@exercise("11.4", praise="One driver is left, and the robot does what it says.")
+def referee(answer: Script) -> Any:
+    """Every publisher of /cmd_vel but /driver is asked to shut down."""
+    with Trial("room") as trial:
+        trial.start(driver(speed=0.15))
+        strangers = {"prankster": 2.0, "imp": -1.0}
+        for name, turn in strangers.items():
+            trial.start(driver(f"{name}.py", -0.1, turn), f"__name:={name}")
+        trial.run(2.0)
+        trial.start(answer)
+        trial.run(1.0)
+        there = trial.graph.nodes
+        expect("/driver" in there, "You ended /driver too.", "compare each name with the one that may stay")
+        expect(
+            "/simulator" in there,
+            "You ended the robot itself.",
+            "the first list of getSystemState has the publishers, the second one the subscribers",
+        )
+        left = [name for name in strangers if f"/{name}" in there]
+        expect(
+            not left,
+            f"Somebody still drives beside /driver: /{', /'.join(left)}.",
+            "ask the Master who publishes /cmd_vel, look up each one's address, and call shutdown there",
+        )
+        trial.run(4.0)
+        return trial.view()

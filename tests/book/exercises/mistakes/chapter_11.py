@@ -1,108 +1,137 @@
-"""Wrong answers to the exercises of chapter 11, which their checks have to refuse."""
+"""Wrong answers to the exercises of chapter 11, which their checks have to refuse: right ones with a fault put in."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from rosmini.book.exercises.chapter_11 import _all_registered
-from rosmini.graph import Graph
-from rosmini.msgs.std_msgs.msg import Int32
+from rosmini.book.checks import Script
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+STOP = """
+import rospy
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import LaserScan
 
-def _only(registry: int) -> Callable[[], Any]:
-    return lambda: (
-        lambda master: sorted(
-            {node for _, nodes in master.getSystemState("/check")[2][registry] for node in nodes}
-        )
-    )
+def on_scan(scan):
+    command = Twist()
+    if scan.ranges[0] > 0.4:
+        command.linear.x = 0.2
+    cmd_vel.publish(command)
+
+rospy.init_node("driver")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("scan", LaserScan, on_scan)
+rospy.spin()
+"""
+
+STOP_BY_TIME = """
+import rospy
+from geometry_msgs.msg import Twist
+
+rospy.init_node("driver")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+command = Twist()
+command.linear.x = 0.2
+for _ in range(144):
+    rospy.sleep(0.1)
+    cmd_vel.publish(command)
+rospy.spin()
+"""
+
+GENTLE = """
+import rospy
+from geometry_msgs.msg import Twist
+
+def on_wish(wish):
+    command = Twist()
+    command.linear.x = wish.linear.x / 2
+    command.angular.z = wish.angular.z / 2
+    cmd_vel.publish(command)
+
+rospy.init_node("gentle")
+cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+rospy.Subscriber("wish", Twist, on_wish)
+rospy.spin()
+"""
+
+INTRODUCE = """
+import rosgraph
+import rospy
+
+master = rosgraph.Master("/introduce")
+driver = master.lookupNode("/driver")
+simulator = master.lookupNode("/simulator")
+rospy.core.xmlrpcapi(simulator).publisherUpdate("/master", "/cmd_vel", [driver])
+"""
+
+REGISTER = """
+import rosgraph
+
+master = rosgraph.Master("/simulator")
+uri = master.lookupNode("/simulator")
+rosgraph.Master("/driver").registerPublisher("/cmd_vel", "geometry_msgs/Twist", master.lookupNode("/driver"))
+master.registerSubscriber("/cmd_vel", "geometry_msgs/Twist", uri)
+"""
+
+REFEREE = """
+import rosgraph
+import rospy
+
+master = rosgraph.Master("/referee")
+publishers, subscribers, services = master.getSystemState()
+for topic, nodes in publishers:
+    for name in nodes:
+        if topic == "/cmd_vel" and name != "/driver":
+            node = rospy.core.xmlrpcapi(master.lookupNode(name))
+            node.shutdown("/referee", "only one may drive")
+"""
 
 
-# ---- 11.2: a node in the middle ----
-
-
-def _doubler(factor: int = 2, topic: str = "doubled", name: str = "doubler") -> Callable[[], Any]:
-    def start(graph: Graph) -> None:
-        node = graph.node(name)
-        result = node.publisher(topic, Int32, queue_size=10)
-        node.subscriber("number", Int32, lambda message: result.publish(factor * message.data))
-
-    return lambda: start
-
-
-def _fixed_doubler(graph: Graph) -> None:
-    node = graph.node("doubler")
-    result = node.publisher("doubled", Int32, queue_size=10)
-    node.subscriber("number", Int32, lambda _: result.publish(6))
-
-
-# ---- 11.3: the reader as the Master ----
-
-
-def _introduced_at_the_master(publisher: Any, subscriber: Any, topic: str) -> None:
-    graph = publisher.graph
-    graph.master.registerSubscriber(subscriber.name, topic, "std_msgs/String", subscriber.uri)
-    graph.master.registerPublisher(publisher.name, topic, "std_msgs/String", publisher.uri)
-
-
-def _wrong_uri(_: Any, subscriber: Any, topic: str) -> None:
-    subscriber.slave.publisherUpdate("/master", topic, [subscriber.uri])
-
-
-def _asked_the_publisher(publisher: Any, subscriber: Any, topic: str) -> None:
-    publisher.slave.publisherUpdate("/master", topic, [subscriber.uri])
-
-
-# ---- 11.4: the first message ----
-
-
-def _hasty(publisher: Any) -> None:
-    publisher.publish("hello")
-
-
-def _twice(publisher: Any) -> None:
-    publisher.wait_for_subscribers()
-    publisher.publish("hello")
-    publisher.publish("hello")
-
-
-def _waits_only(publisher: Any) -> None:
-    publisher.wait_for_subscribers()
+def wrong(name: str, right: str, old: str = "", new: str = "") -> Callable[[], Script]:
+    """Return what makes a script with one place of it changed."""
+    assert old in right
+    return lambda: Script(name, right.replace(old, new))
 
 
 MISTAKES = {
     "11.1": [
-        _only(0),
-        _only(1),
-        _only(2),
-        lambda: lambda master: _all_registered(master)[::-1],
-        lambda: lambda _: ["/listener", "/rosout", "/talker"],
-        lambda: lambda master: set(_all_registered(master)),
-        lambda: lambda master: master.getSystemState("/check")[2],
-        lambda: (
-            lambda master: sorted(
-                node
-                for registry in master.getSystemState("/check")[2]
-                for _, nodes in registry
-                for node in nodes
-            )
-        ),
+        wrong("stop.py", STOP, "> 0.4", "> 0.0"),
+        wrong("stop.py", STOP, "> 0.4", "> 1.0"),
+        wrong("stop.py", STOP, "> 0.4", "< 0.4"),
+        wrong("stop.py", STOP, "scan.ranges[0]", "scan.range[0]"),
+        wrong("stop.py", STOP, "ranges[0]", "ranges[180]"),
+        wrong("stop.py", STOP, '"cmd_vel"', '"cmd_vels"'),
+        wrong("stop.py", STOP, "import LaserScan", "import LaserScann"),
+        wrong("stop.py", STOP_BY_TIME),
+        wrong("stop.py", "def broken(:"),
     ],
     "11.2": [
-        _doubler(factor=3),
-        _doubler(topic="double"),
-        _doubler(name="twice"),
-        lambda: _fixed_doubler,
-        lambda: lambda graph: graph.node("doubler"),
-        lambda: lambda graph: graph.run(0.1),
+        wrong("gentle.py", GENTLE, "wish.angular.z / 2", "wish.angular.z"),
+        wrong("gentle.py", GENTLE, "wish.linear.x / 2", "0.1"),
+        wrong("gentle.py", GENTLE, '"wish"', '"wishes"'),
+        wrong("gentle.py", GENTLE, '"cmd_vel"', '"wish_half"'),
+        wrong(
+            "gentle.py",
+            GENTLE,
+            "rospy.spin()",
+            "while not rospy.is_shutdown():\n    cmd_vel.publish(Twist())",
+        ),
+        wrong("gentle.py", GENTLE, "rospy.spin()", ""),
     ],
     "11.3": [
-        lambda: _introduced_at_the_master,
-        lambda: _wrong_uri,
-        lambda: _asked_the_publisher,
-        lambda: lambda publisher, subscriber, topic: [publisher, subscriber, topic],
+        wrong("introduce.py", INTRODUCE, "[driver]", "[simulator]"),
+        wrong("introduce.py", INTRODUCE, '"/cmd_vel"', '"/wish"'),
+        wrong("introduce.py", INTRODUCE, "xmlrpcapi(simulator)", "xmlrpcapi(driver)"),
+        wrong("introduce.py", INTRODUCE, '"/driver"', '"/drivers"'),
+        wrong("introduce.py", REGISTER),
     ],
-    "11.4": [lambda: _hasty, lambda: _twice, lambda: _waits_only],
+    "11.4": [
+        wrong("referee.py", REFEREE, ' and name != "/driver"'),
+        wrong("referee.py", REFEREE, 'topic == "/cmd_vel" and'),
+        wrong("referee.py", REFEREE, "in publishers", "in subscribers"),
+        wrong("referee.py", REFEREE, "            node.shutdown", "            node.getPid"),
+        wrong("referee.py", "print('nobody')"),
+    ],
 }
