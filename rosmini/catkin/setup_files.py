@@ -9,6 +9,8 @@ import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
+from rosmini import files
+
 from .workspace import Workspace, package_folders, python_folder
 
 MADE = "# Made by rosmini's catkin_make; changes here are lost.\n"
@@ -73,6 +75,18 @@ def setup_files(workspace: Workspace, underlays: Sequence[Path]) -> dict[Path, s
         devel / "setup.ps1": MADE + POWERSHELL + power + POWERSHELL_END,
         devel / "env.sh": f'#!/usr/bin/env sh\n{MADE}{source_it}exec "$@"\n',
     }
+
+
+def folders_in(setup_file: Path) -> list[tuple[str, Path]] | None:
+    """Return what a setup file made here puts first in which lists of the environment, in this order.
+
+    None if it is another file. Raises ``OSError`` if it cannot be read.
+    """
+    if not files.read(setup_file).decode("utf-8", "replace").startswith((MADE, f"#!/usr/bin/env sh\n{MADE}")):
+        return None
+    text = files.read(setup_file.with_name("setup.sh")).decode("utf-8", "replace")
+    rows = [shlex.split(line) for line in text.splitlines() if line.startswith("_rosmini_first ")]
+    return [(row[1], Path(row[2])) for row in rows if len(row) == 3]
 
 
 def _quoted(path: Path) -> str:

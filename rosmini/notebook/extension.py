@@ -38,6 +38,7 @@ def load(shell: Any) -> None:
         ("line", "rosrun", node_cell.rosrun),
         ("line", "roslaunch", node_cell.roslaunch),
         ("cell", "node", node_cell.node),
+        ("cell", "terminal", terminal),
     ):
         _register(shell, kind, name, act)
 
@@ -78,6 +79,15 @@ def roscore(session: Session, line: str) -> None:
     session.look()
     session.begin()
     session.say(f"ROS_MASTER_URI={session.graph.master_uri}\nstarted core service [/rosout]")
+
+
+def terminal(session: Session, line: str, cell: str) -> None:
+    """Run the lines of a cell in a terminal, which keeps its folder and its environment.
+
+    ``%%terminal --at NAME`` is another one, ``%%terminal --new`` begins with an empty home folder.
+    """
+    session.look()
+    session.terminals.run(line, cell)
 
 
 def _register(shell: Any, kind: str, name: str, act: Callable[..., object]) -> None:

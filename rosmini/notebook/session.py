@@ -17,6 +17,7 @@ from .book_text import book_text
 from .output import CellSink, TypedFeed
 from .package import NotebookPackage
 from .runs import Runs
+from .terminal import Terminals
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,6 +35,7 @@ class Session:
     def __init__(self, shell: Any) -> None:
         self.shell = shell
         self.package = NotebookPackage()
+        self.terminals = Terminals(shell)
         self.sink = CellSink(self._in_cell, self._several_speak)
         self._cell = contextvars.copy_context()
         self._process = os.getpid()
@@ -74,6 +76,7 @@ class Session:
             try:
                 self._end_graph()
             finally:
+                self.terminals.close()
                 self.package.close()
 
     # -- cells ---------------------------------------------------------------------------------------------------

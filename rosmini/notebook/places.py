@@ -1,0 +1,108 @@
+"""Folders as the book shows them: ``~`` and ``/opt/ros/noetic/share`` on every machine.
+
+A reader's files are in a temporary folder, whose name is another one each time, and rosmini's own packages are where
+pip put them. What is printed names both as they are on a robot, so that outputs are equal everywhere.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+from functools import partial
+from pathlib import Path
+from typing import TextIO
+
+from rosmini.errors import RosminiError
+from rosmini.packages import assets_dir
+
+HOME = "~"
+ROS = "/opt/ros/noetic"
+"""Where ROS is on a robot; the packages are in its folder ``share``."""
+
+SHARE = f"{ROS}/share"
+
+LISTS = ("CMAKE_PREFIX_PATH", "PYTHONPATH", "ROS_PACKAGE_PATH")
+"""The variables of the environment that hold lists of folders."""
+
+
+class OutsideHome(RosminiError):
+    """A path that a terminal of a notebook does not reach."""
+
+
+class Places:
+    """A home folder, rosmini's packages, and how both are shown."""
+
+    def __init__(self, home: Path) -> None:
+        self.home = home.resolve()
+        self.share = (assets_dir() / "ros").resolve()
+        self._shown = [(HOME, self.home), (SHARE, self.share)]
+        found = sorted(
+            ((str(real), name) for name, path in self._shown for real in {path, *_spellings(path)}),
+            key=lambda pair: -len(pair[0]),
+        )
+        self._names = dict(found)
+        start = "|".join(re.escape(real) for real, _ in found)
+        self._pattern = re.compile(rf"({start})((?:[\\/][^\s:;,'\"()\[\]{{}}<>*?]*)?)(?![\w.-])")
+
+    def shown(self, text: str) -> str:
+        """Return a text with the paths in it as the book shows them."""
+        return self._pattern.sub(lambda match: self._names[match[1]] + match[2].replace("\\", "/"), text)
+
+    def real(self, text: str) -> str:
+        """Return a word with the path in it (``~/maps``, ``file:=~/x.yaml``) as this machine has it."""
+        for name, path in self._shown:
+            start = re.compile(rf"(^|:=|=){re.escape(name)}(?=/|$)")
+            text = start.sub(partial(_after, str(path)), text)
+        return text
+
+    def real_list(self, value: str) -> str:
+        """Return a list of folders (``~/ws/src:/opt/ros/noetic/share``) as this machine's environment has it."""
+        return os.pathsep.join(self.real(each) for each in value.split(":") if each)
+
+    def find(self, word: str, folder: Path, *, writes: bool = False) -> Path:
+        """Return the path that a word means in a folder.
+
+        Raises `OutsideHome` if it is outside of the home folder, or, where nothing is written, of ROS's packages.
+        """
+        path = Path(os.path.normpath(os.path.join(folder, self.real(word))))  # noqa: PTH118 (an absolute word wins)
+        real = path.resolve()
+        if real.is_relative_to(self.home) or (not writes and real.is_relative_to(self.share)):
+            return path
+        if real.is_relative_to(self.share):
+            raise OutsideHome(
+                f"{word}: Permission denied; the packages that rosmini brings are not to be changed"
+            )
+        raise OutsideHome(
+            f"{word}: Permission denied; the terminals of a notebook reach {HOME} and {SHARE} only"
+        )
+
+
+class ShownStream(io.TextIOBase):
+    """A text stream that shows paths as the book does."""
+
+    def __init__(self, target: TextIO, places: Places) -> None:
+        self._target, self._places = target, places
+
+    def writable(self) -> bool:
+        """Return True."""
+        return True
+
+    def write(self, text: str, /) -> int:
+        """Write, with the paths as they are shown."""
+        self._target.write(self._places.shown(text))
+        return len(text)
+
+    def flush(self) -> None:
+        """Flush what is behind it."""
+        self._target.flush()
+
+
+def _after(path: str, match: re.Match[str]) -> str:
+    return match[1] + path
+
+
+def _spellings(path: Path) -> set[Path]:
+    """Return the other names by which programs know a folder: macOS's /private/var is /var."""
+    parts = path.parts
+    return {Path("/", *parts[2:])} if parts[:2] == ("/", "private") else set()

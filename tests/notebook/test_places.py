@@ -1,0 +1,61 @@
+"""Paths as the book shows them, and back."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from rosmini.notebook.places import OutsideHome, Places, ShownStream
+from rosmini.packages import PackageIndex
+
+
+@pytest.fixture
+def places(tmp_path: Path) -> Places:
+    return Places(tmp_path)
+
+
+def test_paths_are_shown_as_on_a_robot(places: Places) -> None:
+    share = PackageIndex().path("turtlebot3_description")
+    text = f'{places.home}: {places.home / "ws" / "src"}, "{share}"; {places.home}-other'
+    assert places.shown(text) == (
+        f'~: ~/ws/src, "/opt/ros/noetic/share/turtlebot3_description"; {places.home}-other'
+    )
+
+
+def test_and_back(places: Places) -> None:
+    home = str(places.home)
+    assert places.real("~/a/b") == home + "/a/b"
+    assert places.real("_map:=~/map.yaml") == f"_map:={home}/map.yaml"
+    assert places.real("/opt/ros/noetic/share/x") == f"{places.share}/x"
+    for same in ("~rate", "/~", "data: ~", "/opt/ros/noetic/shared"):
+        assert places.real(same) == same
+
+
+def test_nothing_outside_is_reached(places: Places) -> None:
+    inside = places.home / "ws"
+    inside.mkdir()
+    assert places.find("..", inside) == places.home
+    assert places.find("~/new/file", inside, writes=True) == places.home / "new" / "file"
+    for word in ("/etc/passwd", "../..", "~/../x", "/", "src/../../../x"):
+        with pytest.raises(OutsideHome, match="Permission denied"):
+            places.find(word, inside)
+    with pytest.raises(OutsideHome, match="not to be changed"):
+        places.find("/opt/ros/noetic/share/std_msgs/x", inside, writes=True)
+    assert places.find("/opt/ros/noetic/share/std_msgs", inside).is_dir()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a link needs permission there")
+def test_a_link_that_leads_out_is_not_followed(places: Places) -> None:
+    (places.home / "out").symlink_to("/etc")
+    with pytest.raises(OutsideHome):
+        places.find("out/passwd", places.home)
+
+
+def test_a_stream_shows_them(places: Places, capsys: pytest.CaptureFixture[str]) -> None:
+    import sys
+
+    stream = ShownStream(sys.stdout, places)
+    print("in", places.home / "x", file=stream)
+    assert capsys.readouterr().out == "in ~/x\n"
