@@ -35,7 +35,7 @@ class Session:
     def __init__(self, shell: Any) -> None:
         self.shell = shell
         self.package = NotebookPackage()
-        self.terminals = Terminals(shell)
+        self.terminals = Terminals(shell, self.look)
         self.sink = CellSink(self._in_cell, self._several_speak)
         self._cell = contextvars.copy_context()
         self._process = os.getpid()

@@ -21,32 +21,30 @@ import os
 import re
 import shlex
 import sys
-import tempfile
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, cast
 
 from rosmini import files
 from rosmini.catkin.setup_files import folders_in
 from rosmini.cli.aliases import names as ros_names
-from rosmini.cli.main import NO_COMMANDS, main
+from rosmini.cli.magics import tool
+from rosmini.cli.main import COMMANDS, NO_COMMANDS, main
 from rosmini.cli.roscd import located, workspace
 from rosmini.cli.verbs import VerbError
 from rosmini.errors import RosminiError, UsageError, nearest
 
 from . import shell_lines, shell_words
+from .folder import TemporaryFolder
 from .places import ROS, Places, ShownStream
 from .prompt import Prompt, changed, put
 from .shell_words import WORDS, Given, word
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
 FIRST = "1"
 """The name of the terminal that a cell has by default."""
-
-LIVE = ("roscore", "rosrun")
-"""Commands that have no end in a terminal; in a notebook they are line magics."""
 
 _SETUP = re.compile(rf"{ROS}/setup\.(bash|sh|zsh)")
 _ASSIGNMENT = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
@@ -67,9 +65,10 @@ NOT_HERE = {
 class Terminal(Prompt):
     """One terminal: runs lines and prints them with what they print."""
 
-    def __init__(self, places: Places, shell: Any) -> None:
+    def __init__(self, places: Places, shell: Any, look: Callable[[], object]) -> None:
         super().__init__(places)
         self._shell = shell
+        self._look = look
         self.status = 0
         """The exit status of the last command."""
         profile = places.home / ".bashrc"
@@ -81,10 +80,13 @@ class Terminal(Prompt):
         lines = shell_lines.parse(text)
         self._check(lines)
         out = cast("TextIO", ShownStream(sys.stdout, self.places))
-        with redirect_stdout(out), redirect_stderr(out):
-            for line in lines:
-                print(f"$ {line.text}")
-                self._line(line)
+        try:
+            with redirect_stdout(out), redirect_stderr(out):
+                for line in lines:
+                    print(f"$ {line.text}")
+                    self._line(line)
+        finally:
+            self._look()
 
     def run_file(self, path: Path) -> None:
         """Run the lines of a file, without showing them."""
@@ -179,6 +181,7 @@ class Terminal(Prompt):
         if not name:
             self.environment.update(settings)
             return 0
+        self._look()
         before = self.environment
         self.environment = {**before, **settings} if settings else before
         try:
@@ -186,7 +189,7 @@ class Terminal(Prompt):
                 if name in WORDS:
                     print(shell_words.run(self, name, words, text), end="")
                     return 0
-                return self._tool(name, words)
+                return self._tool(name, words, text)
         finally:
             self.environment = before if settings else self.environment
 
@@ -194,18 +197,16 @@ class Terminal(Prompt):
         """Return the environment in which the terminal was opened."""
         return dict(os.environ)
 
-    def _tool(self, name: str, words: list[str]) -> int:
-        """Run one of ROS's commands: as a line magic if it is one."""
+    def _tool(self, name: str, words: list[str], text: str | None) -> int:
+        """Run one of ROS's commands: what only reads files as in a terminal, what acts on the graph as a line magic."""
         for each in words:
             self._guard(each)
         words = [self.places.real(each) for each in words]
-        if self._shell.find_line_magic(name) is None:
-            if name in LIVE:
-                raise RosminiError("this notebook has no graph: begin it with %load_ext rosmini")
-            try:
+        if COMMANDS[name].is_magic and not tool(name).needs_graph:
+            with typed(text or ""):
                 return main([name, *words])
-            except SystemExit as end:
-                return end.code if isinstance(end.code, int) else 1
+        if self._shell.find_line_magic(name) is None:
+            raise RosminiError("this notebook has no graph: begin it with %load_ext rosmini")
         line = " ".join(shlex.quote(each).replace("$", "$$") for each in words)
         result = self._shell.run_line_magic(name, line)
         return int(getattr(result, "status", 0))
@@ -218,6 +219,16 @@ class Terminal(Prompt):
         )
         if leaves:
             self.path(str(path))
+
+
+@contextmanager
+def typed(text: str) -> Iterator[None]:
+    """Let this be what is typed into a program."""
+    before, sys.stdin = sys.stdin, io.StringIO(text)
+    try:
+        yield
+    finally:
+        sys.stdin = before
 
 
 @word("source", at_least=1)
@@ -256,11 +267,15 @@ def roscd(terminal: Prompt, given: Given) -> str:
 
 
 class Terminals:
-    """The terminals of a notebook. They share a home folder, which is removed when the kernel ends."""
+    """The terminals of a notebook. They share a home folder, which is removed when the kernel ends.
 
-    def __init__(self, shell: Any) -> None:
+    ``look`` is called when what is printed goes elsewhere: into a file, or back into the cell.
+    """
+
+    def __init__(self, shell: Any, look: Callable[[], object] = lambda: None) -> None:
         self._shell = shell
-        self._folder: tempfile.TemporaryDirectory[str] | None = None
+        self._look = look
+        self._folder: TemporaryFolder | None = None
         self._places: Places | None = None
         self._open: dict[str, Terminal] = {}
         self._own: dict[str, str | None] = {}
@@ -298,15 +313,17 @@ class Terminals:
         put(self._own)
         self._own, self._open, self._places = {}, {}, None
         if self._folder is not None:
-            self._folder.cleanup()
+            self._folder.remove()
             self._folder = None
 
     def _at(self, name: str) -> Terminal:
         if self._places is None:
-            self._folder = tempfile.TemporaryDirectory(prefix="rosmini-", ignore_cleanup_errors=True)
-            self._places = Places(Path(self._folder.name))
+            self._folder = TemporaryFolder()
+            home = self._folder.path / "home"
+            home.mkdir()
+            self._places = Places(home)
         if name not in self._open:
-            self._open[name] = Terminal(self._places, self._shell)
+            self._open[name] = Terminal(self._places, self._shell, self._look)
         return self._open[name]
 
     def _publish(self) -> None:
