@@ -95,7 +95,9 @@ def _register(shell: Any, kind: str, name: str, act: Callable[..., object]) -> N
     from IPython.core.magic import no_var_expand
 
     def magic(*texts: str) -> object:
-        return act(session_of(shell), *texts)
+        session = session_of(shell)
+        session.require_main(f"%{'%' * (kind == 'cell')}{name}")
+        return act(session, *texts)
 
     magic.__name__, magic.__doc__ = name, act.__doc__
     shell.register_magic_function(no_var_expand(magic), kind, name)

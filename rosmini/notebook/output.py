@@ -58,16 +58,16 @@ class CellStream(io.TextIOBase):
 
 
 class CellSink(OutputSink):
-    """Where all scripts of a notebook write to; ``names_stand`` tells whether lines begin with the node's name."""
+    """Where all scripts of a notebook write to; names stand before lines where ``several_speak``."""
 
-    def __init__(self, rewrite: Callable[[str], str], names_stand: Callable[[], bool]) -> None:
-        self._names_stand = names_stand
+    def __init__(self, rewrite: Callable[[str], str], several_speak: Callable[[ScriptOutput], bool]) -> None:
+        self._several_speak = several_speak
         self._streams = (CellStream("stdout", rewrite), CellStream("stderr", rewrite))
         out, err = (cast("TextIO", stream) for stream in self._streams)
         super().__init__(out, err)
 
     def _label(self, owner: ScriptOutput) -> str:
-        return super()._label(owner) if self._names_stand() else ""
+        return super()._label(owner) if self._several_speak(owner) else ""
 
     def say(self, text: str) -> None:
         """Write a line that is no node's, after what is unfinished."""

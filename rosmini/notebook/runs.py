@@ -6,9 +6,8 @@ import signal
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from rosmini.graph.event_queue import span_ns
 from rosmini.names import Remappings
-from rosmini.scripts import ScriptHandle
+from rosmini.scripts import ScriptHandle, StillRunning
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -16,6 +15,7 @@ if TYPE_CHECKING:
     from rosmini.graph import Graph
     from rosmini.launch import Launch
     from rosmini.scripts import NodeHandle
+    from rosmini.scripts.streams import ScriptOutput
 
 GRACE_S = 3.0
 """How many seconds of graph time a run has to end after Ctrl-C."""
@@ -42,7 +42,7 @@ class Run:
     title: str
     handle: ScriptHandle | NodeHandle
     speaks: bool
-    """Whether its source looks as if it prints anything."""
+    """Whether its source looks as if it prints anything, or it has."""
 
     @property
     def node_name(self) -> str:
@@ -63,13 +63,17 @@ class Runs:
     """
 
     def __init__(self, graph: Graph, say: Callable[[str], object]) -> None:
-        self._graph = graph
+        self.graph = graph
         self._say = say
         self._runs: dict[RunKey, Run] = {}
         self._launches: dict[tuple[str, ...], Launch] = {}
 
-    def several_speak(self) -> bool:
-        """Return whether more than one of those that run may print."""
+    def several_speak(self, speaker: ScriptOutput) -> bool:
+        """Return whether more than one of those that run may print, now that one of them does."""
+        for run in self._runs.values():
+            run.speaks |= (
+                isinstance(run.handle, ScriptHandle) and run.is_running and run.handle.writes(speaker)
+            )
         launched = (made.handle for launch in self._launches.values() for made in launch.running)
         speakers = sum(run.speaks and run.is_running for run in self._runs.values())
         scripts = sum(isinstance(handle, ScriptHandle) and handle.poll() is None for handle in launched)
@@ -83,7 +87,7 @@ class Runs:
         made = start()
         if made is not None:
             self._launches[tuple(words)] = made
-            self._graph.run(0)
+            self.graph.run(0)
 
     def start(
         self, key: RunKey, title: str, make: Callable[[], ScriptHandle | NodeHandle], *, speaks: bool
@@ -98,7 +102,7 @@ class Runs:
         handle.on_end = lambda status: self._ended(run, status)
         handle.start()
         self._runs[key] = run
-        self._graph.run(0)
+        self.graph.run(0)
         if handle.poll() == 0 and run.node_name:
             self._say(
                 f"{title} has ended, and its node {run.node_name} with it; rospy.spin() keeps a node alive."
@@ -111,9 +115,9 @@ class Runs:
         if run is None or not run.is_running:
             return
         run.handle.send_signal(signal.SIGINT)
-        until_ns = self._graph.scheduler.now_ns() + span_ns(GRACE_S, "the time to end")
-        self._graph.scheduler.run(until_ns, lambda: not run.is_running)
-        if run.is_running:
+        try:
+            run.handle.wait(GRACE_S)
+        except StillRunning:
             run.handle.kill()
             self._say(f"{run.title} did not end within {GRACE_S:g} s of Ctrl-C, and was killed.")
 

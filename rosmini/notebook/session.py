@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextvars
 import io
 import os
+import threading
 from contextlib import nullcontext, redirect_stderr, redirect_stdout
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,8 @@ from .terminal import Terminals
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from rosmini.scripts.streams import ScriptOutput
 
 _ATTRIBUTE = "rosmini_session"
 
@@ -39,12 +42,16 @@ class Session:
         self.sink = CellSink(self._in_cell, self._several_speak)
         self._cell = contextvars.copy_context()
         self._process = os.getpid()
+        self._thread = threading.get_ident()
         self.begin()
 
     @property
     def graph(self) -> Graph:
         """The graph on which all commands of the notebook act."""
-        return default_graph()
+        graph = default_graph()
+        if graph is not self.runs.graph:  # the reader has chosen another
+            self.runs = Runs(graph, self.say)
+        return graph
 
     def begin(self) -> None:
         """End the graph with all that runs in it, and begin with a new one at the same time and with the same seed."""
@@ -55,7 +62,8 @@ class Session:
             graph.notebook = True
             graph.record()  # %roswhy asks about what was, and nobody knows before what that will be
             set_default_graph(graph)
-            self.runs = Runs(graph, self.say)
+            self.runs: Runs = Runs(graph, self.say)
+            """What runs in the graph."""
 
     def _end_graph(self) -> None:
         """Shut all nodes down; what they print meanwhile went to terminals of theirs, and is not shown."""
@@ -81,6 +89,11 @@ class Session:
 
     # -- cells ---------------------------------------------------------------------------------------------------
 
+    def require_main(self, what: str) -> None:
+        """Raise ``RosminiError`` in a subshell of the kernel, where widgets and consoles ask, and no node can begin."""
+        if threading.get_ident() != self._thread:
+            raise RosminiError(f"{what} works in the notebook itself, not in a subshell of its kernel")
+
     def look(self, *_: object) -> None:
         """Note the cell that runs now: the caller's."""
         self._cell = contextvars.copy_context()
@@ -99,8 +112,8 @@ class Session:
         with nullcontext() if script is None else script.put_aside():
             return self._cell.copy().run(ask)
 
-    def _several_speak(self) -> bool:
-        return self.runs.several_speak()
+    def _several_speak(self, speaker: ScriptOutput) -> bool:
+        return self.runs.several_speak(speaker)
 
     def _in_cell(self, text: str) -> str:
         return book_text(text, self.package.workspace) if book_form() else text

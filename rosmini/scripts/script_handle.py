@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from rosmini.graph import Graph
 
     from .console import Console
+    from .streams import ScriptOutput
 
 END_GRACE_S = 0.2
 """How long a script may take to end once it was thrown out of its last blocking call, in seconds of graph time."""
@@ -101,6 +102,10 @@ class ScriptHandle(LaneHandle):
     def node(self) -> Any:
         """The node that it initialised at its latest start, or None."""
         return None if self._context is None else self._context.node
+
+    def writes(self, stream: ScriptOutput) -> bool:
+        """Return whether a stream is its standard output or error, as it was at its latest start."""
+        return self._context is not None and stream in (self._context.stdout, self._context.stderr)
 
     @property
     def context(self) -> ScriptContext:

@@ -165,6 +165,18 @@ def test_a_roscore_that_is_interrupted_begins_anew_nevertheless(new_kernel: Any)
     assert new_kernel.ok(f"%%node talker.py\n{TALKER}").stdout == "turn 0\n"
 
 
+def test_a_subshell_lets_time_pass_and_starts_nothing(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    new_kernel.ok(f"%%node talker.py\n{TALKER}")
+    subshell = new_kernel.subshell()
+    for code in ("%%node other.py\npass", "%roscore", "%rosrun notebook talker.py"):
+        refused = new_kernel.run(code, subshell=subshell)
+        assert "not in a subshell" in refused.tracebacks[0]
+    assert new_kernel.run("rosmini.wait(1)\n%rosnode list", subshell=subshell).errors == []
+    assert new_kernel.ok("%rosnode list").stdout == "/rosout\n/talker\n"
+    assert new_kernel.ok("rosmini.wait(1)").stdout == "turn 2\n"
+
+
 def test_words_of_rosrun_are_completed(new_kernel: Any) -> None:
     new_kernel.ok("%load_ext rosmini\n%roscore\n")
     new_kernel.ok(f"%%node talker.py\n{TALKER}")

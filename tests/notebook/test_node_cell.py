@@ -227,3 +227,14 @@ def test_a_plain_cell_does_not_spin(notebook: Notebook) -> None:
     written = notebook.fails("import rospy\nrospy.init_node('here')\nrospy.spin()")
     assert "%%node NAME.py" in written
     assert notebook.ok("%rosnode list") == "/here\n/rosout\n"
+
+
+def test_who_speaks_unexpectedly_is_named(notebook: Notebook) -> None:
+    notebook.ok("%%node helper.py\ndef tell():\n    print('psst')")
+    notebook.ok(
+        "%%node quiet.py\nimport rospy, helper\nrospy.init_node('quiet')\n"
+        "rospy.Timer(rospy.Duration(1), lambda _: helper.tell())\nrospy.spin()"
+    )
+    assert notebook.ok("import rosmini; rosmini.wait(1)") == "psst\n"
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    assert "[quiet] psst\n" in notebook.ok("rosmini.wait(1)")

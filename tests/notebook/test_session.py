@@ -132,3 +132,12 @@ def test_a_rospy_that_was_imported_before_is_named(
     notebook.ok("import rospy")
     assert "restart the kernel" in notebook.ok("%load_ext rosmini")
     del sys.modules["rospy"]
+
+
+def test_a_graph_that_the_reader_chooses_is_the_notebooks(notebook: Notebook) -> None:
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    notebook.ok("import rosmini\nchosen = rosmini.Graph(seed=3)\nbefore = rosmini.set_default_graph(chosen)")
+    assert notebook.ok(f"%%node talker.py\n{TALKER}") == "said hello at 1000.0\n"
+    assert notebook.ok("print(*chosen.nodes)") == "/rosout /talker\n"
+    notebook.ok("before.shutdown()\n%roscore")
+    assert notebook.ok("print(*chosen.nodes)") == "\n"
