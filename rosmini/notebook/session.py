@@ -35,6 +35,9 @@ class Session:
     as in ROS.
     """
 
+    runs: Runs
+    """What runs in the graph."""
+
     def __init__(self, shell: Any) -> None:
         self.shell = shell
         self.package = NotebookPackage()
@@ -62,8 +65,7 @@ class Session:
             graph.notebook = True
             graph.record()  # %roswhy asks about what was, and nobody knows before what that will be
             set_default_graph(graph)
-            self.runs: Runs = Runs(graph, self.say)
-            """What runs in the graph."""
+            self.runs = Runs(graph, self.say)
 
     def _end_graph(self) -> None:
         """Shut all nodes down; what they print meanwhile went to terminals of theirs, and is not shown."""
