@@ -136,7 +136,8 @@ class Graph(GraphCore):
         now takes a second for a second of simulated time, since others live on it. With ``live`` False it only goes
         on when it is driven, and as fast as it can.
 
-        Raises ``MasterUnreachable`` where no Master answers and none of this machine's can be served, and
+        Raises ``MasterUnreachable`` where no Master answers and none of this machine's can be served, or what listens
+        there does not answer within ten seconds (the graph stays offline then), and
         ``RosminiError`` if the graph is online already or has its Master elsewhere anyway.
         """
         if self._online is not None:

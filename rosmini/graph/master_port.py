@@ -65,6 +65,8 @@ class MasterPort(ABC):
     """The Master's address."""
     is_local = False
     """True for a Master in this process: it answers at once, in any thread, and its notifier tells of every change."""
+    keeps_trying = True
+    """False where a registration that is not answered fails, and is not tried again."""
     leave_by: int | None = None
     """Until when nodes that end keep trying to unregister, in graph time; None while the Master answers."""
 
@@ -157,7 +159,7 @@ class MasterProxy:
                 try:
                     return self._reach(self._host.master, method, arguments)
                 except MasterUnreachable as error:
-                    if self._is_over():
+                    if self._is_over() or not port.keeps_trying:
                         raise
                     warn(
                         f"Unable to register with master node [{self._host.master.uri}]: "
@@ -189,7 +191,7 @@ class MasterProxy:
                     self._reach(self._host.master, method, arguments)
                 except MasterUnreachable as error:
                     port.leave_by = port.leave_by or started + LEAVE_NS
-                    if scheduler.now_ns() + RETRY_NS >= port.leave_by:
+                    if not port.keeps_trying or scheduler.now_ns() + RETRY_NS >= port.leave_by:
                         port.leave_by = started
                         warn(
                             f"{error} ({method}). The registration stays there; `rosnode cleanup` removes it."

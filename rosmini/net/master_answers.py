@@ -68,9 +68,10 @@ def unreachable(uri: str, error: TransportException) -> MasterUnreachable:
     """Return the error that says that a Master does not answer, why, and what to do."""
     if not isinstance(error, Unreached | TransportTerminated):
         return _no_master(uri, str(error))
+    hangs = isinstance(error.__cause__, TimeoutError)
+    start = "End it and start it again, if it runs" if hangs else "Start it with `rosmini roscore`"
     return MasterUnreachable(
-        f"the Master at {uri} does not answer: {error}. Start it with `rosmini roscore`, or set ROS_MASTER_URI to the "
-        "address of one that runs"
+        f"the Master at {uri} does not answer: {error}. {start}, or set ROS_MASTER_URI to the address of one that runs"
     )
 
 

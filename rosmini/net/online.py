@@ -22,7 +22,8 @@ from .master_server import MasterServer
 from .network import Network
 from .pace import Pace
 from .registrations import register_again
-from .remote_master import TIMEOUT_S, RemoteMaster
+from .remote_master import RemoteMaster, patience
+from .sockets import Unreached
 from .watch import Watch
 
 if TYPE_CHECKING:
@@ -45,6 +46,8 @@ ROSCORE = ("/rosdistro", "/rosversion", "/run_id")
 class _StandingStill(MasterPort):
     """A Master elsewhere, asked while the graph stands still: for the moments of joining and leaving."""
 
+    keeps_trying = False
+
     def __init__(self, uri: str, network: Network) -> None:
         self.uri = uri
         self._network = network
@@ -52,7 +55,7 @@ class _StandingStill(MasterPort):
     def call(self, method: str, caller_id: str, *arguments: Any) -> Triple:
         """Return the Master's answer; blocks, and nothing else goes on. Raises ``MasterUnreachable``."""
         asked = self._network.io.start(
-            self._network.client.request(self.uri, method, (caller_id, *arguments), TIMEOUT_S)
+            self._network.client.request(self.uri, method, (caller_id, *arguments), patience(method))
         )
         try:
             answer = asked.result()
@@ -61,6 +64,12 @@ class _StandingStill(MasterPort):
         except TransportException as error:
             raise unreachable(self.uri, error) from error
         return checked(self.uri, method, answer)
+
+
+def _is_absent(error: MasterUnreachable) -> bool:
+    """Tell whether nobody listens at the Master's address, unlike a Master that hangs, or something else there."""
+    cause = error.__cause__
+    return isinstance(cause, Unreached) and not isinstance(cause.__cause__, TimeoutError)
 
 
 def online(
@@ -88,7 +97,6 @@ class Online:
         self._own = graph.master
         self.server: MasterServer | None = None
         """What serves this graph's Master; None where the graph has joined another one."""
-        self._clock: Any = None
         self._pace: Pace | None = None
         self._is_live_of_ours = False
         self._had_rosout = False
@@ -98,9 +106,13 @@ class Online:
             self.network.close()
             raise
         self._move(self.graph.transport.add)
-        if self.joined:
-            self._join()
-        self._begin_clock(live=live)
+        try:
+            if self.joined:
+                self._join()
+            self._begin_clock(live=live)
+        except MasterUnreachable as error:  # it hangs since it was found, or has gone
+            self.end()
+            raise MasterUnreachable(f"{error}. This graph is offline again, as before") from error
         if live:
             self._go_on()
         self._tell()
@@ -117,6 +129,8 @@ class Online:
         try:
             _StandingStill(uri, self.network).call("getPid", "/rosmini")
         except MasterUnreachable as error:
+            if not _is_absent(error):
+                raise
             host, port = self.where.master
             if not is_loopback(host) and host != self.where.host:
                 raise MasterUnreachable(
@@ -179,7 +193,6 @@ class Online:
                     publisher.publish(clock=graph.now())
 
             node.timer(1 / CLOCK_HZ, tell_time)
-            self._clock = node
 
     def _go_on(self) -> None:
         """Let the graph go on by itself in a notebook."""
@@ -204,8 +217,9 @@ class Online:
             graph.master = port
         if self._pace is not None:
             self._pace.end()
-        if self._clock is not None:
-            self._clock.shutdown("the graph goes offline")
+        clock = graph.nodes.get(f"/{CLOCK_NODE}")
+        if clock is not None:
+            clock.shutdown("the graph goes offline")
             self._ask(port, "deleteParam", "/rosmini", USE_SIM_TIME)
         if self.joined:
             for node in graph.nodes.values():

@@ -22,6 +22,11 @@ LEAVE_S = 2.0
 """How long a call that takes a registration back waits: a node that ends is not held up by a Master that hangs."""
 
 
+def patience(method: str) -> float:
+    """Return how many seconds a call waits for the Master."""
+    return LEAVE_S if method.startswith(("unregister", "unsubscribe")) else TIMEOUT_S
+
+
 class RemoteMaster(MasterPort):
     """The way to the Master at ``uri``; a call parks the calling lane, and simulated time goes on meanwhile.
 
@@ -41,9 +46,8 @@ class RemoteMaster(MasterPort):
 
         Raises ``MasterUnreachable``, which says what to do, when there is none.
         """
-        timeout = LEAVE_S if method.startswith(("unregister", "unsubscribe")) else TIMEOUT_S
         try:
-            answer = self._client.call(self.uri, method, caller_id, *arguments, timeout=timeout)
+            answer = self._client.call(self.uri, method, caller_id, *arguments, timeout=patience(method))
         except TransportException as error:
             raise unreachable(self.uri, error) from error
         triple = checked(self.uri, method, answer)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -12,11 +13,11 @@ from rosmini.errors import MasterUnreachable, ROSException
 from rosmini.graph import Graph
 from rosmini.graph.master import Master
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.net import connect, remote_master, watch
+from rosmini.net import connect, online, remote_master, watch
 from rosmini.net.io_thread import IoThread
 from rosmini.net.xmlrpc_server import XmlRpcServer
 
-from ..processes import free_port, run
+from ..processes import PATIENCE, free_port, run
 from .hostile import RawServer, until
 from .test_watch import Deaf
 
@@ -42,10 +43,15 @@ class Pretender:
         self.answers: dict[str, Any] = {}
         self.always: Any = None
         self.asked: list[str] = []
+        self.hangs_at = ""
+        """The method that is not answered, nor anything after it."""
+        self.wakes = threading.Event()
         self.server = XmlRpcServer(io, self._answer)
 
     def _answer(self, method: str, arguments: tuple[Any, ...]) -> Any:
         self.asked.append(method)
+        if method == self.hangs_at:
+            self.wakes.wait()
         if self.always is not None:
             return self.always
         if method in self.answers:
@@ -59,6 +65,7 @@ def pretender() -> Iterator[Pretender]:
     io = IoThread()
     made = Pretender(io)
     yield made
+    made.wakes.set()
     made.server.close()
     io.close()
 
@@ -140,6 +147,40 @@ def test_a_master_that_hangs_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     with at(raw.port) as graph, pytest.raises(MasterUnreachable, match=r"does not answer.* within 0\.2 s"):
         graph.ask_as("/test").ask("getPid")
     raw.close()
+
+
+@pytest.mark.parametrize("method", ["getPid", "setParam", "registerPublisher", "getPublishedTopics"])
+def test_a_graph_that_a_hanging_master_keeps_from_joining_stays_offline(
+    pretender: Pretender, monkeypatch: pytest.MonkeyPatch, method: str
+) -> None:
+    """It says so once it has waited for one answer, and goes on as before."""
+    pretender.hangs_at = method
+    asked: list[str] = []
+
+    def patience(asks: str) -> float:
+        asked.append(asks)
+        return 0.2 if method in asked else PATIENCE
+
+    monkeypatch.setattr(online, "patience", patience)
+    heard: list[str] = []
+    with Graph() as graph:
+        graph.node("listener").subscriber("t", String, lambda message: heard.append(message.data))
+        talker = graph.node("talker")
+        publisher = talker.publisher("t", String)
+        talker.set_param("/speed", 3)
+        nodes = set(graph.nodes)
+        with pytest.raises(MasterUnreachable, match=rf"does not answer {method} within 0\.2 s: it hangs"):
+            graph.online(f"http://127.0.0.1:{pretender.server.port}")
+        assert isinstance(graph.master, Master)
+        assert set(graph.nodes) == nodes
+        graph.run(0.5)
+        publisher.publish("still here")
+        graph.run(0.5)
+        assert heard == ["still here"]
+        assert graph.ask_as("/test").ask("lookupNode", "/talker") == talker.uri
+        monkeypatch.undo()
+        graph.online(f"http://127.0.0.1:{free_port()}")
+        graph.offline()
 
 
 @pytest.mark.parametrize("answer", [5, [1, "", 7], [1, "", {}], "hello"])
