@@ -11,7 +11,7 @@ from pathlib import Path
 
 from rosmini.errors import DefinitionError, RosminiError, UnknownPackage, nearest
 
-from .index import PackageIndex
+from .index import BUILT_IN, PackageIndex
 from .manifest import Package, Stack
 
 LONGEST_ANSWER = 10_000
@@ -44,7 +44,7 @@ class Dependencies:
     def find(self, name: str) -> Package | Stack:
         """One of them. Raises `UnknownPackage` with the nearest names, `DefinitionError` if its manifest is broken."""
         if name not in self.names():
-            raise UnknownPackage(nearest(name, self.names()))
+            raise UnknownPackage(BUILT_IN.get(name) or nearest(name, self.names()))
         if self.stacks and name in self.index.stacks():
             return self.index.find_stack(name)
         return self.index.find(name)
@@ -52,7 +52,7 @@ class Dependencies:
     def path(self, name: str) -> Path:
         """The folder of one. Raises as `find` does, but does not read the manifest."""
         if name not in self.names():
-            raise UnknownPackage(nearest(name, self.names()))
+            raise UnknownPackage(BUILT_IN.get(name) or nearest(name, self.names()))
         if self.stacks and name in self.index.stacks():
             return self.index.find_stack(name).path
         return self.index.path(name)

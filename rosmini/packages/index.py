@@ -17,14 +17,28 @@ SCHEME = "package://"
 LONGEST = 300
 """The largest number of characters of an address that an error shows."""
 
-BUILT_IN = frozenset({
-    "actionlib", "catkin", "cmake_modules", "cpp_common", "dynamic_reconfigure", "gencpp", "geneus", "genlisp",
-    "genmsg", "gennodejs", "genpy", "message_filters", "message_generation", "message_runtime", "rosbag", "rosconsole",
-    "roscpp", "roscpp_serialization", "roscpp_traits", "rosgraph", "roslaunch", "roslib", "rosmaster", "rosmsg",
-    "rosnode", "rosout", "rospack", "rosparam", "rospy", "rosservice", "rostest", "rostime", "rostopic", "rosunit",
-    "roswtf", "tf", "tf2", "tf2_geometry_msgs", "tf2_py", "tf2_ros", "xmlrpcpp",
-})  # fmt: skip
-"""Packages of ROS's core that need no folder here: rosmini brings what scripts use of them."""
+_CPP = "that is a library for nodes in C++, which rosmini does not compile; nodes in Python need rospy"
+_OTHER = "that makes messages for another language; rosmini makes those for Python"
+BUILT_IN = {
+    **dict.fromkeys(
+        [
+            "cpp_common",
+            "rosconsole",
+            "roscpp_serialization",
+            "roscpp_traits",
+            "rostime",
+            "tf2",
+            "xmlrpcpp",
+            "rosbag_storage",
+        ],
+        _CPP,
+    ),
+    **dict.fromkeys(["gencpp", "geneus", "genlisp", "gennodejs"], _OTHER),
+    "cmake_modules": "that is for CMake, which rosmini does not run; its `catkin_make` reads CMakeLists.txt itself",
+    "rosclean": "that removes old log files; rosmini keeps none unless ROS_LOG_DIR says where",
+    "rospack": "that is the tool: `rosmini rospack`",
+}
+"""Packages of ROS's core that need no folder here, and what serves instead."""
 
 
 class PackageIndex:
@@ -195,7 +209,7 @@ class PackageIndex:
         searched = "".join(
             f"\n  {path}{'' if path.is_dir() else '  (there is no such folder)'}" for path in self.paths
         )
-        guess = nearest(name, self.names())
+        guess = BUILT_IN.get(name) or nearest(name, self.names())
         lines = [f"there is no package {name!r}{f'; {guess}' if guess else ''}"]
         lines.append(f"searched:{searched or ' nothing, the list of folders is empty'}")
         lines += [f"could not be read: {problem}" for problem in self._broken]

@@ -161,3 +161,30 @@ def test_roscd_and_rosls(
     monkeypatch.setenv("ROS_LOG_DIR", str(workspace))
     assert main(["roscd", "log"]) == 0
     assert capsys.readouterr().out == f"{workspace}\n"
+
+
+def test_a_package_that_needs_what_every_robot_has(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What `catkin_create_pkg example_pkg std_msgs rospy roscpp` writes is found without a real ROS."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    assert main(["catkin_create_pkg", "example_pkg", "std_msgs", "rospy", "roscpp"]) == 0
+    assert ROSPACK.run("depends1", "example_pkg").lines == ("roscpp", "rospy", "std_msgs")
+    assert {"rosgraph", "genpy", "message_runtime"} <= set(ROSPACK.run("depends", "example_pkg").lines)
+    assert "example_pkg" in ROSPACK.run("depends-on1", "rospy").lines
+    assert "example_pkg" in ROSPACK.run("depends-on", "genpy").lines
+    for name in (
+        "rospy",
+        "roscpp",
+        "catkin",
+        "message_generation",
+        "message_runtime",
+        "actionlib",
+        "tf",
+        "tf2_ros",
+    ):
+        assert ROSPACK.run("find", name).lines[0].endswith(name)
+    capsys.readouterr()
+    assert main(["rospack", "find", "rostime"]) == 1
+    assert "a library for nodes in C++" in capsys.readouterr().err

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosmini.errors import DefinitionError, RosminiError, ScriptError, UnknownPackage
-from rosmini.packages import PackageIndex, assets_dir, folders, search_paths
+from rosmini.packages import BUILT_IN, PackageIndex, assets_dir, folders, search_paths
 
 DATA = Path(__file__).parents[1] / "data"
 MANIFEST = """<?xml version="1.0"?>
@@ -113,6 +113,15 @@ def test_manifests_name_the_packages_whose_types_they_use(own: PackageIndex) -> 
         assert set(package.depends) == used - {name} | {"message_generation", "message_runtime"}, name
 
 
+def test_every_manifest_of_the_core_can_be_read_and_names_what_is_known() -> None:
+    index = PackageIndex([assets_dir() / "ros", assets_dir() / "core"])
+    for name in sorted(each.name for each in (assets_dir() / "core").iterdir()):
+        package = index.find(name)
+        assert package.name == name
+        assert [each for each in package.exec_depends if each not in index and each not in BUILT_IN] == []
+    assert {each for each in BUILT_IN if each in index} == set()
+
+
 def test_rospkg_finds_the_same_packages(own: PackageIndex) -> None:
     theirs = rospkg.RosPack([str(assets_dir() / "ros")])
     assert own.names() == sorted(theirs.list())
@@ -126,7 +135,7 @@ def test_assets_come_last_and_a_workspace_overlays_them(
 ) -> None:
     overlay = make(tmp_path / "ws" / "src" / "turtlesim", "turtlesim", version="9.9.9")
     monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join([str(tmp_path / "gone"), str(tmp_path / "ws")]))
-    assert search_paths() == (tmp_path / "gone", tmp_path / "ws", assets_dir() / "ros")
+    assert search_paths() == (tmp_path / "gone", tmp_path / "ws", assets_dir() / "ros", assets_dir() / "core")
     index = PackageIndex()
     assert index.find("turtlesim").path == overlay
     assert index.find("turtlesim").version == "9.9.9"
@@ -136,7 +145,7 @@ def test_assets_come_last_and_a_workspace_overlays_them(
 def test_without_ros_package_path_there_are_the_assets(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
     assert "geometry_msgs" in PackageIndex()
-    assert search_paths({"ROS_PACKAGE_PATH": ""}) == (assets_dir() / "ros",)
+    assert search_paths({"ROS_PACKAGE_PATH": ""}) == (assets_dir() / "ros", assets_dir() / "core")
 
 
 def test_assets_are_found_in_a_checkout_and_in_an_installed_wheel(

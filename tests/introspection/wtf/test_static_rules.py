@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rosmini.introspection.wtf.static_rules import RULES
-from rosmini.packages import PackageIndex
+from rosmini.packages import PackageIndex, search_paths
 
 MANIFEST = """<package format="2"><name>{}</name><version>1.0.0</version><description>x</description>
 <maintainer email="ada@example.org">A</maintainer><license>BSD</license>{}</package>"""
@@ -26,7 +26,7 @@ def package(tmp_path: Path) -> Path:
 
 def found(*roots: Path) -> dict[str, tuple[str, ...]]:
     path = ":".join(map(str, roots)) if sys.platform != "win32" else ";".join(map(str, roots))
-    index = PackageIndex([*roots])
+    index = PackageIndex([*roots, *search_paths({})])
     environ = {"ROS_PACKAGE_PATH": path}
     return {each.rule: each.where for rule in RULES for each in rule(environ, index)}
 
