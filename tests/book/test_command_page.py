@@ -13,7 +13,7 @@ PAGE = (Path(__file__).parents[2] / "book" / "commands.md").read_text(encoding="
 ROWS = [line.split("|")[1:-1] for line in PAGE.splitlines() if line.startswith("|") and "`rosmini " in line]
 SHOWN = [
     command.split("\n", 1)
-    for block in re.findall(r"```console\n(.*?)```", PAGE, re.DOTALL)
+    for block in re.findall(r"```console\n(.*?)```", PAGE.replace("\\\n", ""), re.DOTALL)
     for command in block.split("$ rosmini ")[1:]
 ]
 
