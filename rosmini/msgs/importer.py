@@ -245,6 +245,15 @@ def uninstall() -> None:
             del sys.modules[name]
 
 
+def forget(package: str) -> None:
+    """Let imports find the types of a package as its files define them now; classes in use stay as they are."""
+    packages = registry().forget(package)
+    for module in list(sys.modules.values()):
+        if isinstance(module, _DefinitionsModule) and vars(module)["_package"] in packages:
+            for name in [name for name, value in vars(module).items() if isinstance(value, type)]:
+                delattr(module, name)
+
+
 def installed() -> bool:
     """True between :func:`install` and :func:`uninstall`."""
     return any(isinstance(finder, _TopLevelFinder) for finder in sys.meta_path)

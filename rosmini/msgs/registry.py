@@ -158,6 +158,29 @@ class Registry:
         """The names of a package's services, sorted; nothing is parsed."""
         return self.source.names(package, "srv")
 
+    def forget(self, package: str) -> set[str]:
+        """Read the definitions of a package again when they are asked for next; also of what contains them.
+
+        Classes that are in use stay as they are. Returns the packages that are concerned.
+        """
+        with self._lock:
+            gone = {name for name in (*self._specs, *self._services) if name.startswith(f"{package}/")}
+            while more := {
+                name
+                for name, spec in self._specs.items()
+                if name not in gone and any(field.base in gone for field in spec.fields)
+            }:
+                gone |= more
+            for kept in (self._messages, self._specs, self._measures):
+                for name in gone:
+                    kept.pop(name, None)
+            self._services = {
+                name: service
+                for name, service in self._services.items()
+                if not gone & {name, service._request_class._type, service._response_class._type}
+            }
+            return {package, *(name.partition("/")[0] for name in gone)}
+
     # ---- inside ----
 
     def _make_message_class(self, name: str) -> type[Message]:
