@@ -64,6 +64,7 @@ RQT = {
     "bag": "what is in a bag, over time",
     "tf_tree": "the tree of frames",
     "image_view": "the next image on a topic",
+    "gui": "several plugins in one window",
     "publisher": "publish on topics, from a form",
     "service_caller": "call services, from a form",
     "logger_level": "how much each node logs, from a form",

@@ -16,7 +16,7 @@ from rosmini.introspection.options import Parser
 
 from .arguments import global_name
 from .listening import Span, tool_node
-from .main import RQT
+from .main import COMMANDS, RQT
 from .verbs import Call, Result, Tool, VerbError
 
 if TYPE_CHECKING:
@@ -357,6 +357,39 @@ def _panel(verb: str) -> None:
 
 for _verb in PANELS:
     _panel(_verb)
+
+
+def _gui_parser() -> Parser:
+    text = "Plugins beside one another in a notebook, with rqt's menus. In a terminal: the commands to use instead."
+    parser = Parser(
+        "rqt", "rosmini rqt_gui [options] [PLUGIN...]", text, example="  %rqt_gui rqt_graph rqt_console"
+    )
+    parser.add_option("--perspective-file", metavar="FILE", help="what runs, as rqt exported it")
+    return parser
+
+
+def _gui_in_terminal(words: Sequence[str]) -> int:
+    from rosmini.viz.rqt.plugins import PLUGINS
+    from rosmini.widgets.rqt import Perspective
+
+    given, serves = _gui_parser().parse(words), {row[2]: row[3] for row in PLUGINS}
+    wanted = list(given.words)
+    if given.perspective_file:
+        wanted = [each.plugin for each in Perspective.read(given.perspective_file).running] + wanted
+    print(
+        "A window of several plugins is for notebooks (%rqt_gui). In a terminal each is a command of its own:"
+    )
+    for plugin in wanted or [f"rqt_{verb}" for verb in RQT if verb != "gui"]:
+        package = plugin.partition("/")[0]
+        found = serves.get(package, "no plugin of rqt")
+        print(f"  {plugin}: {'rosmini ' * (found.split()[0] in COMMANDS)}{found}")
+    return 2
+
+
+@TOOL.verb(RQT["gui"], parser=_gui_parser, in_terminal=_gui_in_terminal)
+def gui(given: Values, call: Call) -> Shown:
+    """Open a window in a notebook."""
+    return _live("Rqt", call, *given.words, perspective=given.perspective_file)
 
 
 def _pass(call: Call, seconds: float) -> None:

@@ -321,7 +321,7 @@ class Tool:
             verb = self.find(own[0])
             if verb.in_terminal is not None:
                 verb.parser()
-                return verb.in_terminal(words[1:])
+                return verb.in_terminal(self._with_verb(words)[1:])
             result = self._in_terminal(verb, own[1:], nodes)
         except VerbError as error:
             print(error, file=sys.stderr)

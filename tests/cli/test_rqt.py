@@ -126,6 +126,21 @@ def test_what_goes_on_is_for_notebooks(graph: Graph, line: str) -> None:
         verb.act(given, Call(graph, read_line=input))
 
 
+def test_a_window_opens_in_a_notebook_and_a_terminal_names_the_commands(
+    graph: Graph, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    window = shown(graph, "gui rqt_console Plot").view
+    assert [panel.tool for panel in window.running.values()] == ["rqt_console", "rqt_plot"]  # type: ignore[attr-defined]
+    window.export_file(tmp_path / "my.perspective")  # type: ignore[attr-defined]
+    assert cli.main(["rqt_gui", "--perspective-file", str(tmp_path / "my.perspective"), "rqt_moveit"]) == 2
+    out = capsys.readouterr().out.splitlines()[1:]
+    assert out == [
+        "  rqt_console/Console: rosmini rqt_console",
+        "  rqt_plot/Plot: rosmini rqt_plot",
+        "  rqt_moveit: not here",
+    ]
+
+
 @pytest.mark.parametrize(("verb", "instead"), [(verb, entry[2]) for verb, entry in PANELS.items()])
 def test_a_terminal_names_the_command_that_does_the_same(
     verb: str, instead: str, capsys: pytest.CaptureFixture[str]
@@ -139,7 +154,9 @@ def test_the_table_of_plugins_has_nine_groups_and_names_every_tool_that_is_here(
     rows = TOOL.run("plugins").view.rows  # type: ignore[attr-defined]
     assert len({row[0] for row in rows}) == 9
     assert len(rows) == len({row[2] for row in rows})
-    assert {row[3] for row in rows if row[3] in cli.COMMANDS} >= {f"rqt_{verb}" for verb in cli.RQT}
+    assert {row[3] for row in rows if row[3] in cli.COMMANDS} >= {
+        f"rqt_{verb}" for verb in cli.RQT if verb != "gui"
+    }
 
 
 def test_a_terminal_writes_a_page_and_opens_it(

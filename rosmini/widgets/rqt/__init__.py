@@ -2,25 +2,35 @@
 
 from __future__ import annotations
 
+from .browsers import ActionTypes, ImageView, MessageTypes, ServiceTypes, TfTree
 from .console import LogConsole
 from .graph import NodeGraph
 from .logger_level import LoggerLevel
 from .panel import Panel
+from .perspective import Perspective
 from .plot import Plot
 from .publisher import MessagePublisher, Publication
 from .reconfigure import DynamicReconfigure
 from .service_caller import ServiceCaller
 from .topic import TopicMonitor
+from .window import Rqt
 
 __all__ = [
+    "ActionTypes",
     "DynamicReconfigure",
+    "ImageView",
     "LogConsole",
     "LoggerLevel",
     "MessagePublisher",
+    "MessageTypes",
     "NodeGraph",
     "Panel",
+    "Perspective",
     "Plot",
     "Publication",
+    "Rqt",
     "ServiceCaller",
+    "ServiceTypes",
+    "TfTree",
     "TopicMonitor",
 ]

@@ -104,6 +104,16 @@ class LogConsole(Panel):
             ),
         ]
 
+    def settings(self) -> dict[str, Any]:
+        """The filters."""
+        return dict(self.filters)
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Take the filters."""
+        self.filter(
+            **{name: value for name, value in settings.items() if type(value) is type(self.filters.get(name))}
+        )
+
     def _operate(self, key: Sequence[str], value: Any) -> None:
         match key[0]:
             case "pause":

@@ -40,6 +40,11 @@ class Fields:
                 self._kinds[path] = kind
                 self.texts[path] = _text(value)
 
+    @property
+    def given(self) -> dict[str, str]:
+        """The expressions that were given, by path."""
+        return {path: self.texts[path] for path in self._expressions}
+
     def fill(self, path: str, text: str) -> None:
         """Give a field an expression.
 

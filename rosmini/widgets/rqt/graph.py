@@ -21,6 +21,25 @@ if TYPE_CHECKING:
 
 LOOK_S = 1.0
 """How often Master and nodes are asked [s]."""
+MODES = ("nodes_only", "nodes_topics_active", "nodes_topics_all")
+"""As the real one counts them."""
+TEXTS = {
+    "filter_line_edit_text": "namespace",
+    "topic_filter_line_edit_text": "topics",
+    "namespace_cluster_spin_box_value": "namespaces",
+}
+BOXES = {
+    "quiet_check_box_state": ("hide", "debug"),
+    "dead_sinks_check_box_state": ("hide", "dead_sinks"),
+    "leaf_topics_check_box_state": ("hide", "leaf_topics"),
+    "hide_dynamic_reconfigure_check_box_state": ("hide", "params"),
+    "hide_tf_nodes_check_box_state": ("hide", "tf"),
+    "unreachable_check_box_state": ("hide", "unreachable"),
+    "actionlib_check_box_state": ("group", "actions"),
+    "group_image_check_box_state": ("group", "images"),
+    "group_tf_check_box_state": ("group", "tf"),
+}
+"""What the real rqt_graph calls its options where it saves them."""
 WORDS = {"dead_sinks": "Dead sinks", "leaf_topics": "Leaf topics", "tf": "tf"}
 
 
@@ -105,6 +124,31 @@ class NodeGraph(Panel):
             bar("Group:", *group),
             Drawing(picture.svg or "", picture.text, "highlight"),
         ]
+
+    def settings(self) -> dict[str, Any]:
+        """The options, by the names of the real rqt_graph."""
+        found = {key: self.options[name] for key, name in TEXTS.items()}
+        found["graph_type_combo_box_index"] = MODES.index(self.options["mode"])
+        return found | {key: name in self.options[kind] for key, (kind, name) in BOXES.items()}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Take the options by those names."""
+        wanted: dict[str, Any] = {name: settings[key] for key, name in TEXTS.items() if key in settings}
+        if "namespaces" in wanted:
+            wanted["namespaces"] = int(wanted["namespaces"])
+        if "graph_type_combo_box_index" in settings:
+            wanted["mode"] = MODES[int(settings["graph_type_combo_box_index"])]
+        for kind in ("hide", "group"):
+            chosen = {
+                name: name in self.options[kind] for name in get_args(Hide if kind == "hide" else Group)
+            }
+            chosen |= {
+                name: str(settings[key]).lower() == "true"
+                for key, (at, name) in BOXES.items()
+                if at == kind and key in settings
+            }
+            wanted[kind] = tuple(name for name, on in chosen.items() if on)
+        self.change(**wanted)
 
     def _operate(self, key: Sequence[str], value: Any) -> None:
         match key[0]:

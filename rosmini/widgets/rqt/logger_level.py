@@ -130,6 +130,15 @@ class LoggerLevel(Panel):
             Rows(("Logger", "Level"), rows, "Loggers", "choose a node"),
         ]
 
+    def settings(self) -> dict[str, Any]:
+        """The node."""
+        return {"node": self.chosen}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Choose the node."""
+        if settings.get("node"):
+            self.choose(str(settings["node"]))
+
     def _operate(self, key: Sequence[str], value: Any) -> None:
         if key[0] == "node":
             self.choose(value)

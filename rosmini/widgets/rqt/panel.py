@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.errors import RosminiError, nearest
@@ -80,7 +80,7 @@ class Panel(View):
         return {}
 
     def restore(self, settings: dict[str, Any]) -> None:
-        """Take what a perspective kept. What makes no sense is left out."""
+        """Take what a perspective kept; of other keys nothing is taken. Raises ``RosminiError``, ``ValueError``."""
 
     # -- operating it ---------------------------------------------------------------------------------------------
 
@@ -134,7 +134,8 @@ class Panel(View):
 
     # -- showing --------------------------------------------------------------------------------------------------
 
-    def _all(self) -> list[Part]:
+    def shown(self) -> list[Part]:
+        """Return its parts, and what is to be said of the last thing that was done."""
         found = list(self.parts())
         why = self.gone
         if why is not None:
@@ -146,7 +147,7 @@ class Panel(View):
     @property
     def text(self) -> str:
         """The name of the tool, and what it shows."""
-        return f"{self.tool}\n{self._on_hub(lambda: text_of(self._all()))}".rstrip()
+        return f"{self.tool}\n{self._on_hub(lambda: text_of(self.shown()))}".rstrip()
 
     @property
     def alt(self) -> str:
@@ -156,7 +157,7 @@ class Panel(View):
 
     def markup(self, *, live: bool) -> str:
         """What it shows, as HTML."""
-        return self._on_hub(lambda: page(self.heading, self._all(), live=live))
+        return self._on_hub(lambda: page(self.heading, self.shown(), live=live))
 
     def _images(self) -> dict[str, bytes]:
         return {}
@@ -188,3 +189,15 @@ class Panel(View):
 def bar(*cells: str | Control) -> Bar:
     """Return a bar of these controls and words."""
     return Bar(cells)
+
+
+def each_of(act: Callable[[str], object], names: Iterable[object]) -> None:
+    """Do it for each of the names that a perspective kept. Raises one ``ViewError`` for all that failed."""
+    problems = []
+    for name in names:
+        try:
+            act(str(name))
+        except RosminiError as error:
+            problems.append(str(error))
+    if problems:
+        raise ViewError("; ".join(problems))

@@ -10,7 +10,7 @@ from rosmini.viz.rqt.listening import find_topic
 from rosmini.viz.rqt.plot import MANY, Series, expanded
 from rosmini.viz.view import ViewError
 
-from .panel import Panel, bar
+from .panel import Panel, bar, each_of
 from .parts import Control, Drawing, Words
 
 if TYPE_CHECKING:
@@ -128,6 +128,15 @@ class Plot(Panel):
         most = max(len(times) for times, _ in lines.values())
         drawn = plot(lines, x="time from now [s]", y="value", title=self.tool, marks=most <= MANY)
         return Drawing(drawn.svg or "", drawn.text)
+
+    def settings(self) -> dict[str, Any]:
+        """What is plotted, by the real one's name."""
+        return {"topics": list(self._lines)}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Plot what was plotted; what is not there is named at the end."""
+        topics = settings.get("topics", [])
+        each_of(self.add, [topics] if isinstance(topics, str) else topics)
 
     def _operate(self, key: Sequence[str], value: Any) -> None:
         match key[0]:

@@ -15,6 +15,7 @@ from rosmini.viz.words import plural
 from .fields import Fields
 from .panel import Panel, bar
 from .parts import Box, Control
+from .perspective import literal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -174,6 +175,29 @@ class MessagePublisher(Panel):
         title = f"{each.topic} [{each.type}]"
         close = Control(f"{number}/remove", "Remove", "button")
         return Box(title, (buttons, each.fields.table(f"{number}/field")), close)
+
+    def settings(self) -> dict[str, Any]:
+        """The topics, in the form in which the real one keeps them: the text of a list."""
+        kept = [
+            {
+                "topic_name": each.topic,
+                "type_name": each.type,
+                "rate": each.rate,
+                "enabled": each.enabled,
+                "expressions": {f"{each.topic}/{path}": text for path, text in each.fields.given.items()},
+            }
+            for each in self.publications.values()
+        ]
+        return {"publishers": repr(kept)}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Add the topics that were kept."""
+        for kept in literal(settings.get("publishers")) or ():
+            each = self.add(str(kept["topic_name"]), str(kept["type_name"]), float(kept["rate"]))
+            for path, text in kept.get("expressions", {}).items():
+                each.fill(str(path).removeprefix(f"{each.topic}/"), str(text))
+            if kept.get("enabled") and each.rate:
+                each.enable()
 
     def _operate(self, key: Sequence[str], value: Any) -> None:
         if key[0] == "add":

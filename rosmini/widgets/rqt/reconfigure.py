@@ -11,7 +11,7 @@ from rosmini.errors import ROSException, nearest
 from rosmini.introspection.services import services
 from rosmini.viz.view import ViewError
 
-from .panel import Panel, bar
+from .panel import Panel, bar, each_of
 from .parts import Box, Cell, Control, Row, Rows, number_text
 
 if TYPE_CHECKING:
@@ -127,6 +127,14 @@ class DynamicReconfigure(Panel):
             if on or inner.type not in ("collapse", "hide"):
                 parts += self._group(inner, config)
             yield Box(inner.name, tuple(parts))
+
+    def settings(self) -> dict[str, Any]:
+        """The server."""
+        return {"selected_nodes": [self.server] if self.server else []}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Choose the server, the last if there are several."""
+        each_of(self.choose, settings.get("selected_nodes", []))
 
     def _operate(self, key: Sequence[str], value: Any) -> None:
         name = "/".join(key[1:])

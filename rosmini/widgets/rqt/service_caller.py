@@ -117,6 +117,15 @@ class ServiceCaller(Panel):
             found.append(Box("Response", (value_table(self.response, value_text),)))
         return found
 
+    def settings(self) -> dict[str, Any]:
+        """The service."""
+        return {"service": self.service}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Choose the service."""
+        if settings.get("service"):
+            self.choose(str(settings["service"]))
+
     def _operate(self, key: Sequence[str], value: Any) -> None:
         if key[0] == "service":
             self.choose(value)

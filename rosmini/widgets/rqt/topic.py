@@ -9,7 +9,7 @@ from rosmini.introspection.fields import class_of
 from rosmini.viz.rqt.topics import Heard, fields_of, known_topics
 from rosmini.viz.view import ViewError
 
-from .panel import Panel
+from .panel import Panel, each_of
 from .parts import Control, Row, Rows
 
 if TYPE_CHECKING:
@@ -103,6 +103,14 @@ class TopicMonitor(Panel):
         if before is None or abs(now - before[0]) >= FIGURES_S:
             before = self._figures[topic] = (now, one.figures(now))
         return before[1]
+
+    def settings(self) -> dict[str, Any]:
+        """What is heard."""
+        return {"topics": list(self._heard)}
+
+    def restore(self, settings: dict[str, Any]) -> None:
+        """Hear what was heard; what is not there is named at the end."""
+        each_of(self.hear, settings.get("topics", []))
 
     def _operate(self, key: Sequence[str], value: Any) -> None:
         self.hear("/".join(key[1:]), value)
