@@ -30,7 +30,7 @@ def load(shell: Any) -> None:
     tell_which_ros()
     session = begin_session(shell)
     magics.register(shell, say=session.say)
-    shell.events.register("pre_run_cell", session.look)
+    shell.events.register("pre_run_cell", session.begin_cell)
     shell.set_hook("complete_command", complete, str_key="%rosrun")
     atexit.register(end_session, shell)
     for kind, name, act in (
@@ -51,7 +51,7 @@ def unload(shell: Any) -> None:
     """Undo :func:`load`: end the graph, remove the notebook's package, and leave ``import rospy`` alone."""
     if not is_loaded(shell):
         return
-    shell.events.unregister("pre_run_cell", session_of(shell).look)
+    shell.events.unregister("pre_run_cell", session_of(shell).begin_cell)
     atexit.unregister(end_session)
     end_session(shell)
     uninstall()

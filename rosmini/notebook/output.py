@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from rosmini.scripts.stdin import Blocker
     from rosmini.scripts.streams import ScriptOutput
 
+MAX_LINES = 2_000
+"""The largest number of lines that scripts may print in one cell: a loop without a pause prints a million a second."""
+
 _A_MOMENT_NS = 1_000_000
 
 
@@ -62,9 +65,26 @@ class CellSink(OutputSink):
 
     def __init__(self, rewrite: Callable[[str], str], several_speak: Callable[[ScriptOutput], bool]) -> None:
         self._several_speak = several_speak
+        self._lines = 0
         self._streams = (CellStream("stdout", rewrite), CellStream("stderr", rewrite))
         out, err = (cast("TextIO", stream) for stream in self._streams)
         super().__init__(out, err)
+
+    def begin_cell(self) -> None:
+        """Count from zero: another cell runs."""
+        self._lines = 0
+        self.look()
+
+    def emit(self, owner: ScriptOutput, text: str, *, complete: bool) -> None:
+        """Write a line, or the next part of one, unless that many were written; errors are always written."""
+        self._lines += complete and not owner.is_error
+        if self._lines <= MAX_LINES or owner.is_error:
+            super().emit(owner, text, complete=complete)
+        elif self._lines == MAX_LINES + 1:
+            self.say(
+                f"... and more: a cell shows {MAX_LINES} lines. Does {owner.label()} print in a loop without a "
+                "rospy.sleep() or rate.sleep()?"
+            )
 
     def _label(self, owner: ScriptOutput) -> str:
         return super()._label(owner) if self._several_speak(owner) else ""
@@ -72,7 +92,8 @@ class CellSink(OutputSink):
     def say(self, text: str) -> None:
         """Write a line that is no node's, after what is unfinished."""
         if self._open is not None:
-            self._open.finish()
+            self.stdout.write("\n")
+            self._open = None
         self.stdout.write(f"{text}\n")
         self.stdout.flush()
 

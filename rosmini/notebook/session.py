@@ -96,8 +96,13 @@ class Session:
         if threading.get_ident() != self._thread:
             raise RosminiError(f"{what} works in the notebook itself, not in a subshell of its kernel")
 
-    def look(self, *_: object) -> None:
-        """Note the cell that runs now: the caller's."""
+    def begin_cell(self, *_: object) -> None:
+        """Note that another cell runs: the caller's."""
+        self.sink.begin_cell()
+        self.look()
+
+    def look(self) -> None:
+        """Note where the caller's output goes, and where its reader types."""
         self._cell = contextvars.copy_context()
         self.sink.look()
 
