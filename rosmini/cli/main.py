@@ -110,6 +110,11 @@ COMMANDS: dict[str, Entry] = {
     "rossequence": Entry(
         "rosmini.cli.rossequence", "who called whom, and sent what to whom, as it happened", is_magic=True
     ),
+    "fault": Entry(
+        "rosmini.cli.fault",
+        "make something go wrong: lose, delay or double messages, kill a node, cut a service, jump a clock",
+        is_magic=True,
+    ),
     "rosparam": Entry(
         "rosmini.cli.rosparam", "parameters: get, set, load, dump, delete and list them", is_magic=True
     ),

@@ -26,6 +26,7 @@ from .transport import DirectReceiver, LocalTransport, set_header
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from .faults import Gate
     from .subscription_port import SubscriptionPort
     from .transport import Header, Triple
 
@@ -81,6 +82,9 @@ class Connection(DirectReceiver):
         self.was_left = False
         """Whether the publisher has left the topic while the connection was being made: it may come to nothing."""
         self._gone = False
+        self._gate: Gate | None = node.graph.faults.gate(subscription.topic, node.name)
+        self._is_direct = self._gate is None
+        """Whether what is sent may join the queue at once."""
         self._draining = False
         self._last: Any = None
         self._keep = False
@@ -184,20 +188,32 @@ class Connection(DirectReceiver):
 
     def begin(self) -> bool:
         """Post a turn of the callbacks, unless something of this connection is under way."""
-        self.pending = not self._gone and self._lane.post_if_idle(self._drain_ref)
+        self.pending = self._is_direct and self._lane.post_if_idle(self._drain_ref)
         return self.pending
 
     def deliver(self, messages: Iterable[Any]) -> None:
         """Queue frozen messages for the callbacks; beyond the queue size the oldest are dropped."""
+        if self._gate is None:
+            self._accept(messages)
+        else:
+            self._gate.pass_on(messages, self.peer, self._accept)
+
+    def set_gate(self, gate: Gate | None) -> None:
+        """Let everything that is sent from now on pass a fault, or nothing any more."""
+        self._gate = gate
+        self._is_direct = gate is None and not self._gone
+
+    def _accept(self, messages: Iterable[Any]) -> None:
         if self._gone:
             return
         for message in messages:
             set_header(message, self.header)
             self.incoming.append(message)
         self._trim()
-        if not self.pending and not self._draining:
-            self.pending = True
-            self._lane.post(self._drain_ref)
+        if self._draining or self.pending:
+            return
+        self.pending = self._is_direct  # else what is sent would join the queue past the gate
+        self._lane.post(self._drain_ref)
 
     def _trim(self) -> None:
         size = self.subscription.queue_size
@@ -239,7 +255,7 @@ class Connection(DirectReceiver):
         finally:
             self._draining = False
             if incoming and not self._gone:
-                self.pending = True
+                self.pending = self._is_direct
                 self._lane.post(self._drain_ref)
             elif self.on_drained is not None:
                 self.on_drained()
@@ -310,7 +326,7 @@ class Connection(DirectReceiver):
 
     def _shut(self) -> None:
         was_open, self.is_open = self.is_open, False
-        self._gone = True
+        self._gone, self._is_direct = True, False
         self._close_link = None
         if was_open:
             for handle in self.subscription.handles:

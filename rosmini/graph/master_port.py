@@ -104,6 +104,8 @@ class MasterProxy:
         self._host = host
         self._caller_id = caller_id
         self._is_over = is_over
+        self.is_mute = False
+        """Whether registrations are not taken back: the caller is dead."""
         self._lock = threading.Lock()
         self._busy = False
         self._queue: deque[Waiter] = deque()
@@ -177,6 +179,8 @@ class MasterProxy:
 
         What the Master has forgotten is no error.
         """
+        if self.is_mute:
+            return
         port = self._host.master
         if port.is_local:
             self._reach(port, method, arguments)

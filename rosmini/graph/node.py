@@ -89,6 +89,8 @@ class Node(ServiceApi):
         self.master = MasterProxy(graph, self.name, self.is_shutdown)
         self.shutdown_reason: str | None = None
         self.on_exit: Callable[[], object] | None = None
+        self.process: Any = None
+        """What runs the node and can ``kill()`` it, if anything does."""
         self.program: Any = None
         """The object behind a built-in node, such as a `Simulator`, once it is set up."""
         """Called once, when the node has been shut down and the Master has forgotten it."""
@@ -336,6 +338,13 @@ class Node(ServiceApi):
         Without ``hooks`` none is called, and one that is running is not waited for.
         """
         self.scheduler.on_hub(lambda: self._shutdown(reason, hooks=hooks))
+
+    def vanish(self) -> None:
+        """End as a process does that is killed: no hook runs, and the Master is told nothing."""
+        self.master.is_mute = True
+        if self.process is not None:
+            self.scheduler.on_hub(self.process.kill)
+        self.shutdown("it was killed", hooks=False)
 
     def shutdown_requested(self, caller: str, reason: str) -> None:
         """Learn by the slave API that the node is to end; it does so in a lane of its own."""

@@ -22,6 +22,8 @@ class Transports:
     def __init__(self, scheduler: Scheduler, makers: Sequence[Callable[[Scheduler], Transport]]) -> None:
         self._scheduler = scheduler
         self.ways = [make(scheduler) for make in makers]
+        self.cut: frozenset[str] = frozenset()
+        """Services to which no connection can be made: a fault that somebody asked for."""
         self._here: dict[str, str] = {}
         """The nodes of this process: their URIs by those of their services."""
 
@@ -106,6 +108,8 @@ class Transports:
         self, caller: str, service_uri: str, header: Header, service_class: Any
     ) -> ServiceLink:
         """Open a service connection; see :class:`~rosmini.graph.transport.Transport`."""
+        if header.get("service") in self.cut:
+            raise TransportException("the connection was cut off on purpose; `%fault clear` mends it")
         here = self._here.get(service_uri)
         if here is not None:
             way = self._way_to(here)

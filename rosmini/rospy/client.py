@@ -147,6 +147,7 @@ def _start(session: Session, arguments: _Arguments) -> Node:
 def _introduce(context: Any, node: Node) -> None:
     """Tell the script's runner which node it has."""
     context.node = node
+    node.process = getattr(context, "process", None)
     set_node_name: Callable[[str], object] | None = getattr(context, "set_node_name", None)
     if set_node_name is not None:
         set_node_name(node.name)

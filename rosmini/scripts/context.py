@@ -94,6 +94,8 @@ class ScriptContext:
         self.name = name or Path(filename.strip("<>")).stem
         self.seed = seed
         self.node: Any = None
+        self.process: Any = None
+        """The handle that runs the script."""
         self.at_shutdown: list[Callable[[str], object]] = []
         self.exit_calls: list[tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]] = []
         self.handlers: dict[int, Any] = {}

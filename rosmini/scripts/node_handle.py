@@ -93,6 +93,7 @@ class NodeHandle(LaneHandle):
         namespace = os.environ.get("ROS_NAMESPACE", "")
         node = self.node = Node(name, self.graph, namespace=namespace, remappings=self._remappings)
         node.on_exit = lambda: self._ended(node)
+        node.process = self
         ready = self._ready = self.scheduler.waiter(f"the node {node.name} to be set up")
         self._set_up_lane = self.scheduler.spawn(
             f"{node.name} set-up", lambda: self._set_up(node, ready), node=node

@@ -133,6 +133,7 @@ class ScriptHandle(LaneHandle):
             environ=self.spec.environ,
         )
         context.on_threads_ended = lambda: self._close(context)
+        context.process = self
         lane = self.scheduler.spawn(context.name, context=context, on_error=context.lane_failed)
         lane.node = None  # not the node of the notebook cell that starts it
         lane.on_exit = self._main_ended

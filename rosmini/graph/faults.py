@@ -1,0 +1,257 @@
+"""Faults made on purpose: lost, late and doubled messages, killed nodes, jumping clocks, services that are cut off.
+
+They act where a node meets its transport, its Master and its clock, so no node's code knows of them, and a graph
+without faults spends nothing on them. What is random comes from a seed, for each connection by itself: the same
+messages are lost on each run, whoever else listens.
+"""
+
+from __future__ import annotations
+
+import zlib
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, Protocol
+
+from rosmini.errors import RosminiError, nearest
+
+from .clock import GraphClock, TopicClock, WrongClock
+from .event_queue import span_ns
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    import numpy as np
+
+    from .master_port import MasterProxy
+    from .scheduler import Scheduler
+    from .transports import Transports
+
+CALLER_ID = "/fault"
+
+
+class FaultError(RosminiError):
+    """A fault cannot be made as it was asked for."""
+
+
+class FaultHost(Protocol):
+    """What faults need of their graph."""
+
+    scheduler: Scheduler
+    transport: Transports
+    nodes: dict[str, Any]
+    seed: int
+
+    def ask_as(self, caller_id: str) -> MasterProxy:
+        """Return the Master as a caller of this name sees it."""
+
+
+@dataclass
+class TopicFault:
+    """What happens to the messages of a topic on their way to one subscriber, or to all in this process."""
+
+    topic: str
+    to: str = ""
+    """The subscribing node; empty: every one."""
+    lose: float = 0.0
+    """With which probability a message is lost."""
+    double: float = 0.0
+    """With which probability it arrives twice."""
+    delay: float = 0.0
+    """How late it arrives [s]."""
+    jitter: float = 0.0
+    """Up to how much later still, evenly spread [s]: messages may overtake one another."""
+    seed: int = 0
+    messages: int = 0
+    """How many messages came this way."""
+    lost: int = 0
+    doubled: int = 0
+
+    def __post_init__(self) -> None:
+        for name in ("lose", "double"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise FaultError(f"{name} is a probability from 0 to 1, not {getattr(self, name)!r}")
+        for name in ("delay", "jitter"):
+            span_ns(getattr(self, name), name)
+        if not (self.lose or self.double or self.delay or self.jitter):
+            raise FaultError(
+                f"say what happens to the messages of {self.topic}: lose, double, delay or jitter"
+            )
+
+    def __str__(self) -> str:
+        parts = []
+        if self.lose:
+            parts.append(f"{self.lose:.0%} lost")
+        if self.double:
+            parts.append(f"{self.double:.0%} doubled")
+        if self.delay or self.jitter:
+            upper = f" to {self.delay + self.jitter:g} s" if self.jitter else " s"
+            parts.append(f"{self.delay:g}{upper} late")
+        return f"{self.topic} to {self.to or 'every subscriber'}: {', '.join(parts)} (seed {self.seed})"
+
+    @property
+    def done(self) -> str:
+        """What it has done so far, in words."""
+        return f"{self.messages} messages, {self.lost} lost, {self.doubled} doubled"
+
+
+class Gate:
+    """What a topic's fault does to one connection; between the transport and the subscriber's queue."""
+
+    def __init__(self, fault: TopicFault, scheduler: Scheduler, node: str) -> None:
+        self._fault = fault
+        self._scheduler = scheduler
+        self._node = node
+        self._rng: np.random.Generator | None = None
+
+    def pass_on(self, messages: Iterable[Any], peer: str, accept: Callable[[list[Any]], None]) -> None:
+        """Let ``accept`` have what is not lost of the messages from ``peer``, when it is its time."""
+        fault = self._fault
+        if self._rng is None:
+            self._rng = _rng(fault, self._node, peer)
+        for message in messages:
+            fault.messages += 1
+            lost, doubled, *late = self._rng.random(4)  # as many for each, whatever the fault does
+            if lost < fault.lose:
+                fault.lost += 1
+                continue
+            self._send(message, float(late[0]), accept)
+            if doubled < fault.double:
+                fault.doubled += 1
+                self._send(self._copy(message), float(late[1]), accept)
+
+    def _send(self, message: Any, late: float, accept: Callable[[list[Any]], None]) -> None:
+        span = span_ns(self._fault.delay + self._fault.jitter * late, "a delay")
+        if span:
+            self._scheduler.call_at(self._scheduler.now_ns() + span, partial(accept, [message]))
+        else:
+            accept([message])
+
+    def _copy(self, message: Any) -> Any:
+        """Return a message of which another callback may become the owner."""
+        if not message._plain_numpy:
+            return message
+        copy = message._thaw_numpy(message)
+        if self._scheduler.history is not None:
+            self._scheduler.history.same(copy, message)
+        return copy
+
+
+def _rng(fault: TopicFault, node: str, peer: str) -> np.random.Generator:
+    import numpy as np
+
+    return np.random.default_rng([fault.seed, zlib.crc32(f"{fault.topic} {peer} {node}".encode())])
+
+
+class Faults:
+    """The faults of a graph. Names are global; a name that nobody knows raises ``FaultError`` with the nearest."""
+
+    def __init__(self, host: FaultHost) -> None:
+        self._host = host
+        self._topics: dict[tuple[str, str], TopicFault] = {}
+        self._jumps: dict[str, float] = {}
+
+    def disturb(
+        self,
+        topic: str,
+        *,
+        to: str = "",
+        lose: float = 0.0,
+        double: float = 0.0,
+        delay: float = 0.0,
+        jitter: float = 0.0,
+        seed: int | None = None,
+    ) -> TopicFault:
+        """Disturb the messages of a topic on their way to the node ``to``, or to every subscriber in this process.
+
+        A topic has one fault for each ``to``; a later one replaces it. ``lose`` and ``double`` are probabilities,
+        ``delay`` and ``jitter`` seconds, ``seed`` the graph's if it is not given.
+        """
+        publishers, subscribers, _ = self._host.ask_as(CALLER_ID).ask("getSystemState")
+        heard = dict(subscribers)
+        self._check("topic", topic, {**heard, **dict(publishers)})
+        if to:
+            self._check(f"subscriber of {topic}", to, dict.fromkeys(heard.get(topic, ())))
+        fault = TopicFault(topic, to, lose, double, delay, jitter, self._host.seed if seed is None else seed)
+        self._topics[topic, to] = fault
+        self._renew()
+        return fault
+
+    def cut(self, service: str) -> None:
+        """Cut a service off: who calls it is told that the connection failed; so are those whose call is under way."""
+        services = self._host.ask_as(CALLER_ID).ask("getSystemState")[2]
+        self._check("service", service, dict(services))
+        self._host.transport.cut |= {service}
+        for node in list(self._host.nodes.values()):
+            if service in node.services:
+                node.services[service].close_sessions("cut off on purpose")
+
+    def kill(self, name: str) -> None:
+        """Kill a node of this process as ``kill -9`` does: no hook runs, and the Master goes on listing it."""
+        self._node(name).vanish()
+
+    def jump(self, seconds: float, name: str = "") -> None:
+        """Let the clock of a node, or of every node of this process, jump. Simulators of this process keep theirs.
+
+        Raises ``FaultError`` for a node whose clock is the topic ``/clock``.
+        """
+        if not isinstance(seconds, (int, float)) or not abs(seconds) < 1e9:
+            raise FaultError(f"a clock jumps by a number of seconds, forwards or back, not {seconds!r}")
+        nodes = [self._node(name)] if name else list(self._host.nodes.values())
+        for node in nodes:
+            if isinstance(node.clock, TopicClock):
+                if name:
+                    raise FaultError(
+                        f"{name} has no clock of its own: it follows /clock, as /use_sim_time says"
+                    )
+                continue
+            self._set_jump(node, self._jumps.get(node.name, 0.0) + seconds)
+
+    def _set_jump(self, node: Any, seconds: float) -> None:
+        self._jumps[node.name] = seconds
+        node.clock = WrongClock(self._host.scheduler, int(seconds * 1e9))
+
+    def clear(self, name: str = "") -> int:
+        """End the faults of a topic, service or node, or all, and return how many. Nobody rises from the dead."""
+        topics = [key for key in self._topics if name in ("", *key)]
+        services = {service for service in self._host.transport.cut if name in ("", service)}
+        jumps = [node for node in self._jumps if name in ("", node)]
+        if name and not (topics or services or jumps):
+            known = [*(topic for topic, _ in self._topics), *self._host.transport.cut, *self._jumps]
+            raise FaultError(f"{name} has no fault. {nearest(name, known) or '`list` says which there are.'}")
+        for key in topics:
+            del self._topics[key]
+        self._host.transport.cut -= services
+        for node in jumps:
+            del self._jumps[node]
+            if node in self._host.nodes:
+                self._host.nodes[node].clock = GraphClock(self._host.scheduler)
+        self._renew()
+        return len(topics) + len(services) + len(jumps)
+
+    def lines(self) -> list[str]:
+        """Return a line for each fault that acts."""
+        found = [f"{fault}: {fault.done}" for _, fault in sorted(self._topics.items())]
+        found += [f"{service}: cut off" for service in sorted(self._host.transport.cut)]
+        found += [f"{node}: its clock is {jump:+g} s off" for node, jump in sorted(self._jumps.items())]
+        return found
+
+    def gate(self, topic: str, node: str) -> Gate | None:
+        """Return what a connection's messages have to pass, if anything. For connections only."""
+        fault = self._topics.get((topic, node)) or self._topics.get((topic, ""))
+        return None if fault is None else Gate(fault, self._host.scheduler, node)
+
+    def _renew(self) -> None:
+        for node in self._host.nodes.values():
+            for subscription in node.subscriptions.values():
+                for connection in subscription.connections.values():
+                    connection.set_gate(self.gate(subscription.topic, node.name))
+
+    def _node(self, name: str) -> Any:
+        self._check("node of this process", name, self._host.nodes)
+        return self._host.nodes[name]
+
+    @staticmethod
+    def _check(kind: str, name: str, known: Mapping[str, object]) -> None:
+        if name not in known:
+            hint = nearest(name, known) or f"there is {', '.join(sorted(known)) or 'none'}"
+            raise FaultError(f"there is no {kind} {name}: {hint}")
