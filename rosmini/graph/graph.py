@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import RosminiError
 
 from .console import Console
+from .faults import Faults
 from .graph_core import GraphCore
 from .history import History
 from .live import Errand, LiveDrive
@@ -82,6 +83,8 @@ class Graph(GraphCore):
         self._nodes_started = 0
         self._online: Any = None
         self._recordings = 0
+        self.faults = Faults(self)
+        """What goes wrong because somebody asked for it; it does as `%fault`."""
         if rosout and self.master.is_local:
             self.start_rosout()
 

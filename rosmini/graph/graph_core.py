@@ -15,7 +15,7 @@ from rosmini.time import Time
 
 from .changes import Changes
 from .event_queue import span_ns
-from .faults import Faults
+from .gates import Gates
 from .log_file import log_folder
 from .master import Master
 from .master_port import MasterPort, MasterProxy
@@ -85,8 +85,8 @@ class GraphCore(ABC):
         """The Master, or the way to it."""
         self.nodes: dict[str, Any] = {}
         """The nodes in this process, by name."""
-        self.faults = Faults(self)
-        """What goes wrong in this graph because it was asked to."""
+        self.gates = Gates(self.scheduler)
+        """What messages have to pass on their way to subscribers."""
         self.closing = False
         """True while the whole graph shuts down."""
         self.log_class = message_class("rosgraph_msgs/Log")

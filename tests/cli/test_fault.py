@@ -9,7 +9,7 @@ import pytest
 from rosmini import Graph
 from rosmini.cli.fault import TOOL
 from rosmini.errors import ServiceException, UsageError
-from rosmini.graph.faults import FaultError
+from rosmini.graph.gates import FaultError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.msgs.std_srvs.srv import Trigger
 
