@@ -71,8 +71,11 @@ def test_events_are_in_order_and_not_in_the_future():
     assert all(day <= facts.TODAY for day in when)
 
 
-def test_every_firm_of_the_drawing_is_joined_to_another():
-    assert {name for way in people.WAYS for name in way} == {name for name, _ in people.FIRMS}
+@pytest.mark.parametrize(
+    ("boxes", "ways"), [(people.FIRMS, people.WAYS), (people.COMMUNITY, people.HANDED_ON)]
+)
+def test_every_box_of_a_flow_is_joined_to_another(boxes, ways):
+    assert {name for way in ways for name in way} == {name for name, _ in boxes}
 
 
 def test_the_page_on_the_community_has_the_dates_of_the_drawing():

@@ -12,6 +12,7 @@ DRAWINGS: Mapping[str, str] = MappingProxyType(
         "ros_history": timeline.history(),
         "ros_layers": layers.layers(),
         "ros_parts": parts.parts(),
+        "ros_community": people.community(),
         "ros_distributions": timeline.distributions(),
         "willow_garage": people.people(),
     }

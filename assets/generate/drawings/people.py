@@ -1,12 +1,8 @@
-"""Where ROS's people came from and where they went: the firms around Willow Garage."""
+"""Who is who: the firms around Willow Garage, and what the community hands on."""
 
 from __future__ import annotations
 
-from rosmini.viz.graph_drawing import arrow, drawing, rule
-from rosmini.viz.layout import Edge, Vertex, layered
-from rosmini.viz.metrics import text_width
-from rosmini.viz.style import LABEL_SIZE, LIGHT, LINE_WIDTH, TEXT_SIZE
-from rosmini.viz.svg import element
+from .flows import flow
 
 FIRMS: tuple[tuple[str, str], ...] = (
     ("Stanford", "STAIR, PR1"),
@@ -39,64 +35,52 @@ WAYS: tuple[tuple[str, str], ...] = (
     ("Unbounded Robotics", "Fetch Robotics"),
 )
 """From whom people, or what they had made, went to whom."""
-HEIGHT = 44.0
+COMMUNITY: tuple[tuple[str, str], ...] = (
+    ("Authors", "universities, companies, you"),
+    ("Repositories", "packages, with their history"),
+    ("Documentation", "wiki, docs.ros.org, REPs"),
+    ("rosdistro", "the list: what, where, which version"),
+    ("Build farm", "compiles, tests, packs"),
+    ("Distribution", "versions that fit"),
+    ("Users", "with their robots"),
+    ("Questions, issues", "Stack Exchange, Discourse, ROSCon"),
+)
+HANDED_ON: tuple[tuple[str, str], ...] = (
+    ("Authors", "Repositories"),
+    ("Authors", "Documentation"),
+    ("Repositories", "rosdistro"),
+    ("rosdistro", "Build farm"),
+    ("Build farm", "Distribution"),
+    ("Distribution", "Users"),
+    ("Documentation", "Users"),
+    ("Users", "Questions, issues"),
+    ("Questions, issues", "Authors"),
+)
+"""What goes where in the community: code, words, and what comes back."""
 
 
 def people() -> str:
-    """The firms as boxes, from left to right."""
-    vertices = [Vertex(name, width_of(name, what), HEIGHT) for name, what in FIRMS]
-    edges = [Edge(f"{before} {after}", before, after) for before, after in WAYS]
-    layout = layered(vertices, edges, direction="right")
-    drawn = [element("g", arrow(layout.edges[edge.name]), class_="rb-way") for edge in edges]
-    for name, what in FIRMS:
-        rect = layout.vertices[name]
-        kind = "topic" if name in {"Willow Garage", "OSRF", "OSRA"} else "node"
-        x, y = rect.centre
-        box = element(
-            "rect",
-            x=rect.x,
-            y=rect.y,
-            width=rect.width,
-            height=rect.height,
-            rx=8,
-            fill=LIGHT[f"{kind}-fill"],
-            stroke=LIGHT[f"{kind}-line"],
-            stroke_width=LINE_WIDTH,
-        )
-        lines = element(
-            "text", name, x=x, y=y - 3, font_size=TEXT_SIZE, text_anchor="middle", fill=LIGHT["ink"]
-        )
-        lines += element(
-            "text",
-            what,
-            x=x,
-            y=y + 14,
-            font_size=LABEL_SIZE,
-            text_anchor="middle",
-            fill=LIGHT["muted"],
-            class_="rb-what",
-        )
-        drawn.append(element("g", box + lines, class_=f"rb-{kind}"))
-    css = (
-        rule(".rb-topic rect", fill="topic-fill", stroke="topic-line")
-        + rule(".rb-node rect", fill="node-fill", stroke="node-line")
-        + rule("g text", fill="ink")
-        + rule("g .rb-what", fill="muted")
-        + rule(".rb-way path:first-of-type", stroke="line")
-        + rule(".rb-way path:last-of-type", fill="line")
-    )
-    colours = ["ink", "line", "muted", "node-fill", "node-line", "topic-fill", "topic-line"]
-    return drawing(
-        drawn, layout, title="The firms around Willow Garage", alt=_alt(), css=css, colours=colours
-    )
-
-
-def width_of(name: str, what: str) -> float:
-    """How wide the box of a firm has to be [CSS px]."""
-    return max(text_width(name, TEXT_SIZE), text_width(what, LABEL_SIZE)) + 20
-
-
-def _alt() -> str:
+    """Where ROS's people came from and where they went."""
     about = dict(FIRMS)
     told = "; ".join(f"{before} to {after} ({about[after]})" for before, after in WAYS)
-    return f"Firms as boxes, joined by arrows: {told}."
+    return flow(
+        FIRMS,
+        WAYS,
+        marked={"Willow Garage", "OSRF", "OSRA"},
+        title="The firms around Willow Garage",
+        alt=f"Firms as boxes, joined by arrows: {told}.",
+    )
+
+
+def community() -> str:
+    """How what somebody writes comes to those who use it, and back."""
+    about = dict(COMMUNITY)
+    told = "; ".join(f"from {before} to {after} ({about[after]})" for before, after in HANDED_ON)
+    return flow(
+        COMMUNITY,
+        HANDED_ON,
+        marked={"Repositories", "Documentation", "Distribution"},
+        title="What the community hands on",
+        alt=f"Boxes joined by arrows, in a ring: {told}.",
+        direction="down",
+    )
