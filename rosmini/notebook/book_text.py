@@ -5,16 +5,15 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from rosmini.packages.folders import assets_dir
+from rosmini.packages import own_dirs
+
+from .places import SHARE
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 WORKSPACE = "~/catkin_ws"
 """Where the notebook's own package is, in the book."""
-
-SHARE = "/opt/ros/noetic/share"
-"""Where the packages are that rosmini brings, in the book."""
 
 PID = "4242"
 PING = "0.42ms"
@@ -25,6 +24,6 @@ _PING = re.compile(r"(?<=time=)\d+\.\d+ms|(?<=ping average: )\d+\.\d+ms")
 
 def book_text(text: str, workspace: Path) -> str:
     """Return a text with the paths, process numbers and ping times of the book; ``workspace`` is the notebook's."""
-    for folder, shown in ((workspace, WORKSPACE), (assets_dir() / "ros", SHARE)):
+    for folder, shown in ((workspace, WORKSPACE), *((folder, SHARE) for folder in own_dirs())):
         text = text.replace(str(folder), shown)
     return _PING.sub(PING, _PID.sub(PID, text))

@@ -9,12 +9,11 @@ from __future__ import annotations
 import io
 import os
 import re
-from functools import partial
 from pathlib import Path
 from typing import TextIO
 
 from rosmini.errors import RosminiError
-from rosmini.packages import assets_dir
+from rosmini.packages import own_dirs
 
 HOME = "~"
 ROS = "/opt/ros/noetic"
@@ -26,6 +25,10 @@ LISTS = ("CMAKE_PREFIX_PATH", "PYTHONPATH", "ROS_PACKAGE_PATH")
 """The variables of the environment that hold lists of folders."""
 
 
+_HOME_IN = re.compile(rf"(^|:=|=){re.escape(HOME)}(?=/|$)")
+_SHARE_IN = re.compile(rf"(^|:=|=){re.escape(SHARE)}(?:/([^/:]+)|/?$|(?=/))")
+
+
 class OutsideHome(RosminiError):
     """A path that a terminal of a notebook does not reach."""
 
@@ -35,10 +38,10 @@ class Places:
 
     def __init__(self, home: Path) -> None:
         self.home = home.resolve()
-        self.share = (assets_dir() / "ros").resolve()
-        self._shown = [(HOME, self.home), (SHARE, self.share)]
+        self.shares = tuple(each.resolve() for each in own_dirs())
+        shown = [(HOME, self.home), *((SHARE, share) for share in self.shares)]
         found = sorted(
-            ((str(real), name) for name, path in self._shown for real in {path, *_spellings(path)}),
+            ((str(real), name) for name, path in shown for real in {path, *_spellings(path)}),
             key=lambda pair: -len(pair[0]),
         )
         self._names = dict(found)
@@ -51,10 +54,18 @@ class Places:
 
     def real(self, text: str) -> str:
         """Return a word with the path in it (``~/maps``, ``file:=~/x.yaml``) as this machine has it."""
-        for name, path in self._shown:
-            start = re.compile(rf"(^|:=|=){re.escape(name)}(?=/|$)")
-            text = start.sub(partial(_after, str(path)), text)
+        for start, real in ((_HOME_IN, self._real_home), (_SHARE_IN, self._real_share)):
+            text = start.sub(real, text)
         return text
+
+    def _real_home(self, match: re.Match[str]) -> str:
+        return f"{match[1]}{self.home}"
+
+    def _real_share(self, match: re.Match[str]) -> str:
+        """Return the folder of that package: what is shown as one folder is more than one here."""
+        package = match[2] or ""
+        share = next((each for each in self.shares if (each / package).exists()), self.shares[0])
+        return f"{match[1]}{share}{'/' * bool(package)}{package}"
 
     def real_list(self, value: str) -> str:
         """Return a list of folders (``~/ws/src:/opt/ros/noetic/share``) as this machine's environment has it."""
@@ -67,9 +78,10 @@ class Places:
         """
         path = Path(os.path.normpath(os.path.join(folder, self.real(word))))  # noqa: PTH118 (an absolute word wins)
         real = path.resolve()
-        if real.is_relative_to(self.home) or (not writes and real.is_relative_to(self.share)):
+        is_brought = any(real.is_relative_to(share) for share in self.shares)
+        if real.is_relative_to(self.home) or (is_brought and not writes):
             return path
-        if real.is_relative_to(self.share):
+        if is_brought:
             raise OutsideHome(
                 f"{word}: Permission denied; the packages that rosmini brings are not to be changed"
             )
@@ -96,10 +108,6 @@ class ShownStream(io.TextIOBase):
     def flush(self) -> None:
         """Flush what is behind it."""
         self._target.flush()
-
-
-def _after(path: str, match: re.Match[str]) -> str:
-    return match[1] + path
 
 
 def _spellings(path: Path) -> set[Path]:

@@ -11,7 +11,7 @@ manifest that is not XML. Manifests are read by catkin_pkg, after defusedxml has
 """
 
 from .executables import DEVEL_MARKER, NODES_GROUP, SCRIPT_FOLDERS, Executable
-from .folders import MANIFEST, Crawled, assets_dir, crawl, package_around, search_paths
+from .folders import MANIFEST, Crawled, assets_dir, crawl, own_dirs, package_around, search_paths
 from .index import BUILT_IN, LONGEST, SCHEME, PackageIndex
 from .manifest import Export, Package, Stack, read_package, read_stack
 
@@ -31,6 +31,7 @@ __all__ = [
     "Stack",
     "assets_dir",
     "crawl",
+    "own_dirs",
     "package_around",
     "read_package",
     "read_stack",

@@ -30,14 +30,19 @@ def assets_dir() -> Path:
 
 
 def search_paths(environ: Mapping[str, str] | None = None) -> tuple[Path, ...]:
-    """Where packages are looked for: the folders of ``ROS_PACKAGE_PATH``, then rosmini's own assets.
+    """Where packages are looked for: the folders of ``ROS_PACKAGE_PATH``, then rosmini's own assets."""
+    value = (os.environ if environ is None else environ).get("ROS_PACKAGE_PATH", "")
+    return (*(Path(part) for part in value.split(os.pathsep) if part), *own_dirs())
+
+
+def own_dirs() -> tuple[Path, Path]:
+    """Return the folders of the packages that rosmini brings.
 
     ``ros`` has what a real ROS can use, too; ``core`` the manifests of what rosmini brings as Python modules and as
     commands, so that packages which need rospy find it.
     """
-    value = (os.environ if environ is None else environ).get("ROS_PACKAGE_PATH", "")
     own = assets_dir()
-    return (*(Path(part) for part in value.split(os.pathsep) if part), own / "ros", own / "core")
+    return own / "ros", own / "core"
 
 
 def package_around(path: str | os.PathLike[str]) -> Path | None:

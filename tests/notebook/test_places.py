@@ -28,7 +28,11 @@ def test_and_back(places: Places) -> None:
     home = str(places.home)
     assert places.real("~/a/b") == home + "/a/b"
     assert places.real("_map:=~/map.yaml") == f"_map:={home}/map.yaml"
-    assert places.real("/opt/ros/noetic/share/x") == f"{places.share}/x"
+    assert places.real("/opt/ros/noetic/share/x") == f"{places.shares[0]}/x"
+    for package in ("rospy", "std_msgs"):
+        path = str(PackageIndex().path(package))
+        shown = f"/opt/ros/noetic/share/{package}"
+        assert (places.shown(path), places.real(shown)) == (shown, path)
     for same in ("~rate", "/~", "data: ~", "/opt/ros/noetic/shared"):
         assert places.real(same) == same
 
