@@ -91,6 +91,8 @@ class Gate:
             lost, doubled, *late = self._rng.random(4)  # as many for each, whatever the fault does
             if lost < fault.lose:
                 fault.lost += 1
+                if self._scheduler.history is not None:
+                    self._scheduler.history.lost(self._node, peer, fault.topic, message)
                 continue
             self._send(message, float(late[0]), accept)
             if doubled < fault.double:

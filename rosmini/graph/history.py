@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from .lanes import Lane
     from .scheduler import Scheduler
 
-Kind = Literal["call", "connection", "publication", "delivery", "request", "answer"]
+Kind = Literal["call", "connection", "publication", "delivery", "loss", "request", "answer"]
 
 KEPT_EVENTS = 20_000
 """How many events are kept."""
@@ -76,7 +76,8 @@ class Event:
     """One thing that happened.
 
     A ``call`` is one of the Master's API or of a node's slave API; a ``connection`` is made by a subscriber, for a
-    topic; a ``publication`` leads to a ``delivery`` for each subscriber; an ``answer`` has its ``request`` as cause.
+    topic; a ``publication`` leads to a ``delivery`` for each subscriber, or to a ``loss`` if a fault was asked for; an
+    ``answer`` has its ``request`` as cause.
     """
 
     number: int
@@ -288,20 +289,22 @@ class History:
 
     def delivered(self, node: str, peer: str, topic: str, frozen: Any, callback: Any) -> None:
         """Note that a message reaches the callback in whose lane this is called, which acts on it from now on."""
-        cause = _cause_of(frozen)
-        source = self.event(cause)
-        event = self._note(
-            "delivery",
-            peer,
-            node,
-            topic,
-            count=0 if source is None else source.count,
-            message=values(frozen) if source is None else source.message,
-            place=self._place_of(callback),
-            cause=cause,
-        )
+        event = self._arrived("delivery", node, peer, topic, frozen, place=self._place_of(callback))
         self._heard.setdefault(node, {})[topic] = event.number
         self.act_on(event.number)
+
+    def lost(self, node: str, peer: str, topic: str, frozen: Any) -> None:
+        """Note that a message is lost on its way to a node."""
+        self._arrived("loss", node, peer, topic, frozen)
+
+    def _arrived(self, kind: Kind, node: str, peer: str, topic: str, frozen: Any, **more: Any) -> Event:
+        cause = _cause_of(frozen)
+        source = self.event(cause)
+        if source is None:
+            return self._note(kind, peer, node, topic, message=values(frozen), cause=cause, **more)
+        return self._note(
+            kind, peer, node, topic, count=source.count, message=source.message, cause=cause, **more
+        )
 
     def requested(self, node: str, peer: str, service: str, request: Any) -> Event:
         """Note a request, which carries that from now on."""

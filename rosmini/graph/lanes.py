@@ -11,6 +11,7 @@ import threading
 import time
 from _thread import get_ident
 from collections import deque
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 from greenlet import GreenletExit
@@ -165,7 +166,17 @@ class Lane:
         if get_ident() != scheduler.thread:
             scheduler.call_soon_threadsafe(lambda: self.submit(task))
             return
+        if scheduler.history is not None:
+            task = partial(self._on_behalf, scheduler.history.cause(), task)
         self.post(task)
+
+    def _on_behalf(self, cause: int | None, task: Callable[[], object]) -> None:
+        """Run a task, which acts on the same event as who submitted it."""
+        self.cause = cause
+        try:
+            task()
+        finally:
+            self.cause = None
 
     def post(self, task: Callable[[], object]) -> None:
         """Do as :meth:`submit` does, in the hub's thread only."""

@@ -170,6 +170,8 @@ class Publication:
     def send_to(self, destination: str, message: Any) -> None:
         """Send ``message`` to the node ``destination`` only, as rospy's ``peer_publish`` does."""
         frozen = self._freeze(message)
+        if self._scheduler.history is not None:
+            self._scheduler.history.published(self.node.name, self.topic, frozen)
         for sender in [sender for sender in self._list if sender.destination == destination]:
             self._give(sender, frozen, self.queue_size)
 
@@ -241,6 +243,8 @@ class Publication:
             if self._stamp:
                 latched = self._freeze(latched)
                 latched.header.seq = self._next_number()
+                if self._scheduler.history is not None:
+                    self._scheduler.history.same(latched, self._latched)
             self._give(sender, latched, None)
         self.node.connections_changed()
         for handle in self.handles:

@@ -133,4 +133,5 @@ def _label(event: Event) -> str:
         case "answer":
             return f"answer of {event.about}: {text}" if text else f"answer of {event.about}"
         case _:
-            return f"{event.about}: {text}" if text else event.about
+            fate = " (lost)" if event.kind == "loss" else ""
+            return f"{event.about}: {text}{fate}" if text else f"{event.about}{fate}"

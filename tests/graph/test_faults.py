@@ -266,3 +266,14 @@ def test_a_fault_is_recorded_as_it_happened(graph):
     delivered = [event for event in recording.events if event.kind == "delivery"]
     assert [event.count for event in delivered] == [1, 1, 2, 2]
     assert len(heard["listener"]) == 4
+
+
+def test_a_lost_message_is_recorded_as_lost(graph):
+    recording = graph.record()
+    _, go = count(graph, messages=2)
+    graph.faults.disturb("/count", lose=1)
+    go()
+    assert [what for *_, what, _ in recording.calls("/count")][-2:] == [
+        "/count: 0 (lost)",
+        "/count: 1 (lost)",
+    ]

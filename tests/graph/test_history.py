@@ -233,3 +233,46 @@ def test_the_last_thing_that_a_node_did(graph):
     last = recording.history.last_of("/node")
     assert last.about == "/rosout"
     assert recording.history.last_of("/nobody") is None
+
+
+def test_what_a_callback_hands_to_another_lane_has_the_same_cause(graph):
+    recording = graph.record()
+    node = graph.node("node")
+    work = node.publisher("work", String)
+    ticks = node.publisher("ticks", String)
+
+    def slowly():
+        node.sleep(0.5)
+        work.publish("done")
+
+    def on_order(_):
+        node.run(slowly)
+        node.timer(0.2, lambda _: ticks.publish("tick"))
+
+    node.subscriber("order", String, on_order)
+    orders = graph.node("boss").publisher("order", String)
+    orders.wait_for_subscribers()
+    orders.publish("go")
+    graph.run(1)
+    history = recording.history
+    assert [kind for kind, *_ in chain(history, history.last("/work")[0])] == [
+        "publication",
+        "delivery",
+        "publication",
+    ]
+    assert history.last("/ticks")[0].cause is None
+
+
+def test_a_latched_message_and_one_for_a_single_peer_are_known_where_they_arrive(graph):
+    recording = graph.record()
+    talker = graph.node("talker")
+    stamped = talker.publisher("stamped", LaserScan, latch=True)
+    stamped.publish(LaserScan())
+    graph.node("late").subscriber("stamped", LaserScan, lambda _: None)
+    graph.run(0.1)
+    stamped.publish_to("/late", LaserScan())
+    graph.run(0.1)
+    delivered = [
+        event for event in recording.events if event.kind == "delivery" and event.about == "/stamped"
+    ]
+    assert [event.count for event in delivered] == [1, 2]

@@ -141,3 +141,48 @@ def test_a_graph_that_the_reader_chooses_is_the_notebooks(notebook: Notebook) ->
     assert notebook.ok("print(*chosen.nodes)") == "/rosout /talker\n"
     notebook.ok("before.shutdown()\n%roscore")
     assert notebook.ok("print(*chosen.nodes)") == "\n"
+
+
+DRIVER = """%%node driver.py
+import rospy
+from std_msgs.msg import Int32
+rospy.init_node("driver")
+orders = rospy.Publisher("/orders", Int32, queue_size=10)
+def on_count(message):
+    orders.publish(message.data)
+rospy.Subscriber("/count", Int32, on_count)
+rospy.spin()
+"""
+COUNTER = """%%node counter.py
+import rospy
+from std_msgs.msg import Int32
+rospy.init_node("counter")
+count = rospy.Publisher("/count", Int32, queue_size=10)
+rate = rospy.Rate(10)
+number = 0
+while not rospy.is_shutdown():
+    count.publish(number)
+    number += 1
+    rate.sleep()
+"""
+
+
+def test_a_notebook_knows_why_and_what_if_and_all_again_is_the_same(notebook: Notebook) -> None:
+    def run_all() -> list[str]:
+        notebook.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+        notebook.ok(DRIVER)
+        notebook.ok(COUNTER)
+        notebook.ok("rosmini.wait(0.5)")
+        cells = ["%fault /count --lose 0.5 --seed 1", "rosmini.wait(2)", "%fault list", "%roswhy /orders"]
+        return [notebook.ok(cell) for cell in [*cells, "%rossequence -n 60 /count"]]
+
+    first = run_all()
+    assert first[0].strip() == "/count to every subscriber: 50% lost (seed 1)"
+    assert "20 messages, " in first[2]
+    assert (
+        "    driver.py, line 7, in on_count: orders.publish(message.data)\nbecause /driver got message"
+        in first[3]
+    )
+    assert "    counter.py, line 9: count.publish(number)" in first[3]
+    assert "(lost)" in first[4]
+    assert run_all() == first
