@@ -12,6 +12,7 @@ from rosmini.rospy.importer import install, ros_is_installed, uninstall
 
 from . import file_cells, node_cell
 from .completion import complete
+from .saving import save_package
 from .session import Session, begin_session, end_session, session_of
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ def load(shell: Any) -> None:
         ("cell", "srv", file_cells.srv),
         ("cell", "action", file_cells.action),
         ("cell", "launch", file_cells.launch),
+        ("line", "save_package", save_package),
     ):
         _register(shell, kind, name, act)
 
