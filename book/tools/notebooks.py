@@ -48,7 +48,7 @@ REASON_COMMENT = re.compile(r"^\s*#\s*reason:\s*\S", re.MULTILINE | re.IGNORECAS
 UNSTABLE = {
     "a memory address": re.compile(r"\b0x[0-9a-f]{8,16}\b"),
     "a path of this machine": re.compile(
-        r"(?<![\w./:])/(home|root|tmp|work|Users|usr|private|var|opt(?!/ros/noetic/))/\w|\b[A-Z]:\\\w|ipykernel_\d+"
+        r"(?<![\w./:])/(home|root|tmp|work|Users|usr|private|var|opt(?!/ros/noetic\b))/\w|\b[A-Z]:\\\w|ipykernel_\d+"
     ),
     "a local address": re.compile(r"127\.0\.0\.1"),
     "a warning with a path": re.compile(r"Warning: .*\n\s+warnings\.warn"),
@@ -108,6 +108,10 @@ def cell_problems(cell: nbformat.NotebookNode) -> Iterator[str]:
     if not cell.source.strip():
         yield "is empty"
     yield from exemption_problems(cell)
+    if ("hide-input" in cell.metadata.get("tags", [])) != bool(
+        cell.metadata.get("jupyter", {}).get("source_hidden")
+    ):
+        yield "is folded in the book or in JupyterLab only: the tag hide-input and jupyter.source_hidden go together"
     uncomparable = UNCOMPARABLE.search(cell.source)
     if uncomparable:
         yield f"uses {uncomparable[1]}, whose output nbval cannot compare"

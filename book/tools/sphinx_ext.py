@@ -5,6 +5,7 @@
 - What sphinx-thebe adds to each page (a script from a CDN, declared twice) is taken out.
 - The chatter of the theme's scripts in the browser's console is taken out too.
 - The style sheet and the scripts of `rosmini.viz` come along, and meshcat's viewer if a page needs it.
+- Cells with `%%node`, `%%launch` or `%%terminal` are coloured as what they hold.
 - The directive `drawing` puts a drawing of `book/static/drawings` into a prose page, with a caption.
 """
 
@@ -20,6 +21,7 @@ from latex2mathml.converter import convert
 from sphinx.transforms import SphinxTransform
 from sphinx.util.docutils import SphinxDirective
 
+from book.tools.lexer import CellLexer
 from book.tools.pages import VIEWER_CALL
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 
@@ -173,6 +175,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_block_math, None))
     app.add_transform(QuoteBoxes)
     app.add_directive("drawing", Drawing)
+    app.add_lexer("python", CellLexer)  # the language of all cells
     app.connect("builder-inited", prepare, priority=1)
     app.connect("build-finished", copy_viewer, priority=998)
     # After every extension has copied its scripts.

@@ -25,10 +25,11 @@ def code(source: str, count: int | None = 1, *outputs, **metadata):
     return new_code_cell(source, execution_count=count, outputs=list(outputs), metadata=metadata)
 
 
+FOLDED = {"tags": ["hide-input"], "jupyter": {"source_hidden": True}}
+
+
 def test_a_clean_notebook_has_no_problems():
-    nb = notebook(
-        new_markdown_cell("# T"), code("1 + 1", 1), code("print(2)", 2, stream("2\n"), tags=["hide-input"])
-    )
+    nb = notebook(new_markdown_cell("# T"), code("1 + 1", 1), code("print(2)", 2, stream("2\n"), **FOLDED))
     assert list(notebooks.problems(nb)) == []
 
 
@@ -51,10 +52,19 @@ def test_a_clean_notebook_has_no_problems():
             "cell 1 has metadata of a tool or a run (execution): 'x'",
         ),
         (code("", None), "cell 1 is empty: ''"),
+        *(
+            (
+                code("x", **{key: FOLDED[key]}),
+                "cell 1 is folded in the book or in JupyterLab only: "
+                "the tag hide-input and jupyter.source_hidden go together: 'x'",
+            )
+            for key in FOLDED
+        ),
         (
             code("clear_output()"),
             "cell 1 uses clear_output, whose output nbval cannot compare: 'clear_output()'",
         ),
+        (code("x", 1, stream("A=/opt/ros/x")), "cell 1 printed a path of this machine ('/opt/r'): 'x'"),
         (
             code("x", 1, stream("<f at 0x7f00deadbeef>")),
             "cell 1 printed a memory address ('0x7f00deadbeef'): 'x'",
