@@ -25,6 +25,9 @@ def code(source: str, count: int | None = 1, *outputs, **metadata):
     return new_code_cell(source, execution_count=count, outputs=list(outputs), metadata=metadata)
 
 
+ONE_SIDED = (
+    "folded in the book or in JupyterLab only: the tag hide-input and jupyter.source_hidden go together"
+)
 FOLDED = {"tags": ["hide-input"], "jupyter": {"source_hidden": True}}
 
 
@@ -55,8 +58,7 @@ def test_a_clean_notebook_has_no_problems():
         *(
             (
                 code("x", **{key: FOLDED[key]}),
-                "cell 1 is folded in the book or in JupyterLab only: "
-                "the tag hide-input and jupyter.source_hidden go together: 'x'",
+                f"cell 1 is {ONE_SIDED}: 'x'",
             )
             for key in FOLDED
         ),
