@@ -12,7 +12,6 @@ import os
 import re
 import sys
 from ast import literal_eval
-from bisect import bisect_left
 from collections import Counter, deque
 from dataclasses import dataclass
 from functools import partial
@@ -131,7 +130,8 @@ class History:
         self._counts: Counter[str] = Counter()
         self._heard: dict[str, dict[str, int]] = {}
         self._names: dict[str, str] = {}
-        self._places: dict[tuple[CodeType, int], Place] = {}
+        self._lines: dict[tuple[CodeType, int], Place] = {}
+        self._callbacks: dict[CodeType, Place] = {}
 
     # -- asking --------------------------------------------------------------------------------------------------
 
@@ -148,10 +148,8 @@ class History:
         """Return the event of a number, if there is one and it is still kept."""
         if number is None or not self._events:
             return None
-        index = bisect_left(self._events, number, key=lambda event: event.number)
-        if index < len(self._events) and self._events[index].number == number:
-            return self._events[index]
-        return None
+        index = number - self._events[0].number
+        return self._events[index] if 0 <= index < len(self._events) else None
 
     def last(self, about: str, count: int = 1) -> list[Event]:
         """Return the last publications on a topic, or requests of a service, oldest first."""
@@ -343,26 +341,30 @@ class History:
     def _caller(self) -> Place | None:
         frame: FrameType | None = sys._getframe(2)  # noqa: SLF001 - the documented way to find a caller
         while frame is not None:
-            filename = frame.f_code.co_filename
+            code, line = frame.f_code, frame.f_lineno
+            place = self._lines.get((code, line))
+            if place is not None:
+                return place
+            filename = code.co_filename
             if not filename.startswith((OWN, STANDARD_LIBRARY, "<frozen")) and not _is_others(filename):
-                return self._place(frame.f_code, frame.f_lineno, with_text=True)
+                text = _as_written(linecache.getline(filename, line).strip())
+                place = self._lines[code, line] = Place(_file(code), line, code.co_name, text)
+                return place
             frame = frame.f_back
         return None
 
     def _place_of(self, callback: Any) -> Place | None:
-        code = getattr(getattr(callback, "__func__", callback), "__code__", None)
+        code: CodeType | None = getattr(getattr(callback, "__func__", callback), "__code__", None)
         if code is None or code.co_filename.startswith(OWN):
             return None
-        return self._place(code, code.co_firstlineno, with_text=False)
-
-    def _place(self, code: CodeType, line: int, *, with_text: bool) -> Place:
-        key = (code, line)
-        place = self._places.get(key)
+        place = self._callbacks.get(code)
         if place is None:
-            text = _as_written(linecache.getline(code.co_filename, line).strip()) if with_text else ""
-            file = Path(source_of(code.co_filename)).name
-            place = self._places[key] = Place(file, line, code.co_name, text)
+            place = self._callbacks[code] = Place(_file(code), code.co_firstlineno, code.co_name)
         return place
+
+
+def _file(code: CodeType) -> str:
+    return Path(source_of(code.co_filename)).name
 
 
 def _as_written(text: str) -> str:

@@ -33,7 +33,7 @@ def _connected(type_name: str, callback: Callable[[Any], object]) -> tuple[Graph
     return graph, talker, publisher
 
 
-def string_throughput(count: int, burst: int) -> float:
+def string_throughput(count: int, burst: int, *, is_recorded: bool = False) -> float:
     """Return messages a second: 100-byte Strings, the subscriber counts their characters."""
     characters = 0
 
@@ -42,6 +42,8 @@ def string_throughput(count: int, burst: int) -> float:
         characters += len(message.data)
 
     graph, _, publisher = _connected("std_msgs/String", callback)
+    if is_recorded:
+        graph.record()
     message = publisher.message_class(data="x" * 100)
     begin = time.perf_counter()
     for sent in range(burst, count + 1, burst):
@@ -173,6 +175,13 @@ def measures(rospy: Rospy | None, scale: float) -> Iterator[Measure]:
         "messages/s",
         lambda: string_throughput(strings, 1),
         None,
+    )
+    yield Measure(
+        "the same in bursts of 100, while the graph records; without recording",
+        "messages/s",
+        lambda: string_throughput(strings, BURST, is_recorded=True),
+        lambda: string_throughput(strings, BURST),
+        peer_name="rosmini",
     )
     yield Measure(
         "String of 100 bytes, latency, median at 500 Hz",
