@@ -31,7 +31,7 @@ class Recording:
     ...     talker = graph.node("talker")
     ...     talker.set_param("/rate", 10)
     >>> registration.calls("/rate")
-    [('/talker', 'Master', 'setParam(/rate, 10)', '0')]
+    [('/talker', 'Master', 'setParam(/rate, 10)', '1')]
     """
 
     def __init__(self, history: History, end: Callable[[], None], *, from_start: bool = False) -> None:
