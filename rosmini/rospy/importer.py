@@ -87,6 +87,11 @@ _HOMES = {
 """Where each module really is, by the name under which scripts import it."""
 
 
+def homes() -> dict[str, str]:
+    """Return where each module really is, by the name under which scripts import it."""
+    return dict(_HOMES)
+
+
 def modules() -> dict[str, ModuleType]:
     """Return ``rospy``, ``actionlib``, ``genpy`` ... and their submodules, by the names that scripts import."""
     return {name: import_module(home) for name, home in _HOMES.items()}
