@@ -25,6 +25,12 @@ def test_the_stored_form_is_clean(chapter):
 
 
 @chapters
+def test_the_title_has_the_number(chapter):
+    number, title = chapter.name[:2], notebooks.read(chapter).cells[0].source
+    assert title.startswith(f"# {number}. ")
+
+
+@chapters
 def test_a_chapter_has_three_exercises_at_least(chapter):
     notebook = notebooks.read(chapter)
     numbers = sorted(solutions.stubs(notebook))
