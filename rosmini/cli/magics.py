@@ -17,7 +17,7 @@ from rosmini.errors import UsageError, nearest
 
 from . import failing
 from .completion import candidates
-from .main import COMMANDS
+from .main import COMMANDS, chosen
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 OPERATORS = "|<>;&"
 """What a shell would take as its own."""
+
+SLIPS = ("roscpp", "rosmmsg", "rostop")
+"""What is often typed for a command; the error names the right one."""
 
 _VARIABLE = re.compile(r"\$(?:(\$)|([A-Za-z_]\w*))")
 
@@ -41,7 +44,17 @@ def register(shell: Any, *, say: Callable[[str], object] = print) -> None:
                 no_var_expand(_documented(magic, name, entry.summary)), "line", name
             )
             shell.set_hook("complete_command", _complete, str_key=f"%{name}")
+    for name in SLIPS:
+        shell.register_magic_function(no_var_expand(_slip(name)), "line", name)
     failing.register(shell)
+
+
+def _slip(name: str) -> Callable[[str], None]:
+    def act(line: str) -> None:
+        chosen([name, *line.split()])
+
+    act.__name__, act.__doc__ = name, "This is no command; its error names the one that is meant."
+    return act
 
 
 def _documented(magic: Callable[[str], Result], name: str, summary: str) -> Callable[[str], Result]:

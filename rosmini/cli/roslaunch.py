@@ -49,9 +49,24 @@ ASKING = ("node_args", "node_list", "find_node", "ros_args", "dump_params", "fil
 """The options that ask for something and launch nothing."""
 
 
-def parser() -> Parser:
+class LaunchParser(Parser):
+    """The options, and what to write where an executable was meant, as in `roslaunch map_server map_saver`."""
+
+    def parse(self, words: Sequence[str], /) -> Values:
+        """Return what was given. Raises ``UsageError``."""
+        if dashed := dashed_remapping(words):
+            self.error(dashed)
+        try:
+            return super().parse(words)
+        except UsageError as error:
+            if len(words) > 1 and not words[0].startswith("-") and not {"-", "."} & set(words[1]):
+                raise UsageError(f"{error}\nIf an executable was meant: rosrun {' '.join(words)}") from error
+            raise
+
+
+def parser() -> LaunchParser:
     """Return the options: roslaunch's, and those of one process."""
-    made = Parser("roslaunch", USAGE, DESCRIPTION, example=EXAMPLE)
+    made = LaunchParser("roslaunch", USAGE, DESCRIPTION, example=EXAMPLE)
     made.flag("--files", dest="file_list", help="print the files that are read")
     made.add_option("--args", dest="node_args", metavar="NODE_NAME", help="print the command line of a node")
     made.flag("--nodes", dest="node_list", help="print the names of all nodes")
@@ -162,8 +177,6 @@ def options(words: Sequence[str]) -> tuple[Values, list[str]]:
     else:
         nodes = []
     made = parser()
-    if dashed := dashed_remapping(own):
-        made.error(dashed)
     given = made.parse([*own, *trailing])
     if given.sim_time and given.wall_time:
         made.error("--sim-time and --wall-time exclude each other")

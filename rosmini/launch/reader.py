@@ -386,7 +386,7 @@ def _no_file(words: Sequence[str], index: PackageIndex) -> str:
     if package not in index:
         if package in ("ping", "info", "kill"):
             return f"{said}. A running node is asked by: rosnode {package} {name}"
-        hint = nearest(package, index.names())
+        hint = nearest(package, index.names()) or _as_executable(package, name)
         return f"{said}: there is no package {package!r}{f'; {hint}' if hint else ''}"
     if _is_executable(index, package, name):
         return f"{said}. It is an executable: rosrun {package} {name}"
@@ -394,4 +394,10 @@ def _no_file(words: Sequence[str], index: PackageIndex) -> str:
     hint = nearest(name, there) or (
         f"the package has {', '.join(there)}" if there else "the package has no launch files"
     )
-    return f"{said}; {hint}"
+    return "; ".join(filter(None, (said, hint, _as_executable(package, name))))
+
+
+def _as_executable(package: str, name: str) -> str:
+    """Return what to write if an executable was meant: of a name that is not that of a launch file."""
+    is_launch_file = name.endswith((".launch", ".xml", ".test"))
+    return "" if is_launch_file else f"an executable is started by: rosrun {package} {name}"

@@ -101,6 +101,9 @@ NAMES_THE_RIGHT_FORM = [
     ("rosmmsg show example_pkg/Num", "rosmsg"),
     ("rostop node list", "`rosnode list`"),
     ("roslaunch example_pkg talker.py", "rosrun example_pkg talker.py"),
+    ("roslaunch turtlesim turtlesim_node", "rosrun turtlesim turtlesim_node"),
+    ("roslaunch turtlesim turtle_teleop_key", "rosrun turtlesim turtle_teleop_key"),
+    ("roslaunch map_server map_saver -f my map", "rosrun map_server map_saver -f my map"),
     ("roslaunch ping my_turtle", "rosnode ping my_turtle"),
     ("roslaunch example_pkg talker.py --name:=my_turtle", "__name:=my_turtle"),
     ("roslaunch frontier-exploration global_map.launch", "frontier_exploration"),
@@ -139,4 +142,6 @@ def test_a_bag_is_recorded_and_played(shell: dict[str, str], tmp_path: Path) -> 
     recorded = run(words, env=env, cwd=tmp_path)
     bags = list(tmp_path.glob("house_*.bag"))
     assert len(bags) == 1, recorded.stdout + recorded.stderr
+    played = run([*ROSMINI, "rosbag", "play", str(bags[0]), "-r", "100"], env=env)
+    assert played.returncode == 0, played.stdout + played.stderr
     assert "messages:    3" in run([*ROSMINI, "rosbag", "info", str(bags[0])], env=env).stdout

@@ -1,0 +1,111 @@
+"""The report's command lines that need more of a shell than one line: variables, pictures, nodes that are ended."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+from rosmini.packages import assets_dir
+
+from ..cli.test_catkin_make import WALK
+from ..processes import run, start, wait_until
+from . import test_graph_commands
+from .command_lines import LINES
+from .test_graph_commands import NAMES_THE_RIGHT_FORM, ROSMINI, WORKS, shell
+
+__all__ = ["shell"]  # a fixture
+
+FUNCTIONS = 'rostopic() { "$PYTHON" -m rosmini rostopic "$@"; }\n'
+
+# 7.4, 7.5 and 8.2.3, with the placeholders filled in.
+ENVIRONMENT = """
+export ROS_ROOT=/home/user/ros/ros
+export PATH=$ROS_ROOT/bin:$PATH
+export ROS_MASTER_URI=$MASTER/
+export ROS_HOSTNAME=127.0.0.1
+export PYTHONPATH=$PYTHONPATH:$ROS_ROOT/core/roslib/src
+echo "export TURTLEBOT3_MODEL=burger"
+printenv | grep ROS
+rostopic list
+"""
+
+
+def test_every_line_of_the_report_is_typed_or_says_what_it_waits_for() -> None:
+    assert len(LINES) == 88
+    known = {line for line, _ in (*WORKS, *NAMES_THE_RIGHT_FORM)} | {*vars(test_graph_commands), *globals()}
+    for line in LINES:
+        assert line.by or line.waits, line
+        if line.by.startswith("walk:"):
+            assert line.by.removeprefix("walk:") in WALK.splitlines(), line
+        elif line.by and not (line.is_slip and "--name:=" in line.by):  # a test of its own
+            assert line.by in known, line
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
+def test_the_environment(shell: dict[str, str], tmp_path: Path) -> None:
+    env = {**shell, "PYTHON": sys.executable, "MASTER": shell["ROS_MASTER_URI"], "ROS_MASTER_URI": ""}
+    done = run(["bash", "-c", FUNCTIONS + ENVIRONMENT], env=env, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    assert lines[0] == "export TURTLEBOT3_MODEL=burger"
+    assert {"ROS_ROOT=/home/user/ros/ros", f"ROS_MASTER_URI={shell['ROS_MASTER_URI']}/"} <= set(lines)
+    assert "/chatter" in lines
+
+
+def test_nodes_are_killed(shell: dict[str, str]) -> None:
+    """`roscpp kill [node]`: the error names rosnode, which does it."""
+    said = run([*ROSMINI, "roscpp", "kill", "/second"], env=shell)
+    assert said.returncode == 2
+    assert "`rosnode`" in said.stderr
+    listed = [*ROSMINI, "rosnode", "list"]
+    with start([*ROSMINI, "rosrun", "example_pkg", "talker.py", "__name:=second"], env=shell) as process:
+        wait_until(lambda: "/second\n" in run(listed, env=shell).stdout, "/second", process)
+        killed = run([*ROSMINI, "rosnode", "kill", "/second"], env=shell)
+        assert "killed" in killed.stdout
+        wait_until(lambda: process.poll() is not None, "the end of /second")
+
+
+def test_pictures_are_written_as_pages(shell: dict[str, str], tmp_path: Path) -> None:
+    done = run([*ROSMINI, "rqt_graph", "-o", str(tmp_path / "graph.txt")], env=shell)
+    assert done.returncode == 0, done.stderr
+    assert "/talker" in (tmp_path / "graph.txt").read_text(encoding="utf-8")
+    recorded = run(
+        [*ROSMINI, "rosbag", "record", "/chatter", "-O", "house", "-l", "3"], env=shell, cwd=tmp_path
+    )
+    assert (tmp_path / "house.bag").is_file(), recorded.stderr
+    done = run([*ROSMINI, "rqt_bag", "house.bag", "-o", "bag.txt"], env=shell, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "/chatter" in (tmp_path / "bag.txt").read_text(encoding="utf-8")
+
+
+def test_help(shell: dict[str, str]) -> None:
+    done = run([*ROSMINI, "rostopic", "-h"], env=shell)
+    assert "rostopic echo" in done.stdout
+    assert "rostopic bw" in done.stdout
+
+
+def test_the_workspace_of_the_report(shell: dict[str, str], tmp_path: Path) -> None:
+    """7.7, 9.4.3: the launch file of two robots is read, and all that it names is there."""
+    shutil.copytree(assets_dir() / "workspaces" / "report_ws" / "src", tmp_path / "src")
+    env = {**shell, "ROS_PACKAGE_PATH": str(tmp_path / "src"), "TURTLEBOT3_MODEL": "burger"}
+    done = run([*ROSMINI, "roslaunch", "--check", "turtlebot3_ds", "my_multi_turtlebot3.launch"], env=env)
+    assert "all is there" in done.stdout, done.stderr
+
+
+@pytest.mark.processes
+def test_the_world_of_turtlebot3(shell: dict[str, str]) -> None:
+    """9.5: the simulator and the robot in processes of their own, until Ctrl-C; and the keys that would drive it."""
+    env = {**shell, "TURTLEBOT3_MODEL": "burger"}
+    words = [*ROSMINI, "roslaunch", "turtlebot3_gazebo", "turtlebot3_world.launch"]
+    with start(words, env=env) as process:
+        listed = [*ROSMINI, "rosnode", "list"]
+        wait_until(lambda: "/gazebo\n" in run(listed, env=env).stdout, "/gazebo", process)
+        process.send_signal(signal.SIGINT)
+        wait_until(lambda: process.poll() is not None, "the end of the launch")
+    keys = [*ROSMINI, "roslaunch", "turtlebot3_teleop", "turtlebot3_teleop_key.launch", "--check"]
+    assert "all is there" in run(keys, env=env).stdout
