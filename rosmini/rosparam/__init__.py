@@ -15,9 +15,16 @@ heading: 3.141592653589793
 Scripts that rosmini runs have it as ``import rosparam``, with the functions of ROS's own module.
 """
 
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from .client import ParamClient
-from .documents import NS, Document, assignments, dumps, load_file, load_str, parse, pretty, printed
 from .errors import RosParamException, RosParamIOException
+
+if TYPE_CHECKING:
+    from .documents import NS, Document, assignments, dumps, load_file, load_str, parse, pretty, printed
 
 __all__ = [
     "NS",
@@ -33,3 +40,10 @@ __all__ = [
     "pretty",
     "printed",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what reads and writes YAML when it is first asked for."""
+    if name in __all__:
+        return getattr(import_module(f"{__name__}.documents"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

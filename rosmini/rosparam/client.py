@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from rosmini.errors import ParameterNotSet, nearest
 from rosmini.names import canonicalize, join, resolve
 
-from .documents import Document, assignments, dumps, load_file, load_str, parse
 from .errors import RosParamException
+
+if TYPE_CHECKING:
+    from .documents import Document
+
+# YAML is imported where it is read or written: `rosparam list` needs none, and is to be quick.
 
 
 class Peers(Protocol):
@@ -46,10 +50,14 @@ class ParamClient:
 
         An empty text is the empty string. Raises ``RosParamException``.
         """
+        from .documents import parse
+
         self.upload(name, parse(text) if text else "")
 
     def upload(self, name: str, value: Any) -> None:
         """Set a parameter to a value; a dictionary is merged into what is there. Raises ``RosParamException``."""
+        from .documents import assignments
+
         self._send(list(assignments(self._resolve(name), value)))
 
     def delete(self, name: str) -> None:
@@ -72,14 +80,20 @@ class ParamClient:
 
         Nothing is set if anything in the file is wrong. Raises ``RosParamException``, which names file and line.
         """
+        from .documents import load_file
+
         return self._load(load_file(path, self._resolve(namespace)))
 
     def loads(self, text: str, namespace: str = "", *, source: str = "") -> list[str]:
         """Set what a YAML text says, as :meth:`load` does; ``source`` is what errors call the text."""
+        from .documents import load_str
+
         return self._load(load_str(text, source, self._resolve(namespace)))
 
     def dumps(self, namespace: str = "/") -> str:
         """Return a parameter or a namespace as YAML. Raises ``ParameterNotSet``."""
+        from .documents import dumps
+
         return dumps(self.get(namespace))
 
     def dump(self, path: str | Path, namespace: str = "/") -> Path:
