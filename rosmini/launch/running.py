@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import GraphEnded, ParameterNotSet, RosminiError
-from rosmini.packages import PackageIndex
+from rosmini.packages import PackageIndex, built_in_nodes
 from rosmini.rosparam import ParamClient
 from rosmini.scripts import Console, NodeHandle, NodeSpec, ScriptHandle, ScriptSpec
 from rosmini.scripts.handle import SIGINT_TIMEOUT_S, SIGTERM_TIMEOUT_S, LaneHandle, shell_status
@@ -256,6 +256,17 @@ def differences(plan: Plan) -> Iterator[str]:
     for node in plan.nodes:
         if node.launch_prefix:
             yield f'{node.place}: launch-prefix="{node.launch_prefix}" is for a process: it is ignored in one graph'
+        if node.cwd and node.cwd.lower() != "cwd":
+            yield (
+                f'{node.place}: cwd="{node.cwd}" is for a process: in one graph {node.full_name} works in the folder '
+                "of this one"
+            )
+        if node.environment and node.type in built_in_nodes(node.package):
+            names = ", ".join(name for name, _ in node.environment)
+            yield (
+                f"{node.place}: <env> is for scripts and processes: {node.full_name}, which rosmini brings, does not "
+                f"see {names} in one graph"
+            )
         if node.machine and not plan.machines[node.machine].is_local:
             yield f"{node.place}: {on_machine(plan, node)}; here it runs in this process"
 

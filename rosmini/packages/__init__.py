@@ -10,7 +10,7 @@ The crawl is ours and not rospkg's, whose order depends on the file system, and 
 manifest that is not XML. Manifests are read by catkin_pkg, after defusedxml has found no harm in them.
 """
 
-from .executables import DEVEL_MARKER, NODES_GROUP, SCRIPT_FOLDERS, Executable
+from .executables import DEVEL_MARKER, NODES_GROUP, SCRIPT_FOLDERS, Executable, built_in_nodes
 from .folders import MANIFEST, Crawled, assets_dir, crawl, own_dirs, package_around, search_paths
 from .index import BUILT_IN, LONGEST, SCHEME, PackageIndex
 from .manifest import Export, Package, Stack, read_package, read_stack
@@ -30,6 +30,7 @@ __all__ = [
     "PackageIndex",
     "Stack",
     "assets_dir",
+    "built_in_nodes",
     "crawl",
     "own_dirs",
     "package_around",
