@@ -115,13 +115,24 @@ class _Client:
         node.close()
 
 
+EXAMPLES = {
+    "topic": "-e /gazebo/default/world_stats -n 1 + gazebo_ros/gzserver worlds/empty.world",
+    "model": "-m ground_plane -i + gazebo_ros/gzserver worlds/empty.world",
+    "world": "-p 1 + gazebo_ros/gzserver worlds/empty.world",
+    "stats": "-d 2 + gazebo_ros/gzserver worlds/empty.world",
+    "sdf": "-k my_robot.sdf",
+}
+
+
 def _parser(
     verb: str, description: str, fill: Callable[[ArgumentParser], object]
 ) -> Callable[[], ArgumentParser]:
     """Return what makes the parser of a verb."""
 
     def make() -> ArgumentParser:
-        parser = ArgumentParser(f"gz {verb}", description)
+        parser = ArgumentParser(
+            f"gz {verb}", description, epilog=f"for example: rosmini gz {verb} {EXAMPLES[verb]}"
+        )
         if verb != "sdf":
             parser.add_argument("-w", "--world-name", metavar="WORLD", help="which world; there is one")
         fill(parser)

@@ -382,7 +382,7 @@ class Tool:
         from rosmini.net.connecting import connect
 
         end_as_ctrl_c()
-        with connect() as graph:
+        with connect(announce=False) as graph:
             try:
                 return verb.act(given, Call(graph, say, read_line=sys.stdin.readline))
             except KeyboardInterrupt:  # it came between two waits: no failure, as in ROS's tools

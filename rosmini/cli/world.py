@@ -37,7 +37,9 @@ class Worlds(Result):
 
 
 def _list_parser() -> ArgumentParser:
-    return ArgumentParser("rosmini world list", "List the worlds that rosmini brings.")
+    return ArgumentParser(
+        "rosmini world list", "List the worlds that rosmini brings.", epilog="for example: rosmini world list"
+    )
 
 
 @TOOL.verb("list the worlds that rosmini brings", name="list", parser=_list_parser)
@@ -75,6 +77,7 @@ def _check_parser() -> ArgumentParser:
         "rosmini world check",
         "Check files: Gazebo worlds and models (SDF), Stage worlds, ROS maps (YAML), robots (URDF). What a file is, is "
         "read from its contents. The exit status is 1 if something is wrong with one of them; notes are no errors.",
+        epilog="for example: rosmini world check my.world map.yaml robot.urdf",
     )
     parser.add_argument(
         "files", nargs="+", metavar="FILE", help="a file, or the name of a world that rosmini brings"

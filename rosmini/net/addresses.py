@@ -94,7 +94,12 @@ class Addresses(NamedTuple):
     @property
     def notes(self) -> list[str]:
         """What a program says once when it starts: where it listens, and what is wrong with its addresses."""
-        return [line for line in (self.announcement, self.mistake, self.warning) if line is not None]
+        return [*filter(None, [self.announcement]), *self.faults]
+
+    @property
+    def faults(self) -> list[str]:
+        """What is wrong with its addresses."""
+        return [line for line in (self.mistake, self.warning) if line is not None]
 
     @property
     def mistake(self) -> str | None:

@@ -25,6 +25,7 @@ def connect(
     rate: float = 1.0,
     seed: int = 0,
     log_dir: str | Path | None = None,
+    announce: bool = True,
 ) -> Graph:
     """Return a graph in wall time whose nodes are citizens of the graph of the Master that the environment names.
 
@@ -38,12 +39,13 @@ def connect(
         rate: how many seconds of graph time pass in one second.
         seed: what random numbers of this graph start from.
         log_dir: where log files go; by default ``ROS_LOG_DIR``.
+        announce: say where it listens. A tool that is over in a moment need not, and says what is wrong all the same.
 
     Raises ``ROSInitException`` for an address that is none.
 
     """
     where = addresses(environ, arguments)
-    for line in where.notes:
+    for line in where.notes if announce else where.faults:
         sys.stderr.write(f"rosmini: {line}\n")
 
     def way(graph: Graph) -> RemoteMaster:

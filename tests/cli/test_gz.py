@@ -219,3 +219,10 @@ def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
     for verb, word in (("topic", "--list"), ("model", "--spawn-file"), ("world", "--pause")):
         assert main(["gz", verb, "--help"]) == 0
         assert word in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("verb", ["topic", "model", "world", "stats", "sdf"])
+def test_help_has_an_example(verb: str) -> None:
+    from rosmini.cli.gz import TOOL
+
+    assert f"for example: rosmini gz {verb} -" in " ".join(str(TOOL.run(verb, "-h")).split())

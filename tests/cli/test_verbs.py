@@ -17,6 +17,8 @@ from rosmini.errors import UsageError
 from rosmini.msgs.std_msgs.msg import String
 from rosmini.time import Time
 
+from ..processes import free_port
+
 NEW_TOOL = '''
 """`rosmini rosgreet`: a tool of one verb."""
 from dataclasses import dataclass
@@ -179,3 +181,15 @@ def test_ipython_shows_a_result_as_a_terminal_does() -> None:
     result._repr_pretty_(printer, False)
     assert printer.shown.startswith("arena: sound: made in Python")
     assert printer.shown.splitlines()[-1].startswith("error: none.world")
+
+
+def test_a_tool_that_is_over_in_a_moment_does_not_say_where_it_listens(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A node does, once; whoever asks a question has set ROS_IP and knows."""
+    monkeypatch.setenv("ROS_IP", "203.0.113.7")
+    monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{free_port()}")
+    assert cli.main(["rostopic", "echo", "-n", "1", "/x"]) == 1
+    said = capsys.readouterr().err
+    assert "listening on" not in said
+    assert "203.0.113.7 is not an address of this machine" in said
