@@ -52,6 +52,7 @@
       this.host.innerHTML = model.get("data").html;
       this.pill = document.createElement("p");
       this.pill.className = "rq-pill";
+      this.pill.style.cssText = "margin:4px 12px;font:12px sans-serif;opacity:0.75";
       this.pill.setAttribute("role", "status");
       this.startButton = document.createElement("button");
       Object.assign(this.startButton, { type: "button", textContent: "Start the graph", hidden: true });
