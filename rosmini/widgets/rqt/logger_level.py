@@ -93,7 +93,7 @@ class LoggerLevel(Panel):
             raise ViewError(f"{self.chosen or 'no node'} has no logger {logger!r:.80}; {hint}")
         self._ask(SET, "roscpp/SetLoggerLevel", logger=logger, level=level.upper())
         self.refresh()
-        self.message = f"{self.chosen}: {logger} logs from {level.capitalize()} on"
+        self._say(f"{self.chosen}: {logger} logs from {level.capitalize()} on")
 
     def _ask(self, service: str, kind: str, **fields: str) -> Any:
         self._require()

@@ -51,8 +51,9 @@ class Panel(View):
     def __init__(self, graph: Graph, *, name: str | None = None) -> None:
         self.graph = graph
         self.message = ""
-        """What the last thing that was done did, or why it was refused."""
-        self._failed = False
+        """What the last thing that was done did."""
+        self.problem = ""
+        """Why the last thing that :meth:`set` was to do was refused."""
         self._link: Any = None
         name = name or self.tool
         before = graph.nodes.get(resolve(name, "/"))
@@ -108,18 +109,22 @@ class Panel(View):
         self._operate(control.key.split("/"), value)
 
     def _try(self, action: Callable[[], T]) -> T:
-        """Do it; keep what is wrong with it as the message."""
-        self.message, self._failed = "", False
+        """Do it, and keep what is wrong with it."""
+        self.message = self.problem = ""
         try:
             return action()
         except RosminiError as error:
-            self.message, self._failed = str(error), True
+            self.problem = str(error)
             raise
 
     @property
     def gone(self) -> str | None:
         """Why there is nothing to operate any more, or None."""
         return f"the node {self.node.name} was shut down" if self.node.is_shutdown() else None
+
+    def _say(self, text: str) -> None:
+        """Show what was done."""
+        self.message, self.problem = text, ""
 
     def _require(self) -> None:
         if self.gone is not None:
@@ -140,8 +145,8 @@ class Panel(View):
         why = self.gone
         if why is not None:
             found.append(Words(why, is_bad=True))
-        elif self.message:
-            found.append(Words(self.message, is_bad=self._failed))
+        elif self.problem or self.message:
+            found.append(Words(self.problem or self.message, is_bad=bool(self.problem)))
         return found
 
     @property

@@ -135,7 +135,7 @@ class Rqt(Panel):
     def save_perspective(self, name: str) -> None:
         """Keep the present arrangement under a name."""
         self.perspectives[name] = self.perspective()
-        self.message = f"the perspective {name!r:.80} has {len(self.running)} plugins"
+        self._say(f"the perspective {name!r:.80} has {len(self.running)} plugins")
 
     def open_perspective(self, name: str) -> None:
         """Return to an arrangement. Raises ``ViewError`` for another name."""
@@ -151,7 +151,7 @@ class Rqt(Panel):
     def export_file(self, path: str | Path) -> None:
         """Write the present arrangement to a file that the real rqt can import. Raises ``ViewError``."""
         self.perspective().write(path)
-        self.message = f"written to {path}"
+        self._say(f"written to {path}")
 
     # -- showing ---------------------------------------------------------------------------------------------------
 

@@ -51,6 +51,9 @@ def test_what_makes_no_sense_is_refused(levels, talker):
     with pytest.raises(ViewError, match="did you mean /talker"):
         levels.choose("/talke")
     levels.choose("/talker")
+    levels.set_level("rosout", "Warn")
+    assert "rosout logs from Warn on" in levels.text
+    assert "rq-bad" not in levels.markup(live=True)
     with pytest.raises(ViewError, match="no level 'Worn'"):
         levels.set_level("rosout", "Worn")
     with pytest.raises(ViewError, match="no logger 'x'"):
