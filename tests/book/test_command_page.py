@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from rosmini.cli.main import COMMANDS, main
+from rosmini.notebook import extension
 
 PAGE = (Path(__file__).parents[2] / "book" / "commands.md").read_text(encoding="utf-8")
 ROWS = [line.split("|")[1:-1] for line in PAGE.splitlines() if line.startswith("|") and "`rosmini " in line]
@@ -50,3 +51,21 @@ def test_a_command_that_is_shown_prints_what_is_shown(
     monkeypatch.delenv("ROS_MASTER_URI", raising=False)
     assert main(command.split()) == 0
     assert capsys.readouterr().out.strip() == output.strip()
+
+
+def test_what_a_notebook_has_alone_is_there(capsys: pytest.CaptureFixture[str]) -> None:
+    from IPython.core.interactiveshell import InteractiveShell
+
+    InteractiveShell.clear_instance()
+    shell = InteractiveShell.instance()
+    try:
+        extension.load(shell)
+        magics = shell.magics_manager.magics
+        told = re.findall(r"`(%%?)(\w+)", PAGE.split("## In a notebook")[1])
+        assert len(told) >= 9
+        for mark, name in told:
+            assert name in magics["cell" if mark == "%%" else "line"], name
+    finally:
+        extension.unload(shell)
+        InteractiveShell.clear_instance()
+    capsys.readouterr()
