@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import re
 import shlex
+from contextlib import nullcontext
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,7 @@ from .main import COMMANDS, chosen
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from contextlib import AbstractContextManager
 
     from .verbs import Result, Tool
 
@@ -33,15 +35,23 @@ SLIPS = ("roscpp", "rosmmsg", "rostop")
 _VARIABLE = re.compile(r"\$(?:(\$)|([A-Za-z_]\w*))")
 
 
-def register(shell: Any, *, say: Callable[[str], object] = print) -> None:
-    """Register the commands as line magics of an IPython shell, with completion of their words; ``say`` prints."""
+def register(
+    shell: Any,
+    *,
+    say: Callable[[str], object] = print,
+    around: Callable[[], AbstractContextManager[object]] = nullcontext,
+) -> None:
+    """Register the commands as line magics of an IPython shell, with completion of their words.
+
+    ``say`` prints, and each command runs in what ``around`` makes.
+    """
     from IPython.core.magic import no_var_expand
 
     for name, entry in COMMANDS.items():
         if entry.is_magic:
             magic = partial(run, shell, name, say=say)
             shell.register_magic_function(
-                no_var_expand(_documented(magic, name, entry.summary)), "line", name
+                no_var_expand(_documented(magic, name, entry.summary, around)), "line", name
             )
             shell.set_hook("complete_command", _complete, str_key=f"%{name}")
     for name in SLIPS:
@@ -57,11 +67,17 @@ def _slip(name: str) -> Callable[[str], None]:
     return act
 
 
-def _documented(magic: Callable[[str], Result], name: str, summary: str) -> Callable[[str], Result]:
+def _documented(
+    magic: Callable[[str], Result],
+    name: str,
+    summary: str,
+    around: Callable[[], AbstractContextManager[object]],
+) -> Callable[[str], Result]:
     """Return the magic as a function with a name and a help text."""
 
     def act(line: str) -> Result:
-        return magic(line)
+        with around():
+            return magic(line)
 
     act.__name__, act.__doc__ = name, f"{summary}. `%{name} -h` lists the verbs."
     return act

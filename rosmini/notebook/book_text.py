@@ -1,19 +1,16 @@
-"""What differs from machine to machine in the text that a cell prints, and what the book has instead."""
+"""What differs from machine to machine in what a cell prints or raises, and what the book has instead."""
 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from rosmini.packages import own_dirs
-
-from .places import SHARE
+from rosmini.errors import RosminiError
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Callable
 
-WORKSPACE = "~/catkin_ws"
-"""Where the notebook's own package is, in the book."""
+    from .places import Places
 
 PID = "4242"
 PING = "0.42ms"
@@ -22,8 +19,25 @@ _PID = re.compile(r"(?<=\bPid: )\d+|(?<=\bpid \[)\d+")
 _PING = re.compile(r"(?<=time=)\d+\.\d+ms|(?<=ping average: )\d+\.\d+ms")
 
 
-def book_text(text: str, workspace: Path) -> str:
-    """Return a text with the paths, process numbers and ping times of the book; ``workspace`` is the notebook's."""
-    for folder, shown in ((workspace, WORKSPACE), *((folder, SHARE) for folder in own_dirs())):
-        text = text.replace(str(folder), shown)
-    return _PING.sub(PING, _PID.sub(PID, text))
+def book_text(text: str, places: Places) -> str:
+    """Return a text with the paths, process numbers and ping times of the book."""
+    return _PING.sub(PING, _PID.sub(PID, places.shown(text)))
+
+
+class BookErrors:
+    """A context that changes the texts of errors of ours, and of those that caused them, on their way through it."""
+
+    def __init__(self, rewrite: Callable[[str], str]) -> None:
+        self._rewrite = rewrite
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        while isinstance(error, RosminiError):
+            error.args = tuple(map(self._rewritten, error.args))
+            vars(error).update({name: self._rewritten(value) for name, value in vars(error).items()})
+            error = error.__cause__
+
+    def _rewritten(self, value: Any) -> Any:
+        return self._rewrite(value) if isinstance(value, str) else value

@@ -30,7 +30,7 @@ def load(shell: Any) -> None:
     install(shadow=True)
     tell_which_ros()
     session = begin_session(shell)
-    magics.register(shell, say=session.say)
+    magics.register(shell, say=session.say, around=lambda: session_of(shell).raising())
     shell.events.register("pre_run_cell", session.begin_cell)
     shell.set_hook("complete_command", complete, str_key="%rosrun")
     atexit.register(end_session, shell)
@@ -103,7 +103,8 @@ def _register(shell: Any, kind: str, name: str, act: Callable[..., object]) -> N
     def magic(*texts: str) -> object:
         session = session_of(shell)
         session.require_main(f"%{'%' * (kind == 'cell')}{name}")
-        return act(session, *texts)
+        with session.raising():
+            return act(session, *texts)
 
     magic.__name__, magic.__doc__ = name, act.__doc__
     shell.register_magic_function(no_var_expand(magic), kind, name)

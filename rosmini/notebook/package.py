@@ -41,7 +41,7 @@ class NotebookPackage:
 
     def __init__(self) -> None:
         self._temporary = TemporaryFolder()
-        self.workspace = self._temporary.path
+        self.workspace = self._temporary.path / "catkin_ws"
         """The folder of a catkin workspace around it."""
         self.folder = self.workspace / "src" / NAME
         """The package's folder."""

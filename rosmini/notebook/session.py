@@ -14,9 +14,10 @@ from rosmini.graph import Graph, default_graph, set_default_graph
 from rosmini.scripts import current_script
 from rosmini.viz.book_form import book_form
 
-from .book_text import book_text
+from .book_text import BookErrors, book_text
 from .output import CellSink, TypedFeed
 from .package import NotebookPackage
+from .places import Places
 from .runs import Runs
 from .terminal import Terminals
 
@@ -41,6 +42,7 @@ class Session:
     def __init__(self, shell: Any) -> None:
         self.shell = shell
         self.package = NotebookPackage()
+        self._places = Places(self.package.workspace.parent)
         self.terminals = Terminals(shell, self.look)
         self.sink = CellSink(self._in_cell, self._several_speak)
         self._cell = contextvars.copy_context()
@@ -110,6 +112,10 @@ class Session:
         """Print a line of the notebook's own into the cell."""
         self.sink.say(text)
 
+    def raising(self) -> BookErrors:
+        """Return what gives errors of ours the book's form on their way into a cell, where cells have that."""
+        return BookErrors(self._in_cell)
+
     def typed(self, advice: str) -> TypedFeed:
         """Return standard input from the reader, who types below the cell; ``advice`` is for where nobody can."""
         return TypedFeed(self._ask, advice)
@@ -123,7 +129,7 @@ class Session:
         return self.runs.several_speak(speaker)
 
     def _in_cell(self, text: str) -> str:
-        return book_text(text, self.package.workspace) if book_form() else text
+        return book_text(text, self._places) if book_form() else text
 
 
 def begin_session(shell: Any) -> Session:

@@ -5,15 +5,17 @@ from __future__ import annotations
 import pytest
 
 from rosmini.notebook.book_text import book_text
+from rosmini.notebook.places import Places
 from rosmini.packages.folders import assets_dir
 
 from .conftest import Notebook
 
 
 def test_paths_numbers_and_times(notebook: Notebook) -> None:
-    workspace = notebook.session.package.workspace
-    text = f"{workspace}/src/notebook {assets_dir()}/ros/tf Pid: 17 pid [18]\ntime=1.2ms ping average: 0.3ms 1.2ms 17"
-    assert book_text(text, workspace) == (
+    home = notebook.session.package.workspace.parent
+    text = f"{home}/catkin_ws/src/notebook {assets_dir()}/ros/tf Pid: 17 pid [18]\n"
+    text += "time=1.2ms ping average: 0.3ms 1.2ms 17"
+    assert book_text(text, Places(home)) == (
         "~/catkin_ws/src/notebook /opt/ros/noetic/share/tf Pid: 4242 pid [4242]\n"
         "time=0.42ms ping average: 0.42ms 1.2ms 17"
     )
@@ -32,3 +34,18 @@ def test_cells_print_the_books_form_where_the_book_is_made(
     assert notebook.ok("%rospack find rosmini_sim") == "/opt/ros/noetic/share/rosmini_sim\n"
     assert "Pid: 4242" in notebook.ok("%rosnode info /rosout")
     assert "time=0.42ms" in notebook.ok("%rosnode ping -c 1 /rosout")
+
+
+def test_so_do_the_errors_of_cells(notebook: Notebook, monkeypatch: pytest.MonkeyPatch) -> None:
+    notebook.session.package.write("launch", "bad.launch", "<launch>\n<node/>\n</launch>")
+    folder = str(notebook.session.package.folder)
+    lines = ("%rosrun notebook nope.py", "%roslaunch notebook bad.launch", "%rosrun nope nope")
+    for line in lines:
+        assert folder.removesuffix("/notebook") in notebook.fails(line)
+    monkeypatch.setenv("ROSMINI_DISPLAY", "book")
+    for line, shown in zip(
+        lines, ("/src/notebook", "/src/notebook/launch/bad.launch:2", "/src"), strict=True
+    ):
+        written = notebook.fails(line)
+        assert f"~/catkin_ws{shown}" in written
+        assert folder not in written
