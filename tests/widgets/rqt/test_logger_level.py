@@ -53,7 +53,7 @@ def test_what_makes_no_sense_is_refused(levels, talker):
     levels.choose("/talker")
     levels.set_level("rosout", "Warn")
     assert "rosout logs from Warn on" in levels.text
-    assert "rq-bad" not in levels.markup(live=True)
+    assert "rq-words rq-bad" not in levels.markup(live=True)
     with pytest.raises(ViewError, match="no level 'Worn'"):
         levels.set_level("rosout", "Worn")
     with pytest.raises(ViewError, match="no logger 'x'"):

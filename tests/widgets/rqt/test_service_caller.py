@@ -72,7 +72,7 @@ def test_what_fails_is_said_and_shown(graph, asked):
     with pytest.raises(ServiceException, match="it stays on"):
         caller.set("call")
     assert "it stays on" in caller.text
-    assert "rq-bad" in caller.markup(live=True)
+    assert "rq-words rq-bad" in caller.markup(live=True)
     caller.fill("data", "True")
     caller.set("call")
     assert "it stays on" not in caller.text
