@@ -135,7 +135,7 @@ def _where(event: Event) -> str:
 def _end(event: Event) -> str:
     """Return why nothing is known that came before an event."""
     if event.kind == "delivery":
-        return f"and {event.who} published that in another process, or before recording began"
+        return f"and {event.who} published that before recording began, or it came over a wire"
     if not event.lane:
         return f"and {event.who} did that because its time had come"
     if event.lane == "main":

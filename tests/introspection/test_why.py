@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from rosmini import Graph
+from rosmini.graph.byte_transport import ByteTransport
 from rosmini.introspection.why import NothingRecorded, explain
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
@@ -132,3 +133,21 @@ def test_the_picture_has_the_first_cause_above(graph: Graph) -> None:
     )
     assert first < last
     assert picture.alt.startswith("Chain of causes, the first one first. /laser published message 5 on /scan")
+
+
+def test_what_came_over_a_wire_has_no_cause_before_it() -> None:
+    with Graph(transports=(ByteTransport,)) as graph:
+        graph.record()
+        echo = graph.node("echo")
+        answers = echo.publisher("echo", String, latch=True)
+        echo.subscriber("chatter", String, lambda message: answers.publish(message.data))
+        talker = graph.node("talker").publisher("chatter", String)
+        talker.wait_for_subscribers()
+        talker.publish("hello")
+        graph.run(0.1)
+        (why,) = explain(history(graph), "/echo")
+    assert [step.what for step in why.steps] == [
+        "/echo published message 1 on /echo: 'hello'",
+        "/echo got a message on /chatter from /talker",
+    ]
+    assert why.end == "and /talker published that before recording began, or it came over a wire"

@@ -186,3 +186,17 @@ def test_a_notebook_knows_why_and_what_if_and_all_again_is_the_same(notebook: No
     assert "    counter.py, line 9: count.publish(number)" in first[3]
     assert "(lost)" in first[4]
     assert run_all() == first
+
+
+def test_a_script_whose_node_is_killed_has_no_last_words(notebook: Notebook) -> None:
+    notebook.ok("%load_ext rosmini\n%roscore\nimport rosmini")
+    notebook.ok(
+        '%%node talker.py\nimport rospy\nrospy.init_node("talker")\n'
+        'rospy.on_shutdown(lambda: print("goodbye"))\nrospy.spin()\nprint("after")\n'
+    )
+    said = notebook.ok("%fault talker --kill") + notebook.ok("rosmini.wait(1)")
+    assert "/talker was killed" in said
+    assert "goodbye" not in said
+    assert "after" not in said
+    assert "/talker" in notebook.ok("%rosnode list")
+    assert notebook.session.graph.unreachable == ("/talker",)
