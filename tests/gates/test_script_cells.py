@@ -1,0 +1,82 @@
+"""ruff and mypy read the scripts of chapters, which are no code to them in a notebook."""
+
+from __future__ import annotations
+
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from book.tools import notebooks
+from book.tools.scripts import scripts
+from rosmini.cli.stubs import stub_files, write
+
+from ..processes import run
+
+ROOT = Path(__file__).resolve().parents[2]
+CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+MYPY = """[mypy]
+mypy_path = typings
+check_untyped_defs = True
+follow_imports = silent
+strict_optional = False
+[mypy-notebook.*]
+ignore_missing_imports = True
+"""
+
+
+def ruffs(folder: Path) -> str:
+    """What ruff says of the scripts in a folder, with the rules for notebooks."""
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    ignored = settings["tool"]["ruff"]["lint"]["per-file-ignores"]["notebooks/**"]
+    words = [
+        "check",
+        "--no-cache",
+        "--config",
+        ROOT / "pyproject.toml",
+        "--extend-ignore",
+        ",".join([*ignored, "EXE"]),
+    ]
+    return run([sys.executable, "-m", "ruff", *words, "--output-format", "concise", "."], cwd=folder).stdout
+
+
+def mypys(folder: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """What mypy says of them."""
+    api = pytest.importorskip("mypy.api", reason="mypy is part of the dev extra only")
+    monkeypatch.chdir(folder)
+    write(folder / "typings", stub_files()[0])
+    (folder / "mypy.ini").write_text(MYPY, encoding="utf-8")
+    found = [
+        api.run(["--config-file", "mypy.ini", "--cache-dir", "cache", *map(str, each.glob("*.py"))])[0]
+        for each in sorted(folder.iterdir())
+        if each.name not in ("typings", "cache") and each.is_dir()
+    ]
+    return "".join(line + "\n" for line in "".join(found).splitlines() if ": error: " in line)
+
+
+def put(folder: Path, chapter: str, name: str, text: str) -> None:
+    path = folder / chapter / name
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+
+
+def test_the_scripts_of_all_chapters_pass(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for chapter in CHAPTERS:
+        for name, text in scripts(notebooks.read(chapter)).items():
+            put(tmp_path, chapter.stem, name, text)
+    assert ruffs(tmp_path).strip() == "All checks passed!"
+    assert mypys(tmp_path, monkeypatch) == ""
+
+
+def test_a_wrong_script_does_not(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    put(
+        tmp_path,
+        "c",
+        "wrong.py",
+        "import os\nfrom std_msgs.msg import String\n\nString(dat='x')\nprint(unknown)\n",
+    )
+    said = ruffs(tmp_path)
+    assert "c/wrong.py:1:8: F401" in said.replace("\\", "/")
+    assert "F821" in said
+    assert "wrong.py:4: error: " in mypys(tmp_path, monkeypatch).replace("\\", "/")
