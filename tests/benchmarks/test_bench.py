@@ -10,7 +10,19 @@ from contextlib import ExitStack, closing
 from typing import TYPE_CHECKING
 
 import pytest
-from rosmini_bench import Figure, Measure, actions, bags, graph, launch_files, sim, table, transforms, wire
+from rosmini_bench import (
+    Figure,
+    Measure,
+    actions,
+    bags,
+    graph,
+    launch_files,
+    sim,
+    table,
+    tools,
+    transforms,
+    wire,
+)
 from rosmini_bench.peer import find_rospy
 
 from rosmini.cli.main import main
@@ -36,6 +48,7 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
             *actions.measures(None, 1),
             *transforms.measures(None, 1),
             *launch_files.measures(None, 1),
+            *tools.measures(None, 1),
             *bags.measures(tmp_path, None, 1),
             *sim.measures(None, None, 1),
         ]

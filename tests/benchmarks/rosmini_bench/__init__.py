@@ -184,6 +184,9 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         from . import launch_files
 
         yield from launch_files.measures(rospy, args.scale)
+        from . import tools
+
+        yield from tools.measures(rospy, args.scale)
         from . import bags
 
         folder = bags.Folder()
