@@ -98,6 +98,7 @@ def test_the_workspace_of_the_report(shell: dict[str, str], tmp_path: Path) -> N
 
 
 @pytest.mark.processes
+@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is sent otherwise there")
 def test_the_world_of_turtlebot3(shell: dict[str, str]) -> None:
     """9.5: the simulator and the robot in processes of their own, until Ctrl-C; and the keys that would drive it."""
     env = {**shell, "TURTLEBOT3_MODEL": "burger"}
