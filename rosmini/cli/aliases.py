@@ -21,6 +21,9 @@ SHELLS = ("bash", "zsh", "powershell")
 PATIENCE_S = 1.0
 """How long a Master may take to answer when a word is completed [s]."""
 
+EMPTY = '""'
+"""An empty word, as PowerShell gives it: up to 7.2 it leaves out those that are truly empty."""
+
 _ROS = ("ros", "rqt", "catkin_")
 """How the names of ROS's commands begin; `rosmini test` and others that are ours have no bare name."""
 
@@ -110,7 +113,7 @@ def _complete(words: list[str]) -> int:
 
     try:
         with DirectWire(addresses().master_uri, master_s=PATIENCE_S, node_s=PATIENCE_S) as wire:
-            found = candidates(words, wire)
+            found = candidates(["" if word == EMPTY else word for word in words], wire)
     except RosminiError:  # such as an address of the Master that is none: shells want words, not complaints
         return 1
     print("".join(f"{word}\n" for word in found), end="")
@@ -141,7 +144,7 @@ if (-not (Get-Command {name} -ErrorAction SilentlyContinue)) {{
     Register-ArgumentCompleter -Native -CommandName {name} -ScriptBlock {{
         param($word, $line, $cursor)
         $words = @($line.CommandElements | ForEach-Object {{ $_.ToString() }})
-        if (-not $word) {{ $words += '' }}
+        if (-not $word) {{ $words += '""' }}
         {start} aliases --complete @words | ForEach-Object {{
             [System.Management.Automation.CompletionResult]::new($_, $_, 'ParameterValue', $_)
         }}

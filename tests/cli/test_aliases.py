@@ -100,3 +100,13 @@ def test_only_names_of_ros_are_given() -> None:
 def test_program_paths_are_quoted() -> None:
     assert "'/a b/rosmini' rostopic \"$@\"" in aliases.lines("bash", ["/a b/rosmini"])
     assert "& '/it''s/rosmini' rostopic @args" in aliases.lines("powershell", ["/it's/rosmini"])
+
+
+def test_powershell_says_that_a_word_is_empty(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Before 7.3 it gives programs no empty words: `rostopic <Tab>` would complete `rostopic` itself."""
+    monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:1")
+    assert """$words += '""'""" in aliases.lines("powershell", ["rosmini"])
+    assert cli.main(["aliases", "--complete", "rostopic", '""']) == 0
+    assert "echo" in capsys.readouterr().out.split()
