@@ -23,7 +23,7 @@ from ..conftest import SYSTEM_PYTHON
 
 if TYPE_CHECKING:
     import subprocess
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from types import TracebackType
 
 PEER = Path(__file__).with_name("peer.py")
@@ -312,6 +312,19 @@ class Stage:
         )
         return str(found.stdout)
 
+    def play(self, words: list[Any], topic: str, listeners: Sequence[Peer]) -> Child:
+        """Play a bag that has /gate, too, by a program that waits for subscribers of all topics.
+
+        /gate has none before that program sends the topic to all listeners.
+        """
+        child: Child = self.start("play", words)
+        child.wait(lambda: self.who(topic, "publishers"), f"a player of {topic}")
+        (player,) = self.who(topic, "publishers")
+        for listener in listeners:
+            self.wait_until_sent(topic, player, listener.node)
+        listeners[0].ask("subscribe", "/gate", "std_msgs/Int32")
+        return child
+
     # ---- the Master ----
 
     def master(self, method: str, *arguments: Any) -> Any:
@@ -346,6 +359,16 @@ class Stage:
             wait_until(lambda: self.who(name, role) == sorted(nodes), f"{nodes} as {role} of {name}")
         except AssertionError as error:
             raise AssertionError(f"{error}; there are {self.who(name, role)}") from None
+
+    def wait_until_sent(self, topic: str, node: str, listener: str) -> None:
+        """Wait until a node sends what it publishes on a topic to another one."""
+
+        def is_sent() -> bool:
+            with xmlrpc.client.ServerProxy(self.master("lookupNode", node)) as slave:
+                rows: Any = slave.getBusInfo("/test")[2]  # type: ignore[index]
+            return any((row[1], row[2], row[4]) == (listener, "o", topic) for row in rows)
+
+        wait_until(is_sent, f"{node} to send {topic} to {listener}")
 
     def wait_until_heard(self, prefix: str, topics: list[str]) -> None:
         """Wait until the only node whose name begins so has got messages on all of these topics."""

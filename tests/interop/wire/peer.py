@@ -188,19 +188,6 @@ def cached_becomes(name, value):
     return rospy.get_param_cached(name)
 
 
-def rosout_connected(count):
-    """Wait until so many hear what this node logs."""
-    wait(lambda: log_links() >= count)
-
-
-def log_links():
-    """How many connections /rosout of this node has."""
-    import xmlrpc.client
-
-    with xmlrpc.client.ServerProxy(rospy.get_node_uri()) as slave:
-        return len([one for one in slave.getBusInfo("/peer")[2] if one[4] == "/rosout" and one[2] == "o"])
-
-
 def log(level, text):
     getattr(rospy, "log" + level)("%s", text)
 

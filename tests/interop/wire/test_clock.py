@@ -55,7 +55,9 @@ def test_rosbag_play_drives_the_clock(core: Stage, simulated: tuple[Peer, Peer])
     core.tool(SYSTEM_PYTHON, "-c", BAG, str(file))
     for peer in simulated:
         peer.ask("subscribe", "/bagged", "std_msgs/Int32")
-    play = core.start("play", ["rosbag", "play", "--clock", "--wait-for-subscribers", "-r", "20", file])
+    play = core.play(
+        ["rosbag", "play", "--clock", "--wait-for-subscribers", "-r", "20", file], "/bagged", simulated
+    )
     for peer in simulated:
         assert [message["data"] for message in peer.ask("hear", "/bagged", 3)] == [1, 2, 3]
     assert play.ended() == 0
@@ -69,6 +71,7 @@ BAG = """
 import sys, rosbag, rospy
 from std_msgs.msg import Int32
 with rosbag.Bag(sys.argv[1], "w") as bag:
+    bag.write("/gate", Int32(0), rospy.Time(1000))
     for number in (1, 2, 3):
         bag.write("/bagged", Int32(number), rospy.Time(1000 + number - 1))
 """

@@ -223,7 +223,9 @@ def test_log_messages_reach_rosout_and_its_log(core: Stage, first_second: Peers)
     first, second = first_second
     for topic in ("/rosout", "/rosout_agg"):
         second.ask("subscribe", topic, "rosgraph_msgs/Log")
-    first.ask("rosout_connected", 2)
+    core.wait_until_sent("/rosout", first.node, second.node)
+    core.wait_until_sent("/rosout", first.node, "/rosout")
+    core.wait_until_sent("/rosout_agg", "/rosout", second.node)
     text = f"a warning of {first.node}"
     first.ask("log", "warn", text)
     heard = second.ask("hear_until", "/rosout", "msg", text)

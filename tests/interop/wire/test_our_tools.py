@@ -69,8 +69,12 @@ def test_our_rates_and_publications(core: Stage, busy: Peers) -> None:
         bw.wait_for(r"average: [\d.]+\w?B/s")
         for tool in (hz, bw):
             tool.interrupt()
-        core.tool(*ROSMINI, "rostopic", "pub", "-1", f"{peer.node}/inbox", "std_msgs/String", "data: hello")
-        assert peer.ask("hear", f"{peer.node}/inbox") == [{"data": "hello"}]  # once, though it is latched
+        peer.tell("hear", f"{peer.node}/inbox")
+        while not peer.has_answered():  # it says it for three seconds
+            core.tool(
+                *ROSMINI, "rostopic", "pub", "-1", f"{peer.node}/inbox", "std_msgs/String", "data: hello"
+            )
+        assert peer.answer() == [{"data": "hello"}]  # once, though it is latched
 
 
 def test_our_rostopic_shows_types_that_only_the_publisher_knows(core: Stage) -> None:
@@ -136,8 +140,8 @@ def test_our_rosbag_play_drives_the_clock_of_both(core: Stage) -> None:
     for peer in peers:
         peer.ask("subscribe", "/bagged", "std_msgs/Int32")
     core.wait_for("/clock", "subscribers", *(peer.node for peer in peers))
-    words = ["play", "--clock", "--wait-for-subscribers", "-r", "20", file]
-    play = core.start("our_play", [*ROSMINI, "rosrun", "rosbag", *words])
+    words = [*ROSMINI, "rosrun", "rosbag", "play", "--clock", "--wait-for-subscribers", "-r", "20", file]
+    play = core.play(words, "/bagged", peers)
     for peer in peers:
         assert [message["data"] for message in peer.ask("hear", "/bagged", 3)] == [1, 2, 3]
     assert play.ended() == 0
@@ -150,6 +154,7 @@ BAG = """
 import sys, rosbag, rospy
 from std_msgs.msg import Int32
 with rosbag.Bag(sys.argv[1], "w") as bag:
+    bag.write("/gate", Int32(0), rospy.Time(1000))
     for number in (1, 2, 3):
         bag.write("/bagged", Int32(number), rospy.Time(1000 + number - 1))
 """

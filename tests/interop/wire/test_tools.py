@@ -127,8 +127,10 @@ def test_rostopic_pub(core: Stage, busy: Peers) -> None:
         assert pub.interrupt() == 0
         core.wait_for(f"{peer.node}/inbox", "publishers")
         peer.ask("forget", f"{peer.node}/inbox")
-        core.tool("rostopic", "pub", "-1", f"{peer.node}/inbox", "std_msgs/String", "once")
-        assert peer.ask("hear", f"{peer.node}/inbox") == [{"data": "once"}]
+        peer.tell("hear", f"{peer.node}/inbox")
+        while not peer.has_answered():  # it says it for three seconds
+            core.tool("rostopic", "pub", "-1", f"{peer.node}/inbox", "std_msgs/String", "once")
+        assert peer.answer() == [{"data": "once"}]
 
 
 def test_rosservice(core: Stage, busy: Peers) -> None:
@@ -189,10 +191,10 @@ def test_rosbag_records_both_and_plays_to_both(core: Stage, busy: Peers) -> None
     assert all(found[f"{peer.node}/count"]["messages"] >= 3 for peer in busy)
     for peer in busy:
         peer.ask("subscribe", "/played", "std_msgs/String")
-    topics = ["/ours/latched", "/theirs/latched"]
-    renamed = [f"{topic}:=/played" for topic in topics]
-    words = ["rosbag", "play", "--wait-for-subscribers", bag, "--topics", *topics, *renamed]
-    play = core.start("play", words)
+    renamed = ["/ours/latched:=/played", "/theirs/latched:=/played", "/ours/count:=/gate"]
+    words = ["rosbag", "play", "--wait-for-subscribers", bag, "--topics"]
+    words += [name.partition(":")[0] for name in renamed]
+    play = core.play([*words, *renamed], "/played", busy)
     for peer in busy:
         assert peer.ask("hear", "/played", 2) == [{"data": "käse"}] * 2
     assert play.ended() == 0
