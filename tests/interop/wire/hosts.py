@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 NETWORK = "10.77.0"
+LOOPBACK = ["ip", "link", "set", "lo"]
 HOLD = ["sleep", "infinity"]
 
 
@@ -52,11 +53,26 @@ def three_hosts() -> Iterator[Hosts]:
     yield Hosts(*(Host(f"127.0.0.{number}", []) for number in (2, 3, 4)), are_apart=False)
 
 
+@contextmanager
+def lone_host() -> Iterator[Host | None]:
+    """Make one computer with a loopback interface of its own, and nothing else; None where the system refuses that."""
+    with ExitStack() as stack:
+        within = _first_space(stack)
+        is_up = within is not None and run([*within, *LOOPBACK, "up"]).returncode == 0
+        yield Host("127.0.0.1", within) if within is not None and is_up else None
+
+
+def _first_space(stack: ExitStack) -> list[str] | None:
+    """Return the words that lead into a new namespace, or None where the system refuses it."""
+    if os.environ.get("ROSMINI_TEST_HOSTS") == "loopback":
+        return None
+    return _space(stack, ["unshare", *([] if os.geteuid() == 0 else ["--map-root-user"]), "--net"])
+
+
 def _namespaces(stack: ExitStack) -> Hosts | None:
     """Return hosts in namespaces, or None where the system refuses one of the steps."""
-    is_root = os.geteuid() == 0
-    new = ["unshare", "--net"] if is_root else ["unshare", "--map-root-user", "--net"]
-    if os.environ.get("ROSMINI_TEST_HOSTS") == "loopback" or (switch := _space(stack, new)) is None:
+    switch = _first_space(stack)
+    if switch is None:
         return None
     steps = ["ip link add br0 type bridge", "ip link set br0 up"]
     hosts = []

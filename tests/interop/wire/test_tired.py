@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from ...processes import wait_until
+from ...processes import run, wait_until
+from .hosts import LOOPBACK, lone_host
 
 if TYPE_CHECKING:
     from .harness import Peer, Stage
@@ -179,6 +180,38 @@ def test_a_master_dies_and_returns(stage: Stage, kind: str) -> None:
     for peer in (reader, late):
         assert peer.ask("hear", "/news") == [{"data": "again"}]
     assert late.ask("call", "/mend", INFO, {}) == ANSWER
+
+
+def test_the_network_goes_down_and_up(stage: Stage) -> None:
+    """What was published meanwhile arrives, our nodes say what happened, and nothing is left of it."""
+    with lone_host() as host:
+        if host is None:
+            pytest.skip(
+                "no namespaces here; tests/net/test_hostile_network.py has a proxy that drops everything"
+            )
+        stage.roscore("ours", "--core", within=host.within)
+        peers = [stage.peer("ours", name, within=host.within).ready() for name in ("reader", "writer")]
+        reader, writer = peers
+        reader.ask("subscribe", "/news", STRING)
+        writer.ask("advertise", "/news", STRING)
+        writer.ask("serve", "/mend", INFO, ANSWER)
+        writer.ask("connected", "/news")
+        assert reader.ask("call", "/mend", INFO, {}, persistent=True) == ANSWER
+        assert reader.ask("call_now", "/mend", INFO) == ANSWER
+        before = [peer.holds() for peer in peers]
+        run([*host.within, *LOOPBACK, "down"], check=True)
+        for peer in peers:
+            peer.wait_for(r"\[WARN\].* the Master at .* does not answer any more: ")
+        writer.ask("publish", "/news", ["in the dark"])
+        run([*host.within, *LOOPBACK, "up"], check=True)
+        for peer in peers:
+            peer.wait_for(rf"\[WARN\].* the Master at .* is back: {peer.node} registers again")
+        assert reader.ask("hear", "/news") == [{"data": "in the dark"}]
+        writer.ask("publish", "/news", ["and light"])
+        assert reader.ask("hear", "/news") == [{"data": "and light"}]
+        assert reader.ask("call", "/mend", INFO, {}, persistent=True) == ANSWER
+        assert reader.ask("call_now", "/mend", INFO) == ANSWER
+        wait_until(lambda: [peer.holds() for peer in peers] == before, "what was held before")
 
 
 def test_a_second_roscore_is_refused(core: Stage) -> None:
