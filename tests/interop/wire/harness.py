@@ -102,11 +102,9 @@ class Child:
         stat = Path(f"/proc/{self.process.pid}/stat").read_text(encoding="utf-8")
         return stat.rpartition(") ")[2][0]
 
-    def holds(self) -> tuple[int, int]:
-        """Return how many descriptors and threads it has."""
-        return len(os.listdir(f"/proc/{self.process.pid}/fd")), len(
-            os.listdir(f"/proc/{self.process.pid}/task")
-        )
+    def threads(self) -> int:
+        """Return how many threads it has."""
+        return len(os.listdir(f"/proc/{self.process.pid}/task"))
 
     def kill(self) -> None:
         """Kill it, as `kill -9` does, and wait until it is gone."""

@@ -97,9 +97,11 @@ def test_a_stopped_subscriber_does_not_block_the_publisher(core: Stage, kind: st
     topic = f"/flood_{kind}"
     writer = core.peer(OTHER[kind], f"flooder_{kind}").ready()
     stopped, awake = (core.peer(kind, f"{name}_{kind}").ready() for name in ("stopped", "awake"))
+    writer.ask(
+        "advertise", topic, STRING, queue_size=5
+    )  # first: rospy has no queue for who connects meanwhile
     for reader in (stopped, awake):
         reader.ask("subscribe", topic, STRING, what="size")
-    writer.ask("advertise", topic, STRING, queue_size=5)
     writer.ask("connected", topic, 2)
     stopped.pause()
     for _ in range(30):  # 12 MB: more than the system keeps for a connection
@@ -183,7 +185,7 @@ def test_a_master_dies_and_returns(stage: Stage, kind: str) -> None:
 
 
 def test_the_network_goes_down_and_up(stage: Stage) -> None:
-    """What was published meanwhile arrives, our nodes say what happened, and nothing is left of it."""
+    """What was published meanwhile arrives, our nodes say what happened, and no thread is left of it."""
     with lone_host() as host:
         if host is None:
             pytest.skip(
@@ -198,7 +200,7 @@ def test_the_network_goes_down_and_up(stage: Stage) -> None:
         writer.ask("connected", "/news")
         assert reader.ask("call", "/mend", INFO, {}, persistent=True) == ANSWER
         assert reader.ask("call_now", "/mend", INFO) == ANSWER
-        before = [peer.holds() for peer in peers]
+        before = [peer.threads() for peer in peers]
         run([*host.within, *LOOPBACK, "down"], check=True)
         for peer in peers:
             peer.wait_for(r"\[WARN\].* the Master at .* does not answer any more: ")
@@ -211,7 +213,7 @@ def test_the_network_goes_down_and_up(stage: Stage) -> None:
         assert reader.ask("hear", "/news") == [{"data": "and light"}]
         assert reader.ask("call", "/mend", INFO, {}, persistent=True) == ANSWER
         assert reader.ask("call_now", "/mend", INFO) == ANSWER
-        wait_until(lambda: [peer.holds() for peer in peers] == before, "what was held before")
+        wait_until(lambda: [peer.threads() for peer in peers] == before, "as many threads as before")
 
 
 def test_a_second_roscore_is_refused(core: Stage) -> None:
