@@ -177,11 +177,11 @@ def measures(rospy: Rospy | None, scale: float) -> Iterator[Measure]:
         None,
     )
     yield Measure(
-        "the same in bursts of 100, while the graph records; without recording",
+        "the same in bursts of 100, while the graph records",
         "messages/s",
-        lambda: string_throughput(strings, BURST, is_recorded=True),
-        lambda: string_throughput(strings, BURST),
-        peer_name="rosmini",
+        lambda: string_throughput(max(strings, BURST), BURST, is_recorded=True),
+        lambda: string_throughput(max(strings, BURST), BURST),
+        peer_name="unrecorded",
     )
     yield Measure(
         "String of 100 bytes, latency, median at 500 Hz",
