@@ -171,6 +171,8 @@ class _Work:
     ) -> None:
         self._given, self._call, self._node, self._publisher, self._class = given, call, node, publisher, cls
         self._rate = wish.rate
+        if wish.rate is not None:
+            publisher.expect_nobody()  # what is repeated will be heard
         self._count = 0
         self._last: Any = None
 

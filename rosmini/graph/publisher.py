@@ -52,7 +52,8 @@ class Publication:
         Raises ``SerializationError``, which names the field, when the message holds what its type cannot hold.
         """
         self._latched: Any = None
-        self._warned = False
+        self.warns_unheard = True
+        """Whether it warns when it publishes and nobody is connected; it does so once."""
         self._stamp = bool(message_class._has_header)
         header: Any = message_class._nested.get("std_msgs/Header") if self._stamp else None
         self._header_class = header
@@ -154,7 +155,7 @@ class Publication:
             self._latched = self._copy(frozen)
         senders = self._near
         if not self._list:
-            if warn and not self._warned and not self.latch:
+            if warn and self.warns_unheard and not self.latch:
                 self._warn_unheard()
             return
         size = self._queue_size
@@ -188,7 +189,7 @@ class Publication:
         return copy
 
     def _warn_unheard(self) -> None:
-        self._warned = True
+        self.warns_unheard = False
         if self.topic in ("/rosout", "/rosout_agg"):
             return
         self.node.logwarn(
@@ -313,6 +314,11 @@ class Publisher:
             publication.send(message)
         else:
             publication.send(self._build(() if message is _NOTHING else (message, *args), fields))
+
+    def expect_nobody(self) -> None:
+        """Do not warn of messages that are published while nobody is connected."""
+        if self._publication is not None:
+            self._publication.warns_unheard = False
 
     def publish_frozen(self, frozen: Any) -> None:
         """Publish what a `rosmini.msgs.template` made, and nobody holds: no snapshot of it is taken.

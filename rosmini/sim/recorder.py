@@ -82,7 +82,7 @@ class Recorder:
         robots: dict[str, Any] = {}
         first = ""
         if simulator is not None:
-            world, model = world or simulator.world, model or simulator.model
+            world, model = world or simulator.world, model or getattr(simulator, "model", None)
             robots, first = dict(getattr(simulator, "robots", {})), getattr(simulator, "name", "")
             first = first if first in robots or not robots else next(iter(robots))
             if things is None and getattr(getattr(simulator, "parameters", None), "obstacles", False):
@@ -90,7 +90,7 @@ class Recorder:
         if world is None or model is None:
             raise RecordingError(
                 "a recorder has to know the world and the robot: Recorder(graph, simulator), or Recorder(graph, "
-                "world=..., model=...)"
+                "world=..., model=...); of Gazebo it learns no model"
             )
         self.world = world
         self.model = model

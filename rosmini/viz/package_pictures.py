@@ -74,7 +74,9 @@ def package_tree(package: str, *, index: PackageIndex | None = None, title: str 
         said = ((KIND, entry.meaning),) if entry.meaning else ()
         rows.append(Row(entry.depth, last.get(entry.depth - 1, -1), ((kind, entry.name), *said)))
         last[entry.depth] = number
-    lines = [f"{'  ' * each.depth}{each.name}{f'  ({each.meaning})' if each.meaning else ''}" for each in entries]
+    lines = [
+        f"{'  ' * each.depth}{each.name}{f'  ({each.meaning})' if each.meaning else ''}" for each in entries
+    ]
     alt = f"Tree of the folder of {package}: " + ", ".join(each.name for each in entries[1:])
     text = "\n".join(([f"{title}:"] if title else []) + lines)
     return Picture(outline(rows, title or package, alt), text=text, alt=alt, caption=title)
@@ -141,13 +143,9 @@ def _needs(index: PackageIndex, packages: tuple[str, ...], depth: int) -> dict[s
     return needs
 
 
-def _draw(
-    shown: list[str], needs: dict[str, tuple[str, ...]], groups: set[str], title: str, alt: str
-) -> str:
+def _draw(shown: list[str], needs: dict[str, tuple[str, ...]], groups: set[str], title: str, alt: str) -> str:
     vertices = [Vertex(each, text_width(each, style.TEXT_SIZE) + 26, 30.0, "box") for each in shown]
-    edges = [
-        Edge(f"{each} {need}", each, need, 0.0, 0.0) for each in sorted(needs) for need in needs[each]
-    ]
+    edges = [Edge(f"{each} {need}", each, need, 0.0, 0.0) for each in sorted(needs) for need in needs[each]]
     layout = layered(vertices, edges, direction="down")
     parts = [element("g", arrow(layout.edges[edge.name]), class_="pk-edge") for edge in edges]
     for vertex in vertices:
