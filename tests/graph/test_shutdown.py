@@ -160,7 +160,7 @@ def test_an_interrupt_that_a_lane_lets_out_is_no_error(graph: Graph) -> None:
     node = graph.node("node")
     lane = node.run(lambda: node.sleep(1e6))
     timer = node.timer(1.0, lambda _: node.sleep(1e6))
-    until(graph, lambda: len(graph.scheduler.waiting()) >= 2)
+    until(graph, lambda: [wait.reason for wait in graph.scheduler.waiting()].count("time to pass") == 2)
     graph.run(1.5)
     node.shutdown()
     settle(graph)

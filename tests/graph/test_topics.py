@@ -816,6 +816,8 @@ def test_a_subscriber_may_take_any_type(graph: Graph) -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_closed_graph_is_collected_with_all_that_was_in_it(kind: str) -> None:
+    blocked = {"time to pass", "spin", "a message on /never"}
+
     def use(graph: Graph, node: Node) -> None:
         node.subscriber("t", String, lambda _: node.sleep(1000.0))
         connected(node, "t", String).publish("x")
@@ -823,7 +825,7 @@ def test_a_closed_graph_is_collected_with_all_that_was_in_it(kind: str) -> None:
         node.run(node.spin)
         node.run(lambda: node.wait_for_message("never", String))
         node.on_shutdown(lambda: None)
-        until(graph, lambda: len(graph.scheduler.waiting()) >= 3)
+        until(graph, lambda: {wait.reason for wait in graph.scheduler.waiting()} >= blocked)
         close(graph)
 
     graph = make(kind)
