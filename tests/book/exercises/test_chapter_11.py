@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 
 from book.tools import notebooks, solutions
+from rosmini.book.checks import Script, Status, find
 
 from .conftest import NOTEBOOKS, figure_numbers
+from .mistakes.chapter_11 import STOP
 
 CHAPTER = NOTEBOOKS / "11_nodes_and_master.ipynb"
 WORDS, CODE_CELLS = 2000, 25
@@ -45,3 +47,9 @@ def test_every_exercise_is_a_script_with_a_hint():
     for number, place in found.items():
         assert notebook.cells[place].source.startswith("%%node ")
         assert f"<summary>Hint for exercise {number}</summary>" in text
+
+
+def test_a_robot_that_creeps_to_the_wall_is_waited_for():
+    slow = STOP.replace("0.2", "0.1")
+    assert slow != STOP
+    assert find("11.1").grade(Script("stop.py", slow)).status is Status.RIGHT
