@@ -1,12 +1,13 @@
-"""Packages as pictures: what is in the folder of one, and which needs which."""
+"""Packages as pictures: what is in the folder of one, or of a workspace, and which needs which."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from rosmini.packages import PackageIndex, read_package
+from rosmini.packages import DEVEL_MARKER, MANIFEST, PackageIndex, read_package
 from rosmini.viz import style
 from rosmini.viz.graph_drawing import arrow, box, drawing, name, rule
 from rosmini.viz.layout import Edge, Vertex, layered
@@ -16,7 +17,7 @@ from rosmini.viz.svg import element
 from rosmini.viz.view import Picture, ViewError
 from rosmini.viz.words import plural
 
-__all__ = ["package_graph", "package_tree"]
+__all__ = ["package_graph", "package_tree", "workspace_tree"]
 
 MEANINGS = {
     "CMakeLists.txt": "what is built, and how",
@@ -41,6 +42,24 @@ MEANINGS = {
     "worlds": "worlds of a simulator",
 }
 """What stands by custom under these names in the folder of a package."""
+
+SPACES = {
+    "build": "the build space: the notes of the build",
+    "build/rosmini.json": "what was made of what",
+    "devel": "the development space: what was made",
+    "devel/env.sh": "runs one command with them set",
+    "devel/include": "C++ headers that were made",
+    "devel/lib": "modules, libraries and programs",
+    "devel/setup.bash": "sets the variables of a shell",
+    "devel/setup.ps1": "the same for PowerShell",
+    "devel/setup.sh": "the same for any POSIX shell",
+    "devel/setup.zsh": "the same for zsh",
+    "devel/share": "data that was made",
+    "install": "the install space: what is delivered",
+    "src": "the source space: what you write",
+    "src/CMakeLists.txt": "makes one build of all packages",
+}
+"""What stands in a workspace of catkin, by its path there."""
 
 DEEPEST, MOST = 3, 8
 """How many levels of folders are shown, and how many entries of one folder."""
@@ -67,7 +86,41 @@ def package_tree(package: str, *, index: PackageIndex | None = None, title: str 
 
     """
     folder = (index or PackageIndex()).path(package)
-    entries = [Entry(0, package, _role(folder)), *_inside(folder, 1)]
+    entries = [Entry(0, package, _role(folder)), *_inside(folder, 1, MEANINGS)]
+    return _tree(entries, f"Tree of the folder of {package}", title)
+
+
+def workspace_tree(space: str = "", *, devel: Path | None = None, title: str | None = None) -> Picture:
+    """Draw the folders of a workspace, and say what they are for.
+
+    Args:
+        space: one of its folders alone, such as "src"; by default all of them, to the second level.
+        devel: its development space; by default the first one in `CMAKE_PREFIX_PATH`: the workspace sourced last.
+        title: a caption under the picture, and the first words of its text form.
+
+    Raises:
+        ViewError: no workspace is in use, or it has no such folder.
+
+    """
+    paths = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if devel is None else [str(devel)]
+    found = [Path(each) for each in paths if each and (Path(each) / DEVEL_MARKER).is_file()]
+    if not found:
+        raise ViewError(
+            "no workspace is in use; catkin_make builds one, and `source devel/setup.bash` uses it"
+        )
+    base = found[0].parent
+    folder = base / space
+    if not folder.is_dir():
+        raise ViewError(f"the workspace {base.name} has no folder {space!r}; has it been built?")
+    if space:
+        meanings = {key.removeprefix(f"{space}/"): value for key, value in SPACES.items()}
+        entries = [Entry(0, f"{base.name}/{space}/", SPACES.get(space, "")), *_inside(folder, 1, meanings)]
+    else:
+        entries = [Entry(0, f"{base.name}/", "a workspace"), *_inside(folder, 1, SPACES, deepest=2)]
+    return _tree(entries, f"Tree of the folder {entries[0].name}", title)
+
+
+def _tree(entries: list[Entry], what: str, title: str | None) -> Picture:
     rows, last = [], {0: -1}
     for number, entry in enumerate(entries):
         kind = HEAD if entry.depth == 0 or entry.name.endswith("/") else NAME
@@ -77,24 +130,28 @@ def package_tree(package: str, *, index: PackageIndex | None = None, title: str 
     lines = [
         f"{'  ' * each.depth}{each.name}{f'  ({each.meaning})' if each.meaning else ''}" for each in entries
     ]
-    alt = f"Tree of the folder of {package}: " + ", ".join(each.name for each in entries[1:])
+    alt = f"{what}: " + ", ".join(each.name for each in entries[1:])
     text = "\n".join(([f"{title}:"] if title else []) + lines)
-    return Picture(outline(rows, title or package, alt), text=text, alt=alt, caption=title)
+    return Picture(outline(rows, title or entries[0].name, alt), text=text, alt=alt, caption=title)
 
 
 def _role(folder: Path) -> str:
     return "a metapackage" if read_package(folder).is_metapackage else "a package"
 
 
-def _inside(folder: Path, depth: int) -> Iterator[Entry]:
-    """Yield what is in a folder: files first, then folders, each by name."""
+def _inside(
+    folder: Path, depth: int, meanings: Mapping[str, str], *, deepest: int = DEEPEST, below: str = ""
+) -> Iterator[Entry]:
+    """Yield what is in a folder: files first, then folders, each by name; `meanings` by paths from the first folder."""
     found = sorted(folder.iterdir(), key=lambda path: (path.is_dir(), path.name))
     found = [path for path in found if not path.name.startswith((".", "__"))]
     for path in found[:MOST]:
-        meaning = MEANINGS.get(path.name, "") if depth == 1 else ""
+        meaning, inner, place = meanings.get(below + path.name, ""), meanings, f"{below}{path.name}/"
+        if (path / MANIFEST).is_file():
+            meaning, inner, place = _role(path), MEANINGS, ""
         yield Entry(depth, path.name + "/" * path.is_dir(), meaning)
-        if path.is_dir() and depth < DEEPEST:
-            yield from _inside(path, depth + 1)
+        if path.is_dir() and depth < deepest:
+            yield from _inside(path, depth + 1, inner, deepest=deepest, below=place)
     if len(found) > MOST:
         yield Entry(depth, "...", f"{len(found) - MOST} more")
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 
 from rosmini.errors import RosminiError
 from rosmini.packages import PackageIndex
-from rosmini.viz.package_pictures import package_graph, package_tree
+from rosmini.viz.package_pictures import package_graph, package_tree, workspace_tree
 
 MANIFEST = """<package format="2"><name>{name}</name><version>1.0.0</version><description>d</description>
 <maintainer email="ada@example.org">a</maintainer><license>MIT</license>{rest}</package>"""
@@ -70,3 +71,36 @@ def test_what_is_not_there_is_an_error(index):
             draw("eye", index=index)
     with pytest.raises(RosminiError, match="name of a package"):
         package_graph()
+
+
+def test_a_workspace_is_shown_with_its_spaces(tmp_path, index, monkeypatch):
+    base = tmp_path / "robot_ws"
+    for each in ("src", "build", "devel/lib/python3"):
+        (base / each).mkdir(parents=True)
+    (base / "devel" / ".catkin").touch()
+    (base / "devel" / "setup.bash").touch()
+    (tmp_path / "eyes").rename(base / "src" / "eyes")
+    text = workspace_tree(devel=base / "devel", title="Figure 1").text
+    assert text.splitlines() == [
+        "Figure 1:",
+        "robot_ws/  (a workspace)",
+        "  build/  (the build space: the notes of the build)",
+        "  devel/  (the development space: what was made)",
+        "    setup.bash  (sets the variables of a shell)",
+        "    lib/  (modules, libraries and programs)",
+        "  src/  (the source space: what you write)",
+        "    eyes/  (a package)",
+    ]
+    monkeypatch.setenv("CMAKE_PREFIX_PATH", f"{tmp_path}{os.pathsep}{base / 'devel'}")
+    lines = workspace_tree("src").text.splitlines()
+    assert lines[:4] == [
+        "robot_ws/src/  (the source space: what you write)",
+        "  eyes/  (a package)",
+        "    package.xml  (the manifest)",
+        "    msg/  (definitions of messages)",
+    ]
+    with pytest.raises(RosminiError, match="no folder 'install'"):
+        workspace_tree("install")
+    monkeypatch.setenv("CMAKE_PREFIX_PATH", "")
+    with pytest.raises(RosminiError, match="no workspace is in use"):
+        workspace_tree()
