@@ -85,8 +85,12 @@ def state_machine(
     visited: Sequence[str] = (),
     title: str,
     direction: Direction = "down",
+    alt: str | None = None,
 ) -> Picture:
-    """Draw a state machine; a state without a way out is final. Raises ``ViewError`` for an unknown visited state."""
+    """Draw a state machine; a state without a way out is final. Raises ``ViewError`` for an unknown visited state.
+
+    ``alt`` says what is drawn to those who do not see it; None names the states.
+    """
     labels: dict[tuple[str, str], list[str]] = {}
     for source, label, target in transitions:
         labels.setdefault((source, target), []).append(label)
@@ -97,7 +101,7 @@ def state_machine(
             raise ViewError(f"{state} is no state of this machine: {hint or ', '.join(states)}")
     ends = {state for state in states if all(source != state for source, _ in labels)}
     text = _text(title, labels, ends, visited)
-    alt = _alt(states, ends, visited)
+    alt = alt or _alt(states, ends, visited)
     edges = [_edge_of(pair, names) for pair, names in labels.items()]
     vertices = [Vertex(state, text_width(state, style.TEXT_SIZE) + 24, HEIGHT) for state in states]
     layout = layered(vertices, edges, direction=direction)

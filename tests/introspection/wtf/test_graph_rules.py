@@ -53,7 +53,7 @@ def test_nodes_that_do_not_answer_are_listed_and_not_held_against_others() -> No
     dead = Node("/dead", "http://here:9/", silence="ERROR: connection refused to [http://here:9/]")
     graph = Survey({"/dead": dead, "/listener": node("/listener", {}, {"/x": TEXT})}, {"/x": ("/dead",)},
                    {"/x": ("/listener",)}, {}, {})  # fmt: skip
-    assert found(graph) == {"silent_nodes": (dead.silence,)}
+    assert found(graph) == {"silent_nodes": ("/dead: connection refused to [http://here:9/]",)}
 
 
 def test_types_that_differ_are_named_with_their_nodes() -> None:
