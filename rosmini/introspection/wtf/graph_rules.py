@@ -22,7 +22,9 @@ TOOLS = ("/roswtf", "/rostopic", "/rqt_", "/rosbag_record")
 def silent_nodes(graph: Survey) -> Iterator[Finding]:
     """Find nodes that the Master lists and that do not answer."""
     found = tuple(
-        f"{node.name}: {node.silence.removeprefix('ERROR: ')}" for node in graph.nodes.values() if node.silence
+        f"{node.name}: {node.silence.removeprefix('ERROR: ')}"
+        for node in graph.nodes.values()
+        if node.silence
     )
     if found:
         yield Finding(
