@@ -62,6 +62,12 @@ def _parser(verb: str, usage: str, description: str, example: str, seconds: floa
     return parser
 
 
+def _add_title(parser: Parser) -> Parser:
+    """Add the option that puts a caption under the picture."""
+    parser.add_option("--title", metavar="TEXT", help="a caption under the picture")
+    return parser
+
+
 def _add_live(parser: Parser) -> Parser:
     """Add the option that asks for what goes on."""
     parser.add_option(
@@ -125,8 +131,7 @@ def _graph_parser() -> Parser:
     parser.add_option(
         "--highlight", default="", metavar="NAME", help="a node or topic, and what is beside it"
     )
-    parser.add_option("--title", metavar="TEXT", help="a caption under the picture")
-    return _add_live(parser)
+    return _add_live(_add_title(parser))
 
 
 @TOOL.verb(RQT["graph"], parser=_graph_parser, only_asks=True)
@@ -198,7 +203,7 @@ def plugins(given: Values, call: Call) -> Shown:
 
 
 def _bag_parser() -> Parser:
-    return _parser("bag", "FILE", "What is in a bag, over time.", "house.bag")
+    return _add_title(_parser("bag", "FILE", "What is in a bag, over time.", "house.bag"))
 
 
 @TOOL.verb(RQT["bag"], parser=_bag_parser, only_asks=True)
@@ -208,7 +213,7 @@ def bag(given: Values, call: Call) -> Shown:
     from rosmini.viz.rqt.bag import rqt_bag
 
     with Bag(_one_word(given, _bag_parser(), "bag")) as opened:
-        return _shown(rqt_bag(opened), "bag", given, call)
+        return _shown(rqt_bag(opened, title=given.title), "bag", given, call)
 
 
 # -- what listens ------------------------------------------------------------------------------------------------------
@@ -216,7 +221,8 @@ def bag(given: Values, call: Call) -> Shown:
 
 def _plot_parser() -> Parser:
     text = "Numbers in messages over time; x:y stands for two fields beside one another."
-    return _add_live(_parser("plot", "[options] FIELD...", text, "/odom/pose/pose/position/x:y", 5.0))
+    parser = _parser("plot", "[options] FIELD...", text, "/odom/pose/pose/position/x:y", 5.0)
+    return _add_live(_add_title(parser))
 
 
 @TOOL.verb(RQT["plot"], parser=_plot_parser)
@@ -229,7 +235,8 @@ def plot(given: Values, call: Call) -> Shown:
     ]
     if given.live:
         return _live("Plot", call, *fields)
-    return _shown(rqt_plot(call.graph, *fields, duration=given.duration), "plot", given, call)
+    view = rqt_plot(call.graph, *fields, duration=given.duration, title=given.title)
+    return _shown(view, "plot", given, call)
 
 
 def _topic_parser() -> Parser:

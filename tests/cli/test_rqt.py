@@ -61,6 +61,7 @@ def shown(graph: Graph, line: str) -> Shown:
         ("graph --mode all --hide none", "/rosout"),
         ("graph --title Chatter", "Chatter: 2 nodes"),
         ("plot number/data --duration 1", "/number/data: 4 points, from 3.00 to 3.00"),
+        ("plot --title Number number/data --duration 1", "Number: "),
         ("topic --duration 1", "/chatter"),
         ("topic chatter --duration 1", "'x'"),
         ("console --duration 1", "tick"),

@@ -1,0 +1,114 @@
+"""What is right in the exercises of chapter 22, rqt."""
+
+from __future__ import annotations
+
+import shlex
+from typing import Any
+
+from rosmini.book.checks import Wrong, exercise, expect, expect_type
+from rosmini.book.trials import Trial
+from rosmini.cli.rqt import TOOL
+from rosmini.errors import RosminiError
+from rosmini.msgs.geometry_msgs.msg import Twist
+from rosmini.msgs.sensor_msgs.msg import LaserScan
+from rosmini.msgs.std_msgs.msg import Float32
+from rosmini.viz.rqt.plot import rqt_plot
+from rosmini.viz.view import ViewError
+from rosmini.widgets.rqt import MessagePublisher
+
+MEASURED = ("/odom/twist/twist/angular/z", "/imu/angular_velocity/z")
+"""The fields in which the robot says how fast it turns."""
+
+SWING_RAD, FAR_M = 0.3, 1.0
+"""How far the robot has to look to either side, and how far it has to come."""
+
+
+@exercise("22.1", praise="The node speaks, and nobody listens.")
+def options(answer: object) -> Any:
+    """Options of rqt_graph that draw the spare node with its topic, and nothing that only the simulator says."""
+    expect_type(answer, str, "options is", "a text")
+    with Trial("maze") as trial:
+        node = trial.graph.node
+        for name, topic in (("eyes", "nearest"), ("spare", "closest")):
+            eyes = node(name)
+            eyes.subscriber("scan", LaserScan, lambda _: None)
+            eyes.publisher(topic, Float32)
+        pilot = node("pilot")
+        pilot.subscriber("nearest", Float32, lambda _: None)
+        pilot.publisher("cmd_vel", Twist)
+        shown = _run("graph", str(answer), trial)
+        drawn = {word.rstrip(",") for line in shown.text.splitlines() for word in line.split()}
+        expect(
+            {"/spare", "/closest"} <= drawn,
+            "/spare and its topic are not in the picture.",
+            "a topic without a subscriber is a leaf: choose a mode, and what is hidden",
+        )
+        for topic in ("/rosout", "/imu", "/tf"):
+            expect(
+                topic not in drawn, f"{topic} is in the picture, too.", "hide debug; --nodes /eyes,/pilot,..."
+            )
+        return shown
+
+
+def _run(verb: str, line: str, trial: Trial) -> Any:
+    try:
+        return TOOL.run(verb, *shlex.split(line), graph=trial.graph).view
+    except (RosminiError, ValueError) as error:
+        raise Wrong(f"rqt_{verb} refuses these options: {error}") from error
+
+
+@exercise("22.2", praise="The wheels need a moment to do what the command says.")
+def field(answer: object) -> Any:
+    """The field that says how fast the robot turns in fact."""
+    expect_type(answer, str, "field is", "a text")
+    with Trial("arena") as trial:
+        node = trial.graph.node("driver")
+        cmd_vel, command = node.publisher("cmd_vel", Twist), Twist()
+        node.timer(0.1, lambda _: cmd_vel.publish(command))
+        trial.run(1.0)
+        command.angular.z = 0.8
+        try:
+            view = rqt_plot(
+                trial.graph, "/cmd_vel/angular/z", str(answer), duration=2.0, title="Command and robot"
+            )
+        except ViewError as error:
+            raise Wrong(f"rqt_plot cannot plot it: {error}") from error
+        expect("cmd_vel" not in str(answer), "That is the command. What does the robot measure?", "/odom")
+        expect("ground_truth" not in str(answer), "That only a simulator knows.", "/odom, or /imu")
+        expect(str(answer) in MEASURED, "That is not how fast it turns.", "twist, angular, z")
+        return view
+
+
+@exercise("22.3", praise="It weaves, and keeps its way.")
+def wave(answer: object) -> Any:
+    """Expressions for the fields of a Twist, with which the robot weaves along."""
+    expect_type(answer, dict, "wave is", "a dictionary: a field, and its expression")
+    seen: list[float] = []
+    with Trial("arena") as trial:
+        form = MessagePublisher(trial.graph)
+        made = form.add("/cmd_vel", "geometry_msgs/Twist", rate=10)
+        try:
+            for path, expression in dict(answer).items():  # type: ignore[call-overload]
+                made.fill(str(path), str(expression))
+            made.enable()
+        except RosminiError as error:
+            raise Wrong(f"The form refuses it: {error}") from error
+        start_x, start_y, _ = trial.robot.truth()
+        for _ in range(130):
+            trial.run(0.1)
+            seen.append(trial.robot.truth()[2])
+        expect(not made.problem, f"The form has stopped: {made.problem}")
+        x, y, _ = trial.robot.truth()
+        expect(abs(x - start_x) + abs(y - start_y) > 0.1, "The robot stays where it is.", "linear/x")
+        expect(max(seen) > SWING_RAD, "It does not look to the left.", "angular/z has to swing")
+        expect(
+            min(seen) < -SWING_RAD,
+            "It does not look to the right of where it began.",
+            "where does a turn begin that is fastest to the left at i = 0?",
+        )
+        expect(
+            x - start_x > FAR_M and abs(y - start_y) < 0.5,
+            f"It does not keep its way: it is {x - start_x:.2f} m ahead and {y - start_y:.2f} m aside.",
+            "smaller turns, or a quicker wave",
+        )
+        return trial.view()

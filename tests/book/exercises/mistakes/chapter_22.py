@@ -1,0 +1,31 @@
+"""Wrong answers to the exercises of chapter 22, which their checks have to refuse."""
+
+from __future__ import annotations
+
+MISTAKES = {
+    "22.1": [
+        lambda: "",
+        lambda: "--mode all --hide none",
+        lambda: "--mode all --hide debug",
+        lambda: "--mode active --hide debug --nodes /eyes,/pilot,/spare",
+        lambda: "--mode most",
+        lambda: ["--mode", "all"],
+    ],
+    "22.2": [
+        lambda: "/cmd_vel/angular/z",
+        lambda: "/odom/twist/twist/linear/x",
+        lambda: "/base_pose_ground_truth/twist/twist/angular/z",
+        lambda: "/odom/twist/angular/z",
+        lambda: "/scan/ranges",
+        lambda: 0.8,
+    ],
+    "22.3": [
+        lambda: {"linear/x": "0.15"},
+        lambda: {"angular/z": "0.8 * cos(i / 10)"},
+        lambda: {"linear/x": "0.15", "angular/z": "0.8 * sin(i / 10)"},
+        lambda: {"linear/x": "0.15", "angular/z": "0.5"},
+        lambda: {"linear/x": "0.15", "angular/x": "0.8 * cos(i / 10"},
+        lambda: {"linear": "0.15"},
+        lambda: "0.8 * cos(i / 10)",
+    ],
+}
