@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import shlex
 from typing import Any
 
 from rosmini.book.checks import Wrong, exercise, expect, expect_type
 from rosmini.book.trials import Trial
-from rosmini.cli.rqt import TOOL
 from rosmini.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import Float32
+from rosmini.viz.rqt import rqt_graph
 from rosmini.viz.rqt.plot import rqt_plot
 from rosmini.viz.view import ViewError
 from rosmini.widgets.rqt import MessagePublisher
@@ -26,7 +25,7 @@ SWING_RAD, FAR_M = 0.3, 1.0
 @exercise("22.1", praise="The node speaks, and nobody listens.")
 def options(answer: object) -> Any:
     """Options of rqt_graph that draw the spare node with its topic, and nothing that only the simulator says."""
-    expect_type(answer, str, "options is", "a text")
+    expect_type(answer, dict, "options is", "a dictionary: an option, and what follows it")
     with Trial("maze") as trial:
         node = trial.graph.node
         for name, topic in (("eyes", "nearest"), ("spare", "closest")):
@@ -36,7 +35,7 @@ def options(answer: object) -> Any:
         pilot = node("pilot")
         pilot.subscriber("nearest", Float32, lambda _: None)
         pilot.publisher("cmd_vel", Twist)
-        shown = _run("graph", str(answer), trial)
+        shown = _graph(dict(answer), trial)  # type: ignore[call-overload]
         drawn = {word.rstrip(",") for line in shown.text.splitlines() for word in line.split()}
         expect(
             {"/spare", "/closest"} <= drawn,
@@ -50,11 +49,19 @@ def options(answer: object) -> Any:
         return shown
 
 
-def _run(verb: str, line: str, trial: Trial) -> Any:
+def _graph(given: dict[str, Any], trial: Trial) -> Any:
+    """Draw what the command would with these options."""
+    extra = given.keys() - {"mode", "hide", "nodes"}
+    expect(not extra, f"{', '.join(map(str, extra))} is not asked for.", "mode, hide and nodes suffice")
+    mode = str(given.get("mode", "nodes"))
+    expect(mode in ("nodes", "active", "all"), f"There is no mode {mode!r}.", "nodes, active or all")
+    words: dict[str, Any] = {"mode": "nodes_only" if mode == "nodes" else f"nodes_topics_{mode}"}
+    if "hide" in given:
+        words["hide"] = tuple(part for part in str(given["hide"]).split(",") if part != "none")
     try:
-        return TOOL.run(verb, *shlex.split(line), graph=trial.graph).view
-    except (RosminiError, ValueError) as error:
-        raise Wrong(f"rqt_{verb} refuses these options: {error}") from error
+        return rqt_graph(trial.graph, namespace=str(given.get("nodes", "/")), **words)
+    except ViewError as error:
+        raise Wrong(f"rqt_graph refuses these options: {error}") from error
 
 
 @exercise("22.2", praise="The wheels need a moment to do what the command says.")

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 MISTAKES = {
     "22.1": [
-        lambda: "",
-        lambda: "--mode all --hide none",
+        dict,
+        lambda: {"mode": "all", "hide": "none"},
+        lambda: {"mode": "all", "hide": "debug"},
+        lambda: {"mode": "all", "nodes": "/eyes,/pilot,/spare"},
+        lambda: {"mode": "active", "hide": "debug", "nodes": "/eyes,/pilot,/spare"},
+        lambda: {"mode": "most"},
+        lambda: {"mode": "all", "hide": "debugs"},
+        lambda: {"mode": "all", "colour": "red"},
         lambda: "--mode all --hide debug",
-        lambda: "--mode active --hide debug --nodes /eyes,/pilot,/spare",
-        lambda: "--mode most",
-        lambda: ["--mode", "all"],
     ],
     "22.2": [
         lambda: "/cmd_vel/angular/z",
