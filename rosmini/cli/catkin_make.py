@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,7 +12,7 @@ from .arguments import below_here
 from .verbs import ArgumentParser, Call, Result, Tool, VerbError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from rosmini.catkin import Workspace
     from rosmini.catkin.build import Report
@@ -112,6 +113,7 @@ def _make(workspace: Workspace, given: argparse.Namespace, call: Call, say: Call
         say(f'Created file "{init_workspace(workspace.source)}"')
     only = [*given.pkg, *given.only_pkg_with_deps, *targets]
     report = build(workspace, only, with_dependencies=bool(given.only_pkg_with_deps), say=say)
+    _use(report.built)
     for finding in report.findings:
         call.warn(str(finding))
     say(f"{len(report.built)} built, {len(report.fresh)} up to date, {len(report.failed)} failed")
@@ -119,6 +121,15 @@ def _make(workspace: Workspace, given: argparse.Namespace, call: Call, say: Call
     if report.built and not report.failed and call.in_terminal:
         say(f"In each shell that uses it: . {workspace.devel / 'setup.sh'}")
     return Made(report=report, complaints=complaints, status=report.status)
+
+
+def _use(packages: Sequence[str]) -> None:
+    """Let this process find the messages of packages as they are now, if it has looked at any."""
+    if "rosmini.msgs" in sys.modules:
+        from rosmini.msgs.importer import forget
+
+        for package in packages:
+            forget(package)
 
 
 def _clean(workspace: Workspace, say: Callable[[str], object]) -> None:

@@ -140,6 +140,8 @@ class Terminal(Prompt):
                 self.status = self._run(shell_lines.expand(name, self._value), rest, text, settings)
             if command.to is not None and written is not None:
                 self._write(command.to, written.getvalue())
+        except SystemExit as ended:  # a help, or words that make no sense to a tool
+            self.status = ended.code if isinstance(ended.code, int) else 0
         except VerbError as error:
             self._failed(str(error), error.status)
         except (UsageError, RosminiError) as error:

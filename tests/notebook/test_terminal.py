@@ -234,3 +234,19 @@ def test_what_only_a_notebook_with_a_graph_does(cell: Cell) -> None:
 def test_unknown_options(cell: Cell, line: str) -> None:
     with pytest.raises(UsageError, match="its options are --at NAME and --new"):
         cell("ls", line)
+
+
+def test_a_help_does_not_end_the_cell(cell: Cell) -> None:
+    said = cell("catkin_make --help\ncatkin_make --nonsense\necho still here\n")
+    assert "usage:" in said
+    assert said.endswith("$ echo still here\nstill here\n")
+
+
+def test_a_message_that_was_changed_and_built_is_shown_as_it_is_now(cell: Cell) -> None:
+    cell(f"mkdir -p src/example_pkg/msg\ncd src/example_pkg\n{MANIFEST}\necho int32 num > msg/Num.msg")
+    assert "1 built" in cell("cd ~\ncatkin_make")
+    cell("source devel/setup.bash")
+    assert "int32 num" in cell("rosmsg show example_pkg/Num")
+    said = cell("echo int64 big > src/example_pkg/msg/Num.msg\ncatkin_make\nrosmsg show example_pkg/Num")
+    assert "1 built" in said
+    assert "int64 big" in said.partition("$ rosmsg")[2]
