@@ -15,7 +15,7 @@ from rosmini import __version__, files
 from rosmini.errors import nearest
 from rosmini.packages import Package, PackageIndex, search_paths
 
-from . import checks
+from . import checks, reconfigure
 from .findings import CatkinError, Finding
 from .project import Project
 from .python_setup import RELAY, python_packages
@@ -228,6 +228,13 @@ class _Builder:
             found = modules(name, project, self._messages())
             made |= {python / name / path: text for path, text in found.items()}
             made[python / name / "__init__.py"] = ""
+        for word in project.reconfigurable:
+            module, text = reconfigure.module(project.folder / word.text)
+            self.say(
+                f"Generating dynamic reconfigure files from {word.text}: {python / name / 'cfg' / module}.py"
+            )
+            made |= dict.fromkeys((python / name / "__init__.py", python / name / "cfg/__init__.py"), "")
+            made[python / name / "cfg" / f"{module}.py"] = text
         for package, folder in packages.items():
             made[python.joinpath(*package.split("."), "__init__.py")] = RELAY.format(folder=str(folder))
         programs: dict[Path, str] = {}
@@ -267,6 +274,7 @@ class _Builder:
         parts = hashlib.sha256(f"{__version__} {self.workspace.devel} {project.folder}".encode())
         inputs = [project.path, source.package.manifest]
         inputs += [project.folder / each.path for each in project.definitions]
+        inputs += [project.folder / word.text for word in project.reconfigurable]
         for word in project.message_packages:
             if word.text in self.index:
                 folder = self.index.path(word.text)

@@ -15,6 +15,7 @@ from rosmini.packages import BUILT_IN, MANIFEST, Package, PackageIndex, read_pac
 from .cmake import CMakeError
 from .findings import Finding, warning
 from .project import CMAKE, Project, read_project
+from .reconfigure import check_reconfigurable
 from .scripts import check_scripts
 
 GOOD_NAME = re.compile(r"[a-z][a-z0-9_-]*\Z")
@@ -59,6 +60,7 @@ def check(package: Package, project: Project, index: PackageIndex) -> list[Findi
         *_messages(project, root),
         *_definition_files(project),
         *check_scripts(project),
+        *check_reconfigurable(project),
         *_not_here(project),
     ]
     return sorted(
@@ -210,14 +212,6 @@ def _not_here(project: Project) -> Iterator[Finding]:
     for word in project.compiled:
         message = f"{word.text} is C++, which rosmini does not compile; the rest of the package is built"
         yield warning(message, project.path, word.line)
-    for word in project.reconfigurable:
-        if not files.is_file(project.folder / word.text):
-            yield Finding(f"there is no file {word.text}", project.path, word.line)
-            continue
-        message = f"{word.text} is a program that rosmini does not run: no module is made of it"
-        yield warning(
-            f"{message}, so scripts cannot import {Path(word.text).stem}Config", project.path, word.line
-        )
 
 
 def nested(folder: Path) -> list[Finding]:

@@ -72,6 +72,7 @@ class Project:
     programs: list[Word] = field(default_factory=list)
     """Other programs that are installed."""
     reconfigurable: list[Word] = field(default_factory=list)
+    """The ``.cfg`` files."""
     compiled: list[Word] = field(default_factory=list)
     tests: list[Word] = field(default_factory=list)
     is_metapackage: bool = False
@@ -137,6 +138,9 @@ def _declare(project: Project, statement: Statement, evaluation: Evaluation) -> 
         project.generates = line
         project.message_packages += _after(words, ("DEPENDENCIES",), ("LANGS",))
     elif name == "generate_dynamic_reconfigure_options":
+        _expect_before(
+            project, project.exports is None, f"{name}() comes after catkin_package(); move it before", line
+        )
         project.reconfigurable += words
     elif name == "catkin_package":
         project.exports = line

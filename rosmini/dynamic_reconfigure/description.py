@@ -226,7 +226,7 @@ def _wanted(one: Mapping[str, Any]) -> dict[str, Any]:
     return {each.name: one[each.name] for each in fields(ReconfigurableParameter) if each.name in one}
 
 
-def _parameter(
+def filled_parameter(
     name: str,
     type: str,
     level: int = 0,
@@ -236,17 +236,25 @@ def _parameter(
     max: Any = None,
     edit_method: str = "",
 ) -> ReconfigurableParameter:
+    """Return a parameter, with what the type says where default, minimum or maximum are None.
+
+    The default may be out of the range. Raises ``DynamicReconfigureParameterException`` for a wrong type.
+    """
     if type not in KINDS:
         hint = nearest(str(type), KINDS) or f"types are {', '.join(KINDS)}"
         raise DynamicReconfigureParameterException(f"parameter {name} has the type {type!r}; {hint}")
     given = zip((default, min, max), _RANGES[type], strict=True)
     values = [otherwise if value is None else cast_value(name, type, value) for value, otherwise in given]
-    made = ReconfigurableParameter(
+    return ReconfigurableParameter(
         name, type, level, description, values[0], values[1], values[2], edit_method
     )
+
+
+def _parameter(*args: Any, **named: Any) -> ReconfigurableParameter:
+    made = filled_parameter(*args, **named)
     if made.clamp(made.default) != made.default:
         raise DynamicReconfigureParameterException(
-            f"parameter {name}: its default {made.default!r} is not in its range, {made.min!r} ... {made.max!r}"
+            f"parameter {made.name}: its default {made.default!r} is not in its range, {made.min!r} ... {made.max!r}"
         )
     return made
 

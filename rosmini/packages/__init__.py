@@ -10,7 +10,14 @@ The crawl is ours and not rospkg's, whose order depends on the file system, and 
 manifest that is not XML. Manifests are read by catkin_pkg, after defusedxml has found no harm in them.
 """
 
-from .executables import DEVEL_MARKER, NODES_GROUP, SCRIPT_FOLDERS, Executable, built_in_nodes
+from .executables import (
+    DEVEL_MARKER,
+    NODES_GROUP,
+    SCRIPT_FOLDERS,
+    Executable,
+    built_in_nodes,
+    reconfigure_modules,
+)
 from .folders import MANIFEST, Crawled, assets_dir, crawl, own_dirs, package_around, search_paths
 from .index import BUILT_IN, LONGEST, SCHEME, PackageIndex
 from .manifest import Export, Package, Stack, read_package, read_stack
@@ -36,5 +43,6 @@ __all__ = [
     "package_around",
     "read_package",
     "read_stack",
+    "reconfigure_modules",
     "search_paths",
 ]

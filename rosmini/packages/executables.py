@@ -77,20 +77,30 @@ def scripts(folder: Path) -> list[Path]:
     return [path for path in files_of(folder) if _can_run(path, folder)]
 
 
-def built(package: str, folder: Path) -> list[Path]:
-    """The executables that a build of a catkin workspace made for a package: ``devel/lib/PACKAGE``.
-
-    The devel spaces are those of ``CMAKE_PREFIX_PATH``, and that of the workspace in whose ``src`` the package is.
-    """
+def devel_spaces(folder: Path) -> list[Path]:
+    """Where a build of a package may be: those of ``CMAKE_PREFIX_PATH``, and that of the workspace that it is in."""
     spaces = [Path(part) for part in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if part]
     spaces += [above.parent / "devel" for above in folder.parents if above.name == "src"]
+    return [space for space in spaces if (space / DEVEL_MARKER).is_file()]
+
+
+def built(package: str, folder: Path) -> list[Path]:
+    """The executables that a build of a catkin workspace made for a package: ``devel/lib/PACKAGE``."""
     found: dict[str, Path] = {}
-    for space in spaces:
-        if (space / DEVEL_MARKER).is_file():
-            for path in sorted((space / "lib" / package).glob("*")):
-                if path.is_file() and has_run_bit(path):
-                    found.setdefault(path.name, path)
+    for space in devel_spaces(folder):
+        for path in sorted((space / "lib" / package).glob("*")):
+            if path.is_file() and has_run_bit(path):
+                found.setdefault(path.name, path)
     return list(found.values())
+
+
+def reconfigure_modules(package: str, folder: Path) -> Path | None:
+    """The folder of the Python package ``PACKAGE.cfg`` that a build made of a package's ``.cfg`` files, if any."""
+    for space in devel_spaces(folder):
+        found = space / "lib/python3/dist-packages" / package / "cfg"
+        if (found / "__init__.py").is_file():
+            return found
+    return None
 
 
 def _can_run(path: Path, package: Path) -> bool:

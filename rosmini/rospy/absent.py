@@ -41,7 +41,7 @@ _ABSENT = {
     ),
     "dynamic_reconfigure.parameter_generator_catkin": (
         "describes parameters in .cfg files, which catkin_make turns into modules",
-        "describe them with rosmini.dynamic_reconfigure (its Description), which a Server takes as it is",
+        "name the file in generate_dynamic_reconfigure_options() of CMakeLists.txt and run catkin_make, which reads it",
     ),
     "gazebo_ros": (
         "spawns models from Python",

@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import RosminiError
 from rosmini.msgs.registry import registry
 from rosmini.msgs.sources import PackageSource
+from rosmini.packages import reconfigure_modules
 
 from .shims import BUILDERS, PRIVATE_COPIES, finish_copy
 from .source import compile_script
@@ -33,6 +34,7 @@ from .source import compile_script
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from importlib.machinery import ModuleSpec
+    from pathlib import Path
 
     from .script import Script
 
@@ -100,6 +102,10 @@ class Importer:
             module = self.private[name] = self._given[name]
         elif name in PRIVATE_COPIES:
             module = self._copy(name)
+        elif child == "cfg" and (folder := self._reconfigure_folder(parent_name)) is not None:
+            module = self._load_reconfigure(name, folder)
+            if parent_name not in self.local:  # the module of the messages, which is not the script's
+                return module
         elif parent_name in self.local and child in ("msg", "srv") and self._is_of_messages(name, parent):
             module = self._message_module(name)
         elif parent_name in self.local:
@@ -186,7 +192,23 @@ class Importer:
         for home in homes:
             if home is not None and (home / "src" / name / "__init__.py").is_file():
                 return self._find(name, [str(home / "src")])
+        folder = self._reconfigure_folder(name)
+        if folder is None or self._defines_messages(name):
+            return None
+        return self._find(name, [str(folder.parent.parent)])
+
+    def _reconfigure_folder(self, package: str) -> Path | None:
+        """Where catkin_make has made ``my_package.cfg``."""
+        source = registry().source
+        if isinstance(source, PackageSource) and package in source.index:
+            return reconfigure_modules(package, source.index.path(package))
         return None
+
+    def _load_reconfigure(self, name: str, folder: Path) -> ModuleType:
+        spec = self._find(name, [str(folder.parent)])
+        if spec is None:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+        return self._load_spec(spec)
 
     def _find(self, name: str, folders: Sequence[str]) -> ModuleSpec | None:
         portions: list[str] = []
