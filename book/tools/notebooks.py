@@ -48,7 +48,7 @@ REASON_COMMENT = re.compile(r"^\s*#\s*reason:\s*\S", re.MULTILINE | re.IGNORECAS
 UNSTABLE = {
     "a memory address": re.compile(r"\b0x[0-9a-f]{8,16}\b"),
     "a path of this machine": re.compile(
-        r"(?<![\w./:])/(home|root|tmp|work|Users|usr|private|var|opt(?!/ros/noetic\b))/\w|\b[A-Z]:\\\w|ipykernel_\d+"
+        r"(?<![\w./:])(?!/usr/bin/env\b)/(home|root|tmp|work|Users|usr|private|var|opt(?!/ros/noetic\b))/\w|\b[A-Z]:\\\w|ipykernel_\d+"
     ),
     "a local address": re.compile(r"127\.0\.0\.1"),
     "a warning with a path": re.compile(r"Warning: .*\n\s+warnings\.warn"),

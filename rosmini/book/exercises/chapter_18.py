@@ -1,0 +1,156 @@
+"""What is right in the exercises of chapter 18, From scratch: files that are built, and scripts that are run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
+from rosmini.book.trials import Trial
+from rosmini.catkin import Workspace, make
+from rosmini.errors import RosminiError
+from rosmini.msgs.geometry_msgs.msg import Twist
+from rosmini.msgs.std_msgs.msg import String
+
+if TYPE_CHECKING:
+    from rosmini.graph import Publisher
+
+# ---- 18.1: which command mends it ----
+
+CURES = {1: "c", 2: "a", 3: "e", 4: "b"}
+"""The command, of those in the text, that mends what each message complains of."""
+
+
+@exercise("18.1", praise="Who reads the message is half way out.")
+def cures(answer: object) -> None:
+    """The letter of a command for each of four messages."""
+    expect_type(answer, dict, "cures is", "a dictionary")
+    given: dict[object, object] = dict(answer)  # type: ignore[call-overload]
+    missing = [number for number in CURES if number not in given]
+    expect(not missing, f"Message {missing[:1]} has no command.")
+    wrong = [number for number, letter in CURES.items() if given[number] != letter]
+    expect(
+        not wrong, f"{len(wrong)} of 4 would not help; look at message {wrong[:1]} first.", "read it aloud"
+    )
+
+
+# ---- 18.2: a message and a service ----
+
+MANIFEST = """<?xml version="1.0"?>
+<package format="2">
+  <name>survey</name>
+  <version>0.1.0</version>
+  <description>Visits spots.</description>
+  <maintainer email="ada@example.org">Ada</maintainer>
+  <license>MIT</license>
+  <buildtool_depend>catkin</buildtool_depend>
+  <depend>geometry_msgs</depend>
+  <depend>rospy</depend>
+  <build_depend>message_generation</build_depend>
+  <exec_depend>message_runtime</exec_depend>
+</package>
+"""
+
+FILES = {
+    "package.xml": MANIFEST,
+    "msg/Spot.msg": "geometry_msgs/Point where\nstring name\n",
+    "srv/Visit.srv": "string name\n---\nbool found\n",
+}
+"""The package as it is before there is a CMakeLists.txt."""
+
+
+@exercise("18.2", praise="catkin_make has built it, without a warning.")
+def cmake(answer: object) -> None:
+    """The CMakeLists.txt of a package with a message and a service."""
+    expect_type(answer, str, "cmake is", "a text")
+    with TemporaryDirectory() as name:
+        package = Path(name) / "src" / "survey"
+        for file, text in {**FILES, "CMakeLists.txt": str(answer)}.items():
+            (package / file).parent.mkdir(parents=True, exist_ok=True)
+            (package / file).write_text(text, encoding="utf-8")
+        lines: list[str] = []
+        try:
+            report = make(Workspace.at(Path(name)), say=lines.append)
+        except RosminiError as error:
+            raise Wrong(f"It cannot be built: {str(error).replace(str(package), 'survey')}") from error
+        for found in sorted(report.findings, key=lambda each: not each.is_error):
+            raise Wrong(f"catkin_make says: {str(found).replace(str(package), 'survey')}")
+        expect(report.built, "Nothing was built.", "project(survey)")
+    said = "\n".join(lines)
+    for kind, file in (("MSG", "Spot"), ("SRV", "Visit")):
+        expect(f"{kind} survey/{file}" in said, f"No code was made of {file}.{kind.lower()}.")
+
+
+# ---- 18.3: a robot that obeys ----
+
+ORDERS = (("ahead", 1, 0), ("left", 0, 1), ("stop", 0, 0), ("right", 0, -1), ("dance", 0, 0))
+"""Words, and the signs of the speeds ahead and to the left that they ask for."""
+
+
+@exercise("18.3", praise="One callback, and the robot does as it is told.")
+def obey(answer: Script) -> Any:
+    """A word on /order becomes a movement of the robot."""
+    with Trial("room") as trial:
+        trial.start(answer)
+        captain = trial.graph.node("captain")
+        order = captain.publisher("order", String, queue_size=10)
+        commands: list[Any] = []
+        captain.subscriber("cmd_vel", Twist, commands.append)
+        trial.run(0.5)
+        for word, ahead, left in ORDERS:
+            _say(trial, order, word, 1.0)  # until the motors have come up to speed, or down
+            before = trial.robot.truth()
+            commands.clear()
+            _say(trial, order, word, 0.5)
+            expect(
+                commands, f"At the word {word!r} nothing comes on /cmd_vel.", "publish a command at each word"
+            )
+            moved = _moved(before, trial.robot.truth())
+            for wanted, got, what in ((ahead, moved[0], "drive ahead"), (left, moved[1], "turn left")):
+                sign = (got > 0.005) - (got < -0.005)
+                expect(
+                    sign == wanted,
+                    f"At the word {word!r} the robot does {'not ' if wanted else ''}{_said(what, wanted or sign)}.",
+                    "ahead: linear.x; left and right: angular.z, positive and negative; every other word: zeros",
+                )
+        return trial.view()
+
+
+def _say(trial: Trial, order: Publisher, word: str, seconds: float) -> None:
+    """Say a word ten times a second."""
+    for _ in range(round(seconds * 10)):
+        order.publish(String(word))
+        trial.run(0.1)
+
+
+def _moved(before: tuple[float, ...], after: tuple[float, ...]) -> tuple[float, float]:
+    """Return how far a robot went [m], without a sign, and how far it turned to the left [rad]."""
+    way = ((after[0] - before[0]) ** 2 + (after[1] - before[1]) ** 2) ** 0.5
+    return way, after[2] - before[2]
+
+
+def _said(what: str, sign: int) -> str:
+    return what if sign > 0 else what.replace("left", "right").replace("ahead", "back")
+
+
+# ---- 18.4: a listener in many copies ----
+
+
+@exercise("18.4", praise="Each copy has a name of its own, and both answer.")
+def parrot(answer: Script) -> None:
+    """Two copies of one script run at once, and each repeats what it hears."""
+    heard: list[str] = []
+    with Trial("arena") as trial:
+        for _ in range(2):
+            trial.start(answer)
+        node = trial.graph.node("listener")
+        node.subscriber("echo", String, lambda message: heard.append(message.data))
+        chatter = node.publisher("chatter", String, queue_size=10)
+        trial.run(1.0)
+        for word in ("hello", "robot"):
+            chatter.publish(String(word))
+            trial.run(1.0)
+    expect(heard, "Nothing came on /echo.", "publish the message that the callback is given")
+    expect(len(heard) > 2, "Only one copy has answered.", "anonymous=True lets each find a name of its own")
+    expect(heard == ["hello", "hello", "robot", "robot"], f"On /echo came {', '.join(heard[:6])}.")
