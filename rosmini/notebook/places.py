@@ -10,7 +10,7 @@ import io
 import os
 import re
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 from rosmini.errors import RosminiError
 from rosmini.packages import own_dirs
@@ -108,6 +108,10 @@ class ShownStream(io.TextIOBase):
     def flush(self) -> None:
         """Flush what is behind it."""
         self._target.flush()
+
+    def __getattr__(self, name: str) -> Any:
+        """Return what only the stream behind it has: that of a kernel is told to which cell it writes."""
+        return getattr(self._target, name)
 
 
 def _spellings(path: Path) -> set[Path]:

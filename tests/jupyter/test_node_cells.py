@@ -44,6 +44,13 @@ def test_what_a_node_prints_appears_in_the_cell_in_which_time_passes(new_kernel:
     assert new_kernel.ok("import rospy\nrospy.init_node('here')\nrospy.sleep(1)").stdout == "turn 3\n"
 
 
+def test_it_appears_in_a_terminal_cell_too(new_kernel: Any) -> None:
+    new_kernel.ok("%load_ext rosmini\n%roscore")
+    started = new_kernel.ok(f"%%node talker.py\n{TALKER}")
+    assert new_kernel.ok("%%terminal\nsleep 2").stdout == "$ sleep 2\nturn 1\nturn 2\n"
+    assert started.stdout == "turn 0\n"
+
+
 def test_an_interrupt_ends_the_cell_and_the_nodes_go_on(new_kernel: Any) -> None:
     new_kernel.ok("%load_ext rosmini\n%roscore\nimport rosmini")
     new_kernel.ok(f"%%node talker.py\n{TALKER}")
