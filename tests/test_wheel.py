@@ -14,7 +14,8 @@ import pytest
 from .processes import run as run_process
 
 ROOT = Path(__file__).resolve().parents[1]
-CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+CHAPTER = ROOT / "notebooks" / "92_catkin.ipynb"
+"""A chapter without pictures for which matplotlib is needed: the wheel alone has to do."""
 
 
 def uv(*arguments: str | Path, cwd: Path = ROOT) -> None:
@@ -108,9 +109,8 @@ def test_a_command_says_what_is_missing_outside_a_checkout(python, tmp_path, com
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.skipif(not CHAPTERS, reason="no chapter is written yet")
 def test_a_chapter_runs_with_it(python, tmp_path):
-    chapter = shutil.copy(CHAPTERS[0], tmp_path)
+    chapter = shutil.copy(CHAPTER, tmp_path)
     run(
         python,
         "-m",
