@@ -52,13 +52,15 @@ def chromium_path() -> str | None:
     return next(filter(None, on_path), None) or next(filter(os.path.isfile, PLACES), None)
 
 
-@contextmanager
 def launched(kind, flags):
-    """A browser whose pages wait as long as all tests do."""
+    """A browser whose pages wait as long as all tests do.
+
+    It ends with the process of the tests, whose pipe it reads: Playwright has waited for ever for the answer to `close`
+    at the end of a whole run, with the browser gone.
+    """
     browser = kind.launch(executable_path=chromium_path(), args=flags, timeout=PATIENCE * 1000)
     browser.on("context", lambda context: context.set_default_timeout(PATIENCE * 1000))
-    yield browser
-    browser.close()
+    return browser
 
 
 @pytest.fixture(scope="session")
@@ -71,8 +73,7 @@ def chromium():
         if os.environ.get("ROSMINI_REQUIRE_BROWSER") == "1":
             pytest.fail(f"{message} (ROSMINI_REQUIRE_BROWSER=1)")
         pytest.skip(message)
-    with sync_playwright() as playwright, launched(playwright.chromium, FLAGS) as browser:
-        yield browser
+    return launched(sync_playwright().start().chromium, FLAGS)
 
 
 class Watcher:
@@ -168,8 +169,7 @@ def webgl(chromium):
     """A browser of its own that draws in three dimensions, in software."""
     flags = [flag for flag in FLAGS if flag != "--disable-gpu"]
     flags += ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-    with launched(chromium.browser_type, flags) as browser:
-        yield browser
+    return launched(chromium.browser_type, flags)
 
 
 SQUARE = World(

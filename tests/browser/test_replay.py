@@ -503,7 +503,7 @@ def test_the_theme_of_the_book_does_not_disturb_its_layout(
     page = opened(path.as_uri(), width=width, color_scheme="dark")
     assert page.evaluate(SIDEWAYS) <= 0
     boxes = {
-        name: page.locator(f".rosmini-replay {selector}").bounding_box()
+        name: page.locator(f".rosmini-replay {selector}").first.bounding_box()
         for name, selector in [
             ("play", "[data-do=play]"),
             ("slider", "[type=range]"),
