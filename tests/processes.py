@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import atexit
 import os
+import secrets
 import signal
 import socket
 import subprocess
@@ -117,10 +118,12 @@ def wait_until(
 
 
 def free_port() -> int:
-    """A port of this machine at which nothing listens at this moment."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    """A port of this machine at which nothing listens at this moment, and that the system gives to no connection."""
+    while True:
+        port = 12_000 + secrets.randbelow(20_000)  # systems take those from 32,768 or 49,152 on
+        with socket.socket() as probe, suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
 
 
 def listens(port: int, address: str = "127.0.0.1") -> bool:
