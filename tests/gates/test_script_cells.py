@@ -21,6 +21,7 @@ mypy_path = typings
 check_untyped_defs = True
 follow_imports = silent
 strict_optional = False
+disable_error_code = var-annotated
 [mypy-notebook.*]
 ignore_missing_imports = True
 """
