@@ -77,9 +77,9 @@ def _message(text: str) -> Any:
 def mended(answer: object) -> None:
     """The manifest of patrol: a licence, and the three packages that it imports."""
     expect_type(answer, str, "mended is", "a text")
+    expect("<license>" in str(answer), "It has no licence.", "<license>MIT</license>")
     package = _package(str(answer))
     expect(package.name == "patrol", f"The package is called {package.name!r} now, not patrol.")
-    expect("<license>" in str(answer), "It has no licence.", "<license>MIT</license>")
     missing = [name for name in NEEDS if name not in package.exec_depends]
     expect(
         not missing, f"It does not say that it needs {', '.join(missing)} to run.", "exec_depend, or depend"
