@@ -56,10 +56,6 @@ _ABSENT = {
         "use the matrix itself: P = numpy.reshape(info.P, (3, 4)); u, v, w = P @ (x, y, z, 1); pixel = u / w, v / w",
     ),
     "image_transport": ("sends images compressed", "publish and subscribe sensor_msgs.msg.Image itself"),
-    "interactive_markers": (
-        "shows handles in RViz that can be dragged",
-        "publish visualization_msgs.msg.Marker to show things, and drag robots in rosmini's own view()",
-    ),
     "kdl_parser_py": ("reads a URDF into PyKDL", "read it with rosmini.urdf"),
     "laser_geometry": (
         "makes point clouds of laser scans",

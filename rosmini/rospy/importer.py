@@ -26,6 +26,7 @@ _ALIASES = {
     "actionlib": "",
     "dynamic_reconfigure": "",
     "genpy": "dynamic message",
+    "interactive_markers": "interactive_marker_server menu_handler",
     "message_filters": "",
     "rosbag": "",
     "rosgraph": "masterapi names rosenv roslogging",

@@ -1,0 +1,20 @@
+"""Markers that the user of RViz can move and click (http://wiki.ros.org/interactive_markers).
+
+The object API, on a :class:`rosmini.graph.Node`. What scripts import as ``interactive_markers`` is the same in rospy's
+style, :mod:`rosmini.rospy.aliases.interactive_markers`.
+"""
+
+from __future__ import annotations
+
+from .completion import auto_complete, title_control
+from .errors import InteractiveMarkerException
+from .menu_handler import MenuHandler
+from .server import InteractiveMarkerServer
+
+__all__ = [
+    "InteractiveMarkerException",
+    "InteractiveMarkerServer",
+    "MenuHandler",
+    "auto_complete",
+    "title_control",
+]
