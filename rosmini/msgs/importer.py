@@ -9,16 +9,19 @@ from __future__ import annotations
 import re
 import sys
 from importlib.abc import Loader, MetaPathFinder
-from importlib.machinery import ModuleSpec, PathFinder
+from importlib.machinery import SOURCE_SUFFIXES, FileFinder, ModuleSpec, PathFinder, SourceFileLoader
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import UnknownPackage, UnknownType, nearest
 
 from .registry import MODULE_PREFIX, registry
+from .sources import PackageSource
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from pathlib import Path
+    from types import CodeType
 
 _KINDS = ("msg", "srv", "action")
 
@@ -143,6 +146,30 @@ def _spec(fullname: str, package: str, kind: str | None) -> ModuleSpec:
     return ModuleSpec(fullname, _DefinitionsLoader(package, kind), is_package=kind is None)
 
 
+class _RebuiltLoader(SourceFileLoader):
+    """Reads the source each time: bytecode of a file that was made twice in one second would be the old one."""
+
+    def get_code(self, fullname: str) -> CodeType:
+        path = self.get_filename(fullname)
+        return self.source_to_code(self.get_data(path), path)
+
+
+def _reconfigure_folder(package: str) -> Path | None:
+    """Where catkin_make has made ``PACKAGE.cfg``."""
+    source = registry().source
+    return source.reconfigure_folder(package) if isinstance(source, PackageSource) else None
+
+
+def _reconfigure_spec(fullname: str) -> ModuleSpec | None:
+    """Where ``PACKAGE.cfg`` or a module in it is; None if there is none, or no package that it can be a part of."""
+    package, *inner = fullname.split(".")
+    folder = _reconfigure_folder(package) if isinstance(sys.modules.get(package), _PackageModule) else None
+    if folder is None:
+        return None
+    home = folder.parent if len(inner) == 1 else folder
+    return FileFinder(str(home), (_RebuiltLoader, SOURCE_SUFFIXES)).find_spec(fullname)
+
+
 class _OwnFinder(MetaPathFinder):
     """Finds ``rosmini.msgs.<package>`` and its submodules."""
 
@@ -174,7 +201,7 @@ class _OwnFinder(MetaPathFinder):
 
 
 class _TopLevelFinder(MetaPathFinder):
-    """Finds ``<package>.msg`` and ``<package>.srv`` for ROS packages."""
+    """Finds ``<package>.msg``, ``<package>.srv`` and ``<package>.cfg`` for ROS packages."""
 
     def __init__(self, *, shadow: bool) -> None:
         self.shadow = shadow
@@ -184,9 +211,11 @@ class _TopLevelFinder(MetaPathFinder):
     ) -> ModuleSpec | None:
         """As :meth:`importlib.abc.MetaPathFinder.find_spec`."""
         package, _, kind = fullname.partition(".")
+        if kind.partition(".")[0] == "cfg":
+            return _reconfigure_spec(fullname)
         if "." in kind or (kind and kind not in ("msg", "srv")):
             return None
-        if not registry().source.has_package(package):
+        if not registry().source.has_package(package) and (kind or _reconfigure_folder(package) is None):
             return None
         if not self.shadow and _is_real(fullname, path, target):
             return None
@@ -243,6 +272,7 @@ def uninstall() -> None:
     for name, module in list(sys.modules.items()):
         if isinstance(module, ours) and not name.startswith(f"{MODULE_PREFIX}."):
             del sys.modules[name]
+    _forget_reconfigure()
 
 
 def forget(package: str) -> None:
@@ -252,6 +282,14 @@ def forget(package: str) -> None:
         if isinstance(module, _DefinitionsModule) and vars(module)["_package"] in packages:
             for name in [name for name, value in vars(module).items() if isinstance(value, type)]:
                 delattr(module, name)
+    _forget_reconfigure(f"{package}.cfg")
+
+
+def _forget_reconfigure(start: str = "") -> None:
+    """Forget the modules of ``PACKAGE.cfg`` that catkin_make has made, those whose names begin so."""
+    for name, module in list(sys.modules.items()):
+        if name.startswith(start) and isinstance(getattr(module, "__loader__", None), _RebuiltLoader):
+            del sys.modules[name]
 
 
 def installed() -> bool:

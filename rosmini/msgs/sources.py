@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from rosmini.errors import DefinitionError
 from rosmini.files import read
-from rosmini.packages import PackageIndex, assets_dir, search_paths
+from rosmini.packages import PackageIndex, assets_dir, reconfigure_modules, search_paths
 
 from .definition import LONGEST_TEXT
 
@@ -77,6 +77,11 @@ class PackageSource:
             line = error.object[: error.start].count(b"\n") + 1
             raise DefinitionError("the file is not UTF-8 text", path, line) from error
         return text.replace("\r\n", "\n").replace("\r", "\n"), str(path)
+
+    def reconfigure_folder(self, package: str) -> Path | None:
+        """The folder in which catkin_make has made the modules of ``PACKAGE.cfg``, if it has."""
+        index = self.index
+        return reconfigure_modules(package, index.path(package)) if package in index else None
 
     def _folder(self, package: str) -> Path | None:
         """The folder of a package that defines something.

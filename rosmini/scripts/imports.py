@@ -26,7 +26,6 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import RosminiError
 from rosmini.msgs.registry import registry
 from rosmini.msgs.sources import PackageSource
-from rosmini.packages import reconfigure_modules
 
 from .shims import BUILDERS, PRIVATE_COPIES, finish_copy
 from .source import compile_script
@@ -200,9 +199,7 @@ class Importer:
     def _reconfigure_folder(self, package: str) -> Path | None:
         """Where catkin_make has made ``my_package.cfg``."""
         source = registry().source
-        if isinstance(source, PackageSource) and package in source.index:
-            return reconfigure_modules(package, source.index.path(package))
-        return None
+        return source.reconfigure_folder(package) if isinstance(source, PackageSource) else None
 
     def _load_reconfigure(self, name: str, folder: Path) -> ModuleType:
         spec = self._find(name, [str(folder.parent)])

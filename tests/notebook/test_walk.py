@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 PACKAGE = """%%terminal --new
 source /opt/ros/noetic/setup.bash
 mkdir -p ~/example_ws/src
@@ -60,3 +62,38 @@ def test_the_walk_and_run_all_twice(notebook: Any) -> None:
     assert "killed\n" in first
     assert "/tmp" not in first
     assert walk(notebook) == first
+
+
+CFG = """#!/usr/bin/env python3
+PACKAGE = "drive"
+from dynamic_reconfigure.parameter_generator_catkin import *
+gen = ParameterGenerator()
+gen.add("speed", double_t, 0, "Greatest speed, in m/s", 0.2, 0.0, 1.0)
+exit(gen.generate(PACKAGE, "drive", "Drive"))
+"""
+
+
+@pytest.mark.parametrize("messages", [False, True])
+def test_a_cell_imports_what_a_cfg_file_describes_as_it_was_built_last(notebook: Any, messages: bool) -> None:
+    """`messages`: the package has a message, too, whose module is made in another way."""
+    add = "mkdir msg\necho 'int32 num' > msg/Num.msg\n" if messages else ""
+    cmake = "add_message_files(FILES Num.msg)\ngenerate_messages()\n" if messages else ""
+    needs = "dynamic_reconfigure message_generation"
+    notebook.ok(
+        "%%terminal --new\nmkdir -p ~/ws/src\ncd ~/ws/src\n"
+        f"catkin_create_pkg drive {needs} > /dev/null\ncd drive\nmkdir cfg\n{add}"
+        f"cat > cfg/Drive.cfg << 'EOF'\n{CFG}EOF\nchmod +x cfg/Drive.cfg\ncat > CMakeLists.txt << 'EOF'\n"
+        "cmake_minimum_required(VERSION 3.0.2)\nproject(drive)\n"
+        f"find_package(catkin REQUIRED COMPONENTS {needs})\n{cmake}"
+        "generate_dynamic_reconfigure_options(cfg/Drive.cfg)\ncatkin_package()\nEOF\n"
+        "cd ~/ws && catkin_make > /dev/null\nsource devel/setup.bash\n"
+    )
+    read = "from drive.cfg import DriveConfig\nprint(DriveConfig.defaults)"
+    assert "{'speed': 0.2}" in notebook.ok(read)
+    notebook.ok(
+        "%%terminal\ncat > src/drive/cfg/Drive.cfg << 'EOF'\n"
+        f"{CFG.replace('0.2, 0.0', '0.3, 0.0')}EOF\ncatkin_make > /dev/null\n"
+    )
+    assert "{'speed': 0.3}" in notebook.ok(read)
+    if messages:
+        assert "num: 3" in notebook.ok("from drive.msg import Num\nprint(Num(num=3))")
