@@ -126,7 +126,7 @@ def check(given: Values, _call: Call) -> TypeChanges:
         with Bag(given.words[0]) as bag:
             return TypeChanges(changes=tuple(changed_types(bag)))
     except (ROSBagException, OSError) as error:
-        raise VerbError(_complaint(given.words[0], error)) from error
+        raise VerbError(_complaint(given.words[0], error)) from None
 
 
 # -- making bags of bags -----------------------------------------------------------------------------------------
@@ -175,7 +175,7 @@ def filter_(given: Values, call: Call) -> Written:
     except FilterError as error:
         raise VerbError(f"ERROR: {error}") from error
     except (ROSBagException, OSError) as error:
-        raise VerbError(_complaint(source, error)) from error
+        raise VerbError(_complaint(source, error)) from None
     return Written(bags=((Path(target), f"{kept} of {total} messages"),))
 
 
@@ -211,7 +211,7 @@ def fix(given: Values, _call: Call) -> Written:
     try:
         fixed = fix_bag(source, target, force=given.force)
     except (ROSBagException, OSError) as error:
-        raise VerbError(_complaint(source, error)) from error
+        raise VerbError(_complaint(source, error)) from None
     obstacles = [
         f" * From: {change.type} [{change.md5sum}]\n   To:   {change.type} [{change.local}]"
         + "".join(f"\n     {line}" for line in lines)
@@ -342,7 +342,7 @@ def merge_(given: Values, _call: Call) -> Written:
     try:
         copied = merge(sources, target, compression=given.compression)
     except (ROSBagException, OSError) as error:
-        raise VerbError(f"ERROR: {error}") from error
+        raise VerbError(f"ERROR: {error}") from None
     return Written(bags=((Path(target), f"{copied.written} messages of {len(sources)} bags"),))
 
 

@@ -8,8 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from rosmini.bag import Bag
+from rosmini.bag import Bag, ROSBagException
 from rosmini.cli.main import main
+from rosmini.cli.rosbag import TOOL
+from rosmini.graph import Graph
 from rosmini.msgs import message_class
 from rosmini.time import Time
 
@@ -180,3 +182,14 @@ def test_each_verb_has_help_with_an_example(capsys):
 
     for verb in TOOL.verbs:
         assert f"Example:\n  rosmini rosbag {verb} " in run(capsys, verb, "-h")[1]
+
+
+def test_a_bag_that_is_not_there_is_an_error_of_ours(bag, capsys):
+    """A notebook shows it without the frames of rosmini, and says which file may be meant."""
+    with Graph() as graph:
+        for words in (("play", "tt.bag"), ("record", "-O", "nowhere/x", "-a")):
+            with pytest.raises(ROSBagException, match=r"Error opening file: .*: No such file") as caught:
+                TOOL.run(*words, graph=graph)
+            assert caught.value.__cause__ is None
+            assert caught.value.__suppress_context__
+            assert ("did you mean t.bag?" in str(caught.value)) == (words[0] == "play")

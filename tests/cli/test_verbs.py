@@ -9,7 +9,7 @@ import pytest
 
 import rosmini.cli.main as cli
 from rosmini import Graph
-from rosmini.bag import Bag
+from rosmini.bag import Bag, ROSBagException
 from rosmini.cli.rosbag import TOOL as ROSBAG
 from rosmini.cli.verbs import Tool, VerbError
 from rosmini.cli.world import TOOL as WORLD
@@ -162,7 +162,7 @@ def test_record_and_play_go_on_with_the_graph_and_return_handles(
         playing = vars(ROSBAG.run("play", "-q", "trip.bag", graph=graph))["handle"]
         assert playing.wait() == 0
         assert heard == ["one", "two"]
-        with pytest.raises(FileNotFoundError, match=r"none\.bag"):
+        with pytest.raises(ROSBagException, match=r"none\.bag: No such file"):
             ROSBAG.run("play", "none.bag", graph=graph)
         assert set(graph.nodes) == {"/rosout", "/ear"}
 
