@@ -39,17 +39,18 @@ def register(
     shell: Any,
     *,
     say: Callable[[str], object] = print,
+    warn: Callable[[str], object] = print,
     around: Callable[[], AbstractContextManager[object]] = nullcontext,
 ) -> None:
     """Register the commands as line magics of an IPython shell, with completion of their words.
 
-    ``say`` prints, and each command runs in what ``around`` makes.
+    ``say`` prints, ``warn`` what is amiss, and each command runs in what ``around`` makes.
     """
     from IPython.core.magic import no_var_expand
 
     for name, entry in COMMANDS.items():
         if entry.is_magic:
-            magic = partial(run, shell, name, say=say)
+            magic = partial(run, shell, name, say=say, warn=warn)
             shell.register_magic_function(
                 no_var_expand(_documented(magic, name, entry.summary, around)), "line", name
             )
@@ -106,14 +107,16 @@ def run(
     line: str,
     *,
     say: Callable[[str], object] = print,
+    warn: Callable[[str], object] = print,
     console: Mapping[str, Any] | None = None,
 ) -> Result:
     """Do what a line says, print it, and return the result; ``console`` is for nodes that it starts.
 
-    Raises as :meth:`rosmini.cli.verbs.Tool.run` does.
+    What is amiss is printed as all else: a notebook shows standard error after standard output. Raises as
+    :meth:`rosmini.cli.verbs.Tool.run` does.
     """
     split = words(line, name, shell.user_ns)
-    result = tool(name).run(*split, say=say, tells_time=True, console=console)
+    result = tool(name).run(*split, say=say, warn=warn, tells_time=True, console=console)
     view = getattr(result, "view", None)
     if view is not None:
         from IPython.core.display_functions import display

@@ -250,10 +250,13 @@ class Tool:
         *words: object,
         graph: Graph | None = None,
         say: Callable[[str], object] = print,
+        warn: Callable[[str], object] = _to_stderr,
         tells_time: bool = False,
         console: Mapping[str, Any] | None = None,
     ) -> Result:
         """Do what the words say, on ``graph`` (the default graph if not given), and return the result.
+
+        ``say`` and ``warn`` are those of :class:`Call`.
 
         Raises ``UsageError`` for words that make no sense, and what the verb raises.
         """
@@ -265,11 +268,11 @@ class Tool:
         verb = self.find(text[0])
         given = verb.parser().parse(text[1:])
         if not self.needs_graph:
-            return verb.act(given, Call(cast("Peers", None), say))
+            return verb.act(given, Call(cast("Peers", None), say, warn))
         from rosmini.graph import running_graph
 
         used = running_graph() if graph is None else graph
-        return verb.act(given, Call(used, say, tells_time=tells_time, console=console or {}))
+        return verb.act(given, Call(used, say, warn, tells_time=tells_time, console=console or {}))
 
     def alone(self, verb: str) -> Tool:
         """Return the tool that does one of the verbs only: ``rqt_graph`` for ``graph`` of ``rqt``."""

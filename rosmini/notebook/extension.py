@@ -30,7 +30,7 @@ def load(shell: Any) -> None:
     install(shadow=True)
     tell_which_ros()
     session = begin_session(shell)
-    magics.register(shell, say=session.say, around=lambda: session_of(shell).raising())
+    magics.register(shell, say=session.say, warn=session.warn, around=lambda: session_of(shell).raising())
     shell.events.register("pre_run_cell", session.begin_cell)
     shell.set_hook("complete_command", complete, str_key="%rosrun")
     atexit.register(end_session, shell)

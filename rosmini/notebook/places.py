@@ -29,6 +29,10 @@ _HOME_IN = re.compile(rf"(^|:=|=){re.escape(HOME)}(?=/|$)")
 _SHARE_IN = re.compile(rf"(^|:=|=){re.escape(SHARE)}(?:/([^/:]+)|/?$|(?=/))")
 
 
+_REPEATED = re.compile(rf"^([ ]*{re.escape(SHARE)})(?:\n\1)+$", re.MULTILINE)
+"""What is one folder on a robot, listed once for each of the folders that it is here."""
+
+
 class OutsideHome(RosminiError):
     """A path that a terminal of a notebook does not reach."""
 
@@ -50,7 +54,8 @@ class Places:
 
     def shown(self, text: str) -> str:
         """Return a text with the paths in it as the book shows them."""
-        return self._pattern.sub(lambda match: self._names[match[1]] + match[2].replace("\\", "/"), text)
+        shown = self._pattern.sub(lambda match: self._names[match[1]] + match[2].replace("\\", "/"), text)
+        return _REPEATED.sub(r"\1", shown)
 
     def real(self, text: str) -> str:
         """Return a word with the path in it (``~/maps``, ``file:=~/x.yaml``) as this machine has it."""

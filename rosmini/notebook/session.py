@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextvars
 import io
 import os
+import sys
 import threading
 from contextlib import nullcontext, redirect_stderr, redirect_stdout
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,7 @@ from rosmini.viz.book_form import book_form
 from .book_text import BookErrors, book_text
 from .output import CellSink, TypedFeed
 from .package import NotebookPackage
-from .places import Places
+from .places import Places, ShownStream
 from .runs import Runs
 from .terminal import Terminals
 
@@ -111,6 +112,13 @@ class Session:
     def say(self, text: str) -> None:
         """Print a line of the notebook's own into the cell."""
         self.sink.say(text)
+
+    def warn(self, text: str) -> None:
+        """Print what is amiss: into the cell, in order, also where a terminal writes what is said into a file."""
+        if isinstance(sys.stderr, ShownStream):
+            print(text, file=sys.stderr)
+        else:
+            self.say(text)
 
     def raising(self) -> BookErrors:
         """Return what gives errors of ours the book's form on their way into a cell, where cells have that."""

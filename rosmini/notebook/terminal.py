@@ -20,6 +20,7 @@ import io
 import os
 import re
 import shlex
+import socket
 import sys
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
@@ -33,6 +34,8 @@ from rosmini.cli.main import COMMANDS, NO_COMMANDS, main
 from rosmini.cli.roscd import located, workspace
 from rosmini.cli.verbs import VerbError
 from rosmini.errors import RosminiError, UsageError, nearest
+from rosmini.graph import default_graph
+from rosmini.net.addresses import MASTER_URI, host_and_port, is_loopback
 
 from . import shell_lines, shell_words
 from .folder import TemporaryFolder
@@ -209,9 +212,23 @@ class Terminal(Prompt):
                 return main([name, *words])
         if self._shell.find_line_magic(name) is None:
             raise RosminiError("this notebook has no graph: begin it with %load_ext rosmini")
+        if _asks_master(name, words):
+            self._reach_master()
         line = " ".join(shlex.quote(each).replace("$", "$$") for each in words)
         result = self._shell.run_line_magic(name, line)
         return int(getattr(result, "status", 0))
+
+    def _reach_master(self) -> None:
+        """Raise ``VerbError`` as ROS's tools end where ``ROS_MASTER_URI`` names another Master than the notebook's."""
+        given = self.environment.get("ROS_MASTER_URI") or MASTER_URI
+        own = default_graph().master_uri.rstrip("/")
+        (host, port), (own_host, own_port) = host_and_port(given, "ROS_MASTER_URI"), host_and_port(own)
+        is_here = host == own_host or is_loopback(host) or host in (socket.gethostname(), socket.getfqdn())
+        if not (is_here and port == own_port):
+            raise VerbError(
+                f"ERROR: Unable to communicate with master!\nROS_MASTER_URI is {given}, and the only Master that a "
+                f"notebook reaches is its own: `export ROS_MASTER_URI={own}`"
+            )
 
     def _guard(self, word: str) -> None:
         """Raise `OutsideHome` for a word that is the path of a file where this terminal does not write."""
@@ -221,6 +238,13 @@ class Terminal(Prompt):
         )
         if leaves:
             self.path(str(path))
+
+
+def _asks_master(name: str, words: Sequence[str]) -> bool:
+    """Return whether a command of ROS is one that a Master has to answer."""
+    if name == "rosbag":
+        return words[:1] in (["record"], ["play"])
+    return name in ("rosrun", "roslaunch") or (name != "roscore" and bool(tool(name).purpose))
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from rosmini.errors import UnknownPackage
 from rosmini.notebook.places import OutsideHome, Places, ShownStream
 from rosmini.packages import PackageIndex
 
@@ -22,6 +23,14 @@ def test_paths_are_shown_as_on_a_robot(places: Places) -> None:
     assert places.shown(text) == (
         f'~: ~/ws/src, "/opt/ros/noetic/share/turtlebot3_description"; {places.home}-other'
     )
+
+
+def test_folders_that_are_one_on_a_robot_are_listed_once(places: Places) -> None:
+    with pytest.raises(UnknownPackage) as caught:
+        PackageIndex().path("no_such_package")
+    shown = places.shown(str(caught.value))
+    assert shown.count("/opt/ros/noetic/share") == 1
+    assert shown.startswith("there is no package 'no_such_package'")
 
 
 def test_and_back(places: Places) -> None:

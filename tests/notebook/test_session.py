@@ -200,3 +200,32 @@ def test_a_script_whose_node_is_killed_has_no_last_words(notebook: Notebook) -> 
     assert "after" not in said
     assert "/talker" in notebook.ok("%rosnode list")
     assert notebook.session.graph.unreachable == ("/talker",)
+
+
+def test_what_is_amiss_is_printed_in_order_with_the_rest(notebook: Any, capsys: Any) -> None:
+    """A notebook shows standard error after standard output; a terminal's file takes the latter only."""
+    notebook.shell.run_cell("print('first')\n%rostopic echo -n 1 /nowhere\nprint('last')")
+    out, err = capsys.readouterr()
+    assert out.index("first") < out.index("WARNING: topic [/nowhere]") < out.index("last")
+    assert err == ""
+    written = notebook.ok("%%terminal --new\nrostopic echo -n 1 /nowhere > heard.txt\ncat heard.txt")
+    assert written.count("WARNING: topic [/nowhere]") == 1
+
+
+def test_the_tools_of_a_terminal_obey_the_masters_address(notebook: Any) -> None:
+    """Another Master than the notebook's is none that they reach, as on a robot whose Master is off."""
+    said = notebook.ok(
+        "%%terminal --new\nsource /opt/ros/noetic/setup.bash\nexport ROS_MASTER_URI=http://robot:11311\n"
+        "rosnode list\nrosrun rosmini_sim simulator\nrosmsg md5 std_msgs/String\n"
+        "ROS_MASTER_URI=http://127.0.0.1:11311 rosnode list\nexport ROS_MASTER_URI=robot\nrosnode list\n"
+        "unset ROS_MASTER_URI\nrosnode list\n"
+    )
+    refused = (
+        "ERROR: Unable to communicate with master!\nROS_MASTER_URI is http://robot:11311, and the only Master"
+    )
+    assert said.count(refused) == 2
+    assert said.count("reaches is its own: `export ROS_MASTER_URI=http://localhost:11311`\n") == 2
+    assert "$ rosmsg md5 std_msgs/String\n992ce8a1687cec8c8bd883ec73ca41d1\n" in said
+    assert "$ ROS_MASTER_URI=http://127.0.0.1:11311 rosnode list\n/rosout\n" in said
+    assert "rosnode: ROS_MASTER_URI is 'robot', which is no address of a Master" in said
+    assert said.endswith("$ unset ROS_MASTER_URI\n$ rosnode list\n/rosout\n")
