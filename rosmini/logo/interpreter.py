@@ -1,0 +1,96 @@
+"""Logo: programs as text in, drawings and lines of text out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .compiler import Procedure
+from .errors import LogoError
+from .machine import Limits, Machine
+from .primitives import PRIMITIVES
+from .reader import read
+from .turtles import Paper
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .turtles import Flock, Sheet
+
+CHUNK = 10_000
+"""So many instructions are run at once."""
+
+
+class Logo:
+    """An interpreter of Logo: what a program defines is there for the next one.
+
+    Args:
+        flock: the turtles; by default one that draws on paper.
+        say: is given each line that is printed.
+        pause: is called with the seconds that `wait` is to take.
+        seed: of `random`.
+        limits: when a program is stopped.
+
+    >>> logo = Logo()
+    >>> logo.run("repeat 4 [forward 50 right 90]  print pos")
+    0 0
+    >>> len(logo.sheet.strokes)
+    8
+
+    """
+
+    def __init__(
+        self,
+        flock: Flock | None = None,
+        *,
+        say: Callable[[str], object] = print,
+        pause: Callable[[float], object] = lambda _: None,
+        seed: int = 0,
+        limits: Limits | None = None,
+    ) -> None:
+        self.flock = Paper() if flock is None else flock
+        self.machine = Machine(
+            PRIMITIVES, self.flock, say=say, pause=pause, seed=seed, limits=limits or Limits()
+        )
+
+    @property
+    def sheet(self) -> Sheet:
+        """What is drawn."""
+        return self.flock.sheet
+
+    def start(self, program: str, first_line: int = 1) -> None:
+        """Prepare to run a program, whose first line has this number in messages; nothing moves yet.
+
+        Raises ``LogoError`` if it is not understood: then nothing of it is defined.
+        """
+        found = read(program, first_line)
+        self.machine.define(
+            {each.name: Procedure(each.name, each.inputs, each.body, each.line) for each in found.definitions}
+        )
+        self.machine.start(found.lines)
+
+    def advance(self, steps: int) -> bool:
+        """Run so many steps at most; return whether there are more.
+
+        Raises ``LogoError``, and ``LogoStopped`` at a limit; then the program has ended.
+        """
+        goes_on = False
+        try:
+            goes_on = self.machine.advance(steps)
+        finally:
+            if not goes_on:
+                self.machine.halt()
+        return goes_on
+
+    def run(self, program: str, first_line: int = 1) -> None:
+        """Run a program to its end. Raises as `start` and `advance` do; Ctrl-C ends it as well."""
+        self.start(program, first_line)
+        while self.advance(CHUNK):
+            pass
+
+    @property
+    def procedures(self) -> list[str]:
+        """The names of the procedures that programs have defined."""
+        return sorted(self.machine.words.procedures)
+
+
+__all__ = ["Logo", "LogoError"]
