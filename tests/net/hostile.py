@@ -67,7 +67,8 @@ def say(graph: Graph, port: int, *parts: bytes, finish: bool = False) -> bytes:
             for part in parts:
                 raw.sendall(part)
             if finish:
-                raw.shutdown(socket.SHUT_WR)
+                with suppress(OSError):  # the other end may have closed it: ENOTCONN is no ConnectionError
+                    raw.shutdown(socket.SHUT_WR)
             while part := raw.recv(65536):
                 answer += part
         got.append(answer)
