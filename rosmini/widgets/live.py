@@ -150,8 +150,9 @@ class Link:
         self._last = ()
 
     def _stop(self) -> None:
-        self._driven_by_page = False
-        if self.pad.gone is None and not self.pad.teleop.at_rest:
+        """Stop what the page drives; what a script drives goes on."""
+        driven, self._driven_by_page = self._driven_by_page, False
+        if driven and self.pad.gone is None and not self.pad.teleop.at_rest:
             self.pad.stop()
 
     def _published(self, twist: Any) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -100,7 +101,8 @@ class Pad:
 
     @property
     def message(self) -> str:
-        return self.page.locator(".rp-log").locator("pre, p").first.text_content()
+        """The last one: as in a terminal, the newest is at the bottom."""
+        return self.page.locator(".rp-log").locator("pre, p").last.text_content()
 
     @property
     def pose(self) -> tuple[float, ...]:
@@ -318,6 +320,10 @@ def test_real_keys_drive_and_each_message_is_shown(show, name):
     twist = Twist()
     twist.linear.x, twist.angular.z = 0.025, 0.05
     assert pad.message == f"{twist}\n---"
+    twist.linear.x, twist.angular.z = 0.02, 0.0
+    assert (
+        pad.page.locator(".rp-log pre").all_text_contents()[-2] == f"{twist}\n---"
+    )  # the one before is above it
     assert "5 messages" in pad.page.locator(".rp-command").inner_text()
     pad.run(2.0)
     twist.linear.x, twist.angular.z = 0.04, 0.1
@@ -450,16 +456,43 @@ def test_what_a_screen_reader_is_told(show):
     assert status.text_content() == "stopped"
 
 
-def test_a_page_that_is_left_stops_the_robot(show):
+LEAVING = {
+    "window": "window.dispatchEvent(new Event('blur'))",
+    "elsewhere": "document.getElementById('after').focus()",
+    "scrolled away": "window.scrollTo(0, document.body.scrollHeight)",
+    "tab hidden": "Object.defineProperty(document, 'hidden', {value: true, configurable: true}); "
+    "document.dispatchEvent(new Event('visibilitychange')); delete document.hidden",
+}
+
+
+def test_whoever_leaves_the_pad_stops_the_robot_with_one_message(show):
     pad = show("light")
-    pad.stage.focus()
-    pad.keys("www")
-    pad.run(1.0)
-    assert pad.mood == "driving"
-    pad.page.evaluate("window.dispatchEvent(new Event('blur'))")
-    pad.run(0.5)
-    assert pad.mood == "ready"
-    assert pad.message == f"{Twist()}\n---"
+    hint = pad.page.locator(".rp-hint")
+    pad.page.evaluate("document.body.insertAdjacentHTML('beforeend', '<div style=\"height:3000px\"></div>')")
+
+    def stopped_by(leave):
+        pad.page.evaluate("window.scrollTo(0, 0)")
+        pad.stage.focus()
+        assert not hint.is_visible()
+        pad.keys("wwww")
+        pad.run(1.0)
+        assert pad.mood == "driving"
+        before = int(pad.page.locator(".rp-command em").inner_text().split()[0])
+        leave()
+        pad.page.wait_for_function(
+            "document.querySelector('.rp-log').lastChild.textContent.includes('x: 0.0\\n  y')"
+        )
+        pad.run(1.0)
+        assert pad.mood == "ready"
+        assert pad.page.locator(".rp-command em").inner_text() == f"{before + 1} messages"
+        assert pad.message == f"{Twist()}\n---"
+
+    for leave in LEAVING.values():
+        stopped_by(partial(pad.page.evaluate, leave))
+    pad.page.evaluate("document.activeElement.blur()")
+    stopped_by(partial(pad.page.keyboard.press, "Escape"))
+    assert hint.inner_text().startswith("Click here to drive")
+    assert hint.is_visible()
 
 
 def test_a_held_button_repeats_and_a_click_moves_the_focus_to_the_pad(show):
@@ -543,6 +576,7 @@ def test_the_pad_has_the_theme_of_its_page(show, name, shared_tmp):
         ".rp-help",
         ".rp-key-w kbd",
         ".rp-log pre:nth-child(2)",
+        ".rp-command em",
     ):
         text, ground = colours(selector)
         assert (max(text, ground) + 0.05) / (min(text, ground) + 0.05) >= 4.5, selector

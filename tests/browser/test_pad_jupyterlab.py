@@ -20,7 +20,7 @@ _ = graph.node("listener").subscriber("cmd_vel", Twist, lambda t: heard.append((
 pad = sim.pad()
 pad
 """,
-    "print('live', graph.is_live, 'heard', round(heard[-1][0], 3), 'moved', sim.truth()[0] > 0.01)",
+    "print('live', graph.is_live, 'heard', max(v for v, _ in heard),)",
     "print('rest', pad.teleop.at_rest, pad.twist.linear.x)",
     "end = time.monotonic() + 3\nwhile time.monotonic() < end: pass\nprint('busy over')",
     "pad.press('w'); graph.run(until=lambda: pad.teleop.at_rest); print('stopped while a cell drives')",
@@ -37,7 +37,7 @@ pad = TeleopPad(graph)
 graph.live()
 pad
 """,
-    "print('sent', pad.sent > 1, pad.teleop.target)",
+    "print('sent', pad.sent > 1)",
 ]
 
 # Wait for 40 frames from the kernel; how many seconds they took, and how often the canvas was painted meanwhile.
@@ -103,10 +103,15 @@ def test_keys_buttons_and_a_busy_kernel(open_lab, shared_tmp):
         seconds, paints = page.locator(".rosmini-pad").evaluate(COUNT)
         print(f"{40 / seconds:.0f} frames/s of the pad, {paints / seconds:.0f} paints/s of the page")
         page.screenshot(path=shared_tmp / "pad_jupyterlab.png")
-        lab.run(1)  # a message may have gone out between any two keys, so only the last is known
-        lab.says(1, "live True heard 0.1 moved True")
+        page.locator(".rp-log pre", has_text="x: 0.1\n").first.wait_for()
+        lab.run(1)  # the focus leaves the pad, and the robot stops
+        lab.mood("ready")
+        lab.says(1, "live True heard 0.1")
 
-        # A button stops it.
+        # A button stops it, too.
+        stage.focus()
+        page.keyboard.press("w")
+        lab.mood("driving")
         page.locator(".rp-key-s").click()
         lab.mood("ready")
         lab.run(2)
@@ -162,14 +167,12 @@ def test_a_pad_without_a_robot_and_a_kernel_that_restarts(open_lab, shared_tmp):
         page.keyboard.press("a")
         page.locator(".rp-log pre", has_text="z: 0.1").first.wait_for()
         lab.run(1)
-        lab.says(1, "sent True (0.0, 0.1)")
-        lab.mood("driving")
+        lab.says(1, "sent True")
+        lab.mood("ready")
 
         page.locator("[data-command='notebook:restart-kernel'] , [title^='Restart the kernel']").first.click()
         page.locator(".jp-Dialog .jp-mod-accept").click()
         lab.mood("waiting")
-        stage.focus()
-        page.keyboard.press("w")
         page.locator(".rp-pill", has_text="run the cell of this pad again").wait_for()
         lab.run(0)
         page.locator(".rp-pill", has_text="press a key").or_(

@@ -157,6 +157,8 @@ def test_what_a_script_presses_needs_no_page(page, pad):
     page.say("stop")
     page.run(0.5)
     pad.press("w")
+    page.run(1.0)
+    page.say("stop")  # somebody scrolls the page away
     page.run(3.0, beats=False)
     assert pad.teleop.command == (0.01, 0.0)
 

@@ -32,19 +32,13 @@ globalThis.rosminiPadStyle = `
 }
 .rp-stage {
   border-radius: 11px 11px 0 0;
-  display: grid;
-  grid-template-columns: minmax(0, 1fr) 212px;
   outline: none;
   position: relative;
 }
 .rp-stage:focus { outline: 2px solid transparent; }
 .rp-stage:focus::after { border: 3px solid var(--rosmini-blue); border-radius: 11px 11px 0 0; content: ""; inset: 0; pointer-events: none; position: absolute; }
-.rp-sight { align-self: center; cursor: pointer; min-height: 64px; padding: 4px; position: relative; }
-.rp-blind .rp-stage { grid-template-columns: minmax(0, 1fr); }
+.rp-sight { cursor: pointer; min-height: 64px; padding: 4px; position: relative; }
 .rp-blind .rp-sight { min-height: 54px; }
-.rp-blind .rp-keys { grid-row: 1 / 3; }
-.rp-blind .rp-meters { align-self: center; }
-.rp-blind .rp-side { border-left: 0; border-top: 1px solid var(--rp-edge); display: grid; gap: 40px; grid-template-columns: auto minmax(0, 300px); }
 .rp-sight canvas { border-radius: 8px; }
 .rp-pill, .rp-hint {
   background: color-mix(in srgb, var(--rosmini-page) 88%, transparent);
@@ -77,17 +71,15 @@ globalThis.rosminiPadStyle = `
   white-space: nowrap;
 }
 .rp-blind .rp-hint { bottom: auto; left: auto; right: 14px; top: 10px; transform: none; }
-.rp-held .rp-hint, .rp-used:not(.rp-held) .rp-hint { visibility: hidden; }
+.rp-held .rp-hint { visibility: hidden; }
 .rp-side {
   background: var(--rp-soft);
-  border-left: 1px solid var(--rp-edge);
-  display: flex;
-  flex-direction: column;
-  gap: 16px;
-  justify-content: center;
-  padding: 16px;
+  border-top: 1px solid var(--rp-edge);
+  display: grid;
+  grid-template-columns: auto minmax(150px, 1fr) minmax(0, 1.35fr);
 }
-.rp-keys { display: grid; gap: 6px; grid-template: repeat(3, 54px) / repeat(3, 54px); justify-content: center; }
+.rp-keys { align-content: center; display: grid; gap: 6px; grid-template: repeat(3, 54px) / repeat(3, 54px); padding: 12px 16px; }
+.rp-gauges { align-content: center; display: grid; gap: 16px; padding: 12px 16px 12px 0; }
 .rp-key-w { grid-area: 1 / 2; }
 .rp-key-a { grid-area: 2 / 1; }
 .rp-key-s { grid-area: 2 / 2; }
@@ -143,46 +135,39 @@ globalThis.rosminiPadStyle = `
 .rp-bar { background: var(--rosmini-blue); border-radius: 3px; height: 8px; }
 .rp-mark { background: var(--rosmini-ink); border-radius: 2px; height: 14px; margin-left: -1.5px; top: -3px; width: 3px; }
 .rp-actions { align-content: start; display: grid; gap: 8px; }
-.rp-side > * { flex: none; }
 .rosmini-pad button.rp-plain { min-height: 44px; padding: 4px 10px; }
 .rosmini-pad button[data-act="start"] { background: var(--rosmini-blue); border-color: var(--rosmini-blue); color: var(--rosmini-page); font-weight: 600; }
-.rp-readings { border-top: 1px solid var(--rp-edge); display: flex; flex-wrap: wrap; gap: 2px 28px; padding: 8px 16px; }
+.rp-readings { display: flex; flex-wrap: wrap; gap: 2px 28px; padding: 2px 16px 6px; }
 .rp-readings .rp-name { margin-right: 8px; }
-.rp-messages { background: #17202a; color: #e8edf2; padding: 10px 16px 12px; }
+.rp-messages { background: #17202a; color: #e8edf2; display: flex; flex-direction: column; min-width: 0; padding: 8px 14px; }
 .rp-messages, .rosmini-pad .rp-log pre { font: 12.5px/1.4 ui-monospace, SFMono-Regular, Menlo, Consolas, "DejaVu Sans Mono", monospace; }
 .rp-command { overflow-wrap: anywhere; }
 .rp-command span { color: #2fc79a; }
 .rp-command em { color: #a3afba; float: right; font-style: normal; }
-.rp-log { clear: both; display: grid; gap: 0 12px; grid-template-columns: repeat(3, 1fr); height: 13.4em; margin-top: 6px; overflow: hidden; }
-.rp-log p { color: #a3afba; grid-column: 1 / -1; }
+.rp-log { display: flex; flex: 1 1 172px; flex-direction: column; justify-content: flex-end; margin-top: 4px; min-height: 172px; overflow: hidden; }
+.rp-log p { color: #a3afba; margin-bottom: auto; }
 .rosmini-pad .rp-log pre {
   background: none;
   border: 0;
-  border-left: 2px solid #3b4856;
-  border-radius: 0;
   box-shadow: none;
   color: #a3afba;
+  flex: none;
   overflow: hidden;
-  padding: 0 0 0 10px;
+  padding: 0;
 }
-.rosmini-pad .rp-log pre:first-child { border-left-color: #56b4e9; color: #ffffff; }
+.rosmini-pad .rp-log pre:last-child { color: #ffffff; }
 .rosmini-pad .rp-help { border-top: 1px solid var(--rp-edge); color: var(--rosmini-muted); font-size: 12.5px; line-height: 1.75; padding: 8px 16px 10px; }
 .rp-help span { margin-right: 14px; white-space: nowrap; }
 .rp-spoken { clip-path: inset(50%); height: 1px; overflow: hidden; position: absolute; white-space: nowrap; width: 1px; }
 @container (max-width: 620px) {
-  .rp-stage { grid-template-columns: minmax(0, 1fr); }
-  .rp-side { border-left: 0; border-top: 1px solid var(--rp-edge); display: grid; gap: 12px 14px; grid-template-columns: auto minmax(0, 1fr); padding: 12px; }
-  .rp-keys { grid-row: 1 / 3; }
-  .rp-meters { align-self: end; }
-  .rp-log { grid-template-columns: repeat(2, 1fr); }
-  .rp-log pre:nth-child(3) { display: none; }
-  .rp-blind .rp-side { gap: 12px 14px; grid-template-columns: auto minmax(0, 1fr); }
+  .rp-side { grid-template-columns: auto minmax(0, 1fr); }
+  .rp-keys, .rp-gauges { padding: 12px; }
+  .rp-gauges { padding-left: 0; }
+  .rp-messages { grid-column: 1 / 3; }
 }
 @container (max-width: 420px) {
-  .rp-log { grid-template-columns: 1fr; }
-  .rp-log pre:nth-child(2) { display: none; }
   .rp-readings { display: grid; }
-  .rp-hint { display: none; }
+  .rp-hint span { display: none; }
 }
 @media (hover: none) {
   .rp-hint { display: none; }

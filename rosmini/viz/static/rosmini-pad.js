@@ -100,7 +100,7 @@
       this.canvas = element("canvas", { role: "img", "aria-label": "The world from above, with the robot, its laser and its way" });
       this.hint = element("div", { class: "rp-hint", "aria-hidden": "true" });
       const [w, a, s, d, x] = KEYS.map(({ key }) => element("kbd", {}, key));
-      this.hint.append("Click here, then drive with ", w, a, s, d, x);
+      this.hint.append("Click here to drive", element("span", {}, " with ", w, a, s, d, x));
       this.pill = element("div", { class: "rp-pill", "aria-hidden": "true" }, element("i"), element("span"));
       this.pose = element("span", { class: "rp-value" });
       this.seen = element("span", { class: "rp-value" });
@@ -113,6 +113,13 @@
       if (data.scene) sight.prepend(this.canvas);
       const actions = element("div", { class: "rp-actions" }, this.startButton);
       if (data.scene) actions.append(this.resetButton);
+      this.log = element("div", { class: "rp-log" });
+      this.count = element("em");
+      const messages = element( // what is read, not operated: screen readers browse it
+        "div", { class: "rp-messages", role: "document", "aria-label": "Messages" },
+        element("div", { class: "rp-command" }, element("span", {}, "$ "), `rostopic echo ${data.topic}`, this.count),
+        this.log,
+      );
       this.stage = element(
         "div",
         {
@@ -120,22 +127,17 @@
           "aria-label": data.title, "aria-describedby": `${id}-help`, "data-lm-suppress-shortcuts": "true",
         },
         sight,
-        element("div", { class: "rp-side" }, keys, element("div", { class: "rp-meters" }, ...this.meters.map((m) => m.box)), actions),
+        ...(data.scene ? [this.readings] : []),
+        element(
+          "div", { class: "rp-side" }, keys,
+          element("div", { class: "rp-gauges" }, element("div", { class: "rp-meters" }, ...this.meters.map((m) => m.box)), actions),
+          messages,
+        ),
       );
-      this.log = element("div", { class: "rp-log" });
       this.help = element("p", { class: "rp-help", id: `${id}-help` }, ...this.instructions());
       this.status = element("p", { class: "rp-spoken", role: "status" });
       this.section = element("section", { class: `rosmini-pad${data.scene ? "" : " rp-blind"}`, "aria-label": "Teleoperation pad" });
-      this.section.append(this.stage);
-      if (data.scene) this.section.append(this.readings);
-      this.section.append(
-        element(
-          "div", { class: "rp-messages" },
-          element("div", { class: "rp-command" }, element("span", {}, "$ "), `rostopic echo ${data.topic}`, element("em")),
-          this.log,
-        ),
-        this.help, this.status,
-      );
+      this.section.append(this.stage, this.help, this.status);
       if (!document.getElementById("rosmini-pad-style")) {
         const sheet = element("style", { id: "rosmini-pad-style" }, globalThis.rosminiPadStyle);
         document.head.append(sheet);
@@ -162,7 +164,7 @@
         [["a"], "more to the left,", ["d"], "more to the right;"],
         [["s"], "or", ["space"], "stop at once;"],
         ["the arrows do as", ["w"], ["x"], ["a"], ["d"], "do;"],
-        [["Esc"], "leaves the pad."],
+        [["Esc"], "leaves the pad, and the robot stops."],
       ];
       const line = (parts) =>
         element("span", {}, ...parts.flatMap((part) => [typeof part === "string" ? part : element("kbd", {}, ...part), " "]));
@@ -187,13 +189,15 @@
       });
       stage.addEventListener("focusin", () => this.section.classList.add("rp-held"));
       stage.addEventListener("focusout", (event) => {
-        if (!stage.contains(event.relatedTarget)) { this.section.classList.remove("rp-held"); this.liftAll(); }
+        if (!stage.contains(event.relatedTarget)) { this.section.classList.remove("rp-held"); this.leave(); }
       });
       this.leave = () => { this.liftAll(); this.driver.leave(); };
       this.hide = () => { if (document.hidden) this.leave(); };
       globalThis.addEventListener("blur", this.leave);
       globalThis.addEventListener("pagehide", this.leave);
       document.addEventListener("visibilitychange", this.hide);
+      this.seenBy = new IntersectionObserver((entries) => { if (!entries.at(-1).isIntersecting) this.leave(); });
+      this.seenBy.observe(this.stage);
     }
 
     keyOf(event) {
@@ -248,7 +252,6 @@
     }
 
     press(key) {
-      this.section.classList.add("rp-used");
       this.driver.press(key);
       this.speak();
     }
@@ -327,11 +330,10 @@
     }
 
     echo({ messages, sent }) {
-      const last = this.log.previousElementSibling.lastChild;
-      last.textContent = sent ? `${sent} ${sent === 1 ? "message" : "messages"}` : "";
+      this.count.textContent = sent ? `${sent} ${sent === 1 ? "message" : "messages"}` : "";
       if (this.sent === sent) return;
       this.sent = sent;
-      const texts = messages.slice(-SHOWN).reverse().map(yaml);
+      const texts = messages.slice(-SHOWN).map(yaml);
       if (!texts.length) { this.log.replaceChildren(element("p", {}, "Nothing was published yet.")); return; }
       this.log.replaceChildren(...texts.map((text) => element("pre", {}, text)));
     }
@@ -358,6 +360,7 @@
       this.liftAll();
       clearTimeout(this.speaking);
       this.unwatch();
+      this.seenBy.disconnect();
       globalThis.removeEventListener("blur", this.leave);
       globalThis.removeEventListener("pagehide", this.leave);
       document.removeEventListener("visibilitychange", this.hide);
@@ -402,8 +405,7 @@
     }
 
     leave() {
-      if (this.run.atRest) return;
-      this.press("s");
+      if (!this.run.teleop.atRest) this.press("s");
     }
 
     go() {
