@@ -5,6 +5,7 @@ There are no ids, since two pictures on one page would share them: a picture is 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from html import escape as _escape
 
@@ -12,6 +13,7 @@ from rosmini.viz.layout.model import Point
 from rosmini.viz.style import FONT, themed
 
 _REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
+_FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def number(value: float) -> str:
@@ -22,11 +24,7 @@ def number(value: float) -> str:
 
 def clean(text: str) -> str:
     """`text` without the characters that XML cannot hold at all (control characters, lone surrogates)."""
-    return "".join(c if _allowed(ord(c)) else _REPLACEMENT for c in text)
-
-
-def _allowed(code: int) -> bool:
-    return code in (9, 10, 13) or 0x20 <= code <= 0xD7FF or 0xE000 <= code <= 0xFFFD or code >= 0x10000
+    return _FORBIDDEN.sub(_REPLACEMENT, text)
 
 
 def escape(text: str) -> str:

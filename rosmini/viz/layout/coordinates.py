@@ -32,13 +32,14 @@ def gap(a: Slot, b: Slot) -> float:
 
 def assign_across(proper: Proper, head: float) -> None:
     """Set `at` of every slot. `head` is the room at the beginning of each group, in pixels."""
-    for row in proper.layers:
-        _pack(row, [0.0] * len(row), head)
+    layers = [_Layer(row, head) for row in proper.layers]
+    for layer in layers:
+        layer.pack([0.0] * len(layer.slots))
     for turn in range(SWEEPS):
         downward = turn % 2 == 0
-        for row in proper.layers if downward else proper.layers[::-1]:
-            both = turn >= SWEEPS // 2
-            _pack(row, [_wish(slot, downward=downward, both=both) for slot in row], head)
+        both = turn >= SWEEPS // 2
+        for layer in layers if downward else layers[::-1]:
+            layer.pack([_wish(slot, downward=downward, both=both) for slot in layer.slots])
     borders = _Borders(proper, head)
     borders.push_apart()
     borders.straighten()
@@ -54,8 +55,10 @@ def _wish(slot: Slot, *, downward: bool, both: bool) -> float:
         links = slot.previous + slot.following
     if not links:
         return slot.at
-    weight = sum(w for _, w in links)
-    return sum(other.at * w for other, w in links) / weight
+    if len(links) == 1:
+        ((other, weight),) = links
+        return other.at * weight / weight
+    return sum([other.at * w for other, w in links]) / sum([w for _, w in links])
 
 
 def distance(a: Slot, b: Slot, head: float) -> float:
@@ -65,27 +68,32 @@ def distance(a: Slot, b: Slot, head: float) -> float:
     return a.after + gap(a, b) + b.before + closing * GROUP_PAD + opening * head
 
 
-def _pack(row: Sequence[Slot], wishes: Sequence[float], head: float) -> None:
-    """Place a layer in its order, with its distances, as near to the wishes as least squares allows."""
-    offsets = [0.0]
-    for a, b in pairwise(row):
-        offsets.append(offsets[-1] + distance(a, b, head))
-    blocks: list[tuple[float, float, int]] = []  # mean, weight, number of slots
-    for slot, wish, offset in zip(row, wishes, offsets, strict=False):
-        links = slot.previous + slot.following
-        weight = sum(w for _, w in links) or 0.1
-        mean, count = wish - offset, 1
-        while blocks and blocks[-1][0] >= mean:
-            last_mean, last_weight, last_count = blocks.pop()
-            mean = (mean * weight + last_mean * last_weight) / (weight + last_weight)
-            weight += last_weight
-            count += last_count
-        blocks.append((mean, weight, count))
-    i = 0
-    for mean, _, count in blocks:
-        for _ in range(count):
-            row[i].at = mean + offsets[i]
-            i += 1
+class _Layer:
+    """A layer in its order, with the distances between its slots."""
+
+    def __init__(self, row: Sequence[Slot], head: float) -> None:
+        self.slots = row
+        self._offsets = [0.0]
+        for a, b in pairwise(row):
+            self._offsets.append(self._offsets[-1] + distance(a, b, head))
+        self._weights = [sum(w for _, w in slot.previous + slot.following) or 0.1 for slot in row]
+
+    def pack(self, wishes: Sequence[float]) -> None:
+        """Place the slots as near to the wishes as least squares allows."""
+        blocks: list[tuple[float, float, int]] = []  # mean, weight, number of slots
+        for wish, offset, own in zip(wishes, self._offsets, self._weights, strict=False):
+            mean, weight, count = wish - offset, own, 1
+            while blocks and blocks[-1][0] >= mean:
+                last_mean, last_weight, last_count = blocks.pop()
+                mean = (mean * weight + last_mean * last_weight) / (weight + last_weight)
+                weight += last_weight
+                count += last_count
+            blocks.append((mean, weight, count))
+        i = 0
+        for mean, _, count in blocks:
+            for _ in range(count):
+                self.slots[i].at = mean + self._offsets[i]
+                i += 1
 
 
 class _Borders:
@@ -171,8 +179,13 @@ class _Borders:
             self.position[border] = max(self.position[n] + apart for n, apart in self.before[border])
 
     def _room(self, slot: Slot) -> tuple[float, float]:
-        low = max((self.position[n] + apart for n, apart in self.before[slot]), default=-inf)
-        high = min((self.position[n] - apart for n, apart in self.after[slot]), default=inf)
+        position, low, high = self.position, -inf, inf
+        for other, apart in self.before[slot]:
+            if (border := position[other] + apart) > low:
+                low = border
+        for other, apart in self.after[slot]:
+            if (border := position[other] - apart) < high:
+                high = border
         return low, high
 
     def _slide(self, slot: Slot, wish: float) -> None:
@@ -210,7 +223,7 @@ class _Borders:
 def _median(values: list[tuple[float, float]], current: float) -> float:
     """The weighted median; where it is a whole interval, its point nearest to `current`."""
     values = sorted(values)
-    half = sum(weight for _, weight in values) / 2
+    half = sum([weight for _, weight in values]) / 2
     seen = 0.0
     for i, (value, weight) in enumerate(values):
         seen += weight

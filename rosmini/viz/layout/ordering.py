@@ -1,124 +1,169 @@
 """The order within each layer: few crossings, groups kept together.
 
 Barycentre sweeps down and up with exchanges of neighbours, the best order seen being kept (Sugiyama, Tagawa and
-Toda, "Methods for visual understanding of hierarchical system structures", 1981). The number of passes is fixed.
+Toda, "Methods for visual understanding of hierarchical system structures", 1981). The number of passes is bounded.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right, insort
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 from rosmini.viz.layout.slots import Proper, Slot
 
-Order = list[list[Slot]]
+Order = list[list[int]]
+"""The layers, each slot by its number."""
+Groups = tuple[str, ...]
+Ends = tuple[list[int], list[int]]
+"""The places of a slot's neighbours in the layer before and in the layer after, each sorted."""
 PASSES = 24
 FREE_PASSES = 6
 """The first sweeps leave the groups free to move: their mean places then fix the order of the groups for good."""
+ROUNDS = 4
+"""How often neighbours are exchanged in all layers after each pass, at most."""
 
 
 def order_layers(proper: Proper) -> None:
     """Reorder `proper.layers` in place."""
-    starts = (_start(proper, outward=True), _start(proper, outward=False))
-    results = [_sweep(proper, start) for start in starts]
-    best = min(results, key=crossings)  # min keeps the first of equals
-    proper.layers[:] = best
+    links = _Links(proper)
+    starts = [_start(proper, links, outward=True), _start(proper, links, outward=False)]
+    if starts[0] == starts[1]:
+        del starts[1]
+    results = [_sweep(proper, links, start) for start in starts]
+    best = min(results, key=links.crossings)  # min keeps the first of equals
+    proper.layers[:] = [[links.slots[number] for number in row] for row in best]
 
 
-def crossings(order: Order) -> int:
-    """The number of crossings between all neighbouring layers."""
-    return sum(_crossings_between(a, b) for a, b in pairwise(order))
+class _Links:
+    """The slots by number, with the numbers of their neighbours: most of the time of a layout is spent here."""
+
+    def __init__(self, proper: Proper) -> None:
+        self.slots = [slot for row in proper.layers for slot in row]
+        self.numbers = {id(slot): number for number, slot in enumerate(self.slots)}
+        self.groups = [slot.groups for slot in self.slots]
+        self.previous = [self._of(slot.previous) for slot in self.slots]
+        self.following = [self._of(slot.following) for slot in self.slots]
+
+    def _of(self, links: Sequence[tuple[Slot, float]]) -> list[int]:
+        return [self.numbers[id(other)] for other, _ in links]
+
+    def places(self, order: Order) -> list[int]:
+        """Return the place of each slot in its layer."""
+        place = [0] * len(self.slots)
+        for row in order:
+            for i, slot in enumerate(row):
+                place[slot] = i
+        return place
+
+    def crossings(self, order: Order) -> int:
+        """Return the number of crossings between all neighbouring layers."""
+        place = self.places(order)
+        return sum(self._crossings_below(row, place) for row, _ in pairwise(order))
+
+    def _crossings_below(self, row: Sequence[int], place: Sequence[int]) -> int:
+        seen: list[int] = []
+        total = 0
+        for slot in row:
+            ends = sorted([place[other] for other in self.following[slot]])
+            for end in ends:
+                if seen and end < seen[-1]:
+                    total += len(seen) - bisect_right(seen, end)
+            for end in ends:
+                insort(seen, end)
+        return total
+
+    def ends(self, slot: int, place: Sequence[int]) -> Ends:
+        """Return where the edges of a slot lead."""
+        return (
+            sorted([place[other] for other in self.previous[slot]]),
+            sorted([place[other] for other in self.following[slot]]),
+        )
 
 
-def _crossings_between(upper: Sequence[Slot], lower: Sequence[Slot]) -> int:
-    place = {id(slot): i for i, slot in enumerate(lower)}
-    seen: list[int] = []
-    total = 0
-    for slot in upper:
-        ends = sorted(place[id(other)] for other, _ in slot.following)
-        for end in ends:
-            total += len(seen) - bisect_right(seen, end)
-        for end in ends:
-            insort(seen, end)
-    return total
-
-
-def _start(proper: Proper, *, outward: bool) -> Order:
+def _start(proper: Proper, links: _Links, *, outward: bool) -> Order:
     """Slots in the order in which a depth-first walk along (or against) the edges meets them."""
     met: dict[int, int] = {}
-    roots = proper.layers if outward else proper.layers[::-1]
-    for row in roots:
+    order = [[links.numbers[id(slot)] for slot in row] for row in proper.layers]
+    onward = links.following if outward else links.previous
+    for row in order if outward else order[::-1]:
         for root in row:
             stack = [root]
             while stack:
                 slot = stack.pop()
-                if id(slot) in met:
-                    continue
-                met[id(slot)] = len(met)
-                onward = slot.following if outward else slot.previous
-                stack.extend(other for other, _ in reversed(onward))
-    return [sorted(row, key=lambda slot: met[id(slot)]) for row in proper.layers]
+                if slot not in met:
+                    met[slot] = len(met)
+                    stack.extend(reversed(onward[slot]))
+    return [sorted(row, key=met.__getitem__) for row in order]
 
 
-def _sweep(proper: Proper, order: Order) -> Order:
-    ranking: dict[tuple[str, ...], float] = {}
+def _sweep(proper: Proper, links: _Links, order: Order) -> Order:
+    ranking: dict[Groups, float] = {}
     best, fewest = order, -1
+    seen: set[tuple[bool, tuple[tuple[int, ...], ...]]] = set()
     for turn in range(PASSES):
+        downward = turn % 2 == 0
         if proper.groups and turn == FREE_PASSES:
-            ranking = _group_ranking(proper, order)
-        order = _pass(order, downward=turn % 2 == 0, ranking=ranking)
-        _exchange_neighbours(order)
-        settled = not proper.groups or turn >= FREE_PASSES
-        count = crossings(order)
-        if settled and (fewest < 0 or count < fewest):
-            best, fewest = [list(row) for row in order], count
-        if settled and fewest == 0:
+            ranking = _group_ranking(proper, links, order)
+        order = _pass(links, order, downward=downward, ranking=ranking)
+        _exchange_neighbours(links, order)
+        if proper.groups and turn < FREE_PASSES:
+            continue
+        state = (downward, tuple(map(tuple, order)))
+        if state in seen:  # all that would follow has been there
+            break
+        seen.add(state)
+        count = links.crossings(order)
+        if fewest < 0 or count < fewest:
+            best, fewest = order, count
+        if fewest == 0:
             break
     return best
 
 
-def _group_ranking(proper: Proper, order: Order) -> dict[tuple[str, ...], float]:
-    places: dict[tuple[str, ...], list[float]] = {group: [] for group in proper.groups}
+def _group_ranking(proper: Proper, links: _Links, order: Order) -> dict[Groups, float]:
+    places: dict[Groups, list[float]] = {group: [] for group in proper.groups}
     for row in order:
         for i, slot in enumerate(row):
-            for depth in range(1, len(slot.groups) + 1):
-                places[slot.groups[:depth]].append((i + 0.5) / len(row))
+            groups = links.groups[slot]
+            for depth in range(1, len(groups) + 1):
+                places[groups[:depth]].append((i + 0.5) / len(row))
     return {group: sum(values) / len(values) for group, values in places.items()}
 
 
-def _pass(order: Order, *, downward: bool, ranking: dict[tuple[str, ...], float]) -> Order:
+def _pass(links: _Links, order: Order, *, downward: bool, ranking: dict[Groups, float]) -> Order:
     result: Order = [list(row) for row in order]
-    layers = range(len(result)) if downward else range(len(result) - 1, -1, -1)
-    place = {id(slot): float(i) for row in result for i, slot in enumerate(row)}
-    for layer in layers:
+    place = links.places(result)
+    beyond = links.previous if downward else links.following
+    for layer in range(len(result)) if downward else range(len(result) - 1, -1, -1):
         row = result[layer]
-        wish = {id(slot): _barycentre(slot, place, downward=downward) for slot in row}
-        result[layer] = _arrange(row, lambda slot, wish=wish: wish[id(slot)], 0, ranking)  # type: ignore[misc]
+        wish = {}
+        for slot in row:
+            others = beyond[slot]
+            wish[slot] = sum([place[other] for other in others]) / len(others) if others else place[slot]
+        result[layer] = _arrange(row, wish, links.groups, 0, ranking)
         for i, slot in enumerate(result[layer]):
-            place[id(slot)] = float(i)
+            place[slot] = i
     return result
 
 
-def _barycentre(slot: Slot, place: dict[int, float], *, downward: bool) -> float:
-    links = slot.previous if downward else slot.following
-    if not links:
-        return place[id(slot)]
-    return sum(place[id(other)] for other, _ in links) / len(links)
-
-
 def _arrange(
-    row: Sequence[Slot],
-    wish: Callable[[Slot], float],
+    row: Sequence[int],
+    wish: dict[int, float],
+    groups: Sequence[Groups],
     depth: int,
-    ranking: dict[tuple[str, ...], float],
-) -> list[Slot]:
+    ranking: dict[Groups, float],
+) -> list[int]:
     """Sort by wish, a group counting as one thing; where groups have a ranking, it decides between them."""
-    bundles: dict[object, list[Slot]] = {}
+    if not any(len(groups[slot]) > depth for slot in row):
+        return sorted(row, key=wish.__getitem__)
+    bundles: dict[object, list[int]] = {}
     for slot in row:
-        key: object = slot.groups[: depth + 1] if len(slot.groups) > depth else id(slot)
+        key: object = groups[slot][: depth + 1] if len(groups[slot]) > depth else slot
         bundles.setdefault(key, []).append(slot)
-    entries = sorted(bundles.items(), key=lambda entry: sum(map(wish, entry[1])) / len(entry[1]))
+    entries = sorted(
+        bundles.items(), key=lambda entry: sum([wish[slot] for slot in entry[1]]) / len(entry[1])
+    )
     if ranking:
         grouped = [i for i, (key, _) in enumerate(entries) if isinstance(key, tuple)]
         ranked = sorted(
@@ -127,46 +172,47 @@ def _arrange(
         )
         for i, entry in zip(grouped, ranked, strict=True):
             entries[i] = entry
-    result: list[Slot] = []
+    result: list[int] = []
     for key, slots in entries:
-        result.extend(_arrange(slots, wish, depth + 1, ranking) if isinstance(key, tuple) else slots)
+        result.extend(_arrange(slots, wish, groups, depth + 1, ranking) if isinstance(key, tuple) else slots)
     return result
 
 
-Ends = tuple[list[int], list[int]]
-"""The places of a slot's neighbours in the layer before and in the layer after, each sorted."""
-
-
-def _exchange_neighbours(order: Order) -> None:
+def _exchange_neighbours(links: _Links, order: Order) -> None:
     """Swap neighbours of the same group while that removes crossings."""
-    place = {id(slot): i for row in order for i, slot in enumerate(row)}
-    for _ in range(4):
-        improved = False
-        for row in order:
-            ends = [_ends(slot, place) for slot in row]
-            for i in range(len(row) - 1):
-                if row[i].groups == row[i + 1].groups and _gains(ends[i], ends[i + 1]):
-                    row[i], row[i + 1] = row[i + 1], row[i]
-                    ends[i], ends[i + 1] = ends[i + 1], ends[i]
-                    improved = True
-            for i, slot in enumerate(row):
-                place[id(slot)] = i
-        if not improved:
+    place = links.places(order)
+    waiting = set(range(len(order)))
+    for _ in range(ROUNDS):
+        if not waiting:
             break
+        for layer, row in enumerate(order):
+            if layer not in waiting:  # nothing around it has moved since nothing was to be gained in it
+                continue
+            waiting.discard(layer)
+            if _exchange_in(links, row, place):
+                waiting.update(each for each in (layer - 1, layer, layer + 1) if 0 <= each < len(order))
 
 
-def _ends(slot: Slot, place: dict[int, int]) -> Ends:
-    return (
-        sorted([place[id(other)] for other, _ in slot.previous]),
-        sorted([place[id(other)] for other, _ in slot.following]),
-    )
+def _exchange_in(links: _Links, row: list[int], place: list[int]) -> bool:
+    """Swap neighbours in one layer, once through it; return whether any were."""
+    improved = False
+    ends = [links.ends(slot, place) for slot in row]
+    for i in range(len(row) - 1):
+        if links.groups[row[i]] == links.groups[row[i + 1]] and _gains(ends[i], ends[i + 1]):
+            row[i], row[i + 1] = row[i + 1], row[i]
+            ends[i], ends[i + 1] = ends[i + 1], ends[i]
+            improved = True
+    if improved:
+        for i, slot in enumerate(row):
+            place[slot] = i
+    return improved
 
 
 def _gains(first: Ends, second: Ends) -> bool:
     """Whether two neighbours in a layer have fewer crossings between their edges the other way round."""
-    now = swapped = 0
-    for a, b in zip(first, second, strict=True):
-        if a and b:
-            now += sum([bisect_left(b, end) for end in a])
-            swapped += sum([bisect_left(a, end) for end in b])
-    return swapped < now
+    (a, c), (b, d) = first, second
+    if not ((a and b and b[0] < a[-1]) or (c and d and d[0] < c[-1])):  # most have no crossings now
+        return False
+    pairs = ((a, b), (c, d))
+    now = sum([bisect_left(b, end) for a, b in pairs for end in a])
+    return sum([bisect_left(a, end) for a, b in pairs for end in b]) < now
