@@ -76,11 +76,11 @@ def surfaces_of(geometry: Geometry) -> list[Surface]:
         return [upright(np.array([(-x, -y), (x, -y), (x, y), (-x, y)]), -z, z)]
     if isinstance(geometry, Cylinder):
         radius, half = geometry.radius, geometry.length / 2
-        return [_lathe([(0.0, -half), (radius, -half), (radius, half), (0.0, half)])]
+        return [lathe([(0.0, -half), (radius, -half), (radius, half), (0.0, half)])]
     if isinstance(geometry, Sphere):
         angles = [math.pi * (i / BALL - 0.5) for i in range(1, BALL)]
         rings = [(geometry.radius * math.cos(a), geometry.radius * math.sin(a)) for a in angles]
-        return [_lathe([(0.0, -geometry.radius), *rings, (0.0, geometry.radius)])]
+        return [lathe([(0.0, -geometry.radius), *rings, (0.0, geometry.radius)])]
     return _mesh(geometry)
 
 
@@ -91,17 +91,17 @@ def upright(outline: Floats, bottom: float, top: float) -> Surface:
     return Surface(*mesh([Prism(outline, bottom, top), below]))
 
 
-def _lathe(profile: list[tuple[float, float]]) -> Surface:
+def lathe(profile: list[tuple[float, float]], corners: int = ROUND) -> Surface:
     """The surface of revolution about z of a profile of (radius, height), upwards: smooth, but for its edges."""
     vertices, faces = [], []
-    circle, ahead = regular(ROUND, 1.0), np.roll(np.arange(ROUND), -1)
-    low = np.arange(ROUND)
+    circle, ahead = regular(corners, 1.0), np.roll(np.arange(corners), -1)
+    low = np.arange(corners)
     for (r0, z0), (r1, z1) in pairwise(profile):
-        vertices += [np.column_stack([circle * r, np.full(ROUND, z)]) for r, z in ((r0, z0), (r1, z1))]
-        quads = ([(low, ahead, ahead + ROUND)] if r0 else []) + (
-            [(low, ahead + ROUND, low + ROUND)] if r1 else []
+        vertices += [np.column_stack([circle * r, np.full(corners, z)]) for r, z in ((r0, z0), (r1, z1))]
+        quads = ([(low, ahead, ahead + corners)] if r0 else []) + (
+            [(low, ahead + corners, low + corners)] if r1 else []
         )
-        faces += [np.column_stack(triangle) + ROUND * (len(vertices) - 2) for triangle in quads]
+        faces += [np.column_stack(triangle) + corners * (len(vertices) - 2) for triangle in quads]
     return Surface(np.vstack(vertices), np.vstack(faces))
 
 

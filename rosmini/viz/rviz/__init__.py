@@ -1,0 +1,16 @@
+"""RViz: a scene of displays, configured by a `.rviz` file, drawn in two and in three dimensions (http://wiki.ros.org/rviz).
+
+`Scene` holds displays and listens; `rviz` listens for some time and shows what there is.
+"""
+
+from __future__ import annotations
+
+from .config import Config, ConfigError
+from .display import Display, Level, Status
+from .picture import rviz, still
+from .primitives import DisplayError
+from .scene import Layer, Scene
+
+__all__ = [
+    "Config", "ConfigError", "Display", "DisplayError", "Layer", "Level", "Scene", "Status", "rviz", "still",
+]  # fmt: skip

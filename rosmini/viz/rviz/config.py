@@ -1,0 +1,207 @@
+"""Files of the real RViz, `.rviz`: read with care, and written so that the real one loads them.
+
+A file is YAML with three parts, `Panels`, `Visualization Manager` and `Window Geometry`. What is not known here
+(displays of other packages, panels, properties) is named in one warning and kept for when the file is written again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from copy import deepcopy
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from rosmini.viz.view import ViewError
+from rosmini.yaml_text import documents
+
+from .properties import Colour, Properties, Property
+
+MOST_BYTES = 4_000_000
+DEEPEST = 40
+"""How deep mappings and lists may be nested."""
+
+MANAGER = "Visualization Manager"
+
+OPTIONS = (
+    Property("Background Color", Colour(48, 48, 48), "the colour behind everything"),
+    Property("Default Light", True, "a light beside the camera"),
+    Property("Fixed Frame", "map", "the frame in which everything is drawn"),
+    Property("Frame Rate", 30, "how often a live view is drawn", unit="Hz", minimum=1, maximum=1000),
+)
+"""The Global Options."""
+
+PANELS = ("Displays", "Help", "Selection", "Time", "Tool Properties", "Views")
+TOOLS = (
+    "FocusCamera", "Interact", "Measure", "MoveCamera", "PublishPoint", "Select", "SetGoal", "SetInitialPose",
+)  # fmt: skip
+
+_NEW: dict[str, Any] = {
+    "Panels": [
+        {"Class": "rviz/Displays", "Name": "Displays"},
+        {"Class": "rviz/Selection", "Name": "Selection"},
+        {"Class": "rviz/Tool Properties", "Name": "Tool Properties"},
+        {"Class": "rviz/Views", "Name": "Views"},
+        {"Class": "rviz/Time", "Name": "Time", "SyncMode": 0, "SyncSource": ""},
+    ],
+    MANAGER: {
+        "Class": "",
+        "Displays": [],
+        "Enabled": True,
+        "Global Options": {},
+        "Name": "root",
+        "Tools": [
+            {"Class": "rviz/Interact", "Hide Inactive Objects": True},
+            {"Class": "rviz/MoveCamera"},
+            {"Class": "rviz/Select"},
+            {"Class": "rviz/FocusCamera"},
+            {"Class": "rviz/Measure"},
+            {"Class": "rviz/SetInitialPose", "Topic": "/initialpose"},
+            {"Class": "rviz/SetGoal", "Topic": "/move_base_simple/goal"},
+            {"Class": "rviz/PublishPoint", "Single click": True, "Topic": "/clicked_point"},
+        ],
+        "Transformation": {"Current": {"Class": "rviz/TF"}},
+        "Value": True,
+        "Views": {"Current": {}, "Saved": None},
+    },
+    "Window Geometry": {"Height": 800, "Width": 1200, "X": 0, "Y": 0},
+}
+
+
+class ConfigError(ViewError):
+    """A file is no configuration of RViz."""
+
+
+@dataclass
+class Config:
+    """What a file has, as plain data: `tree` is all of it."""
+
+    tree: dict[str, Any] = field(default_factory=lambda: deepcopy(_NEW))
+    source: str = "a new configuration"
+
+    @classmethod
+    def read(cls, path: str | Path) -> Config:
+        """Read a file.
+
+        Raises:
+            ConfigError: it cannot be read, is no YAML, is too large, or is no configuration of RViz.
+
+        """
+        try:
+            with Path(path).open("rb") as file:
+                data = file.read(MOST_BYTES + 1)
+        except OSError as error:
+            raise ConfigError(f"the configuration {path} cannot be read: {error.strerror}") from error
+        if len(data) > MOST_BYTES:
+            raise ConfigError(f"the configuration {path} is larger than {MOST_BYTES} bytes")
+        return cls.parse(data.decode(errors="replace"), Path(path).name)
+
+    @classmethod
+    def parse(cls, text: str, source: str = "the text") -> Config:
+        """Read the text of a file. Raises as `read` does."""
+        found = [value for value, _ in documents(text, source, _failure)]
+        tree = found[0] if len(found) == 1 else None
+        if not isinstance(tree, dict) or not isinstance(tree.get(MANAGER), dict):
+            raise ConfigError(f"{source} is no configuration of RViz: it has no mapping {MANAGER!r}")
+        if _depth(tree) > DEEPEST:
+            raise ConfigError(f"{source}: values are nested deeper than {DEEPEST}")
+        return cls(tree, source)
+
+    @property
+    def manager(self) -> dict[str, Any]:
+        """The part about displays, options, tools and views."""
+        found: dict[str, Any] = self.tree[MANAGER]
+        return found
+
+    def mappings(self, part: str) -> list[dict[str, Any]]:
+        """The mappings in a list of the manager: its `Displays` or `Tools`. What is none is left out."""
+        return _mappings(self.manager.get(part))
+
+    @property
+    def panels(self) -> list[dict[str, Any]]:
+        """The panels of the window."""
+        return _mappings(self.tree.get("Panels"))
+
+    def mapping(self, *path: str) -> dict[str, Any]:
+        """A mapping inside the manager; empty where there is none."""
+        node: Any = self.manager
+        for part in path:
+            node = node.get(part) if isinstance(node, dict) else None
+        return node if isinstance(node, dict) else {}
+
+    def options(self) -> Properties:
+        """The Global Options."""
+        return Properties(OPTIONS, self.mapping("Global Options"))
+
+    def strangers(self) -> list[str]:
+        """The classes of panels and tools that are not known here."""
+        kinds: list[tuple[str, tuple[str, ...], str]] = [
+            (kind_of(each), PANELS, "panel") for each in self.panels
+        ]
+        kinds += [(kind_of(each), TOOLS, "tool") for each in self.mappings("Tools")]
+        return [
+            f"{what} {kind}"
+            for kind, known, what in kinds
+            if kind.partition("/")[0] != "rviz" or kind.partition("/")[2] not in known
+        ]
+
+    def with_parts(
+        self, displays: Iterable[dict[str, Any]], options: Properties, view: dict[str, Any] | None
+    ) -> Config:
+        """The same with other displays, options and, if there is one, view."""
+        tree = deepcopy(self.tree)
+        manager = tree[MANAGER]
+        manager["Displays"] = list(displays)
+        manager["Global Options"] = options.tree()
+        if view is not None:
+            views = manager.get("Views")
+            manager["Views"] = {**(views if isinstance(views, dict) else {"Saved": None}), "Current": view}
+        return Config(tree, self.source)
+
+    def text(self) -> str:
+        """The file: keys in alphabetical order, as the real RViz writes them."""
+        import yaml
+
+        return str(yaml.safe_dump(_plain(self.tree), sort_keys=True, width=10_000, allow_unicode=True))
+
+    def write(self, path: str | Path) -> Path:
+        """Write the file, and return its path. Raises `ConfigError` if it cannot be written."""
+        try:
+            Path(path).write_text(self.text(), encoding="utf-8")
+        except OSError as error:
+            raise ConfigError(f"the configuration {path} cannot be written: {error.strerror}") from error
+        return Path(path)
+
+
+def kind_of(tree: dict[str, Any]) -> str:
+    """The class that a part of a file names."""
+    return str(tree.get("Class", ""))
+
+
+def _mappings(value: Any) -> list[dict[str, Any]]:
+    return [each for each in value if isinstance(each, dict)] if isinstance(value, list) else []
+
+
+def _failure(text: str, source: str, line: int | None) -> Exception:
+    return ConfigError(f"{source}{'' if line is None else f', line {line}'}: {text}")
+
+
+def _depth(value: Any) -> int:
+    deepest, todo = 0, [(value, 1)]
+    while todo:
+        node, depth = todo.pop()
+        deepest = max(deepest, depth)
+        if depth > DEEPEST:
+            break
+        inside = node.values() if isinstance(node, dict) else node if isinstance(node, list) else ()
+        todo += [(each, depth + 1) for each in inside]
+    return deepest
+
+
+def _plain(value: Any) -> Any:
+    """Data that YAML writes without tags; keys are text, so that they can be sorted."""
+    if isinstance(value, dict):
+        return {str(key): _plain(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    return value if isinstance(value, bool | int | float | str | None) else str(value)

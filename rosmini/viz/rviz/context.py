@@ -1,0 +1,115 @@
+"""What displays are given of the graph: time, frames, the fixed frame, and a node that only listens."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from rosmini.errors import RosminiError
+from rosmini.tf import Buffer, ExtrapolationException, TransformException
+from rosmini.tf.rigid import IDENTITY, Rigid
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+    from rosmini.tf import FrameTree
+
+TF_CACHE_S = 600.0
+"""How much of the past RViz keeps of tf [s]."""
+FIXED_FRAME = "<Fixed Frame>"
+"""What properties that name a frame have for the fixed one."""
+
+
+class Silence(NamedTuple):
+    """Why nothing comes on a topic: words, and whether waiting would help."""
+
+    text: str
+    hopeless: bool = False
+
+
+class Context:
+    """The graph as displays see it; `fixed_frame` is the frame in which all is drawn."""
+
+    def __init__(self, node: Node, fixed_frame: str) -> None:
+        self.node = node
+        self.buffer = Buffer(node, TF_CACHE_S)
+        self.fixed_frame = fixed_frame
+        self._types: dict[str, str] | None = None
+        self._publishers: dict[str, list[str]] = {}
+
+    @property
+    def tree(self) -> FrameTree:
+        """The frames that tf told of."""
+        return self.buffer.tree
+
+    @property
+    def now_ns(self) -> int:
+        """The time of the node [ns]."""
+        return self.node.clock.now_ns()
+
+    def refresh(self) -> None:
+        """Forget what the Master said: the next question asks again."""
+        self._types = None
+
+    def place(self, frame: str, stamp_ns: int = 0) -> Rigid:
+        """Where a frame is in the fixed frame at a time [ns]; 0 is the latest that is known.
+
+        Raises `TransformException` if that is not known.
+        """
+        frame = self.fixed_frame if frame == FIXED_FRAME else frame.lstrip("/")
+        if frame == self.fixed_frame:
+            return IDENTITY
+        return self.tree.lookup(self.fixed_frame, frame, stamp_ns).transform
+
+    def is_past(self, frame: str, stamp_ns: int) -> bool:
+        """Whether a transform is missing because it is too long ago to come any more."""
+        try:
+            return 0 < stamp_ns < self.tree.latest_common_time(self.fixed_frame, frame.lstrip("/"))
+        except TransformException:
+            return False
+
+    def problem(self, frame: str, error: TransformException) -> str:
+        """What RViz says where a frame cannot be brought to the fixed one."""
+        name = frame.lstrip("/")
+        if self.fixed_frame not in self.tree:
+            reason = f"Fixed Frame [{self.fixed_frame}] does not exist"
+        elif name not in self.tree:
+            reason = f"Frame [{name}] does not exist"
+        else:
+            late = isinstance(error, ExtrapolationException)
+            said = str(error).partition("\n")[0]
+            reason = (
+                f"No transform from [{name}] to fixed frame [{self.fixed_frame}]"
+                f"{' at that time' if late else ''}. TF error: [{said}]"
+            )
+        return f"For frame [{name}]: {reason}"
+
+    def silence(self, topic: str, kind: str) -> Silence:
+        """Why no message of a type came on a topic, as far as the Master knows."""
+        if self._types is None:
+            try:
+                master = self.node.graph.ask_as(self.node.name)
+                self._types = {str(name): str(each) for name, each in master.ask("getTopicTypes")}
+                state = master.ask("getSystemState")
+                self._publishers = {str(name): list(nodes) for name, nodes in state[0]}
+            except RosminiError:
+                self._types = {}
+        name = self.node.resolve(topic)
+        publishers = self._publishers.get(name, [])
+        found = self._types.get(name, kind)
+        if publishers and found not in (kind, "*"):
+            return Silence(f"{name} has the type {found}, and this display shows {kind}", hopeless=True)
+        if not publishers:
+            return Silence(f"nobody publishes {name}")
+        return Silence(f"{', '.join(sorted(publishers))} published nothing yet")
+
+    def subscribe(
+        self, topic: str, kind: str, callback: Callable[[Any], object], queue_size: int | None
+    ) -> Callable[[], None]:
+        """Call `callback` for each message on a topic; what is returned ends that.
+
+        Raises as `Node.subscriber` does.
+        """
+        from rosmini.msgs import message_class
+
+        handle = self.node.subscriber(topic, message_class(kind), callback, queue_size=queue_size)
+        return handle.unregister

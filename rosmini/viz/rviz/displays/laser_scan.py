@@ -1,0 +1,50 @@
+"""LaserScan: the points that a laser hit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.display import Level
+from rosmini.viz.rviz.points_style import POINT_PROPERTIES, styled
+from rosmini.viz.rviz.primitives import DisplayError, Points, Primitive
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+MOST_BEAMS = 1_000_000
+
+
+class LaserScan(TopicDisplay, plugin="rviz/LaserScan"):
+    """A point for each range between `range_min` and `range_max`, from where the laser was at the stamp."""
+
+    message = "sensor_msgs/LaserScan"
+    properties = POINT_PROPERTIES
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The points."""
+        del context
+        scan = heard.message
+        ranges = np.asarray(scan.ranges, dtype=float)
+        if len(ranges) > MOST_BEAMS:
+            raise DisplayError(f"a scan of {len(ranges)} ranges is too long: at most {MOST_BEAMS}")
+        if not np.isfinite([scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max]).all():
+            raise DisplayError(
+                "Message contained invalid floating point values (nans or infs) beside its ranges"
+            )
+        hit = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
+        angles = scan.angle_min + scan.angle_increment * np.flatnonzero(hit)
+        reach = ranges[hit]
+        local = np.column_stack([reach * np.cos(angles), reach * np.sin(angles), np.zeros(len(reach))])
+        intensities = np.asarray(scan.intensities, dtype=float)
+        channels = {"intensity": intensities[hit]} if len(intensities) == len(ranges) else {}
+        yield styled(heard.points(local), self, channels, local)
+
+    def primitives(self, context: Context) -> Iterable[Primitive]:
+        """The points of all scans that are kept."""
+        found = list(super().primitives(context))
+        count = sum(len(each.points) for each in found if isinstance(each, Points))
+        if self.kept:
+            text = f"Showing [{count}] points from [{len(self.kept)}] messages"
+            self.set_status(Level.OK if count else Level.WARN, "Points", text)
+        return found

@@ -1,0 +1,100 @@
+"""Map: an occupancy grid or a costmap, in RViz's colours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from rosmini.errors import RosminiError
+from rosmini.tf.rigid import compose, matrix
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.display import Level
+from rosmini.viz.rviz.palettes import COLOUR_SCHEMES, thinned
+from rosmini.viz.rviz.primitives import DisplayError, Pixels, Primitive, Texture
+from rosmini.viz.rviz.properties import Property
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+MOST_CELLS = 100_000_000
+
+
+class Map(TopicDisplay, plugin="rviz/Map"):
+    """A `nav_msgs/OccupancyGrid`, and the `map_msgs/OccupancyGridUpdate`s that change parts of it."""
+
+    message = "nav_msgs/OccupancyGrid"
+    properties = (
+        Property("Alpha", 0.7, "how opaque it is", minimum=0.0, maximum=1.0),
+        Property("Color Scheme", "map", "how cells are coloured", choices=tuple(COLOUR_SCHEMES)),
+        Property("Draw Behind", False, "behind everything else"),
+        Property("Use Timestamp", False, "where the map's frame was at its stamp, not where it is now"),
+    )
+
+    def start(self, context: Context) -> None:
+        """Subscribe to the map and to its updates."""
+        super().start(context)
+        if self._subscriptions:
+            self.set_status(Level.WARN, "Map", "No map received")
+            try:
+                topic, kind = f"{self.topic}_updates", "map_msgs/OccupancyGridUpdate"
+                self.listen(context, topic, kind, self._change)
+                self.set_status(Level.OK, "Update Topic", "OK")
+            except RosminiError as error:
+                self.fail("Update Topic", error)
+
+    def accept(self, heard: Heard, context: Context) -> bool:
+        """Take a map; its cells are copied, since updates change them."""
+        del context
+        info, count = heard.message.info, len(heard.message.data)
+        width, height = int(info.width), int(info.height)
+        if width * height == 0:
+            raise DisplayError(f"Map is zero-sized ({width}x{height})")
+        if width * height > MOST_CELLS:
+            raise DisplayError(f"a map of {width}x{height} cells is too large: at most {MOST_CELLS} cells")
+        if count != width * height:
+            raise DisplayError(
+                f"Data size doesn't match width*height: width = {width}, height = {height}, data size = {count}"
+            )
+        if not 0 < info.resolution < 1e6:
+            raise DisplayError(f"a resolution of {info.resolution:g} m is none")
+        self._cells: Pixels = (
+            np.array(heard.message.data, dtype=np.int8).view(np.uint8).reshape(height, width)
+        )
+        return True
+
+    def _change(self, update: Any) -> None:
+        """Take an update: a rectangle of new cells."""
+        if not self.kept:
+            return
+        rows, columns = int(update.height), int(update.width)
+        x, y = int(update.x), int(update.y)
+        height, width = self._cells.shape
+        if (
+            not (0 <= x <= x + columns <= width and 0 <= y <= y + rows <= height)
+            or len(update.data) != rows * columns
+        ):
+            self.set_status(Level.ERROR, "Update", "Update area outside of original map area.")
+            return
+        fresh = np.array(update.data, dtype=np.int8).view(np.uint8).reshape(rows, columns)
+        self._cells[y : y + rows, x : x + columns] = fresh
+        self.kept[-1].drawn = None
+        self.set_status(Level.OK, "Update", "Update OK")
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The cells as a texture, thinned to what can be seen."""
+        del context
+        info = heard.message.info
+        origin = heard.local(info.origin)
+        height, width = self._cells.shape
+        cells, factor = thinned(self._cells, self["Color Scheme"])
+        pixels = COLOUR_SCHEMES[self["Color Scheme"]][cells]
+        pixels[..., 3] = np.round(pixels[..., 3] * float(self["Alpha"]))
+        side = factor * float(info.resolution)
+        size = (cells.shape[1] * side, cells.shape[0] * side)
+        place = matrix(compose(heard.place, origin))
+        self.set_status(Level.OK, "Map", f"Map received: {width} x {height} cells of {info.resolution:g} m")
+        yield Texture(pixels, size, place, behind=self["Draw Behind"])
+
+    def moment(self, heard: Heard) -> int:
+        """Now, unless the stamp is to be used."""
+        return heard.stamp_ns if self["Use Timestamp"] else 0

@@ -1,0 +1,228 @@
+"""Scenes as SVG: from above, or from the side that a view looks from, without perspective.
+
+Colours are RViz's, on its background, on light pages and on dark ones: that is how its users know them. All numbers are
+rounded, so the same scene gives the same bytes on every machine.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
+
+from rosmini.geometry.slices import convex_hull
+from rosmini.viz.metrics import text_width
+from rosmini.viz.rounding import snap
+from rosmini.viz.svg import document, element, escape
+
+from .gifs import gif
+from .primitives import Floats, Ints, Lines, Mesh, Points, Primitive, Text, Texture
+from .projection import Projection
+from .properties import Colour
+
+KIND = "rosmini-rviz"
+LEAST_DOT, LEAST_LINE = 1.8, 1.0
+"""Points and lines are never drawn smaller [px]."""
+MOST_DOTS = 8000
+"""Points of one display in a picture: of points on nearly the same pixel one is drawn."""
+MANY_FACES = 80
+"""A mesh with more faces is drawn as its outline from this side."""
+SMALLEST_TEXT, LARGEST_TEXT = 10.0, 28.0
+MOST_WORDS = 300
+LEVELS = 32
+"""Steps of each colour channel."""
+SUN = np.array([0.25, -0.42, 0.87])
+
+
+def draw(shown: Sequence[Primitive], look: Projection, background: Colour, *, title: str, alt: str) -> str:
+    """Primitives as an SVG: textures first, the rest from far to near, words last."""
+    behind = [each for each in shown if isinstance(each, Texture) and each.behind]
+    maps = [each for each in shown if isinstance(each, Texture) and not each.behind]
+    words = [each for each in shown if isinstance(each, Text)]
+    rest = sorted(
+        (each for each in shown if not isinstance(each, Texture | Text)),
+        key=lambda each: _nearest(each, look),
+    )
+    width, height = look.width, look.height
+    parts = [element("rect", width=width, height=height, fill=_hex(background.rgba()), rx=4.0)]
+    for each in (*behind, *maps, *rest):
+        parts += _drawn(each, look)
+    parts += _words(words, look, background)
+    body = element(
+        "svg", "".join(parts), width=width, height=height, overflow="hidden", stroke_linejoin="round",
+    )  # fmt: skip
+    return document(body, width=width, height=height, title=title, alt=alt, css="", colours=[], kind=KIND)
+
+
+def _drawn(primitive: Primitive, look: Projection) -> Iterator[str]:
+    if isinstance(primitive, Texture):
+        yield from _texture(primitive, look)
+    elif isinstance(primitive, Points):
+        yield from _points(primitive, look)
+    elif isinstance(primitive, Lines):
+        yield from _lines(primitive, look)
+    elif isinstance(primitive, Mesh):
+        yield from _mesh(primitive, look)
+
+
+def _nearest(primitive: Primitive, look: Projection) -> float:
+    """How near its nearest point is."""
+    points = (
+        primitive.placed if isinstance(primitive, Mesh) else getattr(primitive, "points", np.empty((0, 3)))
+    )
+    return float(look.nearness(points).max()) if len(points) else -np.inf
+
+
+def _texture(texture: Texture, look: Projection) -> Iterator[str]:
+    origin, right, _, up = look.pixels(texture.corners)
+    data, opacity = gif(texture.pixels)
+    if not opacity:
+        return
+    a, b, c, d = (f"{value:.6g}" for value in (*(right - origin), *(up - origin)))
+    yield element(
+        "image", href=f"data:image/gif;base64,{base64.b64encode(data).decode()}", width=1, height=1,
+        preserveAspectRatio="none", transform=f"matrix({a} {b} {c} {d} {origin[0]:.6g} {origin[1]:.6g})",
+        style="image-rendering:pixelated", opacity=_opacity(opacity),
+    )  # fmt: skip
+
+
+def _points(points: Points, look: Projection) -> Iterator[str]:
+    flat = look.pixels(points.points)
+    colours = _steps(points.colours, len(flat))
+    inside = ((flat >= 0) & (flat <= (look.width, look.height))).all(axis=1)
+    flat, colours = _thinned(flat[inside], colours[inside])
+    size = points.size if points.style == "Points" else points.size * look.scale
+    cap = "round" if points.style == "Spheres" else "square"
+    width = max(LEAST_DOT, min(float(snap(size, 0.1)), look.width))
+    for colour, among in _alike(colours):
+        path = "".join(f"M{x:.5g},{y:.5g}h0" for x, y in flat[among].tolist())
+        yield _path(path, colour, width, cap)
+
+
+def _thinned(flat: Floats, colours: Floats) -> tuple[Floats, Floats]:
+    """One of the points that fall on the same pixel, or on the same few pixels if there are still too many."""
+    quantum = 0.5
+    while True:
+        _, first = np.unique(np.floor(flat / quantum).astype(np.int64), axis=0, return_index=True)
+        if len(first) <= MOST_DOTS:
+            kept = np.sort(first)
+            return flat[kept], colours[kept]
+        quantum *= 1.5
+
+
+def _lines(lines: Lines, look: Projection) -> Iterator[str]:
+    width = max(LEAST_LINE, min(float(snap(lines.width * look.scale, 0.1)), look.width))
+    if lines.strip and lines.colours.ndim == 1:
+        flat = look.pixels(lines.points)
+        new = np.ones(len(flat), dtype=bool)
+        new[1:] = (np.abs(np.diff(flat, axis=0)) >= 0.1).any(axis=1)
+        data = _way(flat[new])
+        if data:
+            yield _path(data, _steps(lines.colours, 1)[0], width, "round")
+        return
+    ends = look.pixels(lines.segments().reshape(-1, 3)).reshape(-1, 2, 2)
+    seen = ((ends.max(axis=1) >= 0) & (ends.min(axis=1) <= (look.width, look.height))).all(axis=1)
+    colours = _steps(lines.segment_colours(), len(ends))
+    for colour, among in _alike(colours[seen]):
+        yield _path("".join(_way(each) for each in ends[seen][among]), colour, width, "butt")
+
+
+def _mesh(mesh: Mesh, look: Projection) -> Iterator[str]:
+    placed = mesh.placed
+    if not len(mesh.faces):
+        return
+    flat = look.pixels(placed)
+    if len(mesh.faces) > MANY_FACES:
+        colour = mesh.colours if mesh.colours.ndim == 1 else mesh.colours.mean(axis=0)
+        yield _filled([convex_hull(flat)], _steps(colour, 1)[0])
+        return
+    triangles = placed[mesh.faces]
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    sizes = np.linalg.norm(normals, axis=1)
+    towards = normals @ look.axes[2]
+    seen = np.flatnonzero((sizes > 1e-12) & (towards > 1e-9 * sizes if mesh.lit else sizes > 0))
+    order = seen[np.argsort(look.nearness(triangles[seen].mean(axis=1)), kind="stable")]
+    light = np.ones(len(order))
+    if mesh.lit:
+        light = 0.7 + 0.3 * np.clip(normals[order] @ SUN / sizes[order], 0.0, 1.0)
+    colours = (
+        mesh.colours[order] if mesh.colours.ndim == 2 else np.tile(mesh.colours, (len(order), 1))
+    ).copy()
+    colours[:, :3] *= light[:, None]
+    steps = _steps(colours, len(order))
+    start = 0
+    while start < len(order):
+        end = start + 1
+        while end < len(order) and (steps[end] == steps[start]).all():
+            end += 1
+        yield _filled([flat[mesh.faces[i]] for i in order[start:end]], steps[start])
+        start = end
+
+
+def _words(words: Sequence[Text], look: Projection, background: Colour) -> Iterator[str]:
+    """Words below their points, or further below where others are already."""
+    halo = _hex(background.rgba())
+    taken: list[tuple[float, float, float]] = []
+    for text in words[:MOST_WORDS]:
+        x, y = look.pixels(text.position[None])[0].tolist()
+        if not (0 <= x <= look.width and 0 <= y <= look.height):
+            continue
+        size = min(max(float(snap(1.4 * text.height * look.scale, 0.1)), SMALLEST_TEXT), LARGEST_TEXT)
+        half, base = text_width(text.text, size) / 2, y + size
+        while any(abs(x - u) < half + v and abs(base - w) < size for u, v, w in taken):
+            base += 1.05 * size
+        taken.append((x, half, base))
+        yield element(
+            "text", escape(text.text), x=x, y=base, font_size=size, text_anchor="middle",
+            fill=_hex(text.colour), opacity=_opacity(text.colour[3]), stroke=halo, stroke_width=2.5,
+            paint_order="stroke",
+        )  # fmt: skip
+
+
+def _steps(colours: Floats, count: int) -> Floats:
+    """Colours (count, 4) in few steps, so that alike ones share a path."""
+    found = np.round(snap(np.atleast_2d(colours) * LEVELS, 0.01)) / LEVELS
+    return np.broadcast_to(found, (count, 4)) if len(found) == 1 else found
+
+
+def _alike(colours: Floats) -> Iterator[tuple[Floats, Ints]]:
+    """Each colour, and which have it (n,), sorted by colour."""
+    if not len(colours):
+        return
+    found, places = np.unique(colours, axis=0, return_inverse=True)
+    places = places.reshape(-1)
+    for i, colour in enumerate(found):
+        yield colour, np.flatnonzero(places == i)
+
+
+def _way(flat: Floats) -> str:
+    return "M" + "L".join(f"{x:.5g},{y:.5g}" for x, y in flat.tolist()) if len(flat) > 1 else ""
+
+
+def _path(data: str, colour: Floats, width: float, cap: str) -> str:
+    return element(
+        "path", d=data, fill="none", stroke=_hex(colour), stroke_width=width, stroke_linecap=cap,
+        stroke_opacity=_opacity(colour[3]),
+    )  # fmt: skip
+
+
+def _filled(outlines: Iterable[Floats], colour: Floats) -> str:
+    data = "".join(
+        "M" + "L".join(f"{x:.5g},{y:.5g}" for x, y in each.tolist()) + "Z"
+        for each in outlines
+        if len(each) > 2
+    )
+    paint = _hex(colour)
+    opacity = _opacity(colour[3])
+    return (
+        element("path", d=data, fill=paint, stroke=paint, stroke_width=0.5, opacity=opacity) if data else ""
+    )
+
+
+def _opacity(alpha: float) -> str | None:
+    return None if alpha >= 0.999 else f"{alpha:.2f}".rstrip("0").rstrip(".")
+
+
+def _hex(colour: Floats) -> str:
+    return "#" + "".join(f"{int(part * 255 + 0.5371):02x}" for part in np.clip(colour[:3], 0.0, 1.0))

@@ -1,0 +1,54 @@
+"""Pixels as GIF: unlike PNG, whose bytes depend on a machine's zlib, the same on every machine with one Pillow.
+
+Pages are compared to the byte, so what is in them has to be. 256 colours are all that a map has.
+"""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+
+from .primitives import Pixels
+
+
+def gif(pixels: Pixels) -> tuple[bytes, float]:
+    """Pixels (h, w, 4) as a GIF, and how opaque (0 to 1) it is to be shown: a GIF knows only wholly clear pixels."""
+    from PIL import Image
+
+    clear = pixels[..., 3] == 0
+    alphas = pixels[..., 3][~clear]
+    opacity = float(alphas.mean()) / 255 if len(alphas) else 0.0
+    colours = pixels[..., :3].astype(np.uint32)
+    packed = (colours[..., 0] << 16) | (colours[..., 1] << 8) | colours[..., 2]
+    packed[clear] = 1 << 24
+    found, places = np.unique(packed, return_inverse=True)
+    if len(found) > 256:
+        return _reduced(pixels, clear), round(opacity, 3)
+    image = Image.fromarray(places.reshape(clear.shape).astype(np.uint8), mode="P")
+    image.putpalette(
+        np.stack([found >> 16 & 255, found >> 8 & 255, found & 255], axis=1).astype(np.uint8).tobytes()
+    )
+    return _written(image, int(len(found) - 1) if clear.any() else None), round(opacity, 3)
+
+
+def _reduced(pixels: Pixels, clear: np.ndarray) -> bytes:
+    """The same in 255 colours, and one for clear."""
+    from PIL import Image
+
+    image = Image.fromarray(np.ascontiguousarray(pixels[..., :3]))
+    image = image.quantize(255, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    if not clear.any():
+        return _written(image, None)
+    places = np.asarray(image).copy()
+    places[clear] = 255
+    marked = Image.fromarray(places, mode="P")
+    marked.putpalette([*(image.getpalette() or [])[: 3 * 255], 0, 0, 0])
+    return _written(marked, 255)
+
+
+def _written(image: object, transparency: int | None) -> bytes:
+    file = io.BytesIO()
+    options = {} if transparency is None else {"transparency": transparency}
+    image.save(file, format="GIF", optimize=False, **options)  # type: ignore[attr-defined]
+    return file.getvalue()

@@ -1,0 +1,99 @@
+"""From the scene to a picture without perspective: straight down for maps, or from the side that a view looks from.
+
+Without perspective a map stays a parallelogram, which SVG can draw; so a still shows what the turnable view shows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rosmini.viz.rounding import snap
+
+from .primitives import Floats, Mesh, Primitive, Text, Texture
+from .views import Sight
+
+MARGIN = 0.05
+"""Around what is fitted into the picture, by its size."""
+LEAST = 1.0
+"""A picture shows at least this much [m]."""
+
+
+@dataclass(frozen=True)
+class Projection:
+    """Axes of the picture in the fixed frame: `axes` (3, 3) has the directions right, up and towards the viewer."""
+
+    axes: Floats
+    middle: Floats
+    """What is in the middle of the picture (2,), along right and up [m]."""
+    scale: float
+    """Pixels a metre."""
+    width: float
+    height: float
+
+    def pixels(self, points: Floats) -> Floats:
+        """Points (n, 3) in the picture (n, 2) [px], from its left upper corner, to a tenth of a pixel."""
+        flat = points @ self.axes[:2].T - self.middle
+        right, up = flat[:, 0] * self.scale, flat[:, 1] * self.scale
+        return snap(np.column_stack([self.width / 2 + right, self.height / 2 - up]), 0.1)
+
+    def nearness(self, points: Floats) -> Floats:
+        """How near points (n, 3) are to the viewer (n,) [m], to a millimetre."""
+        return snap(points @ self.axes[2])
+
+    def metres(self, x: float, y: float) -> tuple[float, float, float]:
+        """The point of the ground z = 0 that is seen at a pixel. Only where the view is not level."""
+        right, up = (x - self.width / 2) / self.scale, (self.height / 2 - y) / self.scale
+        start = self.axes[0] * (self.middle[0] + right) + self.axes[1] * (self.middle[1] + up)
+        towards = self.axes[2]
+        if abs(towards[2]) < 1e-9:
+            return (float(start[0]), float(start[1]), 0.0)
+        found = start - towards * start[2] / towards[2]
+        return (float(found[0]), float(found[1]), 0.0)
+
+
+def projection(
+    sight: Sight | None, shown: Iterable[Primitive], width: float, height: float | None
+) -> Projection:
+    """The projection of a view; without one, or for one without a width, from above, around all that is shown."""
+    yaw, pitch = (-math.pi / 2, math.pi / 2) if sight is None else (sight.yaw, sight.pitch)
+    axes = _axes(yaw, pitch)
+    if sight is not None and sight.width > 0:
+        high = 0.62 * width if height is None else height
+        return Projection(axes, axes[:2] @ sight.target, width / sight.width, width, high)
+    found = [corners(each) for each in shown]
+    flat = np.vstack([np.empty((0, 3)), *found]) @ axes[:2].T
+    if not len(flat):
+        flat = np.array([(-LEAST, -LEAST), (LEAST, LEAST)])
+    low, high_corner = snap(flat.min(axis=0)), snap(flat.max(axis=0))
+    size = np.maximum(high_corner - low, LEAST) * (1 + 2 * MARGIN)
+    tall = float(np.clip(width * size[1] / size[0], 0.4 * width, 0.85 * width)) if height is None else height
+    scale = min(width / size[0], tall / size[1])
+    return Projection(axes, (low + high_corner) / 2, float(scale), width, float(np.round(tall)))
+
+
+def _axes(yaw: float, pitch: float) -> Floats:
+    cy, sy, cp, sp = math.cos(yaw), math.sin(yaw), math.cos(pitch), math.sin(pitch)
+    return np.array([(-sy, cy, 0.0), (-cy * sp, -sy * sp, cp), (cy * cp, sy * cp, sp)])
+
+
+def corners(primitive: Primitive) -> Floats:
+    """Points (n, 3) around which a primitive lies."""
+    if isinstance(primitive, Texture):
+        return primitive.corners
+    if isinstance(primitive, Text):
+        return primitive.position[None]
+    points = primitive.placed if isinstance(primitive, Mesh) else primitive.points
+    return _box_of(points) if len(points) > 1000 else points
+
+
+def _box_of(points: Floats) -> Floats:
+    """The points that are extreme in x, y or z, and diagonally, so that it holds from each side."""
+    directions = np.array(
+        [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)], dtype=float
+    )
+    found: Floats = points[np.argmax(points @ directions.T, axis=0)]
+    return found

@@ -1,0 +1,64 @@
+"""Displays for what is published: what one would choose under Add, By topic."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import RosminiError
+
+from .config import Config
+from .display import Display
+from .topic_display import TopicDisplay
+
+if TYPE_CHECKING:
+    from rosmini.graph import Graph
+
+MOST = 40
+"""Displays at most."""
+SPECIAL = {"tf2_msgs/TFMessage": "rviz/TF"}
+COSTMAP = "costmap"
+
+
+def suggested(graph: Graph, fixed_frame: str | None = None) -> Config:
+    """A configuration with a grid and a display for each topic that one can show.
+
+    The fixed frame is `map` where there is a map, and otherwise `odom`. Raises as the Master's questions do.
+    """
+    kinds: dict[str, type[TopicDisplay]] = {}
+    for name in Display.names():
+        found = Display.named(name)
+        if issubclass(found, TopicDisplay) and found.message:
+            kinds.setdefault(found.message, found)
+    master = graph.ask_as("/rviz")
+    types = {str(topic): str(kind) for topic, kind in master.ask("getTopicTypes")}
+    published = {str(topic) for topic, _ in master.ask("getSystemState")[0]}
+    displays: list[dict[str, Any]] = [{"Class": "rviz/Grid", "Name": "Grid"}]
+    for topic, kind in sorted(types.items()):
+        if topic not in published or len(displays) >= MOST:
+            continue
+        if kind in kinds:
+            displays.append(_display(kinds[kind], topic))
+        elif kind in SPECIAL and topic == "/tf":
+            displays.append({"Class": SPECIAL[kind], "Name": "TF"})
+    if "rviz/RobotModel" in Display.names() and _has_robot(graph):
+        displays.insert(1, {"Class": "rviz/RobotModel", "Name": "RobotModel"})
+    displays.sort(key=lambda each: each["Class"] not in ("rviz/Grid", "rviz/Map"))
+    config = Config(source="what is published")
+    options = config.options()
+    has_map = any(each["Class"] == "rviz/Map" for each in displays)
+    options["Fixed Frame"] = fixed_frame or ("map" if has_map else "odom")
+    return config.with_parts(displays, options, None)
+
+
+def _display(kind: type[TopicDisplay], topic: str) -> dict[str, Any]:
+    named: dict[str, Any] = {"Class": kind.plugin_name, "Name": topic, kind.topic_property: topic}
+    if kind.plugin_name == "rviz/Map" and COSTMAP in topic:
+        named |= {"Color Scheme": "costmap", "Alpha": 0.5}
+    return named
+
+
+def _has_robot(graph: Graph) -> bool:
+    try:
+        return bool(graph.ask_as("/rviz").ask("hasParam", "/robot_description"))
+    except RosminiError:
+        return False

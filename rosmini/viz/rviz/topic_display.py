@@ -1,0 +1,302 @@
+"""Displays of one topic: messages wait for their transform, are kept for as long as asked, and are drawn once each."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections import deque
+from collections.abc import Iterable
+from typing import Any, ClassVar
+
+import numpy as np
+
+from rosmini.errors import RosminiError
+from rosmini.tf import ConnectivityException, LookupException, TransformException
+from rosmini.tf.rigid import IDENTITY, Floats, Rigid, matrix, transform_points
+
+from .context import Context
+from .display import Display, Level
+from .primitives import INVALID, DisplayError, Primitive
+from .properties import Property
+
+MOST_KEPT = 10_000
+"""How many messages a display keeps at most, whatever its history or decay time is."""
+MOST_WAITING = 1000
+LENGTH_TOLERANCE = 0.01
+"""By how much the length of a quaternion may differ from 1 without a word."""
+
+
+class Heard:
+    """A message, and where its frame is in the fixed one.
+
+    What comes from outside is brought to the fixed frame by `pose` and `points`, which also check it.
+    """
+
+    def __init__(self, message: Any, arrived_ns: int) -> None:
+        self.message = message
+        self.arrived_ns = arrived_ns
+        """When it came [ns]."""
+        header = getattr(message, "header", None)
+        self.frame = "" if header is None else str(header.frame_id)
+        self.stamp_ns = 0 if header is None else header.stamp.to_nsec()
+        self.sender = str(
+            (getattr(message, "_connection_header", None) or {}).get("callerid", "unknown_publisher")
+        )
+        self.place: Rigid = IDENTITY
+        """Where the message's frame is in the fixed frame."""
+        self.notes: list[str] = []
+        """What is odd in the message, in words; they become a warning."""
+        self.drawn: tuple[Primitive, ...] | None = None
+        self.version = -1
+
+    def points(self, points: Any) -> Floats:
+        """Points (n, 3) of the message's frame in the fixed frame (n, 3): an array, or messages with x, y, z."""
+        if len(points) and hasattr(points[0], "x"):
+            points = [(each.x, each.y, getattr(each, "z", 0.0)) for each in points]
+        array = np.asarray(points, dtype=float).reshape(-1, 3)
+        return transform_points(self.place, array)
+
+    def pose(self, pose: Any) -> Floats:
+        """A `geometry_msgs/Pose` of the message's frame as a transform (4, 4) in the fixed frame.
+
+        A quaternion of zeros is taken as no rotation, as in RViz, and noted. Raises `DisplayError` for nan.
+        """
+        return matrix(self.place) @ matrix(self.local(pose))
+
+    def local(self, pose: Any) -> Rigid:
+        """A `geometry_msgs/Pose` in the message's own frame; checked as `pose` does."""
+        at, turned = pose.position, pose.orientation
+        values = (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w)
+        if not all(math.isfinite(value) for value in values):
+            raise DisplayError(INVALID)
+        x, y, z, *quaternion = values
+        length = math.hypot(*quaternion)
+        if length == 0.0:
+            self.note("a quaternion is all zeros; it is drawn as no rotation")
+            return (x, y, z, 0.0, 0.0, 0.0, 1.0)
+        if abs(length - 1.0) > LENGTH_TOLERANCE:
+            self.note("a quaternion is not of length 1")
+        i, j, k, w = (part / length for part in quaternion)
+        return (x, y, z, i, j, k, w)
+
+    def note(self, text: str) -> None:
+        """Say once what is odd in the message."""
+        if text not in self.notes:
+            self.notes.append(text)
+
+
+class TopicDisplay(Display):
+    """The base of displays of one topic. A subclass names `message`, declares `properties`, and says how to `draw`."""
+
+    message: ClassVar[str] = ""
+    """The type of messages: `sensor_msgs/LaserScan`."""
+    topic_property: ClassVar[str] = "Topic"
+    """What the property with the topic's name is called."""
+    history: ClassVar[str] = ""
+    """The property that says how many messages are kept (0: all); without it the last, or as `Decay Time` says."""
+    needs_transform: ClassVar[bool] = True
+    """Whether a message waits until its frame can be brought to the fixed one."""
+
+    properties: ClassVar[tuple[Property, ...]] = (
+        Property("Topic", "", "the topic to subscribe to"),
+        Property(
+            "Queue Size", 10, "how many messages wait for their transform", minimum=1, maximum=MOST_WAITING
+        ),
+        Property("Unreliable", False, "prefer UDP, which is not to be had here"),
+    )
+
+    def __init__(self, name: str = "", tree: Any = None) -> None:
+        super().__init__(name, tree)
+        self.received = 0
+        """How many messages came."""
+        self._waiting: deque[Heard] = deque()
+        self.kept: deque[Heard] = deque(maxlen=MOST_KEPT)
+        """What is shown, the oldest first."""
+
+    @classmethod
+    def declared(cls) -> tuple[Property, ...]:
+        """All properties; that of the topic under this class's name for it."""
+        found = super().declared()
+        return tuple(each for each in found if each.name != "Topic" or cls.topic_property == "Topic")
+
+    @abstractmethod
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """What a message looks like, in the fixed frame; asked once for each message, and when a property changed.
+
+        May raise `DisplayError`: its text becomes the status, and the message is not shown.
+        """
+
+    def accept(self, heard: Heard, context: Context) -> bool:
+        """Whether to keep a message that came and whose place is known; a display with state of its own takes it here.
+
+        May raise `DisplayError`.
+        """
+        del heard, context
+        return True
+
+    def moment(self, heard: Heard) -> int:
+        """When a message's frame is looked at [ns]; 0: always now, so that the drawing goes with the frame."""
+        return heard.stamp_ns
+
+    # -- hearing -------------------------------------------------------------------------------------------------
+
+    @property
+    def topic(self) -> str:
+        """The topic's name as it was given."""
+        return str(self[self.topic_property])
+
+    def start(self, context: Context) -> None:
+        """Subscribe."""
+        if not self.topic:
+            self.set_status(Level.ERROR, "Topic", "Error subscribing: Empty topic name")
+            return
+        why = context.silence(self.topic, self.message)
+        if why.hopeless:
+            self.set_status(Level.ERROR, "Topic", f"No messages received: {why.text}")
+            return
+        try:
+            self.listen(context, self.topic, self.message, lambda message: self.hear(message, context))
+        except RosminiError as error:
+            said = str(error).partition("\n")[0]
+            self.set_status(Level.ERROR, "Topic", f"Error subscribing: {said}")
+            return
+        self.set_status(Level.WARN, "Topic", "No messages received")
+
+    def changed(self, name: str) -> None:
+        """Subscribe to another topic."""
+        if name == self.topic_property:
+            self.restart()
+
+    def reset(self) -> None:
+        """Forget all messages."""
+        self.received = 0
+        self._waiting.clear()
+        self.kept.clear()
+
+    def hear(self, message: Any, context: Context) -> None:
+        """Take a message; it is kept as soon as its frame can be brought to the fixed one."""
+        self.received += 1
+        plural = "" if self.received == 1 else "s"
+        self.set_status(Level.OK, "Topic", f"{self.received} message{plural} received")
+        heard = Heard(message, context.now_ns)
+        if not self.needs_transform:
+            self._keep(heard, context)
+            return
+        self._waiting.append(heard)
+        while len(self._waiting) > self["Queue Size"]:
+            dropped = self._waiting.popleft()
+            if not self._placed(dropped, context):
+                self._say_why(dropped, context)
+        self._settle(context)
+
+    def _settle(self, context: Context) -> None:
+        """Keep what waited and can be placed now, in order of arrival; what is too old is dropped."""
+        still: deque[Heard] = deque()
+        while self._waiting:
+            heard = self._waiting.popleft()
+            if self._placed(heard, context):
+                continue
+            self._say_why(heard, context)
+            if not context.is_past(heard.frame, self.moment(heard)):
+                still.append(heard)
+        self._waiting = still
+
+    def _placed(self, heard: Heard, context: Context) -> bool:
+        try:
+            heard.place = context.place(heard.frame, self.moment(heard))
+        except TransformException:
+            return False
+        self.set_status(Level.OK, f"Transform [sender={heard.sender}]", "Transform OK")
+        self._keep(heard, context)
+        return True
+
+    def _say_why(self, heard: Heard, context: Context) -> None:
+        name = f"Transform [sender={heard.sender}]"
+        if context.is_past(heard.frame, self.moment(heard)):
+            stamp = heard.stamp_ns / 1e9
+            text = f"Message removed because it is too old (frame=[{heard.frame}], stamp=[{stamp:.9f}])"
+            self.set_status(Level.ERROR, name, text)
+            return
+        try:
+            context.place(heard.frame, self.moment(heard))
+        except (LookupException, ConnectivityException) as error:
+            self.set_status(Level.ERROR, name, context.problem(heard.frame, error))
+        except TransformException as error:
+            if not self.kept:  # else the transform of this moment is on its way, as always
+                level = Level.ERROR if not heard.frame else Level.WARN
+                self.set_status(level, name, context.problem(heard.frame, error))
+
+    def _keep(self, heard: Heard, context: Context) -> None:
+        try:
+            if not self.accept(heard, context):
+                return
+        except Exception as error:  # the scene stands, whatever one message does
+            self.fail("Topic", error)
+            return
+        if not self._is_endless and not self.history:
+            self.kept.clear()
+        self.kept.append(heard)
+        self._forget(context)
+
+    @property
+    def _is_endless(self) -> bool:
+        return "Decay Time" in self and self["Decay Time"] > 0
+
+    def _forget(self, context: Context) -> None:
+        """Drop what is beyond the history or the decay time."""
+        if self._is_endless:
+            oldest = context.now_ns - int(self["Decay Time"] * 1e9)
+            while len(self.kept) > 1 and self.kept[0].arrived_ns < oldest:
+                self.kept.popleft()
+        elif self.history:
+            most = self[self.history] or MOST_KEPT
+            while len(self.kept) > most:
+                self.kept.popleft()
+
+    def _follow(self, context: Context) -> None:
+        """Look where the frames of messages without a moment are now."""
+        for heard in self.kept:
+            if self.needs_transform and self.moment(heard) == 0:
+                try:
+                    place = context.place(heard.frame)
+                except TransformException as error:
+                    name = f"Transform [sender={heard.sender}]"
+                    self.set_status(Level.ERROR, name, context.problem(heard.frame, error))
+                    continue
+                if place != heard.place:
+                    heard.place, heard.drawn = place, None
+
+    # -- drawing -------------------------------------------------------------------------------------------------
+
+    def update(self, context: Context) -> None:
+        """Look again at what waits for a transform, and say why nothing came if nothing did."""
+        if self._waiting:
+            self._settle(context)
+        self._forget(context)
+        self._follow(context)
+        topic = self._statuses.get("Topic")
+        if not self.received and topic is not None and topic.text.startswith("No messages"):
+            why = context.silence(self.topic, self.message)
+            if topic.level is Level.ERROR and not why.hopeless:
+                self.restart()
+            level = Level.ERROR if why.hopeless else Level.WARN
+            self.set_status(level, "Topic", f"No messages received: {why.text}")
+
+    def primitives(self, context: Context) -> Iterable[Primitive]:
+        """What was drawn for the messages that are kept."""
+        found: list[Primitive] = []
+        notes: list[str] = []
+        for heard in self.kept:
+            if heard.drawn is None or heard.version != self.version:
+                heard.version, heard.drawn = self.version, ()
+                try:
+                    heard.drawn = tuple(self.draw(heard, context))
+                except Exception as error:  # the scene stands, whatever one message does
+                    self.fail("Topic", error)
+            found += heard.drawn
+            notes += heard.notes
+        if notes:
+            self.set_status(Level.WARN, "Message", "; ".join(dict.fromkeys(notes)))
+        else:
+            self.clear_status("Message")
+        return found

@@ -1,0 +1,161 @@
+"""Views: from where a scene is seen (http://wiki.ros.org/rviz/UserGuide). Each becomes a camera.
+
+Files have the view under `Visualization Manager/Views/Current`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from rosmini.plugins import Plugin, PluginError
+from rosmini.tf import TransformException
+from rosmini.tf.rigid import rpy
+
+from .context import FIXED_FRAME, Context
+from .primitives import Floats
+from .properties import Properties, Property, Vector
+
+STEEPEST = math.pi / 2 - 0.001
+PIXELS = 900.0
+"""How wide the 3D view of RViz's window is, about [px]: what a scale in pixels a metre refers to."""
+FIELD_OF_VIEW = 45.0
+"""Of RViz's cameras, from bottom to top [deg]."""
+
+_TARGET = Property("Target Frame", FIXED_FRAME, "the frame that the camera goes with")
+_FOCUS = (
+    Property("Distance", 10.0, "of the camera from the focal point", unit="m", minimum=0.01, maximum=1e6),
+    Property(
+        "Focal Point", Vector(0.0, 0.0, 0.0), "what the camera looks at, from the target frame", unit="m"
+    ),
+    Property("Yaw", math.pi / 4, "from which side the camera looks", unit="rad"),
+    Property("Pitch", math.pi / 4, "how high from", unit="rad", minimum=-STEEPEST, maximum=STEEPEST),
+    Property(
+        "Field of View",
+        math.radians(FIELD_OF_VIEW),
+        "from bottom to top",
+        unit="rad",
+        minimum=0.01,
+        maximum=3.0,
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Sight:
+    """From where one looks: at `target` (3,) [m], from the side `yaw` and from as high as `pitch` [rad]."""
+
+    target: Floats
+    yaw: float
+    pitch: float
+    width: float
+    """How wide what one sees at the target is [m]; 0: as wide as what there is."""
+    is_flat: bool = True
+    """Without perspective."""
+    field_of_view: float = FIELD_OF_VIEW
+    """[deg]"""
+
+
+class ViewController(Plugin):
+    """The base of views; `place` is where its camera is."""
+
+    properties: ClassVar[tuple[Property, ...]] = (_TARGET,)
+
+    def __init__(self, tree: Mapping[str, Any] | None = None) -> None:
+        self._values = Properties(self.properties, tree)
+
+    def __getitem__(self, name: str) -> Any:
+        return self._values[name]
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        self._values[name] = value
+
+    def tree(self) -> dict[str, Any]:
+        """Its part of a file."""
+        name = self.plugin_name.rpartition("/")[2]
+        return {
+            **self._values.tree(),
+            "Class": self.plugin_name,
+            "Name": "Current View",
+            "Value": f"{name} (rviz)",
+        }
+
+    def sight(self, context: Context) -> Sight:
+        """Where the camera is now. Where the target frame is not known, it is taken as the fixed one."""
+        raise NotImplementedError
+
+    def target(self, context: Context) -> tuple[Floats, float]:
+        """Origin (3,) and heading [rad] of the target frame in the fixed frame."""
+        with suppress(TransformException):
+            found = context.place(self["Target Frame"] or FIXED_FRAME)
+            return np.array(found[:3]), rpy(found)[2]
+        return np.zeros(3), 0.0
+
+
+class Orbit(ViewController, plugin="rviz/Orbit"):
+    """Turns around a focal point, which goes with the target frame."""
+
+    properties = (_TARGET, *_FOCUS)
+
+    def sight(self, context: Context) -> Sight:
+        """The focal point moves with the target frame, and does not turn with it."""
+        origin, _ = self.target(context)
+        return self._around(origin + np.array(self["Focal Point"]), self["Yaw"])
+
+    def _around(self, target: Floats, yaw: float) -> Sight:
+        angle = self["Field of View"]
+        width = 2.0 * self["Distance"] * math.tan(angle / 2) * 1.6
+        return Sight(target, yaw, self["Pitch"], width, is_flat=False, field_of_view=math.degrees(angle))
+
+
+class XYOrbit(Orbit, plugin="rviz/XYOrbit"):
+    """An orbit whose focal point stays on the ground."""
+
+    def sight(self, context: Context) -> Sight:
+        """As that of `Orbit`, on the ground of the target frame."""
+        origin, _ = self.target(context)
+        focus = self["Focal Point"]
+        return self._around(origin + np.array([focus.x, focus.y, 0.0]), self["Yaw"])
+
+
+class ThirdPersonFollower(Orbit, plugin="rviz/ThirdPersonFollower"):
+    """An orbit that turns with the target frame."""
+
+    def sight(self, context: Context) -> Sight:
+        """Focal point and yaw are those of the target frame."""
+        origin, heading = self.target(context)
+        x, y, z = self["Focal Point"]
+        c, s = math.cos(heading), math.sin(heading)
+        return self._around(origin + np.array([c * x - s * y, s * x + c * y, z]), self["Yaw"] + heading)
+
+
+class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
+    """From above, without perspective: `Scale` is in pixels a metre."""
+
+    properties = (
+        _TARGET,
+        Property("Scale", 10.0, "how large a metre is drawn", unit="px", minimum=1e-3, maximum=1e6),
+        Property("X", 0.0, "of the middle of the view, from the target frame", unit="m"),
+        Property("Y", 0.0, "of the middle of the view, from the target frame", unit="m"),
+        Property("Angle", 0.0, "how far the view is turned about the vertical", unit="rad"),
+    )
+
+    def sight(self, context: Context) -> Sight:
+        """At angle 0, x goes to the right and y goes up."""
+        origin, _ = self.target(context)
+        middle = origin + np.array([self["X"], self["Y"], 0.0])
+        return Sight(middle, self["Angle"] - math.pi / 2, math.pi / 2, PIXELS / self["Scale"])
+
+
+def view_controller(tree: Mapping[str, Any]) -> ViewController | None:
+    """The view that a file has; None for one that is not known here, and for none."""
+    kind = str(tree.get("Class", ""))
+    try:
+        return ViewController.named(kind)(tree) if kind else None
+    except PluginError:
+        return None

@@ -1,0 +1,144 @@
+"""Messages wait for their frames, are kept for as long as asked, and what is wrong with them is a status."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rosmini.msgs.geometry_msgs.msg import Pose
+from rosmini.msgs.sensor_msgs.msg import LaserScan
+from rosmini.msgs.std_msgs.msg import String
+from rosmini.time import Time
+from rosmini.viz.rviz.primitives import DisplayError
+from rosmini.viz.rviz.topic_display import Heard
+
+
+def scan(*ranges: float) -> LaserScan:
+    return LaserScan(ranges=ranges or (1.0, 2.0), range_min=0.1, range_max=3.5, angle_increment=0.5)
+
+
+def test_no_messages_and_why(stage, statuses):
+    scene, display = stage.display("LaserScan", "/scan")
+    scene.update()
+    assert statuses(display)["Topic"] == ("Warn", "No messages received: nobody publishes /scan")
+    stage.node.publisher("/scan", LaserScan)
+    scene.update()
+    assert statuses(display)["Topic"] == ("Warn", "No messages received: /robot published nothing yet")
+
+
+def test_a_topic_of_another_type_is_named(stage, statuses):
+    stage.node.publisher("/chatter", String)
+    scene, display = stage.display("LaserScan", "/chatter")
+    scene.update()
+    level, text = statuses(display)["Topic"]
+    assert level == "Error"
+    assert "/chatter has the type std_msgs/String, and this display shows sensor_msgs/LaserScan" in text
+
+
+def test_an_empty_topic_is_an_error(stage, statuses):
+    _, display = stage.display("LaserScan")
+    assert statuses(display)["Topic"] == ("Error", "Error subscribing: Empty topic name")
+
+
+def test_messages_are_counted_and_placed(stage, statuses):
+    scene, display = stage.display("LaserScan", "/scan")
+    stage.place("map", "laser", (1.0, 2.0, 0.0))
+    for _ in range(3):
+        stage.publish("/scan", scan(1.0), "laser")
+        stage.place("map", "laser", (1.0, 2.0, 0.0))
+        stage.graph.run(0.1)
+    (points,) = scene.update()[0].primitives
+    assert points.points == pytest.approx(np.array([(2.0, 2.0, 0.0)]))
+    assert statuses(display) == {
+        "Topic": ("Ok", "3 messages received"),
+        "Transform [sender=/robot]": ("Ok", "Transform OK"),
+        "Points": ("Ok", "Showing [1] points from [1] messages"),
+    }
+
+
+def test_frames_that_do_not_connect_are_named(stage, statuses):
+    scene, display = stage.display("LaserScan", "/scan")
+    stage.place("map", "odom")
+    stage.publish("/scan", scan(), "laser")
+    scene.update()
+    name = "Transform [sender=/robot]"
+    assert statuses(display)[name] == ("Error", "For frame [laser]: Frame [laser] does not exist")
+    stage.place("base", "laser")
+    stage.publish("/scan", scan(), "laser")
+    level, text = statuses(display)[name]
+    assert level == "Error"
+    assert text.startswith("For frame [laser]: No transform from [laser] to fixed frame [map]. TF error: [")
+    scene.fixed_frame = "nowhere"
+    stage.publish("/scan", scan(), "laser")
+    assert statuses(display)[name] == ("Error", "For frame [laser]: Fixed Frame [nowhere] does not exist")
+
+
+def test_a_message_waits_for_its_transform(stage):
+    scene, display = stage.display("LaserScan", "/scan")
+    stage.publish("/scan", scan(), "laser")
+    assert scene.update()[0].primitives == ()
+    stage.place("map", "laser")
+    stage.graph.run(0.1)
+    assert scene.update()[0].primitives == ()  # known from later on only
+    assert len(display._waiting) == 0
+
+
+def test_a_message_from_before_the_transforms_is_dropped_with_the_reason(stage, statuses):
+    scene, display = stage.display("LaserScan", "/scan")
+    stage.place("map", "laser")
+    stage.graph.run(0.1)
+    late = scan()
+    late.header.frame_id, late.header.stamp = "laser", Time(1)
+    stage.publish("/scan", late)
+    scene.update()
+    text = "Message removed because it is too old (frame=[laser], stamp=[1.000000000])"
+    assert statuses(display)["Transform [sender=/robot]"] == ("Error", text)
+    assert list(display._waiting) == []
+
+
+def test_no_more_messages_wait_than_the_queue_holds(stage):
+    _, display = stage.display("LaserScan", "/scan", more={"Queue Size": 3})
+    for _ in range(5):
+        stage.publish("/scan", scan(), "laser")
+    assert (display.received, len(display._waiting)) == (5, 3)
+
+
+def test_points_decay(stage):
+    scene, display = stage.display("LaserScan", "/scan", more={"Decay Time": 1.0})
+    for _ in range(5):
+        stage.publish("/scan", scan(1.0), "map", settle=0.4)
+    assert len(scene.update()[0].primitives) == 2
+    stage.graph.run(10.0)
+    assert len(scene.update()[0].primitives) == 1  # the last one stays
+    display["Decay Time"] = 0.0
+    stage.publish("/scan", scan(1.0), "map")
+    assert len(scene.update()[0].primitives) == 1
+
+
+def test_a_property_that_changes_changes_what_was_drawn(stage):
+    scene, display = stage.display("LaserScan", "/scan", more={"Color Transformer": "FlatColor"})
+    stage.publish("/scan", scan(1.0), "map")
+    display["Color"] = (255, 0, 0)
+    assert scene.update()[0].primitives[0].colours.tolist() == [[1.0, 0.0, 0.0, 1.0]]
+    assert display.received == 1
+
+
+def test_another_topic_begins_again(stage):
+    scene, display = stage.display("LaserScan", "/scan")
+    stage.publish("/scan", scan(1.0), "map")
+    display["Topic"] = "/other"
+    assert scene.update()[0].primitives == ()
+    stage.publish("/other", scan(1.0, 2.0), "map")
+    assert len(scene.update()[0].primitives[0].points) == 2
+
+
+def test_a_quaternion_of_zeros_is_no_rotation_and_noted():
+    heard = Heard(scan(), 0)
+    pose = Pose()
+    pose.position.x, pose.orientation.w = 1.0, 0.0
+    assert heard.pose(pose)[:3, 3] == pytest.approx([1, 0, 0])
+    heard.pose(pose)
+    assert heard.notes == ["a quaternion is all zeros; it is drawn as no rotation"]
+    pose.position.x = float("nan")
+    with pytest.raises(DisplayError, match="nans or infs"):
+        heard.pose(pose)
