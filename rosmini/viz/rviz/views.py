@@ -89,6 +89,14 @@ class ViewController(Plugin):
         """Where the camera is now. Where the target frame is not known, it is taken as the fixed one."""
         raise NotImplementedError
 
+    def look_at(self, at: Floats, context: Context) -> None:
+        """Bring a point (3,) of the fixed frame into the middle."""
+        self.pan(at - self.sight(context).target, context)
+
+    def pan(self, offset: Floats, context: Context) -> None:
+        """Move the middle of the view by `offset` (3,) of the fixed frame [m]."""
+        raise NotImplementedError
+
     def target(self, context: Context) -> tuple[Floats, float]:
         """Origin (3,) and heading [rad] of the target frame in the fixed frame."""
         with suppress(TransformException):
@@ -106,6 +114,11 @@ class Orbit(ViewController, plugin="rviz/Orbit"):
         """The focal point moves with the target frame, and does not turn with it."""
         origin, _ = self.target(context)
         return self._around(origin + np.array(self["Focal Point"]), self["Yaw"])
+
+    def pan(self, offset: Floats, context: Context) -> None:
+        """Move the focal point."""
+        del context
+        self["Focal Point"] = Vector(*(float(each) for each in np.array(self["Focal Point"]) + offset))
 
     def _around(self, target: Floats, yaw: float) -> Sight:
         angle = self["Field of View"]
@@ -133,6 +146,13 @@ class ThirdPersonFollower(Orbit, plugin="rviz/ThirdPersonFollower"):
         c, s = math.cos(heading), math.sin(heading)
         return self._around(origin + np.array([c * x - s * y, s * x + c * y, z]), self["Yaw"] + heading)
 
+    def pan(self, offset: Floats, context: Context) -> None:
+        """Move the focal point, which is in the target frame."""
+        _, heading = self.target(context)
+        x, y, z = offset
+        c, s = math.cos(heading), math.sin(heading)
+        super().pan(np.array([c * x + s * y, c * y - s * x, z]), context)
+
 
 class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
     """From above, without perspective: `Scale` is in pixels a metre."""
@@ -150,6 +170,11 @@ class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
         origin, _ = self.target(context)
         middle = origin + np.array([self["X"], self["Y"], 0.0])
         return Sight(middle, self["Angle"] - math.pi / 2, math.pi / 2, PIXELS / self["Scale"])
+
+    def pan(self, offset: Floats, context: Context) -> None:
+        """Move the middle of the view."""
+        del context
+        self["X"], self["Y"] = self["X"] + float(offset[0]), self["Y"] + float(offset[1])
 
 
 def view_controller(tree: Mapping[str, Any]) -> ViewController | None:

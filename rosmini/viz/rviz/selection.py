@@ -1,0 +1,90 @@
+"""What is under the pointer, and what is in a rectangle: for the tools, and for the Selection panel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from .display import Display
+from .primitives import Floats, Mesh, Primitive, Text, Texture
+from .projection import Projection
+from .scene import Layer
+
+REACH = 6.0
+"""So near to the pointer something is hit [px]."""
+MOST_LISTED = 10
+"""Of so many things a display's part of the panel tells, at most."""
+
+
+class Picked(NamedTuple):
+    """What of one display was hit."""
+
+    display: Display
+    number: int
+    """How many points, corners or texts."""
+    positions: Floats
+    """Where the first of them are (n, 3), in the fixed frame [m]."""
+
+    def words(self) -> str:
+        """As the panel shows it."""
+        lines = [f"{self.display.name} ({self.display.plugin_name}): {self.number} selected"]
+        lines += [f"  Position: {x:.3f}; {y:.3f}; {z:.3f}" for x, y, z in self.positions]
+        if self.number > len(self.positions):
+            lines.append(f"  ... and {self.number - len(self.positions)} more")
+        return "\n".join(lines)
+
+
+def picked(layers: Iterable[Layer], look: Projection, first: Floats, last: Floats) -> list[Picked]:
+    """What is inside the rectangle between two pixels (2,), display by display, in the order of the displays."""
+    low, high = np.minimum(first, last), np.maximum(first, last)
+    found = []
+    for layer in layers:
+        inside = [np.empty((0, 3))]
+        for places in _places(layer.primitives):
+            shown = look.pixels(places)
+            inside.append(places[((shown >= low) & (shown <= high)).all(axis=1)])
+        hits = np.vstack(inside)
+        if len(hits):
+            found.append(Picked(layer.display, len(hits), hits[:MOST_LISTED]))
+    return found
+
+
+def hit(layers: Iterable[Layer], look: Projection, pixel: Floats) -> Floats | None:
+    """The point (3,) of the fixed frame that is seen at a pixel (2,): of what is nearest to it, or of a map below it.
+
+    None where nothing is drawn.
+    """
+    best: Floats | None = None
+    nearest = REACH
+    below: Floats | None = None
+    for layer in layers:
+        for primitive in layer.primitives:
+            if isinstance(primitive, Texture):
+                ground = np.array(look.metres(float(pixel[0]), float(pixel[1])))
+                below = ground if _covers(primitive, ground) else below
+        for places in _places(layer.primitives):
+            distances = np.linalg.norm(look.pixels(places) - pixel, axis=1)
+            index = int(np.argmin(distances))
+            if distances[index] < nearest:
+                best, nearest = places[index], float(distances[index])
+    return below if best is None else best
+
+
+def _places(primitives: Iterable[Primitive]) -> Iterator[Floats]:
+    """The points of what has any: a picture is hit anywhere, so it has none."""
+    for primitive in primitives:
+        if isinstance(primitive, Texture):
+            continue
+        if isinstance(primitive, Text):
+            yield primitive.position[None]
+        else:
+            places = primitive.placed if isinstance(primitive, Mesh) else primitive.points
+            if len(places):
+                yield places
+
+
+def _covers(texture: Texture, ground: Floats) -> bool:
+    x, y, _ = texture.pose[:3, :3].T @ (ground - texture.pose[:3, 3])
+    return bool(0 <= x <= texture.size[0] and 0 <= y <= texture.size[1])

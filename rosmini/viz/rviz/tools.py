@@ -1,0 +1,409 @@
+"""Tools: what a press, a drag and a click in the scene do, and what they publish (http://wiki.ros.org/rviz/UserGuide).
+
+A tool is given points of the fixed frame, by a live view or by a script: `click` and `drag` are what a hand does.
+
+>>> from rosmini import Graph
+>>> from rosmini.viz.rviz import Scene
+>>> with Graph() as graph, Scene(graph, fixed_frame="map") as scene:
+...     tools = Tools(scene)
+...     print(tools["Measure"].click((0, 0)), tools["Measure"].click((3, 4)), sep=" | ")
+Click on two points to measure their distance. | [Length: 5m] Click on two points to measure their distance.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from rosmini.errors import nearest
+from rosmini.geometry.angles import quaternion_from_yaw
+from rosmini.plugins import Plugin, PluginError
+from rosmini.time import Time
+from rosmini.viz.view import ViewError
+
+from .config import Config, kind_of
+from .primitives import DisplayError, Floats, Lines, Primitive, finite
+from .properties import Properties, Property
+from .shapes import arrow
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+Point = Sequence[float]
+"""x and y, or x, y and z, in the fixed frame [m]."""
+
+GREEN = np.array([0.0, 1.0, 0.0, 1.0])
+
+
+class Tool(Plugin, ABC):
+    """The base of tools: a hand goes down at a point, moves, and comes up."""
+
+    label: ClassVar[str] = ""
+    """What the tool bar says."""
+    key: ClassVar[str] = ""
+    """The key that takes the tool."""
+    hint: ClassVar[str] = ""
+    """What the status bar says before anything is done."""
+    properties: ClassVar[tuple[Property, ...]] = ()
+
+    def __init__(self, scene: Scene, tree: Mapping[str, Any] | None = None) -> None:
+        self.scene = scene
+        self._values = Properties(self.properties, tree)
+        self.is_finished = False
+        """Whether the tool has done what it was taken for; a view then takes the first one again."""
+
+    def __getitem__(self, name: str) -> Any:
+        return self._values[name]
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        self._values[name] = value
+
+    @property
+    def wrong(self) -> list[str]:
+        """What its part of a file had and could not be taken, in words."""
+        return self._values.wrong
+
+    def tree(self) -> dict[str, Any]:
+        """Its part of a `.rviz` file."""
+        return {**self._values.tree(), "Class": self.plugin_name}
+
+    # -- to be overridden: each is given a point (3,) of the fixed frame, and returns what the status bar says ----
+
+    def press(self, at: Floats) -> str:
+        """Learn that the hand went down."""
+        del at
+        return self.hint
+
+    def move(self, at: Floats) -> str:
+        """Learn that the hand moved while it was down."""
+        del at
+        return self.hint
+
+    def release(self, at: Floats) -> str:
+        """Learn that the hand came up."""
+        del at
+        return self.hint
+
+    def primitives(self) -> Iterator[Primitive]:
+        """What it draws into the scene while it is used."""
+        yield from ()
+
+    # -- what a script does --------------------------------------------------------------------------------------
+
+    def click(self, at: Point) -> str:
+        """Press and release at a point. Raises `DisplayError` if it is no point."""
+        return self.drag(at, at)
+
+    def drag(self, start: Point, end: Point) -> str:
+        """Press at one point and release at another. Raises `DisplayError` if one is no point."""
+        first, last = point(start), point(end)
+        self.is_finished = False
+        self.press(first)
+        if not np.array_equal(first, last):
+            self.move(last)
+        return self.release(last)
+
+
+def point(given: Point) -> Floats:
+    """A point (3,) of two or three numbers [m]; z is 0. Raises `DisplayError` for anything else."""
+    try:
+        found = [float(each) for each in given]
+    except (TypeError, ValueError):
+        found = []
+    if len(found) not in (2, 3):
+        raise DisplayError(f"a point is two or three numbers, x, y and z [m], not {given!r:.60}")
+    checked: Floats = finite([[*found, 0.0][:3]], 3)[0]
+    return checked
+
+
+class PublishingTool(Tool):
+    """A tool that publishes on a topic. The publisher is there from the beginning, as RViz's is."""
+
+    message: ClassVar[str] = ""
+
+    def __init__(self, scene: Scene, tree: Mapping[str, Any] | None = None) -> None:
+        super().__init__(scene, tree)
+        self._advertise()
+
+    def _advertise(self) -> None:
+        from rosmini.msgs import message_class
+
+        self.type = message_class(self.message)
+        self._publisher = self.scene.node.publisher(self["Topic"], self.type, queue_size=1)
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        super().__setitem__(name, value)
+        if name == "Topic":
+            self._publisher.unregister()
+            self._advertise()
+
+    def stamped(self) -> Any:
+        """A new message in the fixed frame, stamped now."""
+        message = self.type()
+        message.header.frame_id = self.scene.fixed_frame
+        message.header.stamp = Time.from_nsec(self.scene.context.now_ns)
+        return message
+
+    def publish(self, message: Any) -> None:
+        """Publish a message, and say what was published."""
+        self._publisher.publish(message)
+
+
+class PoseTool(PublishingTool):
+    """Where the hand goes down is the position, where it comes up gives the heading; a click heads along x."""
+
+    hint = "Click and drag mouse to set position/orientation."
+
+    _start: Floats | None = None
+    _end: Floats | None = None
+
+    def press(self, at: Floats) -> str:
+        """Take the position, on the ground."""
+        self._start, self._end = at * (1, 1, 0), None
+        return self.hint
+
+    def move(self, at: Floats) -> str:
+        """Turn the arrow."""
+        self._end = at * (1, 1, 0)
+        return self.hint
+
+    def release(self, at: Floats) -> str:
+        """Publish. Without a press before, nothing happens."""
+        if self._start is None:
+            return self.hint
+        (x, y, _), (to_x, to_y, _) = self._start, at
+        self._start = self._end = None
+        self.is_finished = True
+        return self.set_pose(float(x), float(y), math.atan2(to_y - y, to_x - x))
+
+    def set_pose(self, x: float, y: float, yaw: float) -> str:
+        """Publish a pose of the fixed frame [m, rad], and say so."""
+        raise NotImplementedError
+
+    def primitives(self) -> Iterator[Primitive]:
+        """The arrow, while the hand is down and has moved: RViz's is 2.5 m long."""
+        if self._start is not None and self._end is not None:
+            (x, y, _), (to_x, to_y, _) = self._start, self._end
+            c, s = np.cos(yaw := math.atan2(to_y - y, to_x - x)), np.sin(yaw)
+            pose = np.array([[c, -s, 0, x], [s, c, 0, y], [0, 0, 1, 0], [0, 0, 0, 1]], dtype=float)
+            yield arrow(pose, GREEN, 2.0, 0.2, 0.5, 0.35)
+
+
+def _set_pose(pose: Any, x: float, y: float, yaw: float) -> None:
+    pose.position.x, pose.position.y = x, y
+    turned = quaternion_from_yaw(yaw)
+    pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w = turned
+
+
+class SetInitialPose(PoseTool, plugin="rviz/SetInitialPose"):
+    """2D Pose Estimate: tells a localisation such as amcl where the robot is, and how sure that is."""
+
+    label, key, message = "2D Pose Estimate", "p", "geometry_msgs/PoseWithCovarianceStamped"
+    properties = (
+        Property("Topic", "initialpose", "where poses are published"),
+        Property("X std deviation", 0.5, "standard deviation of x", unit="m", minimum=0.0),
+        Property("Y std deviation", 0.5, "standard deviation of y", unit="m", minimum=0.0),
+        Property("Theta std deviation", math.pi / 12, "standard deviation of yaw", unit="rad", minimum=0.0),
+    )
+
+    def set_pose(self, x: float, y: float, yaw: float) -> str:
+        """Publish the estimate; its covariance has the squares of the deviations."""
+        message = self.stamped()
+        _set_pose(message.pose.pose, x, y, yaw)
+        covariance = [0.0] * 36
+        for place, axis in ((0, "X"), (7, "Y"), (35, "Theta")):
+            covariance[place] = self[f"{axis} std deviation"] ** 2
+        message.pose.covariance = covariance
+        self.publish(message)
+        return f"Setting pose: {x:.3f} {y:.3f} {yaw:.3f} [frame={self.scene.fixed_frame}]"
+
+
+class SetGoal(PoseTool, plugin="rviz/SetGoal"):
+    """2D Nav Goal: where a robot is to go."""
+
+    label, key, message = "2D Nav Goal", "g", "geometry_msgs/PoseStamped"
+    properties = (Property("Topic", "goal", "where goals are published"),)
+
+    def set_pose(self, x: float, y: float, yaw: float) -> str:
+        """Publish the goal."""
+        message = self.stamped()
+        _set_pose(message.pose, x, y, yaw)
+        self.publish(message)
+        turned = message.pose.orientation
+        return (
+            f"Setting goal: Frame:{self.scene.fixed_frame}, Position({x:.3f}, {y:.3f}, 0.000), "
+            f"Orientation({turned.x:.3f}, {turned.y:.3f}, {turned.z:.3f}, {turned.w:.3f}) = Angle: {yaw:.3f}"
+        )
+
+
+class PublishPoint(PublishingTool, plugin="rviz/PublishPoint"):
+    """Publish Point: tells others a point that was clicked."""
+
+    label, key, message = "Publish Point", "u", "geometry_msgs/PointStamped"
+    hint = "Move over an object to select the target point."
+    properties = (
+        Property("Topic", "/clicked_point", "where points are published"),
+        Property("Single click", True, "put the tool away after one click"),
+    )
+
+    def move(self, at: Floats) -> str:
+        """Say which point would be taken."""
+        return f"Left-Click: Select this point. [{at[0]:.3g},{at[1]:.3g},{at[2]:.3g}]"
+
+    def release(self, at: Floats) -> str:
+        """Publish the point."""
+        message = self.stamped()
+        message.point.x, message.point.y, message.point.z = map(float, at)
+        self.publish(message)
+        self.is_finished = self["Single click"]
+        return f"Published point [{at[0]:.3g},{at[1]:.3g},{at[2]:.3g}]"
+
+
+class Measure(Tool, plugin="rviz/Measure"):
+    """Measure: the distance of two points."""
+
+    label, key = "Measure", "n"
+    hint = "Click on two points to measure their distance."
+
+    def __init__(self, scene: Scene, tree: Mapping[str, Any] | None = None) -> None:
+        super().__init__(scene, tree)
+        self.points: list[Floats] = []
+        """What was clicked since the last pair."""
+
+    @property
+    def length(self) -> float | None:
+        """The distance [m], once two points were clicked."""
+        return float(np.linalg.norm(self.points[1] - self.points[0])) if len(self.points) == 2 else None
+
+    def release(self, at: Floats) -> str:
+        """Take a point; the third begins anew."""
+        self.points = [*(self.points if len(self.points) < 2 else []), at]
+        return self.hint if self.length is None else f"[Length: {self.length:.6g}m] {self.hint}"
+
+    def primitives(self) -> Iterator[Primitive]:
+        """The line between the points."""
+        if len(self.points) == 2:
+            yield Lines(np.array(self.points), GREEN)
+
+
+class FocusCamera(Tool, plugin="rviz/FocusCamera"):
+    """Focus Camera: what was clicked comes into the middle of the view."""
+
+    label, key = "Focus Camera", "c"
+    hint = "Left-Click: Focus on this point."
+
+    def release(self, at: Floats) -> str:
+        """Turn the view there, if there is one that can be turned."""
+        if self.scene.view is None:
+            return "there is no view to turn; the picture is drawn around everything"
+        self.scene.view.look_at(at, self.scene.context)
+        self.is_finished = True
+        return f"Focused on [{at[0]:.3g},{at[1]:.3g},{at[2]:.3g}]"
+
+
+class Interact(Tool, plugin="rviz/Interact"):
+    """Interact: for interactive markers; elsewhere it moves the camera."""
+
+    label, key = "Interact", "i"
+    hint = "Click an interactive marker, or drag to move the camera."
+    properties = (
+        Property("Hide Inactive Objects", True, "show the controls of markers only with this tool"),
+    )
+
+
+class MoveCamera(Tool, plugin="rviz/MoveCamera"):
+    """Move Camera: a drag moves the view."""
+
+    label, key = "Move Camera", "m"
+    hint = "Drag to move the camera; the wheel zooms."
+
+    def press(self, at: Floats) -> str:
+        """Take hold."""
+        self._held = at
+        return self.hint
+
+    def move(self, at: Floats) -> str:
+        """Move the view so that what was taken hold of follows the hand."""
+        if self.scene.view is not None:
+            self.scene.view.pan(self._held - at, self.scene.context)
+        return self.hint
+
+    def release(self, at: Floats) -> str:
+        """Let go."""
+        del at
+        return self.hint
+
+
+class Select(Tool, plugin="rviz/Select"):
+    """Select: what is in the rectangle of a drag is listed by the Selection panel."""
+
+    label, key = "Select", "s"
+    hint = "Click and drag to select objects on the screen."
+
+    def __init__(self, scene: Scene, tree: Mapping[str, Any] | None = None) -> None:
+        super().__init__(scene, tree)
+        self.corners: tuple[Floats, Floats] | None = None
+        """The rectangle, in the fixed frame."""
+
+    def press(self, at: Floats) -> str:
+        """Begin a rectangle."""
+        self.corners = (at, at)
+        return self.hint
+
+    def move(self, at: Floats) -> str:
+        """Widen it."""
+        self.corners = (at if self.corners is None else self.corners[0], at)
+        return self.hint
+
+    def release(self, at: Floats) -> str:
+        """End it."""
+        return self.move(at)
+
+
+class Tools:
+    """The tools of a scene, in the order of its file; the first is in the hand.
+
+    Raises:
+        ViewError: no tool is of that name, or a topic's name is none.
+
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        trees = scene.config.mappings("Tools") or Config().mappings("Tools")
+        self.all: list[Tool] = []
+        for tree in trees:
+            try:
+                self.all.append(Tool.named(kind_of(tree))(scene, tree))
+            except PluginError:  # the scene's warning names it, and it is kept in the file
+                continue
+        if not self.all:
+            self.all = [MoveCamera(scene)]
+        self.current = self.all[0]
+        """The tool in the hand."""
+
+    def __iter__(self) -> Iterator[Tool]:
+        return iter(self.all)
+
+    def __getitem__(self, name: str) -> Tool:
+        """A tool by what the tool bar says, by its class, or by its key."""
+        for tool in self.all:
+            if name in (tool.label, tool.plugin_name, tool.plugin_name.rpartition("/")[2], tool.key):
+                return tool
+        labels = [tool.label for tool in self.all]
+        hint = nearest(name, labels) or f"the tools are: {', '.join(labels)}"
+        raise ViewError(f"there is no tool {name!r:.60}; {hint}")
+
+    def take(self, name: str) -> Tool:
+        """Take a tool into the hand. Raises `ViewError` if there is none of that name."""
+        self.current = self[name]
+        self.current.is_finished = False
+        return self.current
+
+    def put_away(self) -> None:
+        """Take the first tool again if the one in the hand has done its work."""
+        if self.current.is_finished:
+            self.current = self.all[0]

@@ -1,0 +1,54 @@
+"""Panels as text."""
+
+from __future__ import annotations
+
+from rosmini.viz.rviz import Config
+from rosmini.viz.rviz.panels import TimePanel, selection, tool_properties, views
+from rosmini.viz.rviz.tools import Tools
+
+
+def test_the_time_panel_counts_from_the_last_reset(stage):
+    scene = stage.scene()
+    panel = TimePanel(scene)
+    stage.graph.run(2.5)
+    now = stage.graph.now().to_sec()
+    assert panel.words(wall=False) == f"ROS Time: {now:.2f}\nROS Elapsed: 2.50"
+    panel.reset()
+    assert "ROS Elapsed: 0.00" in panel.words()
+    assert [line.partition(":")[0] for line in panel.words().splitlines()] == [
+        "ROS Time", "ROS Elapsed", "Wall Time", "Wall Elapsed",
+    ]  # fmt: skip
+
+
+def test_a_reset_forgets_what_was_received(stage, statuses):
+    from rosmini.msgs.sensor_msgs.msg import LaserScan
+
+    scene, scan = stage.display("LaserScan", "/scan")
+    node = stage.graph.node("laser_driver")
+    publisher = node.publisher("/scan", LaserScan)
+    stage.graph.run(0.1)
+    message = LaserScan(range_max=9.0, ranges=[1.0], angle_increment=0.1)
+    message.header.frame_id, message.header.stamp = "laser", stage.graph.now()
+    stage.place("map", "laser")
+    publisher.publish(message)
+    stage.graph.run(0.1)
+    assert scene.update()[0].primitives
+    TimePanel(scene).reset()
+    stage.graph.run(0.1)
+    assert not scene.update()[0].primitives
+    assert scan.received == 0 or "Topic" in statuses(scan)
+
+
+def test_tools_and_views_say_what_can_be_set(stage):
+    config = Config.parse(
+        "Visualization Manager:\n  Views:\n    Current: {Class: rviz/TopDownOrtho, Scale: 50, X: 1.5}\n"
+    )
+    scene = stage.scene(config)
+    assert views(scene).splitlines()[:3] == [
+        "Current View: TopDownOrtho (rviz)", "  Target Frame: <Fixed Frame>", "  Scale: 50",
+    ]  # fmt: skip
+    text = tool_properties(Tools(scene))
+    assert "2D Nav Goal\n  Topic: /move_base_simple/goal" in text
+    assert "2D Pose Estimate\n  Topic: /initialpose\n  X std deviation: 0.5" in text
+    assert views(stage.scene()).startswith("Current View: from above")
+    assert selection([]) == "nothing is selected"
