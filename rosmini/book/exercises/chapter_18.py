@@ -28,11 +28,10 @@ def cures(answer: object) -> None:
     expect_type(answer, dict, "cures is", "a dictionary")
     given: dict[object, object] = dict(answer)  # type: ignore[call-overload]
     missing = [number for number in CURES if number not in given]
-    expect(not missing, f"Message {missing[:1]} has no command.")
+    expect(not missing, f"Message {next(iter(missing), None)} has no command.")
     wrong = [number for number, letter in CURES.items() if given[number] != letter]
-    expect(
-        not wrong, f"{len(wrong)} of 4 would not help; look at message {wrong[:1]} first.", "read it aloud"
-    )
+    said = f"{len(wrong)} of 4 would not help; look at message {next(iter(wrong), None)} first."
+    expect(not wrong, said, "read it aloud")
 
 
 # ---- 18.2: a message and a service ----
@@ -75,7 +74,10 @@ def cmake(answer: object) -> None:
         except RosminiError as error:
             raise Wrong(f"It cannot be built: {str(error).replace(str(package), 'survey')}") from error
         for found in sorted(report.findings, key=lambda each: not each.is_error):
-            raise Wrong(f"catkin_make says: {str(found).replace(str(package), 'survey')}")
+            raise Wrong(
+                f"catkin_make says: {str(found).replace(str(package), 'survey')}",
+                "the manifest is right: look into your CMakeLists.txt",
+            )
         expect(report.built, "Nothing was built.", "project(survey)")
     said = "\n".join(lines)
     for kind, file in (("MSG", "Spot"), ("SRV", "Visit")):
