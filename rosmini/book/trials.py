@@ -26,15 +26,17 @@ class Trial:
     Args:
         world: the name of the simulator's world.
         parameters: of the simulator, as rosrun takes them: ``"_x:=1.0"``.
+        is_shown: whether a wrong answer is shown with a picture of the drive; False where the robot has no part in it.
 
     A `Wrong` that leaves the block has the picture of the drive so far, and names the first error that a script logged.
 
     """
 
-    def __init__(self, world: str = "room", *parameters: str) -> None:
+    def __init__(self, world: str = "room", *parameters: str, is_shown: bool = True) -> None:
         from rosmini.sim.recorder import Recorder
 
         self.graph = Graph(strict=False)
+        self._is_shown = is_shown
         self._console = Console(self.graph.scheduler, prefix=False, capture_output=True)
         self._scripts: list[ScriptHandle] = []
         started = rosrun(
@@ -52,7 +54,8 @@ class Trial:
         """End the graph, and add to a `Wrong` what was seen."""
         try:
             if isinstance(error, Wrong):
-                error.view = self.view()
+                if self._is_shown:
+                    error.view = self.view()
                 if (said := self._first_error()) and said not in str(error):
                     error.args = (f"{error} Your script logged: {said}",)
         finally:

@@ -85,6 +85,13 @@ def test_what_is_wrong_comes_with_the_picture_and_the_first_error():
     assert error.value.hint == "drive"
 
 
+def test_where_the_robot_has_no_part_no_picture_is_shown():
+    with pytest.raises(Wrong) as error, Trial("empty", is_shown=False) as trial:
+        trial.run(1.0)
+        raise Wrong("It said nothing.")
+    assert error.value.view is None
+
+
 @pytest.mark.parametrize(
     ("source", "is_one"),
     [

@@ -143,7 +143,7 @@ def _said(what: str, sign: int) -> str:
 def parrot(answer: Script) -> None:
     """Two copies of one script run at once, and each repeats what it hears."""
     heard: list[str] = []
-    with Trial("arena") as trial:
+    with Trial("arena", is_shown=False) as trial:
         for _ in range(2):
             trial.start(answer)
         node = trial.graph.node("listener")

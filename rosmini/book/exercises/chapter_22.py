@@ -26,7 +26,7 @@ SWING_RAD, FAR_M = 0.3, 1.0
 def options(answer: object) -> Any:
     """Options of rqt_graph that draw the spare node with its topic, and nothing that only the simulator says."""
     expect_type(answer, dict, "options is", "a dictionary: an option, and what follows it")
-    with Trial("maze") as trial:
+    with Trial("maze", is_shown=False) as trial:
         node = trial.graph.node
         for name, topic in (("eyes", "nearest"), ("spare", "closest")):
             eyes = node(name)
@@ -68,7 +68,7 @@ def _graph(given: dict[str, Any], trial: Trial) -> Any:
 def field(answer: object) -> Any:
     """The field that says how fast the robot turns in fact."""
     expect_type(answer, str, "field is", "a text")
-    with Trial("arena") as trial:
+    with Trial("arena", is_shown=False) as trial:
         node = trial.graph.node("driver")
         cmd_vel, command = node.publisher("cmd_vel", Twist), Twist()
         node.timer(0.1, lambda _: cmd_vel.publish(command))

@@ -76,7 +76,7 @@ BEATS_HZ = (4, 10, 0)
 def count(answer: Script) -> None:
     """Once a second the number of beats since the last report."""
     got: list[float] = []
-    with Trial("arena") as trial:
+    with Trial("arena", is_shown=False) as trial:
         trial.graph.node("listener").subscriber("rate", Float32, lambda message: got.append(message.data))
         beat = trial.graph.node("heart").publisher("beat", Empty, queue_size=10)
         trial.start(answer)

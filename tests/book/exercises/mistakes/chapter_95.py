@@ -68,6 +68,12 @@ MISTAKES = {
             "while True:\n    rospy.sleep(0.5)\n    greeting.publish('hello')",
         ),
         wrong("greet.py", GREET, "rospy.spin()", ""),
+        wrong(
+            "greet.py",
+            GREET.replace(", latch=True", ""),
+            "rospy.spin()",
+            "while True:\n    rospy.sleep(1)\n    greeting.publish('hello')",
+        ),
     ],
     "95.2": [
         wrong("watchdog.py", WATCHDOG, "- last > 1.0", "- last > 5.0"),
