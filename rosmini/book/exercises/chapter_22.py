@@ -68,6 +68,7 @@ def _graph(given: dict[str, Any], trial: Trial) -> Any:
 def field(answer: object) -> Any:
     """The field that says how fast the robot turns in fact."""
     expect_type(answer, str, "field is", "a text")
+    name = "/" + str(answer).lstrip("/")
     with Trial("arena", is_shown=False) as trial:
         node = trial.graph.node("driver")
         cmd_vel, command = node.publisher("cmd_vel", Twist), Twist()
@@ -75,14 +76,12 @@ def field(answer: object) -> Any:
         trial.run(1.0)
         command.angular.z = 0.8
         try:
-            view = rqt_plot(
-                trial.graph, "/cmd_vel/angular/z", str(answer), duration=2.0, title="Command and robot"
-            )
+            view = rqt_plot(trial.graph, "/cmd_vel/angular/z", name, duration=2.0, title="Command and robot")
         except ViewError as error:
             raise Wrong(f"rqt_plot cannot plot it: {error}") from error
-        expect("cmd_vel" not in str(answer), "That is the command. What does the robot measure?", "/odom")
-        expect("ground_truth" not in str(answer), "That only a simulator knows.", "/odom, or /imu")
-        expect(str(answer) in MEASURED, "That is not how fast it turns.", "twist, angular, z")
+        expect("cmd_vel" not in name, "That is the command. What does the robot measure?", "/odom")
+        expect("ground_truth" not in name, "That only a simulator knows.", "/odom, or /imu")
+        expect(name in MEASURED, "That is not how fast it turns.", "twist, angular, z")
         return view
 
 
