@@ -53,6 +53,10 @@ def build_order(answer: Any) -> None:
             found = answer({name: list(each) for name, each in needs.items()})
         except ValueError:
             continue
+        except RecursionError as error:
+            raise Wrong(
+                f"{needs} has a circle, and the answer goes round in it for ever.", "raise ValueError(...)"
+            ) from error
         raise Wrong(f"{needs} has a circle, and the answer was {found!r}.", "raise ValueError(...)")
 
 
@@ -92,7 +96,11 @@ def cmake(answer: object) -> None:
             (package / name).write_text(text, encoding="utf-8")
         report = _built(workspace)
         said = [str(each).replace(f"{package}/", "") for each in report.findings]
-        expect(not said, f"catkin_make says: {said[0] if said else ''}")
+        expect(
+            not said,
+            f"catkin_make says: {said[0] if said else ''}",
+            "the manifest is right: look into your CMakeLists.txt",
+        )
         made = workspace.devel / "lib" / "python3" / "dist-packages" / "weather"
         missing = [name for name in MADE if not (made / name).is_file()]
         expect(

@@ -50,6 +50,24 @@ def blind_to_circles() -> Callable[[Mapping[str, Sequence[str]]], list[str]]:
     return build_order
 
 
+def round_and_round() -> Callable[[Mapping[str, Sequence[str]]], list[str]]:
+    def build_order(needs: Mapping[str, Sequence[str]]) -> list[str]:
+        order: list[str] = []
+
+        def visit(name: str) -> None:
+            for other in needs[name]:
+                if other in needs and other not in order:
+                    visit(other)
+            if name not in order:
+                order.append(name)
+
+        for name in needs:
+            visit(name)
+        return order
+
+    return build_order
+
+
 def with_what_is_built_already() -> Callable[[Mapping[str, Sequence[str]]], list[str]]:
     def build_order(needs: Mapping[str, Sequence[str]]) -> list[str]:
         return [
@@ -64,6 +82,7 @@ MISTAKES = {
     "92.1": [
         alphabetical,
         blind_to_circles,
+        round_and_round,
         with_what_is_built_already,
         lambda: lambda needs: [],
         lambda: ", ".join,
