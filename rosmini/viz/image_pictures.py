@@ -37,6 +37,7 @@ ENCODINGS = {
     "8UC3": Encoding("u1", 3, (2, 1, 0)),
     "rgba8": Encoding("u1", 4, (0, 1, 2)),
     "bgra8": Encoding("u1", 4, (2, 1, 0)),
+    "8UC4": Encoding("u1", 4, (2, 1, 0)),
     "mono8": Encoding("u1", 1, (0, 0, 0)),
     "8UC1": Encoding("u1", 1, (0, 0, 0)),
     "mono16": Encoding("u2", 1, (0, 0, 0)),
@@ -92,6 +93,22 @@ def pixels_of(message: Any) -> NDArray[Any]:
             f"an image with the encoding {message.encoding!r} cannot be shown, but {', '.join(ENCODINGS)}. "
             f"{hint}".rstrip()
         )
+    values = values_of(message, encoding)
+    if not encoding.order:
+        depths = values[..., 0].astype(float) * encoding.metres
+        return np.where(values[..., 0] == 0, np.nan, depths) if values.dtype.kind == "u" else depths
+    if values.dtype.itemsize == 2:
+        values = values >> 8
+    return values[..., list(encoding.order)].astype(np.uint8)
+
+
+def values_of(message: Any, encoding: Encoding) -> NDArray[Any]:
+    """What a `sensor_msgs/Image` of an encoding holds (h, w, channels), as it was written.
+
+    Raises:
+        ViewError: the data are not as long as the image's size says.
+
+    """
     kind = np.dtype((">" if message.is_bigendian else "<") + encoding.kind)
     height, width, step = int(message.height), int(message.width), int(message.step)
     row = width * encoding.channels * kind.itemsize
@@ -102,13 +119,7 @@ def pixels_of(message: Any) -> NDArray[Any]:
             f"in all; its step is {step}, and it has {len(data)} bytes"
         )
     rows = np.ascontiguousarray(data[: step * height].reshape(height, step)[:, :row])
-    pixels = rows.view(kind).reshape(height, width, encoding.channels)
-    if not encoding.order:
-        depths = pixels[..., 0].astype(float) * encoding.metres
-        return np.where(pixels[..., 0] == 0, np.nan, depths) if kind.kind == "u" else depths
-    if kind.itemsize == 2:
-        pixels = pixels >> 8
-    return pixels[..., list(encoding.order)].astype(np.uint8)
+    return rows.view(kind).reshape(height, width, encoding.channels)
 
 
 def _name(title: str | None, what: str, pixels: NDArray[Any], encoding: str, frame: str) -> str:

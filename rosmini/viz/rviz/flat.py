@@ -28,6 +28,8 @@ MOST_DOTS = 8000
 """Points of one display in a picture: of points on nearly the same pixel one is drawn."""
 MANY_FACES = 80
 """A mesh with more faces is drawn as its outline from this side."""
+MOST_FACES = 1500
+"""Faces of one mesh in a picture; smaller ones are dots."""
 SMALLEST_TEXT, LARGEST_TEXT = 10.0, 28.0
 MOST_WORDS = 300
 LEVELS = 32
@@ -91,23 +93,36 @@ def _points(points: Points, look: Projection) -> Iterator[str]:
     flat = look.pixels(points.points)
     colours = _steps(points.colours, len(flat))
     inside = ((flat >= 0) & (flat <= (look.width, look.height))).all(axis=1)
-    flat, colours = _thinned(flat[inside], colours[inside])
     size = points.size if points.style == "Points" else points.size * look.scale
     cap = "round" if points.style == "Spheres" else "square"
     width = max(LEAST_DOT, min(float(snap(size, 0.1)), look.width))
+    flat, colours = _thinned(flat[inside], colours[inside], width)
     for colour, among in _alike(colours):
         path = "".join(f"M{x:.5g},{y:.5g}h0" for x, y in flat[among].tolist())
         yield _path(path, colour, width, cap)
 
 
-def _thinned(flat: Floats, colours: Floats) -> tuple[Floats, Floats]:
-    """One of the points that fall on the same pixel, or on the same few pixels if there are still too many."""
-    quantum = 0.5
+def _thinned(flat: Floats, colours: Floats, width: float) -> tuple[Floats, Floats]:
+    """One of the points that fall on the same pixel, or on the same few pixels if there are still too many.
+
+    Wide points are thinned to a third of their width.
+    """
+    quantum = max(0.5, width / 3)
+    kept = _first(flat, quantum)
+    return flat[kept], colours[kept]
+
+
+def _first(flat: Floats, quantum: float) -> Ints:
+    """The first of the rows (n, 2 or 4) in each cell of `quantum` pixels, or of larger ones if there are too many."""
+    kept = np.arange(len(flat))
     while True:
-        _, first = np.unique(np.floor(flat / quantum).astype(np.int64), axis=0, return_index=True)
-        if len(first) <= MOST_DOTS:
-            kept = np.sort(first)
-            return flat[kept], colours[kept]
+        cells = np.clip(np.floor(flat[kept] / quantum), -(2**15), 2**15 - 1).astype(np.int64)
+        keys = np.zeros(len(kept), dtype=np.int64)
+        for column in cells.T:
+            keys = (keys << 16) | (column & 0xFFFF)
+        kept = kept[np.sort(np.unique(keys, return_index=True)[1])]
+        if len(kept) <= MOST_DOTS:
+            return kept
         quantum *= 1.5
 
 
@@ -115,17 +130,34 @@ def _lines(lines: Lines, look: Projection) -> Iterator[str]:
     width = max(LEAST_LINE, min(float(snap(lines.width * look.scale, 0.1)), look.width))
     if lines.strip and lines.colours.ndim == 1:
         flat = look.pixels(lines.points)
-        new = np.ones(len(flat), dtype=bool)
-        new[1:] = (np.abs(np.diff(flat, axis=0)) >= 0.1).any(axis=1)
-        data = _way(flat[new])
+        data = _way(_smoothed(flat))
         if data:
             yield _path(data, _steps(lines.colours, 1)[0], width, "round")
         return
     ends = look.pixels(lines.segments().reshape(-1, 3)).reshape(-1, 2, 2)
     seen = ((ends.max(axis=1) >= 0) & (ends.min(axis=1) <= (look.width, look.height))).all(axis=1)
     colours = _steps(lines.segment_colours(), len(ends))
-    for colour, among in _alike(colours[seen]):
-        yield _path("".join(_way(each) for each in ends[seen][among]), colour, width, "butt")
+    ends, colours = ends[seen], colours[seen]
+    if len(ends) > MOST_DOTS:
+        kept = _first(ends.reshape(-1, 4), max(0.5, width / 3))
+        ends, colours = ends[kept], colours[kept]
+    for colour, among in _alike(colours):
+        yield _path("".join(_way(each) for each in ends[among]), colour, width, "butt")
+
+
+def _smoothed(flat: Floats) -> Floats:
+    """A line without the points that are nearly where the one before is, the last one kept."""
+    new = np.ones(len(flat), dtype=bool)
+    new[1:] = (np.abs(np.diff(flat, axis=0)) >= 0.1).any(axis=1)
+    flat = flat[new]
+    quantum = 0.5
+    while len(flat) > MOST_DOTS:
+        cells = np.floor(flat / quantum)
+        new = np.ones(len(flat), dtype=bool)
+        new[1:-1] = (np.diff(cells, axis=0) != 0).any(axis=1)[:-1]
+        flat = flat[new]
+        quantum *= 1.5
+    return flat
 
 
 def _mesh(mesh: Mesh, look: Projection) -> Iterator[str]:
@@ -133,7 +165,7 @@ def _mesh(mesh: Mesh, look: Projection) -> Iterator[str]:
     if not len(mesh.faces):
         return
     flat = look.pixels(placed)
-    if len(mesh.faces) > MANY_FACES:
+    if len(mesh.faces) > MANY_FACES and mesh.lit:
         colour = mesh.colours if mesh.colours.ndim == 1 else mesh.colours.mean(axis=0)
         yield _filled([convex_hull(flat)], _steps(colour, 1)[0])
         return
@@ -142,6 +174,10 @@ def _mesh(mesh: Mesh, look: Projection) -> Iterator[str]:
     sizes = np.linalg.norm(normals, axis=1)
     towards = normals @ look.axes[2]
     seen = np.flatnonzero((sizes > 1e-12) & (towards > 1e-9 * sizes if mesh.lit else sizes > 0))
+    if len(seen) > MOST_FACES:
+        seen, small = _largest(triangles, seen, look)
+        rest = mesh.colours[small] if mesh.colours.ndim == 2 else mesh.colours
+        yield from _points(Points(triangles[small].mean(axis=1), rest, LEAST_DOT, "Points"), look)
     order = seen[np.argsort(look.nearness(triangles[seen].mean(axis=1)), kind="stable")]
     light = np.ones(len(order))
     if mesh.lit:
@@ -158,6 +194,14 @@ def _mesh(mesh: Mesh, look: Projection) -> Iterator[str]:
             end += 1
         yield _filled([flat[mesh.faces[i]] for i in order[start:end]], steps[start])
         start = end
+
+
+def _largest(triangles: Floats, seen: Ints, look: Projection) -> tuple[Ints, Ints]:
+    """Of the faces `seen`, the `MOST_FACES` that are largest in the picture, and the others, both in order."""
+    flat = look.pixels(triangles[seen].reshape(-1, 3)).reshape(-1, 3, 2)
+    sizes = np.ptp(flat, axis=1).sum(axis=1)
+    by_size = np.argsort(-sizes, kind="stable")
+    return np.sort(seen[by_size[:MOST_FACES]]), np.sort(seen[by_size[MOST_FACES:]])
 
 
 def _words(words: Sequence[Text], look: Projection, background: Colour) -> Iterator[str]:

@@ -13,7 +13,7 @@ from .properties import Colour, Property
 STYLES = ("Points", "Squares", "Flat Squares", "Spheres", "Boxes")
 TRANSFORMERS = ("", "Intensity", "RGB8", "MONO8", "RGBF32", "FlatColor", "AxisColor")
 
-POINT_PROPERTIES = (
+POINT_PROPERTIES: tuple[Property, ...] = (
     Property("Style", "Flat Squares", "how a point is drawn", choices=STYLES),
     Property("Size (m)", 0.01, "of a point, but in the style Points", unit="m", minimum=0.0001, maximum=1e4),
     Property("Size (Pixels)", 3.0, "of a point in the style Points", unit="px", minimum=1.0, maximum=100.0),
@@ -92,6 +92,8 @@ def styled(
             colours[:, :3] = low + share[:, None] * (high - low)
     elif kind == "RGB8" and "rgb" in channels:
         colours[:, :3] = channels["rgb"]
+    elif kind == "RGBF32" and {"r", "g", "b"} <= channels.keys():
+        colours[:, :3] = np.nan_to_num(np.column_stack([channels[name] for name in "rgb"]))
     elif kind == "MONO8" and "rgb" in channels:
         colours[:, :3] = (channels["rgb"] @ (0.2989, 0.5870, 0.1140))[:, None]
     elif kind in ("FlatColor", ""):

@@ -175,9 +175,7 @@ class TopicDisplay(Display):
 
     def hear(self, message: Any, context: Context) -> None:
         """Take a message; it is kept as soon as its frame can be brought to the fixed one."""
-        self.received += 1
-        plural = "" if self.received == 1 else "s"
-        self.set_status(Level.OK, "Topic", f"{self.received} message{plural} received")
+        self.count()
         heard = Heard(message, context.now_ns)
         if not self.needs_transform:
             self._keep(heard, context)
@@ -188,6 +186,16 @@ class TopicDisplay(Display):
             if not self._placed(dropped, context):
                 self._say_why(dropped, context)
         self._settle(context)
+
+    def count(self) -> None:
+        """Say that one more message came."""
+        self.received += 1
+        plural = "" if self.received == 1 else "s"
+        self.set_status(Level.OK, "Topic", f"{self.received} message{plural} received")
+
+    def transform_status(self, heard: Heard) -> str:
+        """The name of the status that says whether a message's frame can be brought to the fixed one."""
+        return f"Transform [sender={heard.sender}]"
 
     def _settle(self, context: Context) -> None:
         """Keep what waited and can be placed now, in order of arrival; what is too old is dropped."""
@@ -206,12 +214,12 @@ class TopicDisplay(Display):
             heard.place = context.place(heard.frame, self.moment(heard))
         except TransformException:
             return False
-        self.set_status(Level.OK, f"Transform [sender={heard.sender}]", "Transform OK")
+        self.set_status(Level.OK, self.transform_status(heard), "Transform OK")
         self._keep(heard, context)
         return True
 
     def _say_why(self, heard: Heard, context: Context) -> None:
-        name = f"Transform [sender={heard.sender}]"
+        name = self.transform_status(heard)
         if context.is_past(heard.frame, self.moment(heard)):
             stamp = heard.stamp_ns / 1e9
             text = f"Message removed because it is too old (frame=[{heard.frame}], stamp=[{stamp:.9f}])"
@@ -260,7 +268,7 @@ class TopicDisplay(Display):
                 try:
                     place = context.place(heard.frame)
                 except TransformException as error:
-                    name = f"Transform [sender={heard.sender}]"
+                    name = self.transform_status(heard)
                     self.set_status(Level.ERROR, name, context.problem(heard.frame, error))
                     continue
                 if place != heard.place:

@@ -7,19 +7,18 @@ from collections.abc import Iterable
 import numpy as np
 
 from rosmini.viz.rviz.context import Context
-from rosmini.viz.rviz.display import Level
-from rosmini.viz.rviz.points_style import POINT_PROPERTIES, styled
-from rosmini.viz.rviz.primitives import DisplayError, Points, Primitive
-from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+from rosmini.viz.rviz.points_display import PointsDisplay
+from rosmini.viz.rviz.points_style import styled
+from rosmini.viz.rviz.primitives import DisplayError, Primitive
+from rosmini.viz.rviz.topic_display import Heard
 
 MOST_BEAMS = 1_000_000
 
 
-class LaserScan(TopicDisplay, plugin="rviz/LaserScan"):
+class LaserScan(PointsDisplay, plugin="rviz/LaserScan"):
     """A point for each range between `range_min` and `range_max`, from where the laser was at the stamp."""
 
     message = "sensor_msgs/LaserScan"
-    properties = POINT_PROPERTIES
 
     def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
         """The points."""
@@ -39,12 +38,3 @@ class LaserScan(TopicDisplay, plugin="rviz/LaserScan"):
         intensities = np.asarray(scan.intensities, dtype=float)
         channels = {"intensity": intensities[hit]} if len(intensities) == len(ranges) else {}
         yield styled(heard.points(local), self, channels, local)
-
-    def primitives(self, context: Context) -> Iterable[Primitive]:
-        """The points of all scans that are kept."""
-        found = list(super().primitives(context))
-        count = sum(len(each.points) for each in found if isinstance(each, Points))
-        if self.kept:
-            text = f"Showing [{count}] points from [{len(self.kept)}] messages"
-            self.set_status(Level.OK if count else Level.WARN, "Points", text)
-        return found

@@ -1,0 +1,185 @@
+"""Marker and MarkerArray: shapes that programs ask for, by their namespaces and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, ClassVar
+
+from rosmini.errors import RosminiError
+from rosmini.tf import TransformException
+from rosmini.tf.rigid import Rigid
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.display import Level
+from rosmini.viz.rviz.marker_checks import Marker as MarkerMessage
+from rosmini.viz.rviz.marker_checks import check
+from rosmini.viz.rviz.marker_shapes import marker_primitives
+from rosmini.viz.rviz.primitives import DisplayError, Primitive
+from rosmini.viz.rviz.properties import Property, Tree
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+MOST_MARKERS = 10_000
+MOST_NAMESPACES = 500
+MOST_STATUSES = 30
+"""How many markers have lines of their own in the status."""
+ARRAY = "visualization_msgs/MarkerArray"
+
+
+class Marker(TopicDisplay, plugin="rviz/Marker"):
+    """Markers of a topic, and those of the topic's name with `_array`.
+
+    A marker stands where its frame was when it came, or goes with it if it is `frame_locked`. It goes after its
+    `lifetime`, with DELETE, or when another one of its namespace and id comes.
+    """
+
+    message = "visualization_msgs/Marker"
+    topic_property = "Marker Topic"
+    properties: ClassVar[tuple[Property, ...]] = (
+        Property("Marker Topic", "visualization_marker", "the topic to subscribe to"),
+        Property("Queue Size", 100, "how many markers wait for their transform", minimum=0, maximum=1000),
+        Property("Namespaces", Tree(), "which namespaces are shown; others are, too"),
+    )
+
+    def __init__(self, name: str = "", tree: Any = None) -> None:
+        super().__init__(name, tree)
+        self.markers: dict[tuple[str, int], Heard] = {}
+        """The markers by namespace and id."""
+        self._silent: set[tuple[str, int]] = set()
+
+    # -- hearing -------------------------------------------------------------------------------------------------
+
+    def start(self, context: Context) -> None:
+        """Subscribe to markers, and to arrays of them."""
+        super().start(context)
+        if self.topic:
+            self.listen_besides(context)
+
+    def listen_besides(self, context: Context) -> None:
+        """Subscribe to the topic of arrays."""
+        try:
+            self.listen(context, f"{self.topic}_array", ARRAY, lambda array: self.hear_array(array, context))
+        except RosminiError as error:
+            self.fail("Topic", error)
+
+    def hear_array(self, array: Any, context: Context) -> None:
+        """Take the markers of an array, one after another."""
+        before = self.received
+        for marker in array.markers[:MOST_MARKERS]:
+            self.hear(marker, context)
+        self.received = before
+        self.count()
+
+    def hear(self, message: Any, context: Context) -> None:
+        """Take a marker; what deletes needs no transform."""
+        if message.action in (MarkerMessage.DELETE, MarkerMessage.DELETEALL):
+            self.count()
+            if message.action == MarkerMessage.DELETE:
+                self._drop((message.ns, message.id))
+            else:
+                for each in list(self.markers):
+                    self._drop(each)
+            return
+        super().hear(message, context)
+
+    def transform_status(self, heard: Heard) -> str:
+        """Each marker has a line of its own."""
+        return _named(heard.message.ns, heard.message.id)
+
+    def accept(self, heard: Heard, context: Context) -> bool:
+        """Take a marker whose place is known."""
+        del context
+        marker = heard.message
+        name = (marker.ns, marker.id)
+        self.clear_status(_named(*name))
+        self._silent.discard(name)
+        if marker.action != MarkerMessage.ADD:
+            self._say(name, Level.ERROR, f"Unknown marker action: {marker.action}")
+            return False
+        level, text = check(marker)
+        if text:
+            self._say(name, level, text)
+        self.markers.pop(name, None)
+        if level is Level.ERROR:
+            return False
+        namespaces = self["Namespaces"]
+        if len(namespaces) < MOST_NAMESPACES:
+            namespaces.setdefault(marker.ns, True)
+        if len(self.markers) < MOST_MARKERS:
+            self.markers[name] = heard
+        return False
+
+    def reset(self) -> None:
+        """Forget all markers."""
+        super().reset()
+        self.markers = {}
+        self._silent = set()
+
+    def _drop(self, name: tuple[str, int]) -> None:
+        self.markers.pop(name, None)
+        self.clear_status(_named(*name))
+        self._silent.discard(name)
+
+    def _say(self, name: tuple[str, int], level: Level, text: str) -> None:
+        """Give a marker a line in the status, unless there are many already."""
+        own = _named(*name)
+        if own in self._statuses or len(self._statuses) < MOST_STATUSES:
+            self.set_status(level, own, text)
+        else:
+            self._silent.add(name)
+
+    # -- drawing -------------------------------------------------------------------------------------------------
+
+    def update(self, context: Context) -> None:
+        """Take away what has lived long enough, and move what is locked to its frame."""
+        super().update(context)
+        for name, heard in list(self.markers.items()):
+            lifetime = heard.message.lifetime.to_nsec()
+            if lifetime > 0 and context.now_ns - heard.arrived_ns >= lifetime:
+                self._drop(name)
+            elif heard.message.frame_locked:
+                self._follow_frame(name, heard, context)
+
+    def _follow_frame(self, name: tuple[str, int], heard: Heard, context: Context) -> None:
+        try:
+            place: Rigid = context.place(heard.frame)
+        except TransformException as error:
+            self._say(name, Level.ERROR, context.problem(heard.frame, error))
+            return
+        if place != heard.place:
+            heard.place, heard.drawn = place, None
+
+    def primitives(self, context: Context) -> Iterable[Primitive]:
+        """What was drawn for the markers of namespaces that are shown, in the order of namespaces and ids."""
+        found: list[Primitive] = []
+        shown = 0
+        namespaces = self["Namespaces"]
+        for name, heard in sorted(self.markers.items(), key=lambda item: item[0]):
+            if namespaces.get(name[0], True) is False:
+                continue
+            if heard.drawn is None:
+                heard.drawn = ()
+                try:
+                    heard.drawn = tuple(self.draw(heard, context))
+                except DisplayError as error:
+                    self._say(name, Level.ERROR, str(error).partition("\n")[0])
+            shown += bool(heard.drawn)
+            found += heard.drawn
+        if self.received:
+            names = {ns for ns, _ in self.markers}
+            text = f"Showing [{shown}] of [{len(self.markers)}] markers in [{len(names)}] namespaces"
+            self.set_status(Level.OK, "Markers", text)
+        if self._silent:
+            self.set_status(Level.WARN, "Others", f"{len(self._silent)} more markers have warnings or errors")
+        else:
+            self.clear_status("Others")
+        if len(self.markers) >= MOST_MARKERS:
+            self.set_status(Level.WARN, "Markers", f"Showing the first {MOST_MARKERS} markers")
+        return found
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """A marker."""
+        del context
+        return marker_primitives(heard.message, heard.pose(heard.message.pose))
+
+
+def _named(ns: str, number: int) -> str:
+    return f"{ns}/{number}"

@@ -1,0 +1,27 @@
+"""MarkerArray: markers that come many at a time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.properties import Property
+
+from .marker import ARRAY, Marker
+
+
+class MarkerArray(Marker, plugin="rviz/MarkerArray"):
+    """Markers of a topic of arrays."""
+
+    message = ARRAY
+    properties = (Property("Marker Topic", "visualization_marker_array", "the topic to subscribe to"),)
+
+    def listen_besides(self, context: Context) -> None:
+        """Nothing: the topic itself has arrays."""
+
+    def hear(self, message: Any, context: Context) -> None:
+        """Take an array, or one of its markers."""
+        if hasattr(message, "markers"):
+            self.hear_array(message, context)
+        else:
+            super().hear(message, context)

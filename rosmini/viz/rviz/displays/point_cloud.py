@@ -1,0 +1,37 @@
+"""PointCloud: the older message, with a list of channels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.viz.rviz.clouds import MOST_SHOWN, channels_of
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.points_display import PointsDisplay
+from rosmini.viz.rviz.points_style import styled
+from rosmini.viz.rviz.primitives import DisplayError, Primitive
+from rosmini.viz.rviz.topic_display import Heard
+
+
+class PointCloud(PointsDisplay, plugin="rviz/PointCloud"):
+    """A `sensor_msgs/PointCloud`; what is not finite is left out."""
+
+    message = "sensor_msgs/PointCloud"
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The points."""
+        del context
+        points, every = heard.message.points, -(-len(heard.message.points) // MOST_SHOWN) or 1
+        xyz = np.array([(each.x, each.y, each.z) for each in points[::every]], dtype=float).reshape(-1, 3)
+        fields: dict[str, NDArray[Any]] = dict(zip("xyz", xyz.T, strict=True))
+        for channel in heard.message.channels:
+            if len(channel.values) != len(points):
+                raise DisplayError(
+                    f"the channel {channel.name:.50} has {len(channel.values)} values for {len(points)} points"
+                )
+            fields.setdefault(channel.name, np.asarray(channel.values, dtype=np.float32)[::every])
+        local, channels = channels_of(fields)
+        yield styled(heard.points(local), self, channels, local)

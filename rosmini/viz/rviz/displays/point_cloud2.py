@@ -1,0 +1,24 @@
+"""PointCloud2: points with any number of fields."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rosmini.viz.rviz.clouds import channels_of, read_cloud
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.points_display import PointsDisplay
+from rosmini.viz.rviz.points_style import styled
+from rosmini.viz.rviz.primitives import Primitive
+from rosmini.viz.rviz.topic_display import Heard
+
+
+class PointCloud2(PointsDisplay, plugin="rviz/PointCloud2"):
+    """A `sensor_msgs/PointCloud2`; what is not finite is left out."""
+
+    message = "sensor_msgs/PointCloud2"
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The points."""
+        del context
+        local, channels = channels_of(read_cloud(heard.message))
+        yield styled(heard.points(local), self, channels, local)

@@ -1,0 +1,46 @@
+"""Displays of one measured number: a point at the sensor, coloured by the value."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import ClassVar
+
+import numpy as np
+
+from .context import Context
+from .display import Level
+from .points_display import PointsDisplay
+from .points_style import styled
+from .primitives import INVALID, DisplayError, Primitive
+from .properties import Property
+from .topic_display import Heard
+
+
+def bounds(channel: str, low: float, high: float, *, invert: bool = False) -> tuple[Property, ...]:
+    """The properties of RViz whose defaults are others than those of points: the channel and its range."""
+    return (
+        Property("Channel Name", channel, "the channel"),
+        Property("Autocompute Intensity Bounds", False, "from what comes"),
+        Property("Invert Rainbow", invert, "for Intensity: the other way round"),
+        Property("Min Intensity", low, "the value at one end of the rainbow"),
+        Property("Max Intensity", high, "the value at its other end"),
+    )
+
+
+class ScalarDisplay(PointsDisplay):
+    """The base of them; `field` is the message's number, `unit` what it is in."""
+
+    properties: ClassVar[tuple[Property, ...]] = ()
+    field: ClassVar[str] = ""
+    unit: ClassVar[str] = ""
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The point."""
+        del context
+        value = float(getattr(heard.message, self.field))
+        if not math.isfinite(value):
+            raise DisplayError(INVALID)
+        self.set_status(Level.OK, "Value", f"{value:.6g} {self.unit}".rstrip())
+        origin = np.zeros((1, 3))
+        yield styled(heard.points(origin), self, {self.field: np.array([value])}, origin)
