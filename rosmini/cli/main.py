@@ -176,8 +176,11 @@ def chosen(argv: Sequence[str]) -> str | None:
     raise RosminiError(f"there is no command {word!r}; {guess or 'the commands are: ' + ', '.join(COMMANDS)}")
 
 
-def build_parser(loaded: dict[str, Command]) -> argparse.ArgumentParser:
-    """The whole parser: in full for the `loaded` subcommands, by name and summary for the others."""
+def build_parser(loaded: dict[str, Command], *, others: bool = True) -> argparse.ArgumentParser:
+    """The parser: in full for the `loaded` subcommands, and with ``others`` by name and summary for all that is left.
+
+    A tool that starts needs no others, and sixty of them take longer to make than its questions to be answered.
+    """
     parser = argparse.ArgumentParser(
         prog="rosmini",
         description="ROS 1 that you can read, run and test.",
@@ -188,7 +191,7 @@ def build_parser(loaded: dict[str, Command]) -> argparse.ArgumentParser:
     for name, entry in COMMANDS.items():
         if name in loaded:
             loaded[name].add_parser(subparsers)
-        else:
+        elif others:
             subparsers.add_parser(name, help=entry.summary, add_help=False)
     return parser
 
@@ -209,7 +212,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     try:
         loaded = {name: COMMANDS[name].load()} if name else {}
-        parser = build_parser(loaded)
+        parser = build_parser(loaded, others=argv[:1] != [name])
         args = parser.parse_args(argv)
         if args.version:
             print(f"rosmini {__version__}")
