@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 from pathlib import Path
 from types import CodeType
@@ -84,6 +85,17 @@ def shared_tmp(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def required(what: str) -> bool:
     """Whether `ROSMINI_REQUIRE_<what>` forbids to skip tests for want of it."""
     return os.environ.get(f"ROSMINI_REQUIRE_{what}") == "1"
+
+
+@pytest.fixture(scope="session")
+def zsh() -> str:
+    """Where zsh is; skips without it, or fails if ROSMINI_REQUIRE_ZSH=1."""
+    found = shutil.which("zsh")
+    if found is None and required("ZSH"):
+        pytest.fail("there is no zsh, and ROSMINI_REQUIRE_ZSH=1", pytrace=False)
+    if found is None:
+        pytest.skip("there is no zsh")
+    return found
 
 
 @pytest.fixture(scope="session")

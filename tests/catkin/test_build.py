@@ -347,10 +347,12 @@ def test_a_destination_outside_of_devel_is_refused(bench: Bench) -> None:
 
 
 @posix_only
-@pytest.mark.parametrize("shell", ["sh", "bash"])
+@pytest.mark.parametrize("shell", ["sh", "bash", "zsh"])
 def test_what_a_shell_sources_chains_workspaces_and_may_be_sourced_twice(
-    tmp_path: Path, benches: Callable[[str], Bench], shell: str
+    benches: Callable[[str], Bench], shell: str, request: pytest.FixtureRequest
 ) -> None:
+    if shell == "zsh":
+        request.getfixturevalue("zsh")
     under, over = benches("it's under"), benches("over $HOME")
     under.package("one")
     over.package("two")
@@ -361,7 +363,7 @@ def test_what_a_shell_sources_chains_workspaces_and_may_be_sourced_twice(
         "type _rosmini_first >/dev/null 2>&1 && echo left; true"
     )
     env = {"PATH": os.environ["PATH"], "ROS_PACKAGE_PATH": f"/a:{over.base}/src:/b", "PYTHONPATH": ""}
-    setup = over.base / "devel" / ("setup.bash" if shell == "bash" else "setup.sh")
+    setup = over.base / "devel" / f"setup.{shell}"
     done = run([shell, "-c", line, shell, setup], env=env, check=True)
     assert done.stdout.splitlines() == [
         f"{over.base}/src:{under.base}/src:/a:/b",

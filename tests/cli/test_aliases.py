@@ -1,10 +1,12 @@
-"""Bare names in shells: real bash runs the lines."""
+"""Bare names in shells: real bash and zsh run the lines."""
 
 from __future__ import annotations
 
 import os
+import select
 import shutil
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +15,7 @@ import pytest
 import rosmini.cli.main as cli
 from rosmini.cli import aliases
 
-from ..processes import free_port, run
+from ..processes import free_port, run, start, wait_until
 
 bash = pytest.mark.skipif(shutil.which("bash") is None or sys.platform == "win32", reason="there is no bash")
 
@@ -62,6 +64,49 @@ def test_words_are_completed_in_bash(shell: Any) -> None:
     assert second == "cleanup info kill list machine ping"
     assert "_rosmini_complete rosmsg" in fourth
     assert done.stderr == ""
+
+
+class Typist:
+    """Somebody who types in an interactive zsh, as in a terminal, and reads what it shows."""
+
+    def __init__(self, words: list[str], env: dict[str, str], stack: ExitStack) -> None:
+        import pty  # POSIX has it
+
+        self._terminal, inner = pty.openpty()
+        stack.callback(os.close, self._terminal)
+        self._zsh = stack.enter_context(start(words, env=env, stdin=inner, stdout=inner, stderr=inner))
+        os.close(inner)
+        self._shown = ""
+
+    def type(self, keys: str, *, until: str) -> str:
+        """Type keys, wait until the terminal shows a text, and return all that it showed meanwhile."""
+        os.write(self._terminal, keys.encode())
+        wait_until(lambda: until in self._read(), until, self._zsh)
+        shown, self._shown = self._shown, ""
+        return shown
+
+    def _read(self) -> str:
+        while select.select([self._terminal], [], [], 0)[0]:
+            self._shown += os.read(self._terminal, 4096).decode("utf-8", "replace")
+        return self._shown
+
+
+def test_names_and_completion_in_zsh(zsh: str, tmp_path: Path) -> None:
+    """Tab is pressed in a real zsh with its line editor, since its completion works nowhere else."""
+    lines = aliases.lines("zsh", [sys.executable, "-m", "rosmini"])
+    (tmp_path / ".zshrc").write_text(f"PS1='ready> '\n{lines}", encoding="utf-8")
+    env = {
+        "PATH": str(tmp_path), "HOME": str(tmp_path), "ZDOTDIR": str(tmp_path), "TERM": "dumb",
+        "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}", "ROS_PACKAGE_PATH": str(tmp_path),
+    }  # fmt: skip
+    with ExitStack() as stack:
+        typist = Typist([zsh, "--no-global-rcs", "-i"], env, stack)
+        typist.type("", until="ready> ")
+        typist.type("rosmsg md5 std_msgs/Stri\t", until="std_msgs/String")
+        assert "992ce8a1687cec8c8bd883ec73ca41d1" in typist.type("\n", until="ready> ")
+        typist.type("rosmini rosno\t", until="rosnode")
+        typist.type("\x15rosnode li\t", until="list")
+        assert "Unable to communicate with master" in typist.type("\n", until="ready> ")
 
 
 @bash
