@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .choice import flock_on
 from .compiler import Procedure
+from .drawing import Drawing
 from .errors import LogoError
 from .machine import Limits, Machine
 from .primitives import PRIMITIVES
@@ -14,7 +16,9 @@ from .turtles import Paper
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .turtles import Flock, Sheet
+    from rosmini.graph import Node
+
+    from .turtles import Flock
 
 CHUNK = 10_000
 """So many instructions are run at once."""
@@ -33,8 +37,8 @@ class Logo:
     >>> logo = Logo()
     >>> logo.run("repeat 4 [forward 50 right 90]  print pos")
     0 0
-    >>> len(logo.sheet.strokes)
-    8
+    >>> len(logo.drawing.lines)
+    4
 
     """
 
@@ -52,16 +56,33 @@ class Logo:
             PRIMITIVES, self.flock, say=say, pause=pause, seed=seed, limits=limits or Limits()
         )
 
+    @classmethod
+    def on(
+        cls,
+        node: Node,
+        *names: str,
+        say: Callable[[str], object] = print,
+        seed: int = 0,
+        limits: Limits | None = None,
+    ) -> Logo:
+        """Return an interpreter that drives turtles or robots of the graph, with a node of its own.
+
+        Without ``names`` it takes what is there: the first turtle of turtlesim, or all robots, or a turtle on paper.
+        Raises ``LogoError`` for a name that nobody has.
+        """
+        return cls(flock_on(node, list(names)), say=say, pause=node.sleep, seed=seed, limits=limits)
+
     @property
-    def sheet(self) -> Sheet:
+    def drawing(self) -> Drawing:
         """What is drawn."""
-        return self.flock.sheet
+        return Drawing.of(self.flock)
 
     def start(self, program: str, first_line: int = 1) -> None:
         """Prepare to run a program, whose first line has this number in messages; nothing moves yet.
 
         Raises ``LogoError`` if it is not understood: then nothing of it is defined.
         """
+        self.flock.look()
         found = read(program, first_line)
         self.machine.define(
             {each.name: Procedure(each.name, each.inputs, each.body, each.line) for each in found.definitions}

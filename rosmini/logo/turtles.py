@@ -169,6 +169,12 @@ class ExactTurtle(Turtle):
 class Flock(ABC):
     """All turtles that there are, and those that listen: commands go to each of these, questions to the first."""
 
+    metre = 45.0
+    """So many steps are a metre of turtlesim's window."""
+    middle = 249.5 / metre
+    """Where [0 0] is in that window [m]."""
+    place = "the window"
+
     def __init__(self) -> None:
         self.sheet = Sheet()
         self.turtles: dict[str, Turtle] = {}
@@ -180,9 +186,12 @@ class Flock(ABC):
     def make(self, name: str) -> Turtle:
         """Make a turtle in the middle. Raises ``LogoError``."""
 
+    def look(self) -> None:  # noqa: B027 - on paper nothing changes by itself
+        """Find out what has changed since the last program."""
+
     def known(self) -> list[str]:
         """The names of turtles that are there."""
-        return list(self.turtles)
+        return sorted(self.turtles)
 
     def find(self, name: str) -> Turtle:
         """The turtle of this name. Raises ``LogoError`` if there is none."""

@@ -303,7 +303,7 @@ def test_what_is_not_understood_moves_nothing():
     logo = Logo()
     with pytest.raises(LogoError):
         logo.run("forward 10\nfrwd 10")
-    assert logo.sheet.strokes == []
+    assert logo.drawing.strokes == ()
 
 
 @pytest.mark.parametrize(
@@ -355,7 +355,7 @@ def test_it_can_be_run_step_by_step():
     while logo.advance(1):
         turns += 1
     assert logo.machine.steps == turns > 6
-    assert len(logo.sheet.strokes) == 3
+    assert len(logo.drawing.strokes) == 3
 
 
 def test_an_interrupt_leaves_the_interpreter_usable():
