@@ -110,6 +110,10 @@ class ServiceException(RosminiError):
     """A service call failed: no server, the handler raised, or the answer did not arrive."""
 
 
+class ServiceRefused(ServiceException):
+    """A handler refuses a request as one in C++ that returns false: the caller gets this text, empty or not, alone."""
+
+
 # ---- genpy's names ----
 
 

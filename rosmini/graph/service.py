@@ -12,6 +12,7 @@ from rosmini.errors import (
     ROSInterruptException,
     SerializationError,
     ServiceException,
+    ServiceRefused,
     TransportException,
     TransportInitError,
     nearest,
@@ -84,7 +85,8 @@ class ServiceServer:
         try:
             answer = self.handler(received)
         except ServiceException as error:  # how a handler refuses a request
-            msg = f"service cannot process request: {error}"
+            silent = isinstance(error, ServiceRefused)
+            msg = str(error) if silent else f"service cannot process request: {error}"
             raise ServiceException(msg) from error
         except Exception as error:
             if self.error_handler is not None:

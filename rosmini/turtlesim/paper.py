@@ -1,0 +1,149 @@
+"""What the turtles draw on: the strokes, and the image of 500 by 500 pixels that the colour sensor looks at.
+
+Coordinates are pixels of the window, x to the right and y down. As Qt draws without antialiasing, a pixel (column, row)
+is painted where these two numbers lie in the stroke: a rectangle as wide as the pen, half a width longer at either end
+(a square cap, Qt's default). Where a pixel lies on the very edge, Qt's fixed-point arithmetic may decide otherwise.
+"""
+
+from __future__ import annotations
+
+import math
+from array import array
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+SIZE = 500
+"""The width and the height of the window [px]."""
+
+MOST_STROKES = 400_000
+"""So many strokes are remembered. When there are more, the older half is in the image only."""
+
+Colour = tuple[int, int, int]
+"""Red, green and blue, 0 to 255."""
+
+BACKGROUND: Colour = (0x45, 0x56, 0xFF)
+"""The default background."""
+
+
+@dataclass(frozen=True)
+class Pen:
+    """A colour and a width [px]."""
+
+    colour: Colour = (0xB3, 0xB8, 0xFF)
+    width: int = 3
+
+
+class Stroke(NamedTuple):
+    """A straight line [px] that the turtle `owner` drew."""
+
+    x1: float
+    y1: float
+    x2: float
+    y2: float
+    pen: Pen
+    owner: str
+
+
+class Paper:
+    """Strokes in order, numbered from 0 since the paper was last cleared.
+
+    Args:
+        background: its colour.
+
+    """
+
+    def __init__(self, background: Colour = BACKGROUND) -> None:
+        self.background = background
+        self.clears = 0
+        """How often it was cleared."""
+        self._image = np.empty((SIZE, SIZE, 3), dtype=np.uint8)
+        self._wipe()
+
+    def _wipe(self) -> None:
+        self._ends = array("d")
+        self._styles = array("L")
+        self._pens: dict[tuple[Pen, str], int] = {}
+        self._first = 0
+        self._painted = 0
+        self._image[:] = self.background
+
+    def clear(self, background: Colour | None = None) -> None:
+        """Take a fresh sheet, of this colour or of the same one as before."""
+        self.background = self.background if background is None else background
+        self.clears += 1
+        self._wipe()
+
+    def line(self, start: tuple[float, float], end: tuple[float, float], pen: Pen, owner: str = "") -> None:
+        """Draw a stroke."""
+        self._ends.extend((*start, *end))
+        self._styles.append(self._pens.setdefault((pen, owner), len(self._pens)))
+        if len(self._styles) > MOST_STROKES:
+            self._paint()
+            forgotten = len(self._styles) // 2
+            del self._ends[: 4 * forgotten], self._styles[:forgotten]
+            self._first += forgotten
+
+    @property
+    def first(self) -> int:
+        """The number of the oldest stroke that is remembered; older ones are in the image only."""
+        return self._first
+
+    @property
+    def count(self) -> int:
+        """How many strokes were drawn since the last clear: the number that the next one gets."""
+        return self._first + len(self._styles)
+
+    def strokes(self, since: int = 0) -> Iterator[Stroke]:
+        """The strokes from this number on."""
+        styles = list(self._pens)
+        for index in range(max(since - self._first, 0), len(self._styles)):
+            x1, y1, x2, y2 = self._ends[4 * index : 4 * index + 4]
+            yield Stroke(x1, y1, x2, y2, *styles[self._styles[index]])
+
+    def pixel(self, x: float, y: float) -> Colour:
+        """The colour at a point [px]; that of the nearest pixel for a point outside."""
+        self._paint()
+        column, row = (min(max(math.floor(each + 0.5), 0), SIZE - 1) for each in (x, y))
+        red, green, blue = self._image[row, column]
+        return int(red), int(green), int(blue)
+
+    def image(self) -> NDArray[np.uint8]:
+        """All that was drawn, (row, column, 3), from the top left."""
+        self._paint()
+        return self._image.copy()
+
+    def _paint(self) -> None:
+        """Paint the strokes that are not in the image yet: only who looks pays for them."""
+        for stroke in self.strokes(self._painted):
+            _paint(self._image, stroke)
+        self._painted = self.count
+
+
+def _paint(image: NDArray[np.uint8], stroke: Stroke) -> None:
+    x, y, end_x, end_y, pen, _ = stroke
+    if max(abs(x), abs(y)) > max(abs(end_x), abs(end_y)):  # measure from the end that is nearer to the image
+        x, y, end_x, end_y = end_x, end_y, x, y
+    length = math.hypot(end_x - x, end_y - y)
+    along_x, along_y = ((end_x - x) / length, (end_y - y) / length) if length else (1.0, 0.0)
+    half = pen.width / 2
+    left, right = _span(x, end_x, half)
+    top, bottom = _span(y, end_y, half)
+    if left >= right or top >= bottom:
+        return
+    dx, dy = np.arange(left, right) - x, (np.arange(top, bottom) - y)[:, None]
+    along, across = dx * along_x + dy * along_y, dy * along_x - dx * along_y
+    inside = (along >= -half) & (along < length + half) & (across >= -half) & (across < half)
+    image[top:bottom, left:right][inside] = pen.colour
+
+
+def _span(first: float, second: float, half: float) -> tuple[int, int]:
+    """The columns, or the rows, that a stroke may touch."""
+    reach = 1.5 * half + 1.0  # the corner of a square cap is further out than half a width
+    low, high = min(first, second) - reach, max(first, second) + reach
+    return math.floor(min(max(low, 0.0), float(SIZE))), math.ceil(min(max(high + 1.0, 0.0), float(SIZE)))
