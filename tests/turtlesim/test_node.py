@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import itertools
 import math
 import re
 import shlex
@@ -117,10 +119,8 @@ def test_it_logs_what_the_real_one_logs(capfd: pytest.CaptureFixture[str]) -> No
             ("/clear", "std_srvs/Empty", ()),
             ("/reset", "std_srvs/Empty", ()),
         ):
-            try:
+            with contextlib.suppress(ServiceException):
                 call(sim, service, kind, *fields)
-            except ServiceException as error:
-                assert str(error).endswith("responded with an error: ")
         out, err = capfd.readouterr()
     assert [line.partition("]: ")[2] for line in out.splitlines()] == [
         "Starting turtlesim with node name /turtlesim",
@@ -154,7 +154,7 @@ def test_poses_come_at_62_5_hz_and_colours_with_them(sim: TurtleSim) -> None:
     ear.subscriber("/turtle1/color_sensor", Color, lambda each: colours.append((each.r, each.g, each.b)))
     graph.run(10.0)
     assert len(times) == len(colours) >= 623
-    assert {round(after - before, 9) for before, after in zip(times, times[1:])} == {0.016}
+    assert {round(after - before, 9) for before, after in itertools.pairwise(times)} == {0.016}
     assert set(colours) == {(69, 86, 255)}
 
 
