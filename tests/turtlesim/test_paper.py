@@ -17,7 +17,7 @@ anywhere = st.floats(-1e40, 1e40) | st.floats(-20, SIZE + 20)
 def painted(paper: Paper) -> set[tuple[int, int]]:
     """Columns and rows that are not background."""
     rows, columns = np.nonzero((paper.image() != paper.background).any(axis=2))
-    return {(int(column), int(row)) for row, column in zip(rows, columns)}
+    return {(int(column), int(row)) for row, column in zip(rows, columns, strict=True)}
 
 
 def test_a_line_of_three_pixels_has_square_caps() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 
 import pytest
@@ -138,10 +139,8 @@ def test_it_stays_inside_whatever_it_is_told(asked) -> None:
     turtle, paper = Turtle("t", *START), Paper()
     for update, (a, b, c) in enumerate(asked):
         for ask in (turtle.command, turtle.teleport_absolute, lambda x, y, _: turtle.teleport_relative(x, y)):
-            try:
+            with contextlib.suppress(TurtleError):
                 ask(a, b, c)
-            except TurtleError:
-                pass
         run(turtle, 1, paper, start=update)
         assert 0.0 <= turtle.x <= LIMIT and 0.0 <= turtle.y <= LIMIT and abs(turtle.theta) <= 3.1416
         single(turtle.linear_velocity)
