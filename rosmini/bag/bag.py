@@ -414,6 +414,18 @@ class Bag(Summaries):
         """
         return show("bag", self, **options)
 
+    def replay(self, **options: Any) -> Any:
+        """Return a player of what is in the bag, from above: robots, maps, plans, particles, scans, markers.
+
+        Options, with what they are unless given:
+            title=None: a caption under the player, and the first words of its text form
+            names=None: a list with the run's name
+            topics=None: only these topics; None: all that can be shown
+            frame=None: what everything is drawn in; None: map, odom or world, whichever there is first
+            robot=None: what robots look like from above: a model or its name; None: an arrow head
+        """
+        return show("replay", self, **options)
+
     # -- writing -----------------------------------------------------------------------------------------------------
 
     def write(

@@ -27,6 +27,15 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 TRUTH, ODOM, SCAN, COMMANDS = "base_pose_ground_truth", "odom", "scan", "cmd_vel"
+SEEN = (
+    "nav_msgs/OccupancyGrid", "map_msgs/OccupancyGridUpdate", "nav_msgs/Path", "nav_msgs/GridCells",
+    "geometry_msgs/PoseArray", "geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped",
+    "geometry_msgs/PolygonStamped", "geometry_msgs/PointStamped", "visualization_msgs/Marker",
+    "visualization_msgs/MarkerArray", "sensor_msgs/Image", "tf2_msgs/TFMessage",
+)  # fmt: skip
+"""What is kept with `layers=True`: what can be seen from above, and where frames are."""
+LOOK_AGAIN = 0.5
+"""The period after which it is asked for topics that are new [s]."""
 
 
 class Simulated(Protocol):
@@ -58,6 +67,8 @@ class Recorder:
             simulator's `obstacles`, or `gazebo_msgs/ModelStates`, as `/gazebo/model_states`. Without it they are taken
             to stay where they are.
         scan: what the robots call the topic of their laser: `scan`, or, in Stage, `base_scan`.
+        layers: keep also what else can be seen from above, on whichever topics it comes, now or later: maps, costmaps,
+            plans, particles, markers, images, and transforms; a player of the run shows each as a layer.
 
     Raises:
         RecordingError: neither a simulator nor a world and a model are given, and it is not one simulation that runs.
@@ -75,6 +86,7 @@ class Recorder:
         name: str = "recorder",
         things: str | None = None,
         scan: str = SCAN,
+        layers: bool = False,
     ) -> None:
         graph = running_graph() if graph is None else graph
         if simulator is None and world is None and model is None:
@@ -97,6 +109,7 @@ class Recorder:
         self.node = graph.node(name, namespace=namespace or "/")
         self.scan_topic = scan
         self._things = None if things is None else _Things(self, things)
+        self._layers = _Layers(self, things) if layers else None
         self._runs: dict[str, _Run] = {}
         own = robots.pop(first, None)
         # who gives a namespace means the first robot's, and this node is in it
@@ -136,6 +149,8 @@ class Recorder:
                 track.clear()
         if self._things is not None:
             self._things.clear()
+        if self._layers is not None:
+            self._layers.kept.clear()
 
     def stop(self) -> None:
         """End the node; what was recorded stays. Harmless when repeated."""
@@ -161,6 +176,8 @@ class Recorder:
             if run is not self._first and run.begin() is not None
         ]
         own = self._first.recording(begin)
+        if self._layers is not None:
+            own = replace(own, messages=self._layers.messages(begin))
         if not others and self._things is None:
             return own
         things = () if self._things is None else self._things.moved(begin, float(own.times[-1]))
@@ -291,6 +308,32 @@ class _Run:
             time_increment=float(scans.rows[-1].time_increment) if turned else 0.0,
             name=self.name if len(self._recorder.names) > 1 else "",
         )
+
+
+class _Layers:
+    """What came on all topics that can be seen from above, as it came."""
+
+    def __init__(self, recorder: Recorder, things: str | None) -> None:
+        self._node = recorder.node
+        self._left_out = {self._node.resolve(things)} if things else set()
+        self._subscribed: set[str] = set()
+        self.kept: list[tuple[int, str, Any]] = []
+        self._look()
+        self._node.timer(LOOK_AGAIN, lambda _event: self._look())
+
+    def _look(self) -> None:
+        """Subscribe to topics that are new."""
+        for topic, kind in sorted(self._node.master.ask("getTopicTypes")):
+            if kind in SEEN and topic not in self._subscribed | self._left_out:
+                self._subscribed.add(topic)
+                self._node.subscriber(topic, message_class(kind), self._keep, arguments=(topic,))
+
+    def _keep(self, message: Any, topic: str) -> None:
+        self.kept.append((self._node.clock.now_ns(), topic, message))
+
+    def messages(self, begin: int) -> tuple[tuple[float, str, Any], ...]:
+        """What was kept; what came before `begin` [ns], as a latched map, counts from the begin."""
+        return tuple((max(0.0, (time - begin) / 1e9), topic, message) for time, topic, message in self.kept)
 
 
 class _Things:

@@ -118,6 +118,8 @@ class Recording:
     """The runs of the other robots, by the same clock."""
     things: tuple[Moved, ...] = ()
     """What of the world was moved, or moved by itself."""
+    messages: tuple[tuple[float, str, Any], ...] = ()
+    """What was heard beside that: (time [s], topic, message), in order; maps, plans, particles ... and transforms."""
 
     def __post_init__(self) -> None:
         n, k, beams = (
@@ -245,6 +247,7 @@ class Recording:
                 if ((other.times >= t0) & (other.times <= t1)).any()
             ),
             things=tuple(thing.window(t0, t1) for thing in self.things),
+            messages=_in_force(self.messages, t0, t1),
         )
 
     def show(self, **options: Any) -> Any:
@@ -268,10 +271,14 @@ class Recording:
         return show("recording_plots", self, **options)
 
     def replay(self, **options: Any) -> Any:
-        """A player for the run, with play, pause, scrub and speed.
+        """A player for the run, with play, pause, scrub and speed, and a switch for each layer.
 
         Options, with what they are unless given:
             title=None: a caption, and the first words of the text form
+            names=None: a list with the run's name
+            topics=None: of what was kept beside the robots, only these topics; None: all
+            frame=None: what that is drawn in; None: map, odom or world, whichever there is first
+            robot=None: not needed here, since the recording knows its robot
         """
         return show("replay", self, **options)
 
@@ -298,6 +305,23 @@ def since(commands: Floats, begin: float) -> Floats:
         return after
     before[:, 0] = begin
     return np.vstack([before, after])
+
+
+def _in_force(
+    messages: tuple[tuple[float, str, Any], ...], t0: float, t1: float
+) -> tuple[tuple[float, str, Any], ...]:
+    """The messages from `t0` to `t1`, and first what came last on each topic before, as if it came at `t0`.
+
+    All transforms before `t0` stay, each with its time: some hold for ever.
+    """
+    before: dict[str, tuple[float, str, Any]] = {}
+    early = []
+    for time, topic, message in messages:
+        if time < t0 and topic.rpartition("/")[2] in ("tf", "tf_static"):
+            early.append((time, topic, message))
+        elif time < t0:
+            before[topic] = (t0, topic, message)
+    return (*early, *before.values(), *(each for each in messages if t0 <= each[0] <= t1))
 
 
 def _between(times: Floats, poses: Floats, time: float) -> tuple[float, float, float]:

@@ -423,7 +423,7 @@ def test_a_run_of_one_sample_and_one_without_scans(write, opened, recording):
     blind = replace(recording, scan_times=np.empty(0), scans=np.empty((0, 360)), commands=np.empty((0, 3)))
     page = opened(write(blind.window(0.0, 0.0)))
     assert page.locator("output").inner_text() == "0.0 / 0.0 s"
-    for control in page.locator("button, [type=range]").all():
+    for control in page.locator(".rr-bar button, [type=range]").all():
         assert control.is_disabled()
     assert not page.get_by_role("checkbox", name="Laser").is_visible()
     assert page.locator("[data-read=command]").inner_text() == "none yet"

@@ -1,77 +1,180 @@
-"""A recorded run to play: a player in a page, with a still picture of the run where no script runs."""
+"""Recorded runs to play: a player in a page, with a still picture of the run where no script runs."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Collection, Sequence
+from dataclasses import replace
 from functools import cached_property
+from pathlib import Path
+from typing import Any
 
+from rosmini.bag import Bag
+from rosmini.sim.models import RobotModel, model
 from rosmini.sim.recording import Recording
 from rosmini.viz.embed import embed
 from rosmini.viz.recording_pictures import RunScene, recording_picture
 from rosmini.viz.replay.encode import replay_data
+from rosmini.viz.replay.messages import BagLog, KeptLog, NothingToSee, run_of
+from rosmini.viz.replay.run import BUDGET, Run, thinned
+from rosmini.viz.replay.still import still_of
 from rosmini.viz.rounding import fixed
+from rosmini.viz.svg import element
 from rosmini.viz.view import SVG_MIME, Picture, View, ViewError
 
 SCRIPTS = ("rosmini-canvas.js", "rosmini-replay.js")
+LAYER_SCRIPT = "rosmini-replay-layers.js"
 HEIGHT = 320
 """The least that a player takes [CSS px]: a phone's width of world, and the controls."""
 
+Source = Recording | Run | Bag | str | os.PathLike[str]
+
+
+class Shown:
+    """One run of a player: its data, its still picture and its words."""
+
+    def __init__(
+        self, source: Recording | Run, layers: Run | None = None, *, name: str | None = None
+    ) -> None:
+        self.source = source
+        self.layers = layers
+        self.name = name or self._usual_name()
+
+    def _usual_name(self) -> str:
+        source = self.source
+        return source.name if isinstance(source, Run) else f"{source.model.name} in {source.world.name}"
+
+    def data(self, budget: int) -> dict[str, Any]:
+        """What the script plays, in about so many bytes."""
+        source = self.source
+        if isinstance(source, Run):
+            return source.data(budget)
+        data = replay_data(source)
+        if self.layers is not None:
+            used = len(str(data))
+            layers, notes = thinned(self.layers.layers, max(20_000, budget - used))
+            data |= {"layers": layers, "bodies": [body.data() for body in self.layers.bodies]}
+            notes = [*self.layers.notes, *notes]
+            if notes:
+                data["notes"] = notes
+        return data
+
+    def text(self, title: str) -> str:
+        """What happened, in numbers."""
+        source = self.source
+        if isinstance(source, Run):
+            return source.text(title)
+        text = RunScene(source, scan=len(source.scans) > 0).text(title)
+        more = self.layers.text().splitlines()[1:] if self.layers is not None else []
+        return "\n".join([text, *more])
+
+    @property
+    def alt(self) -> str:
+        """The run in two sentences."""
+        run = self.source
+        if isinstance(run, Run):
+            return run.alt()
+        layers = [] if self.layers is None else [layer.name for layer in self.layers.layers]
+        more = f" Layers that can be switched: {', '.join(layers)}." if layers else ""
+        return (
+            f"Player of a run of {run.model.name} in the world {run.world.name}, {fixed(run.duration, 1)} seconds "
+            f"long. The robot drives {fixed(run.distance, 2)} m; at the end its odometry is off by "
+            f"{fixed(float(run.drift().position[-1]), 2)} m.{beside(run)}{more}"
+        )
+
+    def still(self, title: str) -> Picture:
+        """The run in one picture."""
+        source = self.source
+        if isinstance(source, Run):
+            return still_of(source, title=title, alt=self.alt)
+        return recording_picture(source, scan=len(source.scans) > 0, title=title)
+
+    @property
+    def needs_layers(self) -> bool:
+        """Whether the page needs the script of the layers."""
+        return isinstance(self.source, Run) or self.layers is not None
+
 
 class ReplayView(View):
-    """The player. As text it says how the run went; as an image it is the picture that `recording_picture` draws."""
+    """The player. As text it says how the runs went; as an image it is the first run's picture."""
 
-    def __init__(self, recording: Recording, *, title: str | None = None) -> None:
-        self.recording = recording
+    def __init__(self, runs: Sequence[Shown], *, title: str | None = None) -> None:
+        self.runs = tuple(runs)
         self.title = title
 
     @cached_property
     def text(self) -> str:
-        """What happened, in numbers, as the picture of the run says it."""
-        return RunScene(self.recording, scan=self._scanned).text(self._name)
+        """What happened, in numbers, as the pictures of the runs say it."""
+        if len(self.runs) == 1:
+            return self.runs[0].text(self._name)
+        return "\n".join([self._name, *(run.text(run.name) for run in self.runs)])
 
     @cached_property
     def alt(self) -> str:
-        """The run in two sentences."""
-        run = self.recording
-        return (
-            f"Player of a run of {run.model.name} in the world {run.world.name}, {fixed(run.duration, 1)} seconds "
-            f"long. The robot drives {fixed(run.distance, 2)} m; at the end its odometry is off by "
-            f"{fixed(float(run.drift().position[-1]), 2)} m.{beside(run)}"
-        )
+        """The runs in a few sentences."""
+        both = "" if len(self.runs) == 1 else f"{len(self.runs)} runs side by side, by one clock. "
+        return both + " ".join(run.alt for run in self.runs)
 
     @cached_property
     def still(self) -> Picture:
-        """The run in one picture: an SVG.
+        """The first run in one picture: an SVG.
 
         Raises:
             ViewError: matplotlib, which draws it, is not installed.
 
         """
-        return recording_picture(self.recording, scan=self._scanned, title=self._name)
+        return self.runs[0].still(self._name)
+
+    @cached_property
+    def _stills(self) -> str:
+        if len(self.runs) == 1:
+            return self.still.svg or ""
+        drawn = [
+            element("div", run.still(run.name).svg or "", style="flex:1 1 18rem;min-width:0")
+            for run in self.runs
+        ]
+        return element("div", "".join(drawn), style="display:flex;flex-wrap:wrap;gap:8px")
 
     def _images(self) -> dict[str, bytes]:
         return {SVG_MIME: (self.still.svg or "").encode()}
 
     @cached_property
+    def data(self) -> dict[str, Any]:
+        """What the script plays; layers are thinned until the page is small."""
+        if len(self.runs) == 1:
+            return self.runs[0].data(BUDGET)
+        each = BUDGET // len(self.runs)
+        return {"runs": [{**run.data(each), "title": run.name} for run in self.runs]}
+
+    @cached_property
     def html(self) -> str:
         """The player: of the book, or self-contained, as `rosmini.viz.book_form.book_form` says."""
+        return self._html(None)
+
+    @property
+    def page(self) -> str:
+        """The player with all that it needs, for a file of its own."""
+        return self._html(book=False)
+
+    def _html(self, book: bool | None) -> str:
+        layered = any(run.needs_layers for run in self.runs)
         return embed(
-            SCRIPTS,
+            (*SCRIPTS, LAYER_SCRIPT) if layered else SCRIPTS,
             "rosminiReplay.mount",
-            replay_data(self.recording),
+            self.data,
             title=self._name,
             alt=self.alt,
             height=HEIGHT,
-            fallback_html=self.still.svg or "",
+            fallback_html=self._stills,
             caption=self.title,
+            book=book,
         )
 
     @property
-    def _scanned(self) -> bool:
-        return len(self.recording.scans) > 0
-
-    @property
     def _name(self) -> str:
-        return self.title or f"Replay of {self.recording.model.name} in {self.recording.world.name}"
+        if self.title or len(self.runs) > 1:
+            return self.title or f"Replay of {len(self.runs)} runs"
+        return f"Replay of {self.runs[0].name}"
 
 
 def beside(run: Recording) -> str:
@@ -81,20 +184,78 @@ def beside(run: Recording) -> str:
     return f" Beside it drive {others}{more}." if others else ""
 
 
-def replay(recording: Recording, *, title: str | None = None) -> ReplayView:
-    """A player for a recorded run: play, pause, scrub, speeds from a quarter to eight times, and keys for all of it.
+def replay(
+    *sources: Source,
+    title: str | None = None,
+    names: Sequence[str] | None = None,
+    topics: Collection[str] | None = None,
+    frame: str | None = None,
+    robot: str | RobotModel | None = None,
+) -> ReplayView:
+    """A player for a recorded run, or for several side by side by one clock.
+
+    It has play, pause, scrub, speeds from a quarter to eight times, zoom, a view that follows the robot, a switch for
+    each layer, and keys for all of it.
 
     Args:
-        recording: of a robot, and of others beside it if there were any.
+        sources: runs: recordings of robots, bags (or their paths), runs made from layers.
         title: a caption, and the first words of the text form.
+        names: of the runs, shown above each if there are several.
+        topics: show only these topics of a bag, and of what a recorder kept beside the robots; None: all that can be.
+        frame: what the messages are drawn in; None: map, odom or world, whichever there is first.
+        robot: what the robot of a bag looks like from above: a model or its name; None: an arrow head.
 
     Raises:
-        ViewError: it is not a recording.
+        ViewError: it is nothing that can be played, or there is nothing to see in it.
+        ROSBagException: a bag cannot be read.
 
     """
-    if not isinstance(recording, Recording):
+    if not sources or (names is not None and len(names) != len(sources)):
         raise ViewError(
-            f"replay shows a Recording, not a {type(recording).__name__}: record a run with rosmini.sim.Recorder, and "
-            "give what its recording() returns"
+            f"replay needs at least one run, and as many names as runs, not {len(sources)} and {names}"
         )
-    return ReplayView(recording, title=title)
+    given: Sequence[str | None] = names or [None] * len(sources)
+    outline = None
+    if robot is not None:
+        outline = tuple(
+            (float(x), float(y)) for x, y in (model(robot) if isinstance(robot, str) else robot).footprint
+        )
+    options: dict[str, Any] = {"topics": topics, "frame": frame}
+    return ReplayView(
+        [_shown(source, name, outline, options) for source, name in zip(sources, given, strict=True)],
+        title=title,
+    )
+
+
+def _shown(source: Source, name: str | None, outline: Any, options: dict[str, Any]) -> Shown:
+    if isinstance(source, Recording):
+        return Shown(source, _kept(source, options), name=name)
+    if isinstance(source, Run):
+        return Shown(source, name=name)
+    if isinstance(source, Bag):
+        return Shown(run_of(BagLog(source), outline=outline, **options), name=name)
+    if isinstance(source, str | os.PathLike) and Path(source).suffix == ".bag":
+        with Bag(source) as bag:
+            return _shown(bag, name, outline, options)
+    what = repr(source) if isinstance(source, str) else f"a {type(source).__name__}"
+    raise ViewError(
+        f"replay shows a Recording, a bag or a Run, not {what}: record a run with rosmini.sim.Recorder, and "
+        "give what its recording() returns, or give the path of a .bag"
+    )
+
+
+def _kept(recording: Recording, options: dict[str, Any]) -> Run | None:
+    """What a recorder kept beside the robot, laid on where the robot really was; None if that is nothing."""
+    messages = recording.messages
+    if not messages:
+        return None
+    start, end = float(recording.times[0]), float(recording.times[-1])
+    x, y, heading = recording.truth[0].tolist()
+    try:
+        run = run_of(KeptLog("the run", messages, start, end), start_at=(x, y, heading), **options)
+    except NothingToSee:
+        return None
+    believed = (
+        () if run.frame == "odom" else tuple(replace(b, name=f"{b.name} in {run.frame}") for b in run.bodies)
+    )
+    return replace(run, bodies=believed) if run.layers or believed else None

@@ -10,7 +10,8 @@
 
      clear(view)                               empties it and paints the ground with a line each metre.
      world(view, scene)                        walls and obstacles, with the ground: clear() is not needed. Kept as a
-                                               bitmap in the view, so that each further call is one copy.
+                                               bitmap in the view, so that each further call is one copy,
+                                               unless the view says that it is `fleeting`.
      scan(view, robot, poseOf, ranges)         laser hits and what the laser sees; poseOf(i) is where the robot was at
                                                beam i, which in a sweep differs from beam to beam. A beam that hit nothing
                                                is Infinity, null or 0; one that hit what is too near to be measured is
@@ -201,6 +202,7 @@
       context.lineWidth = 2.5;
       context.strokeStyle = view.theme.muted;
       context.stroke();
+      if (view.fleeting) return;
       const bitmap = document.createElement("canvas");
       [bitmap.width, bitmap.height] = [Math.round(width * ratio), Math.round(height * ratio)];
       bitmap.getContext("2d").drawImage(context.canvas, 0, 0);

@@ -1,13 +1,16 @@
-/* The replay player: a recorded run of a robot, to play, to scrub and to look at closely.
+/* The replay player: a recorded run, or several side by side by one clock, to play, to scrub and to look at closely.
 
-   A plain script that needs `rosmini-canvas.js` and sets `globalThis.rosminiReplay`:
+   A plain script that needs `rosmini-canvas.js`, and `rosmini-replay-layers.js` for what is no run of a simulated robot;
+   it sets `globalThis.rosminiReplay`:
 
-     mount(host, data, options)   puts a player into an empty element; `data` is what `rosmini.viz.replay.encode`
-                                  made, `options` has `title` and `alt`.
+     mount(host, data, options)   puts a player into an empty element; `data` is what `rosmini.viz.replay` made: a run,
+                                  or {runs: [...]}; `options` has `title` and `alt`.
      decode(data)                 the run in metres, radians and seconds.
      beamPose(run, time, beam)    where the robot of a decoded run was at a beam of the scan that has this time.
+     unpack, naturals, columns, lastAt   for the script of the layers: what packing.py wrote, and where a time is in a row.
 
-   It plays when it is told to. Its root element says how it is: data-state (playing, paused), data-time, data-speed. */
+   It plays when it is told to. Its root element says how it is: data-state (playing, paused), data-time, data-speed,
+   data-zoom, data-follow. The wheel scrolls the page; with Ctrl, or two fingers, it zooms. */
 
 (() => {
   "use strict";
@@ -15,18 +18,32 @@
   const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
   const STEP = 0.2; // seconds: from one scan of TurtleBot3's laser to the next
   const CALM = 500; // milliseconds between two pictures, for those who want less motion
+  const EARLY = 1; // seconds: a scan that comes so soon after the start is there from the start
+  const ZOOM = 1.5; // of one press
+  const MOST_ZOOM = 40;
+  const FLATTEST = 0.45; // the height of what is shown, in its width
+  const CLICK = 5; // pixels: who moves further drags
   const ICONS = {
     back: "M4 4h3v16H4zM20 4v16L8 12z",
     play: "M6 3.5v17L20 12z",
     pause: "M5 4h5v16H5zM14 4h5v16h-5z",
     forward: "M17 4h3v16h-3zM4 4v16l12-8z",
+    nearer: "M11 4h2v7h7v2h-7v7h-2v-7H4v-2h7z",
+    further: "M4 11h16v2H4z",
+    follow: "M11 2h2v3.1a7 7 0 0 1 5.9 5.9H22v2h-3.1a7 7 0 0 1-5.9 5.9V22h-2v-3.1A7 7 0 0 1 5.1 13H2v-2h3.1A7 7 0 0 1 11 5.100zM12 7a5 5 0 1 0 0 10 5 5 0 0 0 0-10zm0 3a2 2 0 1 1 0 4 2 2 0 0 1 0-4z",
+    reset: "M4 4h6v2H6v4H4zm10 0h6v6h-2V6h-4zM4 14h2v4h4v2H4zm14 0h2v6h-6v-2h4z",
   };
 
   const STYLE = `
 .rosmini-replay{background:var(--page);border:1px solid color-mix(in srgb,var(--group-line) 55%,transparent);
 border-radius:8px;box-sizing:border-box;color:var(--ink);font:14px/1.4 var(--rosmini-font,system-ui,sans-serif);overflow:hidden}
 .rosmini-replay *{box-sizing:border-box}
-.rosmini-replay canvas{cursor:pointer;touch-action:manipulation}
+.rosmini-replay canvas{cursor:pointer;touch-action:pan-x pan-y}
+.rosmini-replay .rr-panes{display:grid;gap:.3rem;grid-template-columns:repeat(auto-fit,minmax(min(100%,18rem),1fr))}
+.rosmini-replay .rr-pane{min-width:0}
+.rosmini-replay h4{font-size:14px;font-weight:600;margin:0;padding:.45rem .7rem .2rem}
+.rosmini-replay .rr-view{display:flex;gap:.1rem;margin-left:auto}
+.rosmini-replay button[aria-pressed=true]{background:color-mix(in srgb,var(--blue) 24%,transparent)}
 .rosmini-replay .rr-row{align-items:center;display:flex;flex-wrap:wrap;gap:.4rem .6rem;padding:.45rem .7rem}
 .rosmini-replay .rr-bar{background:var(--group-fill);border-top:1px solid color-mix(in srgb,var(--group-line) 40%,transparent)}
 .rosmini-replay .rr-buttons{display:flex;gap:.25rem}
@@ -47,10 +64,8 @@ height:32px;margin-left:auto;padding:0 .3rem;width:auto}
 .rosmini-replay [hidden]{display:none}
 .rosmini-replay .rr-layers{gap:.1rem .8rem;padding-bottom:.1rem}
 .rosmini-replay i{border-top:2px solid;display:inline-block;width:18px}
-.rosmini-replay i.truth{border-color:var(--blue)}
-.rosmini-replay i.odom{border-color:var(--orange);border-top-style:dashed}
-.rosmini-replay i.scan{border-top:3px dotted var(--vermilion)}
-.rosmini-replay .rr-keys{color:var(--muted);flex:1;font-size:12px;text-align:right;white-space:nowrap}
+.rosmini-replay .rr-notes{color:var(--muted);font-size:12px;margin:0;padding:0 .7rem .5rem}
+.rosmini-replay .rr-keys{color:var(--muted);font-size:12px;margin:0;padding:0 .7rem .5rem}
 .rosmini-replay kbd{all:unset;border:1px solid var(--group-line);border-radius:3px;padding:0 .3em}
 .rosmini-replay dl{display:grid;gap:.1rem 1.2rem;grid-auto-flow:column;grid-template-rows:auto auto;justify-content:start;
 margin:0;padding:.2rem .7rem .6rem}
@@ -58,42 +73,57 @@ margin:0;padding:.2rem .7rem .6rem}
 .rosmini-replay dt{color:var(--muted);flex:0 0 5.4rem;font-weight:400;margin:0}
 .rosmini-replay dd{margin:0;min-width:10.5rem}
 .rosmini-replay [role=status]{clip-path:inset(50%);height:1px;margin:0;overflow:hidden;position:absolute;width:1px}
-@container (max-width:620px){.rosmini-replay .rr-keys{display:none}.rosmini-replay dl{grid-auto-flow:row;grid-template-rows:none}}`;
+@container (max-width:620px){.rosmini-replay .rr-keys{display:none}.rosmini-replay .rr-view{margin-left:0}.rosmini-replay dl{grid-auto-flow:row;grid-template-rows:none}}`;
 
   const icon = (name) => `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${ICONS[name]}"/></svg>`;
   const button = (name, label, key) =>
     `<button type="button" data-do="${name}" aria-label="${label}" title="${label} (${key})">${icon(name)}</button>`;
-  const layer = (name, label) =>
-    `<label><input type="checkbox" data-layer="${name}" checked><i class="${name}"></i>${label}</label>`;
-  const reading = (name, label) => `<div><dt>${label}</dt><dd data-read="${name}"></dd></div>`;
   const CONTENT = `
-<canvas role="img"></canvas>
+<div class="rr-panes"></div>
 <div class="rr-row rr-bar">
 <span class="rr-buttons">${button("back", "Step back", "left arrow")}${button("play", "Play", "space")}${button("forward", "Step forward", "right arrow")}</span>
 <input type="range" step="any" aria-label="Time">
 <output></output>
 <select aria-label="Speed">${SPEEDS.map((speed) => `<option value="${speed}">${speed}\u00d7</option>`).join("")}</select>
 </div>
-<div class="rr-row rr-layers">${layer("truth", "True path")}${layer("odom", "Odometry")}${layer("scan", "Laser")}
-<span class="rr-keys"><kbd>space</kbd> <kbd>\u2190</kbd> <kbd>\u2192</kbd> <kbd>Home</kbd> <kbd>End</kbd> <kbd>+</kbd> <kbd>\u2212</kbd></span></div>
-<dl>${reading("truth", "Robot")}${reading("odom", "Odometry")}${reading("error", "Off by")}${reading("command", "Command")}</dl>
+<div class="rr-row rr-layers">
+<span class="rr-view">${button("further", "Zoom out", "Page down")}${button("nearer", "Zoom in", "Page up")}${button("follow", "Follow the robot", "f")}${button("reset", "Reset the view", "0")}</span></div>
+<p class="rr-notes" hidden></p>
+<p class="rr-keys"><kbd>space</kbd> <kbd>\u2190</kbd> <kbd>\u2192</kbd> <kbd>Home</kbd> <kbd>End</kbd> time, <kbd>+</kbd> <kbd>\u2212</kbd> speed,
+<kbd>Page up</kbd> <kbd>Page down</kbd> or <kbd>Ctrl</kbd> and wheel zoom, <kbd>Shift</kbd> and arrows or drag move, <kbd>f</kbd> follow, <kbd>0</kbd> reset</p>
 <p role="status"></p>`;
+  const PANE = '<h4 hidden></h4><canvas role="img"></canvas><dl></dl>';
 
-  /* What `pack` of rosmini/viz/replay/encode.py wrote, times `unit`. */
-  function unpack(text, unit) {
+  /* What `pack_natural` of rosmini/viz/replay/packing.py wrote. */
+  function naturals(text) {
     const bytes = atob(text);
     const values = [];
-    let [value, folded, factor] = [0, 0, 1];
+    let [value, factor] = [0, 1];
     for (let i = 0; i < bytes.length; i += 1) {
       const byte = bytes.charCodeAt(i);
-      folded += (byte & 127) * factor;
+      value += (byte & 127) * factor;
       factor *= 128;
       if (byte & 128) continue;
-      value += folded % 2 ? -(folded + 1) / 2 : folded / 2;
-      values.push(value * unit);
-      [folded, factor] = [0, 1];
+      values.push(value);
+      [value, factor] = [0, 1];
     }
     return values;
+  }
+
+  /* What `pack` wrote, times `unit`. */
+  function unpack(text, unit) {
+    let value = 0;
+    return naturals(text).map((folded) => {
+      value += folded % 2 ? -(folded + 1) / 2 : folded / 2;
+      return value * unit;
+    });
+  }
+
+  /* Columns that lie one after another, each with its unit, as rows. */
+  function columns(text, units) {
+    const values = unpack(text, 1);
+    const count = values.length / units.length;
+    return Array.from({ length: count }, (_, i) => units.map((unit, column) => values[i + column * count] * unit));
   }
 
   const LENGTH = 1e-3;
@@ -101,52 +131,67 @@ margin:0;padding:.2rem .7rem .6rem}
   const TIME = 1e-3;
   const NANOSECOND = 1e-9;
 
-  /* Three columns that lie one after another, as rows. */
-  function rows(text, ...units) {
-    const values = unpack(text, 1);
-    const count = values.length / 3;
-    return Array.from({ length: count }, (_, i) => units.map((unit, column) => values[i + column * count] * unit));
-  }
+  const POSE = [LENGTH, LENGTH, ANGLE];
 
   function decode(data) {
-    const ranges = unpack(data.scans, LENGTH);
-    const beams = data.scene.robot.lidar?.beams ?? 1;
-    const tracked = (items) => (items ?? []).map((item) => ({ ...item, track: rows(item.track, LENGTH, LENGTH, ANGLE) }));
+    const { bodies, layers } = data;
+    const ranges = unpack(data.scans ?? "", data.scan_unit ?? LENGTH);
+    const beams = data.scene?.robot.lidar?.beams ?? 1;
+    const tracked = (items) => (items ?? []).map((item) => ({ ...item, track: columns(item.track, POSE) }));
+    const more = globalThis.rosminiReplayLayers;
+    const start = data.start * TIME;
     return {
       scene: data.scene,
-      start: data.start * TIME,
+      start,
       end: (data.start + data.duration) * TIME,
-      truth: rows(data.truth, LENGTH, LENGTH, ANGLE),
-      odom: rows(data.odom, LENGTH, LENGTH, ANGLE),
-      commands: rows(data.commands, TIME, LENGTH, ANGLE),
+      origin: data.scene ? 0 : start, // what the clock of the player counts from
+      truth: columns(data.truth ?? "", POSE),
+      odom: columns(data.odom ?? "", POSE),
+      commands: columns(data.commands ?? "", [TIME, LENGTH, ANGLE]),
       name: data.name ?? "",
+      title: data.title ?? data.name ?? "",
       others: tracked(data.others),
       things: tracked(data.things),
       increment: (data.time_increment ?? 0) * NANOSECOND,
-      scans: unpack(data.scan_times, TIME).map((time, i) => [time, ranges.slice(i * beams, (i + 1) * beams)]),
+      scans: unpack(data.scan_times ?? "", TIME).map((time, i) => [time, ranges.slice(i * beams, (i + 1) * beams)]),
+      bounds: data.bounds,
+      background: data.background,
+      notes: data.notes ?? [],
+      bodies: (bodies ?? []).map((each) => more.body(each)),
+      layers: (layers ?? []).map((each) => more.decode(each)),
     };
   }
 
-  /* The last of `items`, ordered by their first element, that is not after `time`. */
-  function latest(items, time) {
-    let [low, high] = [0, items.length];
+  /* Where in a row of times the last is that is not after `time`; -1 if all are. */
+  function lastAt(times, time) {
+    let [low, high] = [0, times.length];
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (items[middle][0] <= time + 1e-9) low = middle + 1;
+      if (times[middle] <= time + 1e-9) low = middle + 1;
       else high = middle;
     }
-    return items[low - 1];
+    return low - 1;
   }
+
+  /* The last of `items`, ordered by their first element, that is not after `time`. */
+  const latest = (items, time) => items[lastAt(items.map((item) => item[0]), time)];
+
+  /* The scan that holds at a time; soon after the start the first one does already. */
+  const scanAt = (run, time) => latest(run.scans, time) ?? (run.scans[0]?.[0] - run.start < EARLY ? run.scans[0] : undefined);
 
   /* The part of the world that the run is about: all that its laser may have seen, and where it drove. */
   function bounds(run) {
-    const points = run.truth.concat(run.odom, ...run.others.map((other) => other.track));
-    const [xs, ys] = [0, 1].map((axis) => points.map((point) => point[axis]));
+    if (run.bounds) return run.bounds;
     const least = (values) => values.reduce((a, b) => Math.min(a, b));
     const most = (values) => values.reduce((a, b) => Math.max(a, b));
+    const around = (points) => [least, most].flatMap((of) => [0, 1].map((axis) => of(points.map((point) => point[axis]))));
     const [left, bottom, right, top] = run.scene.bounds;
     const sight = run.scene.robot.lidar?.max ?? 3.5;
-    const [x0, y0, x1, y1] = [least(xs), least(ys), most(xs), most(ys)];
+    const been = run.truth.concat(...run.others.map((other) => other.track));
+    // odometry that runs away is not followed beyond what the laser may have seen
+    const edge = around(been).map((side, i) => side + (i < 2 ? -sight : sight));
+    const held = ([x, y]) => [Math.min(edge[2], Math.max(edge[0], x)), Math.min(edge[3], Math.max(edge[1], y))];
+    const [x0, y0, x1, y1] = around(been.concat(run.odom.map(held)));
     return [
       Math.max(Math.min(left, x0), x0 - sight), Math.max(Math.min(bottom, y0), y0 - sight),
       Math.min(Math.max(right, x1), x1 + sight), Math.min(Math.max(top, y1), y1 + sight),
@@ -177,26 +222,77 @@ margin:0;padding:.2rem .7rem .6rem}
   const sampleAt = (run, time) =>
     run.end > run.start ? ((time - run.start) / (run.end - run.start)) * (run.truth.length - 1) : 0;
 
-  /* What is so at a time, in words: where the robot is, where odometry puts it, and what it was told last. */
+  /* What is so at a time, in words, [key, label, text]: where the robot is, where odometry puts it, what it was told. */
   function readings(run, time) {
+    if (!run.scene) {
+      return run.bodies.slice(0, 4).map((body, i) => [`body${i}`, body.name, place(body.at(time))]);
+    }
     const [truth, odom] = [poseAt(run, run.truth, time), poseAt(run, run.odom, time)];
     const command = latest(run.commands, time);
     const off = Math.hypot(odom[0] - truth[0], odom[1] - truth[1]);
-    return {
-      truth: place(truth),
-      odom: place(odom),
-      error: `${number(off, 3)} m, ${degrees(odom[2] - truth[2])}\u00b0`,
-      command: command ? `${number(command[1], 2)} m/s, ${number(command[2], 2)} rad/s` : "none yet",
-    };
+    return [
+      ["truth", "Robot", place(truth)],
+      ["odom", "Odometry", place(odom)],
+      ["error", "Off by", `${number(off, 3)} m, ${degrees(odom[2] - truth[2])}\u00b0`],
+      ["command", "Command", command ? `${number(command[1], 2)} m/s, ${number(command[2], 2)} rad/s` : "none yet"],
+    ];
   }
 
-  function build(host, options) {
+  const SAID = { truth: "Robot", odom: "", error: "Error of odometry", command: "Command" };
+
+  /* The same as a sentence each. */
+  function spoken(run, time) {
+    return readings(run, time)
+      .filter(([key]) => SAID[key] !== "")
+      .map(([key, label, text]) => `${SAID[key] ?? label} ${text}.`)
+      .join(" ");
+  }
+
+  /* What of runs can be switched, [key, label, colour, line]: the robot's paths, its laser, bodies, layers. */
+  function switches(runs) {
+    const found = new Map();
+    for (const run of runs) {
+      if (run.scene) {
+        found.set("truth", ["True path", "blue", "solid"]);
+        found.set("odom", ["Odometry", "orange", "dashed"]);
+        if (run.scans.length) found.set("scan", ["Laser", "vermilion", "dotted"]);
+        if (run.layers.some((layer) => layer.kind === "grid")) found.set("world", ["World", "muted", "solid"]);
+      }
+      for (const { name, colour } of run.bodies) found.set(`body ${name}`, [name, colour, "solid"]);
+      for (const { name, colour, dotted } of run.layers) found.set(`layer ${name}`, [name, colour, dotted ? "dotted" : "solid"]);
+    }
+    return found;
+  }
+
+  function build(host, options, runs) {
     const root = document.createElement("div");
     root.className = "rosmini-replay";
     root.setAttribute("role", "group");
     root.setAttribute("aria-label", options.title);
     root.innerHTML = CONTENT;
-    root.querySelector("canvas").setAttribute("aria-label", options.alt);
+    const view = root.querySelector(".rr-view");
+    for (const [key, [label, colour, line]] of switches(runs)) {
+      const row = document.createElement("label");
+      row.innerHTML = '<input type="checkbox" checked><i></i>';
+      row.firstChild.dataset.layer = key;
+      row.append(label);
+      row.querySelector("i").style.borderTop = `${line === "dotted" ? 3 : 2}px ${line} ${colour[0] === "#" ? colour : `var(--${colour},var(--line))`}`;
+      view.before(row);
+    }
+    const notes = root.querySelector(".rr-notes");
+    notes.textContent = [...new Set(runs.flatMap((run) => run.notes))].join(" ");
+    notes.hidden = !notes.textContent;
+    const panes = root.querySelector(".rr-panes");
+    for (const run of runs) {
+      const pane = document.createElement("div");
+      pane.className = "rr-pane";
+      pane.innerHTML = PANE;
+      pane.querySelector("h4").textContent = run.title;
+      pane.querySelector("h4").hidden = runs.length < 2;
+      pane.querySelector("canvas").setAttribute("aria-label", runs.length < 2 ? options.alt : `${run.title}: ${options.alt}`);
+      panes.append(pane);
+    }
+    if (runs.length < 2) root.querySelector(".rr-notes").before(panes.querySelector("dl"));
     // JupyterLab's shortcuts match what has the focus itself, so each control has to say that its keys are its own.
     for (const element of root.querySelectorAll("button, input, select")) element.dataset.lmSuppressShortcuts = "";
     const style = document.createElement("style");
@@ -206,67 +302,164 @@ margin:0;padding:.2rem .7rem .6rem}
     return root;
   }
 
+  /* One run on its canvas. */
+  class Pane {
+    constructor(run, canvas, list) {
+      Object.assign(this, { run, canvas, list, box: bounds(run), base: null });
+      this.window = this.box; // what the run says that it is in
+      const [x0, y0, x1, y1] = this.box;
+      const lacking = Math.max(0, FLATTEST * (x1 - x0) - (y1 - y0)) / 2;
+      this.box = [x0, y0 - lacking, x1, y1 + lacking];
+      list.innerHTML = readings(run, run.start).map(([key]) => `<div><dt></dt><dd data-read="${key}"></dd></div>`).join("");
+      readings(run, run.start).forEach(([, label], i) => { list.querySelectorAll("dt")[i].textContent = label; });
+    }
+
+    /* Where the view is: as fitted, or zoomed around `camera.centre`, or around what it follows. */
+    view(camera, time) {
+      this.base ??= globalThis.rosminiCanvas.fit(this.canvas, this.box);
+      const { base, run } = this;
+      this.middle ??= [(this.box[0] + this.box[2]) / 2, (this.box[1] + this.box[3]) / 2];
+      if (camera.zoom === 1 && !camera.follow && !camera.moved) return base;
+      const [x, y] = camera.follow ? this.pose(time) : this.middle.map((m, axis) => m + camera.moved[axis]);
+      const scale = base.scale * camera.zoom;
+      const [left, top] = [base.x(this.middle[0]), base.y(this.middle[1])];
+      return {
+        ...base, scale, fleeting: true, world: undefined,
+        x: (metres) => left + (metres - x) * scale,
+        y: (metres) => top - (metres - y) * scale,
+        metres: (px, py) => [x + (px - left) / scale, y - (py - top) / scale],
+      };
+    }
+
+    /* What the view follows: the robot, or the first body. */
+    pose(time) {
+      const { run } = this;
+      if (run.scene) return poseAt(run, run.truth, time);
+      return run.bodies[0]?.at(time) ?? this.middle;
+    }
+
+    paint(camera, time, shown) {
+      const { run } = this;
+      const view = this.view(camera, time);
+      const draw = globalThis.rosminiCanvas;
+      if (run.scene && shown.world !== false) draw.world(view, run.scene);
+      else draw.clear(view);
+      if (run.background) {
+        const [x0, y0, x1, y1] = this.window;
+        view.context.fillStyle = run.background;
+        view.context.fillRect(view.x(x0), view.y(y1), (x1 - x0) * view.scale, (y1 - y0) * view.scale);
+      }
+      let slot = 0;
+      const wanted = (layer) => shown[`layer ${layer.name}`];
+      for (const layer of run.layers) if (!layer.above && wanted(layer)) layer.draw(view, time, run.start);
+      if (run.scene) this.robots(view, time, shown);
+      for (const body of run.bodies) if (shown[`body ${body.name}`]) body.draw(view, time, body.trail);
+      for (const layer of run.layers) if (layer.above && wanted(layer)) slot += layer.draw(view, time, run.start, slot) ? 1 : 0;
+      draw.scaleBar(view);
+      for (const [key, , text] of readings(run, time)) this.list.querySelector(`[data-read=${key}]`).textContent = text;
+    }
+
+    /* What a simulator knows of its robots: where they are, where odometry puts the first one, what its laser sees. */
+    robots(view, time, shown) {
+      const { run } = this;
+      const { robot } = run.scene;
+      const draw = globalThis.rosminiCanvas;
+      const count = 1 + Math.floor(sampleAt(run, time));
+      const scan = shown.scan && scanAt(run, time);
+      for (const thing of run.things) draw.thing(view, thing.shapes, poseAt(run, thing.track, time));
+      if (scan) draw.scan(view, robot, (beam) => beamPose(run, scan[0], beam), scan[1]);
+      const passed = (track) => [...track.slice(0, count), poseAt(run, track, time)];
+      if (shown.truth) for (const { track, colour } of run.others) draw.trail(view, passed(track), { colour });
+      if (shown.truth) draw.trail(view, passed(run.truth));
+      if (shown.odom) {
+        draw.trail(view, passed(run.odom), { colour: "orange", dashed: true });
+        draw.robot(view, robot, poseAt(run, run.odom, time), { ghost: true });
+      }
+      for (const other of run.others) {
+        const pose = poseAt(run, other.track, time);
+        draw.robot(view, other.robot, pose, other);
+        draw.label(view, pose, other.name, { colour: other.colour, below: reach(other.robot) });
+      }
+      const pose = poseAt(run, run.truth, time);
+      draw.robot(view, robot, pose);
+      if (run.others.length) draw.label(view, pose, run.name, { colour: "blue", below: reach(robot) });
+    }
+  }
+
   class Player {
     constructor(host, data, options) {
-      this.run = decode(data);
-      this.box = bounds(this.run);
-      this.root = build(host, options);
+      const runs = (data.runs ?? [data]).map(decode);
+      this.root = build(host, options, runs);
       const find = (selector) => this.root.querySelector(selector);
       this.find = find;
-      [this.canvas, this.slider, this.clock] = [find("canvas"), find("[type=range]"), find("output")];
-      this.layers = { truth: true, odom: true, scan: this.run.scans.length > 0 };
+      [this.slider, this.clock] = [find("[type=range]"), find("output")];
+      const lists = this.root.querySelectorAll("dl");
+      this.panes = [...this.root.querySelectorAll("canvas")].map((canvas, i) => new Pane(runs[i], canvas, lists[i]));
+      this.start = Math.min(...runs.map((run) => run.start - run.origin));
+      this.end = Math.max(...runs.map((run) => run.end - run.origin));
+      this.shown = Object.fromEntries([...switches(runs).keys()].map((key) => [key, true]));
+      this.camera = { zoom: 1, follow: false, moved: null };
       this.calm = matchMedia("(prefers-reduced-motion: reduce)");
-      [this.time, this.playing, this.visible] = [this.run.start, false, true];
-      [this.view, this.request, this.ticked, this.drawn] = [null, 0, 0, -Infinity];
+      [this.time, this.playing, this.visible] = [this.start, false, true];
+      [this.request, this.ticked, this.drawn] = [0, 0, -Infinity];
 
-      const { start, end } = this.run;
+      const { start, end } = this;
       Object.assign(this.slider, { min: start, max: end });
-      for (const element of this.root.querySelectorAll("button, [type=range]")) element.disabled = end <= start;
-      find("[data-layer=scan]").closest("label").hidden = !this.layers.scan;
+      for (const element of this.root.querySelectorAll(".rr-bar button, [type=range]")) element.disabled = end <= start;
       this.root.dataset.state = "paused";
       this.setSpeed(1);
+      this.look({});
       this.listen();
       this.paint();
     }
 
     listen() {
-      const { root, canvas, slider } = this;
+      const { root, slider } = this;
       const deeds = {
         play: () => this.setPlaying(!this.playing),
         back: () => this.seek(this.time - STEP),
         forward: () => this.seek(this.time + STEP),
+        nearer: () => this.zoom(ZOOM),
+        further: () => this.zoom(1 / ZOOM),
+        follow: () => this.look({ follow: !this.camera.follow, moved: null }, "follow"),
+        reset: () => this.look({ zoom: 1, follow: false, moved: null }, "reset"),
       };
       const keys = {
         " ": deeds.play,
         ArrowLeft: deeds.back, ArrowDown: deeds.back, ArrowRight: deeds.forward, ArrowUp: deeds.forward,
-        Home: () => this.seek(this.run.start), End: () => this.seek(this.run.end),
+        Home: () => this.seek(this.start), End: () => this.seek(this.end),
         "+": () => this.changeSpeed(1), "=": () => this.changeSpeed(1),
         "-": () => this.changeSpeed(-1), "_": () => this.changeSpeed(-1),
+        PageUp: deeds.nearer, PageDown: deeds.further, f: deeds.follow, 0: deeds.reset,
       };
+      const moves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
       root.addEventListener("keydown", (event) => {
         const { target, key } = event;
         const own = target.matches("select") || (key === " " && target.matches("button, [type=checkbox]"));
         if (own || event.ctrlKey || event.altKey || event.metaKey || !(key in keys)) return;
         event.preventDefault();
         event.stopPropagation();
-        keys[key]();
+        if (event.shiftKey && moves[key]) this.move(...moves[key].map((way) => 60 * way));
+        else keys[key]();
       });
       root.addEventListener("click", (event) => deeds[event.target.closest("[data-do]")?.dataset.do]?.());
       root.addEventListener("change", ({ target }) => {
-        if (target.dataset.layer) this.layers[target.dataset.layer] = target.checked;
+        if (target.dataset.layer) this.shown[target.dataset.layer] = target.checked;
         else if (target.matches("select")) this.setSpeed(Number(target.value));
         else this.seek(slider.valueAsNumber);
         this.ask();
       });
       slider.addEventListener("input", () => this.seek(slider.valueAsNumber, false));
-      canvas.addEventListener("click", () => {
-        slider.focus({ preventScroll: true });
-        deeds.play();
-      });
-      globalThis.rosminiCanvas.watch(canvas, () => {
-        this.view = null;
-        this.ask();
-      });
+      for (const pane of this.panes) {
+        this.hands(pane, () => {
+          slider.focus({ preventScroll: true });
+          deeds.play();
+        });
+        globalThis.rosminiCanvas.watch(pane.canvas, () => {
+          pane.base = null;
+          this.ask();
+        });
+      }
       new IntersectionObserver((entries) => {
         this.visible = entries.at(-1).isIntersecting;
         this.ticked = performance.now();
@@ -274,8 +467,84 @@ margin:0;padding:.2rem .7rem .6rem}
       }, { rootMargin: "100px" }).observe(root);
     }
 
+    /* The mouse and fingers on a canvas. One finger and the wheel scroll the page, as they do everywhere. */
+    hands(pane, click) {
+      const { canvas } = pane;
+      const down = new Map();
+      let moved = 0;
+      canvas.addEventListener("wheel", (event) => {
+        if (!event.ctrlKey) return;
+        event.preventDefault();
+        this.zoom(Math.exp(-event.deltaY / 200), pane, [event.offsetX, event.offsetY]);
+      }, { passive: false });
+      canvas.addEventListener("pointerdown", (event) => {
+        if (!down.size) moved = 0;
+        down.set(event.pointerId, [event.offsetX, event.offsetY]);
+        if (event.pointerType !== "touch") canvas.setPointerCapture(event.pointerId);
+      });
+      canvas.addEventListener("pointermove", (event) => {
+        const before = down.get(event.pointerId);
+        if (!before) return;
+        const now = [event.offsetX, event.offsetY];
+        const by = [before[0] - now[0], now[1] - before[1]];
+        moved += Math.hypot(...by);
+        if (down.size === 2) {
+          const other = [...down].find(([id]) => id !== event.pointerId)[1];
+          const apart = (point) => Math.max(20, Math.hypot(point[0] - other[0], point[1] - other[1]));
+          this.zoom(apart(now) / apart(before), pane, other);
+        } else if (event.pointerType !== "touch" && moved > CLICK) {
+          this.move(...by);
+        }
+        down.set(event.pointerId, now);
+      });
+      for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => down.delete(event.pointerId));
+      canvas.addEventListener("click", () => { if (moved <= CLICK) click(); });
+    }
+
+    /* Move the view by pixels, to the right and up. */
+    move(right, up) {
+      const { camera } = this;
+      const scale = this.panes[0].base.scale * camera.zoom;
+      const from = camera.moved ?? this.offset(this.panes[0]);
+      this.look({ follow: false, moved: [from[0] + right / scale, from[1] + up / scale] });
+    }
+
+    /* How far the view's centre is from the middle of everything [m]. */
+    offset(pane) {
+      if (!this.camera.follow) return [0, 0];
+      const pose = pane.pose(this.at(pane));
+      return [0, 1].map((axis) => pose[axis] - pane.middle[axis]);
+    }
+
+    /* Zoom by a factor; what is at a point [px] of a pane stays there. */
+    zoom(factor, pane = this.panes[0], point = null) {
+      const { camera } = this;
+      const zoom = Math.min(MOST_ZOOM, Math.max(1, camera.zoom * factor));
+      if (camera.follow || zoom === 1) return this.look({ zoom, moved: zoom === 1 ? null : camera.moved }, "zoom");
+      const from = camera.moved ?? [0, 0];
+      const before = pane.view(camera, this.at(pane));
+      const target = point ? before.metres(...point) : pane.middle.map((m, axis) => m + from[axis]);
+      const part = 1 - camera.zoom / zoom;
+      const moved = from.map((each, axis) => each + part * (target[axis] - pane.middle[axis] - each));
+      return this.look({ zoom, moved }, "zoom");
+    }
+
+    look(change, why = "") {
+      const { camera } = this;
+      Object.assign(camera, change);
+      this.root.dataset.zoom = camera.zoom.toFixed(2);
+      this.root.dataset.follow = camera.follow;
+      this.find("[data-do=follow]").setAttribute("aria-pressed", camera.follow);
+      this.find("[data-do=further]").disabled = camera.zoom <= 1;
+      this.find("[data-do=reset]").disabled = camera.zoom === 1 && !camera.follow && !camera.moved;
+      if (why === "follow") this.say(camera.follow ? "The view follows the robot" : "The view stands still");
+      if (why === "reset") this.say("The view shows everything");
+      if (why === "zoom") this.say(`Zoom ${camera.zoom.toFixed(1)}`);
+      this.ask();
+    }
+
     setPlaying(value) {
-      const { start, end } = this.run;
+      const { start, end } = this;
       if (value && this.time >= end) this.time = start;
       this.playing = value && end > start;
       this.ticked = performance.now();
@@ -289,7 +558,7 @@ margin:0;padding:.2rem .7rem .6rem}
     }
 
     seek(time, speak = true) {
-      this.time = Math.min(this.run.end, Math.max(this.run.start, time));
+      this.time = Math.min(this.end, Math.max(this.start, time));
       if (speak && !this.playing) this.say(this.where());
       this.ask();
     }
@@ -304,14 +573,22 @@ margin:0;padding:.2rem .7rem .6rem}
       this.setSpeed(SPEEDS[Math.max(0, Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.speed) + by))]);
     }
 
+    /* The time of a pane's run: a run that is over stays as it ended. */
+    at({ run }) {
+      return Math.min(run.end, Math.max(run.start, this.time + run.origin));
+    }
+
     where() {
-      const words = readings(this.run, this.time);
-      return `${this.time.toFixed(1)} s. Robot ${words.truth}. Error of odometry ${words.error}. Command ${words.command}.`;
+      const words = this.panes.map((pane) => {
+        const title = this.panes.length > 1 ? `${pane.run.title}: ` : "";
+        return title + spoken(pane.run, this.at(pane));
+      });
+      return `${this.time.toFixed(1)} s. ${words.join(" ")}`;
     }
 
     say(text) {
       this.find("[role=status]").textContent = text;
-      this.slider.setAttribute("aria-valuetext", `${this.time.toFixed(1)} of ${this.run.end.toFixed(1)} seconds`);
+      this.slider.setAttribute("aria-valuetext", `${this.time.toFixed(1)} of ${this.end.toFixed(1)} seconds`);
     }
 
     ask() {
@@ -323,9 +600,9 @@ margin:0;padding:.2rem .7rem .6rem}
       if (this.playing) {
         // A picture that came late moves the run by a tenth of a second and no more.
         const passed = Math.min(0.1, Math.max(0, now - this.ticked) / 1000);
-        this.time = Math.min(this.run.end, this.time + this.speed * passed);
+        this.time = Math.min(this.end, this.time + this.speed * passed);
         this.ticked = now;
-        if (this.time >= this.run.end) this.setPlaying(false);
+        if (this.time >= this.end) this.setPlaying(false);
       }
       if (!this.playing || !this.calm.matches || now - this.drawn >= CALM) {
         this.paint();
@@ -334,45 +611,15 @@ margin:0;padding:.2rem .7rem .6rem}
       if (this.playing) this.ask();
     }
 
-    fit() {
-      const colours = globalThis.rosminiCanvas.theme(this.canvas);
-      for (const [name, colour] of Object.entries(colours)) this.root.style.setProperty(`--${name}`, colour);
-      this.view = globalThis.rosminiCanvas.fit(this.canvas, this.box);
-    }
-
     paint() {
-      if (!this.view) this.fit();
-      const { run, time, view, layers } = this;
-      const { robot } = run.scene;
-      const draw = globalThis.rosminiCanvas;
-      const count = 1 + Math.floor(sampleAt(run, time));
-      const dashed = { colour: "orange", dashed: true };
-      const scan = layers.scan && latest(run.scans, time);
-      draw.world(view, run.scene);
-      for (const thing of run.things) draw.thing(view, thing.shapes, poseAt(run, thing.track, time));
-      if (scan) draw.scan(view, robot, (beam) => beamPose(run, scan[0], beam), scan[1]);
-      view.context.globalAlpha = 0.3; // the whole way, faintly
-      if (layers.truth) draw.trail(view, run.truth);
-      if (layers.odom) draw.trail(view, run.odom, dashed);
-      if (layers.truth) for (const { track, colour } of run.others) draw.trail(view, track, { colour });
-      view.context.globalAlpha = 1;
-      if (layers.truth) for (const { track, colour } of run.others) draw.trail(view, track, { colour, count });
-      if (layers.truth) draw.trail(view, run.truth, { count });
-      if (layers.odom) draw.trail(view, run.odom, { ...dashed, count });
-      if (layers.odom) draw.robot(view, robot, poseAt(run, run.odom, time), { ghost: true });
-      for (const other of run.others) {
-        const pose = poseAt(run, other.track, time);
-        draw.robot(view, other.robot, pose, other);
-        draw.label(view, pose, other.name, { colour: other.colour, below: reach(other.robot) });
+      if (this.panes.some((pane) => !pane.base)) {
+        const colours = globalThis.rosminiCanvas.theme(this.panes[0].canvas);
+        for (const [name, colour] of Object.entries(colours)) this.root.style.setProperty(`--${name}`, colour);
       }
-      draw.robot(view, robot, poseAt(run, run.truth, time));
-      if (run.others.length) draw.label(view, poseAt(run, run.truth, time), run.name, { colour: "blue", below: reach(robot) });
-      draw.scaleBar(view);
-      const words = readings(run, time);
-      for (const [name, text] of Object.entries(words)) this.find(`[data-read=${name}]`).textContent = text;
-      this.clock.value = `${time.toFixed(1)} / ${run.end.toFixed(1)} s`;
-      this.slider.value = time;
-      this.root.dataset.time = time.toFixed(3);
+      for (const pane of this.panes) pane.paint(this.camera, this.at(pane), this.shown);
+      this.clock.value = `${this.time.toFixed(1)} / ${this.end.toFixed(1)} s`;
+      this.slider.value = this.time;
+      this.root.dataset.time = this.time.toFixed(3);
     }
   }
 
@@ -380,5 +627,5 @@ margin:0;padding:.2rem .7rem .6rem}
     new Player(host, data, options);
   }
 
-  globalThis.rosminiReplay = { mount, decode, beamPose };
+  globalThis.rosminiReplay = { mount, decode, beamPose, unpack, naturals, columns, lastAt };
 })();

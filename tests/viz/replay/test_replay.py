@@ -24,7 +24,8 @@ from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere
 from rosmini.sim.worlds import world
 from rosmini.viz import ViewError, style
 from rosmini.viz.replay import replay, scene_data
-from rosmini.viz.replay.encode import ANGLE, LENGTH, MOST_SCANS, TIME, pack, replay_data, whole
+from rosmini.viz.replay.encode import MOST_SCANS, replay_data
+from rosmini.viz.replay.packing import ANGLE, LENGTH, TIME, pack, whole
 
 STATIC = Path(style.__file__).parent / "static"
 
@@ -264,7 +265,7 @@ def test_a_run_of_one_sample_and_one_without_scans_can_be_replayed():
 
 def test_what_is_no_run_is_refused():
     recording = run(1.0)
-    with pytest.raises(ViewError, match="replay shows a Recording, not a str"):
+    with pytest.raises(ViewError, match="replay shows a Recording, a bag or a Run, not 'recording'"):
         replay("recording")
     with pytest.raises(RecordingError, match="at least one sample"):
         replace(recording, times=np.empty(0), truth=np.empty((0, 3)), odom=np.empty((0, 3)))

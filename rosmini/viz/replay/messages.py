@@ -1,0 +1,274 @@
+"""A run from messages: of a bag, or of what a recorder kept. What is shown is found by the type of the messages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator
+from functools import partial
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from rosmini.bag import Bag
+from rosmini.errors import DeserializationError, nearest
+from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.viz.replay.collectors import COLLECTORS, TRANSFORMS, UPDATE, Collector, TrackCollector, laid_on
+from rosmini.viz.replay.layers import Layer
+from rosmini.viz.replay.run import MOST_POSES, Body, Run
+from rosmini.viz.replay.standing import Standing
+from rosmini.viz.view import ViewError
+from rosmini.viz.words import plural
+
+MOST_MOMENTS = 240
+"""A layer keeps no more: 2 Hz for two minutes."""
+SAME = 1e-6
+"""[m, rad]"""
+ORDER = ("grid", "images", "scans", "shapes", "strokes")
+
+
+class NothingToSee(ViewError):
+    """No message shows anything from above."""
+
+
+class Entry(NamedTuple):
+    """A message: when it was recorded [s], on which topic, and what reads it when it is wanted."""
+
+    time: float
+    topic: str
+    read: Callable[[], Any]
+
+
+class Log(Protocol):
+    """Messages in the order of their times."""
+
+    name: str
+    topics: dict[str, str]
+    """The type of the messages on each topic."""
+    start: float
+    end: float
+
+    def entries(self, topics: Collection[str]) -> Iterator[Entry]:
+        """Return the messages on some topics."""
+
+
+class BagLog:
+    """The messages of a bag. Raises `ViewError` if there is none."""
+
+    def __init__(self, bag: Bag) -> None:
+        index = bag.index
+        self.name = (bag.filename or "the bag").replace("\\", "/").rpartition("/")[2]
+        self.topics = {conn.topic: conn.type for conn in bag.connections()}
+        if index.start is None or index.end is None:
+            raise ViewError(f"there is no message in {self.name}, so there is nothing to play")
+        self.start, self.end = index.start / 1e9, index.end / 1e9
+        self._bag = bag
+
+    def entries(self, topics: Collection[str]) -> Iterator[Entry]:
+        """Return the messages on some topics."""
+        if not topics:
+            return
+        for topic, (_, data, _, _, cls), time in self._bag.read_messages(sorted(topics), raw=True):
+            yield Entry(time.to_nsec() / 1e9, topic, partial(cls._decode, data))
+
+
+class KeptLog:
+    """Messages in memory: (time [s], topic, message)."""
+
+    def __init__(
+        self, name: str, messages: Collection[tuple[float, str, Any]], start: float, end: float
+    ) -> None:
+        self.name, self.start, self.end = name, start, end
+        self.topics = {topic: message._type for _, topic, message in messages}
+        self._messages = messages
+
+    def entries(self, topics: Collection[str]) -> Iterator[Entry]:
+        """Return the messages on some topics."""
+        for time, topic, message in self._messages:
+            if topic in topics:
+                yield Entry(time, topic, partial(_itself, message))
+
+
+def _itself(message: Any) -> Any:
+    return message
+
+
+def run_of(
+    log: Log, *, topics: Collection[str] | None = None, frame: str | None = None,
+    outline: tuple[tuple[float, float], ...] | None = None, start_at: Pose | None = None,
+) -> Run:  # fmt: skip
+    """Return what a log shows.
+
+    Args:
+        log: the messages.
+        topics: only these, and transforms; None: all that can be shown.
+        frame: what everything is drawn in; None: map, odom or world, whichever there is first.
+        outline: of the robots, in their frames [m].
+        start_at: where a robot is known to have been at the start, in what is drawn: a fixed frame in which it stood
+            elsewhere, as SLAM's map, which begins where the robot does, is laid there.
+
+    Raises:
+        ViewError: a topic or a frame is not there, or nothing can be shown (`NothingToSee`).
+
+    """
+    shown = _shown(log, topics)
+    standing = _standing(log, frame, shown)
+    times = np.linspace(log.start, log.end, 1 + min(MOST_POSES, int(30 * (log.end - log.start))))
+    if start_at is not None:
+        _lay(standing, times, start_at)
+    collectors = _collectors(log, shown, standing)
+    _collect(log, collectors)
+    bodies = _bodies(standing, times, outline)
+    layers: list[Layer] = []
+    notes = []
+    for topic, collector in dict.fromkeys((c.topic, c) for c in collectors.values()):
+        found = collector.result()
+        if isinstance(found, Body):
+            if isinstance(collector, TrackCollector) and collector.frame:
+                notes.append(
+                    f"{topic} is in the frame {collector.frame}, which no transform connects with {standing.fixed}: "
+                    "it is laid on the robot's start."
+                )
+                start = bodies[0].poses[0].tolist() if bodies else (0.0, 0.0, 0.0)
+                found = laid_on(found, (start[0], start[1], start[2]))
+            bodies.append(found)
+        elif found is not None:
+            layers.append(found)
+        notes += [
+            f"{topic}: {plural(count, 'message')} left out: {reason}."
+            for reason, count in collector.lost.items()
+        ]
+    if not bodies and not layers:
+        raise NothingToSee(_nothing(log, notes))
+    layers.sort(key=lambda layer: (ORDER.index(layer.kind), "local" in layer.name, layer.name))
+    return Run(
+        log.name, log.start, log.end, tuple(bodies), tuple(layers), frame=standing.fixed, notes=tuple(notes)
+    )
+
+
+def _shown(log: Log, topics: Collection[str] | None) -> list[str]:
+    """The topics that can be shown, those of transforms left out."""
+    for topic in topics or ():
+        if topic not in log.topics:
+            raise ViewError(f"{log.name} has no topic {topic!r}. {nearest(topic, log.topics) or ''}".rstrip())
+    return [
+        topic
+        for topic, kind in sorted(log.topics.items())
+        if (kind in COLLECTORS or kind == UPDATE) and (topics is None or topic in topics)
+    ]
+
+
+def _nothing(log: Log, notes: list[str]) -> str:
+    there = ", ".join(f"{topic} [{kind}]" for topic, kind in sorted(log.topics.items())[:8]) or "no topics"
+    said = f" {' '.join(notes)}" if notes else ""
+    return (
+        f"nothing of {log.name} can be shown from above: it has {there}. A player shows poses (tf, nav_msgs/Odometry), "
+        f"maps, plans, particles, scans, markers and images.{said}"
+    )
+
+
+def _standing(log: Log, frame: str | None, shown: list[str]) -> Standing:
+    standing = Standing()
+    kinds = {topic: kind for topic, kind in log.topics.items() if kind in TRANSFORMS}
+    for time, topic, read in log.entries(kinds):
+        try:
+            standing.take(read(), time, static=topic.endswith("tf_static"))
+        except DeserializationError:
+            continue
+    others: dict[str, None] = {}
+    first = dict.fromkeys(shown)
+    for _, topic, read in log.entries(shown):
+        if topic in first:
+            first.pop(topic)
+            try:
+                header = getattr(read(), "header", None)
+            except DeserializationError:
+                continue
+            if header is not None and (log.topics[topic] == "nav_msgs/OccupancyGrid" or not kinds):
+                others[header.frame_id] = None
+        if not first:
+            break
+    standing.settle(frame, others)
+    return standing
+
+
+def _lay(standing: Standing, times: Any, start: Pose) -> None:
+    """Lay a map that begins where the robot does, as SLAM's, on where the robot was; others stay where they are.
+
+    That is so if the first transform from the map to odometry is none at all, or if there is no map.
+    """
+    bases = standing.bases()
+    if not bases or standing.fixed not in standing.tree:
+        return
+    known, poses = standing.track(bases[0], times)
+    if not len(known):
+        return
+    _, odom = standing.track("odom", known[:1])
+    if standing.fixed != "odom" and not (len(odom) and np.abs(odom).max() < SAME):
+        return
+    x, y, heading = poses[0].tolist()
+    standing.offset = compose(start, inverse((x, y, heading)))
+
+
+def _collectors(log: Log, shown: list[str], standing: Standing) -> dict[str, Collector]:
+    found: dict[str, Collector] = {}
+    for topic in shown:
+        if log.topics[topic] != UPDATE:
+            found[topic] = COLLECTORS[log.topics[topic]](topic, standing, len(found))
+    for topic in shown:
+        base = found.get(topic.removesuffix("_updates"))
+        if log.topics[topic] == UPDATE and base is not None:
+            base.every = True
+            found[topic] = base
+    return found
+
+
+def _collect(log: Log, collectors: dict[str, Collector]) -> None:
+    """Give each collector what it wants: not more than can be seen, but always what came last."""
+    due: dict[str, float] = {}
+    skipped: dict[str, Entry] = {}
+    for entry in log.entries(collectors):
+        collector = collectors[entry.topic]
+        collector.found += 1
+        if collector.every:
+            _give(collector, entry)
+            if entry.time >= due.get(collector.topic, -np.inf):
+                collector.snapshot(entry.time)
+                due[collector.topic] = entry.time + _period(log, collector)
+        elif entry.time >= due.get(entry.topic, -np.inf):
+            _give(collector, entry)
+            skipped.pop(entry.topic, None)
+            due[entry.topic] = entry.time + _period(log, collector)
+        else:
+            skipped[entry.topic] = entry
+    for topic, entry in skipped.items():
+        _give(collectors[topic], entry)
+    for collector in collectors.values():
+        if collector.every:
+            collector.snapshot(log.end)
+
+
+def _period(log: Log, collector: Collector) -> float:
+    most = MOST_POSES if isinstance(collector, TrackCollector) else MOST_MOMENTS
+    # a message that comes a little early is not left out for it
+    return max(collector.period, (log.end - log.start) / most) * 0.9
+
+
+def _give(collector: Collector, entry: Entry) -> None:
+    try:
+        collector.take(entry.time, entry.read())
+    except DeserializationError as error:
+        reason = f"they cannot be read ({error})"
+    except ViewError as error:
+        reason = str(error)
+    else:
+        return
+    collector.lost[reason] = collector.lost.get(reason, 0) + 1
+
+
+def _bodies(standing: Standing, times: Any, outline: tuple[tuple[float, float], ...] | None) -> list[Body]:
+    found: list[Body] = []
+    for frame in standing.bases():
+        known, poses = standing.track(frame, times)
+        if len(known):
+            colour = "blue" if not found else ("green", "purple", "sky")[len(found) % 3]
+            found.append(Body(frame, known, poses, colour=colour, outline=outline))
+    return found

@@ -1,0 +1,110 @@
+"""Where frames are in the one that a run is drawn in, from the transforms that were recorded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.angles import yaw_from_quaternion
+from rosmini.geometry.poses import Pose, compose
+from rosmini.tf.errors import TransformException
+from rosmini.tf.messages import from_transform
+from rosmini.tf.tree import FrameTree
+from rosmini.viz.view import ViewError
+
+Floats = NDArray[np.float64]
+
+FOR_EVER = 2**62
+"""[ns]"""
+USUAL = ("map", "odom", "world")
+"""Frames in which a run is drawn, the first that there is."""
+BASES = ("base_footprint", "base_link")
+"""What the frame of a robot is called, REP 105 and 120."""
+HOME: Pose = (0.0, 0.0, 0.0)
+
+
+class Standing:
+    """Recorded transforms, from above.
+
+    `fixed` is the frame that everything is given in; `offset` is where that is in what is drawn.
+    """
+
+    def __init__(self) -> None:
+        self.tree = FrameTree(FOR_EVER)
+        self.fixed = ""
+        self.offset: Pose = HOME
+        self._late: list[float] = []
+
+    def take(self, message: Any, time: float, *, static: bool) -> None:
+        """Keep the transforms of a `tf2_msgs/TFMessage` that was recorded at `time` [s]."""
+        for each in message.transforms:
+            stamp = each.header.stamp.to_nsec()
+            self.tree.set(
+                each.header.frame_id.lstrip("/"), each.child_frame_id.lstrip("/"), from_transform(each.transform),
+                stamp, static=static,
+            )  # fmt: skip
+            if not static:
+                self._late.append(time - stamp / 1e9)
+
+    def settle(self, frame: str | None, others: Iterable[str]) -> None:
+        """Choose the fixed frame: `frame` if it is given, else map, odom or world, else a root or one of `others`.
+
+        Raises:
+            ViewError: no message has the frame that was asked for.
+
+        """
+        there = [*self.tree, *(name.lstrip("/") for name in others if name)]
+        if frame is not None and frame.lstrip("/") not in there:
+            names = ", ".join(sorted(set(there))) or "none at all"
+            raise ViewError(f"there is no frame {frame!r} to draw the run in: the messages have {names}")
+        usual = [name for name in USUAL if name in there]
+        self.fixed = frame.lstrip("/") if frame is not None else next(iter([*usual, *there]), "")
+
+    @property
+    def lag(self) -> float:
+        """How much later than their stamps transforms were recorded [s]; 0 where both come from one clock."""
+        typical = float(np.median(self._late)) if self._late else 0.0
+        return typical if abs(typical) > 1.0 else 0.0
+
+    def pose(self, frame: str, stamp_ns: int) -> Pose | None:
+        """Where a frame was at a time in what is drawn; None where that is not known."""
+        name = frame.lstrip("/")
+        if name in ("", self.fixed):
+            return self.offset
+        try:
+            x, y, _, qx, qy, qz, qw = self.tree.lookup(self.fixed, name, stamp_ns).transform
+        except TransformException:
+            return None
+        return compose(self.offset, (x, y, yaw_from_quaternion(qx, qy, qz, qw)))
+
+    def bases(self) -> list[str]:
+        """The frames of robots: one for each prefix."""
+        chosen: dict[str, str] = {}
+        for base in BASES:
+            for frame in sorted(self.tree):
+                prefix, _, last = frame.rpartition("/")
+                if last == base:
+                    chosen.setdefault(prefix, frame)
+        return [chosen[prefix] for prefix in sorted(chosen)]
+
+    def track(self, frame: str, times: Floats) -> tuple[Floats, Floats]:
+        """Where a frame was at those of `times` (n,) [s] for which that is known: times (m,), poses (m, 3)."""
+        lag = self.lag
+        found = [(time, self.pose(frame, max(1, round((time - lag) * 1e9)))) for time in times.tolist()]
+        known = [(time, *pose) for time, pose in found if pose is not None]
+        rows = np.array(known, dtype=float).reshape(-1, 4)
+        rows[:, 3] = np.unwrap(rows[:, 3])
+        return rows[:, 0], rows[:, 1:]
+
+
+def flat(pose: Any) -> Pose:
+    """A `geometry_msgs/Pose` from above. Raises `ViewError` if it is no number."""
+    q = pose.orientation
+    found = (float(pose.position.x), float(pose.position.y), yaw_from_quaternion(q.x, q.y, q.z, q.w))
+    if not all(math.isfinite(part) for part in found):
+        raise ViewError("a pose is no number (nan or infinite)")
+    return found

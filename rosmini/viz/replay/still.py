@@ -1,0 +1,177 @@
+"""The last moment of a run as an SVG: what a page shows before its script runs, and where none does."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.viz.figures import WIDTH
+from rosmini.viz.map_colours import ALPHA, painted, scheme_of
+from rosmini.viz.replay.grids import Grid, Grids, coarse
+from rosmini.viz.replay.layers import Layer, Scans, Shape, Shapes, Strokes
+from rosmini.viz.replay.run import Body, Run
+from rosmini.viz.rounding import kept, snap
+from rosmini.viz.style import LIGHT, variable
+from rosmini.viz.svg import document, element, number
+from rosmini.viz.view import Picture
+
+Floats = NDArray[np.float64]
+
+HIGHEST = 480.0
+"""[px]"""
+MOST_CELLS = 110
+"""Cells a side of a map: what is drawn is a still, and a map is a path around each run of cells."""
+TOLERANCE = 0.3
+"""By how much a line may be drawn too straight [px]."""
+MOST_SEEN = 180
+"""Points of a scan that are drawn."""
+HEAD = ((13.0, 0.0), (-9.0, 8.0), (-5.0, 0.0), (-9.0, -8.0))
+"""An arrow head [px], as the player draws it."""
+
+
+class Sheet:
+    """Metres to pixels."""
+
+    def __init__(self, run: Run) -> None:
+        self.x0, self.y0, self.x1, self.y1 = run.extent()
+        wide, high = max(self.x1 - self.x0, 1e-6), max(self.y1 - self.y0, 1e-6)
+        self.scale = min(WIDTH / wide, HIGHEST / high)
+        self.width, self.height = wide * self.scale, high * self.scale
+
+    def px(self, points: Floats) -> Floats:
+        """Points (n, 2) [m] in pixels, y down."""
+        flipped = (points[:, :2] - (self.x0, self.y1)) * (self.scale, -self.scale)
+        return snap(flipped, 0.1)
+
+    def line(self, points: Floats, *, closed: bool = False) -> str:
+        """Path data of a line, without the points that nobody misses."""
+        pixels = self.px(points)
+        pixels = pixels[kept(pixels, TOLERANCE)] if len(pixels) > 2 else pixels
+        return (
+            "M" + "L".join(f"{number(x)},{number(y)}" for x, y in pixels.tolist()) + ("Z" if closed else "")
+        )
+
+
+def still_of(run: Run, *, title: str, alt: str) -> Picture:
+    """Draw the end of a run."""
+    sheet = Sheet(run)
+    parts = []
+    if run.background is not None:
+        parts.append(element("rect", width=sheet.width, height=sheet.height, style=f"fill:{run.background}"))
+    parts += [_layer(layer, sheet, run.end) for layer in run.layers]
+    parts += [
+        _body(body, sheet, run.end) for body in run.bodies if body.shown_from <= run.end < body.shown_until
+    ]
+    svg = document(
+        element("g", "".join(parts), fill="none"), width=sheet.width, height=sheet.height, title=title, alt=alt,
+        css="", colours=list(LIGHT), kind="rosmini-run",
+    )  # fmt: skip
+    return Picture(svg, text=run.text(title), alt=alt)
+
+
+def _layer(layer: Layer, sheet: Sheet, end: float) -> str:
+    if isinstance(layer, Grids) and layer.grids:
+        return _grid(layer.grids[-1], layer.scheme or scheme_of(layer.name), sheet)
+    if isinstance(layer, Shapes) and layer.items:
+        return "".join(_shape(shape, sheet) for shape in layer.items[-1])
+    if isinstance(layer, Scans) and layer.count:
+        return _scan(layer, sheet)
+    if isinstance(layer, Strokes):
+        shown = [stroke for stroke in layer.strokes if stroke.until > end]
+        return "".join(
+            _path(sheet.line(stroke.points), stroke.colour, width=stroke.width)
+            for stroke in shown
+            if len(stroke.points) > 1
+        )
+    return ""
+
+
+def _paint(colour: str) -> str:
+    return colour if colour.startswith("#") else variable(colour if colour in LIGHT else "line")
+
+
+def _path(data: str, colour: str, *, width: float = 2.0, fill: bool = False) -> str:
+    kind = (
+        f"fill:{_paint(colour)}"
+        if fill
+        else f"stroke:{_paint(colour)};stroke-width:{width:g};stroke-linecap:round"
+    )
+    return element("path", d=data, style=kind + ";stroke-linejoin:round")
+
+
+def _grid(grid: Grid, scheme: str, sheet: Sheet) -> str:
+    """A path for each colour, around its runs of cells."""
+    cells, resolution, (x, y, heading) = grid
+    factor = -(-max(cells.shape) // MOST_CELLS)
+    cells, resolution = (coarse(cells, factor), resolution * factor) if factor > 1 else (cells, resolution)
+    colours = painted(cells, scheme)
+    paths: dict[tuple[int, ...], list[str]] = {}
+    for row in range(cells.shape[0]):
+        edges = np.flatnonzero(np.diff(cells[row].astype(int), prepend=-1, append=-1))
+        for start, end in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
+            colour = tuple(colours[row, start].tolist())
+            if colour[3] and cells[row, start] != 255:
+                paths.setdefault(colour, []).append(f"M{start},{row}h{end - start}v1h-{end - start}z")
+    (px, py), turned = sheet.px(np.array([(x, y)]))[0].tolist(), np.rad2deg(heading)
+    size = resolution * sheet.scale
+    placed = f"translate({number(px)},{number(py)}) rotate({-turned:.3f}) scale({size:.4f},{-size:.4f})"
+    drawn = [
+        element(
+            "path",
+            d="".join(data),
+            style=f"fill:#{red:02x}{green:02x}{blue:02x};fill-opacity:{alpha / 255:.2g}",
+        )
+        for (red, green, blue, alpha), data in sorted(paths.items())
+    ]
+    return element("g", "".join(drawn), transform=placed, opacity=f"{ALPHA:g}", shape_rendering="crispEdges")
+
+
+def _shape(shape: Shape, sheet: Sheet) -> str:
+    if not len(shape.points):
+        return ""
+    if shape.mode in ("line", "closed"):
+        return _path(sheet.line(shape.points, closed=shape.mode == "closed"), shape.colour)
+    pixels = sheet.px(shape.points)[: 4 * MOST_SEEN]
+    if shape.mode == "points":
+        return _dots(pixels, shape.colour)
+    length = 24.0 if len(pixels) == 1 else 9.0
+    headings = shape.points[: len(pixels), 2]
+    ends = snap(pixels + length * np.column_stack([np.cos(headings), -np.sin(headings)]), 0.1)
+    data = "".join(
+        f"M{number(a)},{number(b)}L{number(c)},{number(d)}"
+        for (a, b), (c, d) in zip(pixels.tolist(), ends.tolist(), strict=True)
+    )
+    return _path(data, shape.colour, width=1.2)
+
+
+def _dots(pixels: Floats, colour: str) -> str:
+    data = "".join(f"M{number(x)},{number(y)}h0" for x, y in pixels.tolist())
+    return _path(data, colour, width=3.6)
+
+
+def _scan(layer: Scans, sheet: Sheet) -> str:
+    ranges, (x, y, heading) = layer.ranges[-1], layer.poses[-1].tolist()
+    seen = np.flatnonzero(np.isfinite(ranges) & (ranges > 0))
+    seen = seen[:: -(-len(seen) // MOST_SEEN) or 1]
+    angles = heading + layer.start + layer.step * seen
+    points = np.column_stack([x + ranges[seen] * np.cos(angles), y + ranges[seen] * np.sin(angles)])
+    return _dots(sheet.px(points), "vermilion")
+
+
+def _body(body: Body, sheet: Sheet, end: float) -> str:
+    last = body.poses[int(np.searchsorted(body.times, end + 1e-9)) - 1]
+    parts = []
+    if body.trail and len(body.poses) > 1:
+        parts.append(_path(sheet.line(body.poses[:, :2]), body.colour))
+    c, s = np.cos(last[2]), np.sin(last[2])
+    size = sheet.scale if body.outline is not None else 1.0
+    head = np.array(body.outline if body.outline is not None else HEAD)
+    pixels = snap(sheet.px(last[None, :2]) + size * _turned(head, c, s), 0.1)
+    data = "M" + "L".join(f"{number(x)},{number(y)}" for x, y in pixels.tolist()) + "Z"
+    edge = f"fill:{_paint(body.colour)};stroke:{variable('page')};stroke-width:1.5;stroke-linejoin:round"
+    return "".join([*parts, element("path", d=data, style=edge)])
+
+
+def _turned(points: Floats, c: float, s: float) -> Floats:
+    """Points (n, 2), x ahead and y left, turned, with y down."""
+    return np.column_stack([points[:, 0] * c - points[:, 1] * s, -(points[:, 0] * s + points[:, 1] * c)])
