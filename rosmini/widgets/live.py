@@ -56,6 +56,30 @@ class PageWidget(anywidget.AnyWidget):
 
     data = traitlets.Dict().tag(sync=True)
 
+    elsewhere: Callable[[dict[str, Any], list[bytes] | None], None] | None = None
+    """Where it is not Jupyter that shows the page: what takes what is sent to it (`rosmini.widgets.loopback`)."""
+
+    def send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
+        """Send the page a message."""
+        if self.elsewhere is None:
+            super().send(content, buffers)
+        else:
+            self.elsewhere(content, buffers)
+
+    @property
+    def script(self) -> str:
+        """The page's module."""
+        return str(self._esm)
+
+    @property
+    def state(self) -> dict[str, Any]:
+        """What the page knows at the beginning."""
+        return dict(self.data)
+
+    def hear(self, content: dict[str, Any]) -> None:
+        """Take what the page says, in any thread."""
+        self._handle_custom_msg(content, [])
+
 
 class Link:
     """Takes what the page of a pad sends, and sends it what it shows. `clock` is the wall's, in seconds."""

@@ -1,0 +1,291 @@
+"""A widget's page without Jupyter: served on loopback, for a terminal session.
+
+What Jupyter does for a widget is done here by a few requests: the page's scripts and data, what the kernel's side
+sends as server-sent events, and what the page says by POST. Only this machine is listened to, at a port of the
+system's choice, under a path that nobody can guess; a request has to name this very host, so that no other page in
+the reader's browser can speak to it.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import queue
+import secrets
+import threading
+from contextlib import suppress
+from functools import partial
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from types import TracebackType
+from typing import Any, Protocol, Self
+
+from rosmini.viz.svg import escape
+
+LOOPBACK = "127.0.0.1"
+MOST_BYTES = 64_000
+"""What a page says at once is not longer."""
+MOST_WAITING = 200
+"""So many messages wait for a page; one that is slower than that is dropped, and begins again."""
+SILENCE_S = 10.0
+"""After so long without a message a page is sent an empty line, by which it is noticed that it has gone."""
+END_S = 2.0
+
+PAGE = """<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+<style>:root{{color-scheme:light dark}}body{{margin:12px;font-family:sans-serif}}</style></head>
+<body><main id="page"></main><p id="link" role="status"></p>
+<script type="module">
+import app from "./page.js";
+const bytes = (text) => new DataView(Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer);
+const told = (key, value) => (value && typeof value === "object" && "base64" in value ? bytes(value.base64) : value);
+const state = {{ data: JSON.parse(await (await fetch("./data.json")).text(), told) }};
+const heard = new Set();
+const model = {{
+  get: (name) => state[name],
+  on: (name, callback) => name === "msg:custom" && heard.add(callback),
+  off: (name, callback) => heard.delete(callback),
+  send: (content) => fetch("./say", {{
+    method: "POST", headers: {{ "Content-Type": "application/json" }}, body: JSON.stringify(content),
+  }}).catch(() => gone()),
+}};
+const link = document.getElementById("link");
+const gone = () => {{ link.textContent = "The program behind this page has ended, or does not answer."; }};
+const events = new EventSource("./events");
+events.onopen = () => {{ link.textContent = ""; model.send({{ type: "hello" }}); }};
+events.onerror = gone;
+events.onmessage = ({{ data }}) => {{
+  const {{ content, buffers }} = JSON.parse(data);
+  for (const callback of heard) callback(content, buffers.map(bytes));
+}};
+document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+app.render({{ model, el: document.getElementById("page") }});
+</script></body></html>
+"""
+
+
+class Served(Protocol):
+    """A widget, as it is served: :class:`~rosmini.widgets.live.PageWidget`."""
+
+    elsewhere: Any
+    """Takes what is sent to the page, in place of Jupyter."""
+
+    @property
+    def script(self) -> str:
+        """Its page's module."""
+
+    @property
+    def state(self) -> dict[str, Any]:
+        """What its page knows at the beginning."""
+
+    def hear(self, content: dict[str, Any]) -> None:
+        """Take what its page says."""
+
+
+class PageServer:
+    """Serves the page of a widget until it is closed.
+
+    >>> with PageServer(widget, title="RViz") as server:  # doctest: +SKIP
+    ...     print(server.url)
+    http://127.0.0.1:43210/9jL0.../
+
+    Args:
+        widget: the widget; what it sends goes to all pages that are open.
+        title: of the page.
+        port: 0 for one that is free.
+
+    Raises:
+        OSError: the port is in use.
+
+    """
+
+    def __init__(self, widget: Served, *, title: str, port: int = 0) -> None:
+        self.widget = widget
+        self.title = title
+        self.token = secrets.token_urlsafe(16)
+        self._pages: set[queue.Queue[str | None]] = set()
+        self._lock = threading.Lock()
+        self._server = _Server((LOOPBACK, port), partial(_Handler, pages=self))
+        self._thread = threading.Thread(
+            target=self._server.serve_forever, args=(0.1,), name="rosmini page", daemon=True
+        )
+        widget.elsewhere = self._send
+        self._thread.start()
+
+    @property
+    def port(self) -> int:
+        """Where it listens."""
+        return int(self._server.server_address[1])
+
+    @property
+    def url(self) -> str:
+        """The page's address."""
+        return f"http://{LOOPBACK}:{self.port}/{self.token}/"
+
+    def close(self) -> None:
+        """End it; pages that are open are told. Harmless when repeated."""
+        self.widget.elsewhere = None
+        with self._lock:
+            for page in self._pages:
+                with suppress(queue.Full):
+                    page.put_nowait(None)
+            self._pages.clear()
+        self._server.shutdown()
+        self._server.server_close()
+        self._thread.join(END_S)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+    # -- to the pages, from the graph's thread -------------------------------------------------------------------
+
+    def _send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
+        packed = [base64.b64encode(each).decode() for each in buffers or ()]
+        event = json.dumps({"content": content, "buffers": packed}, default=_packed)
+        with self._lock:
+            for page in list(self._pages):
+                try:
+                    page.put_nowait(event)
+                except queue.Full:
+                    self._pages.discard(page)  # its thread finds nothing more, and ends the connection
+                    _drain(page)
+
+    # -- from the pages, each in a thread of the server's ---------------------------------------------------------
+
+    def opened(self) -> queue.Queue[str | None]:
+        """Take a page that listens from now on."""
+        page: queue.Queue[str | None] = queue.Queue(MOST_WAITING)
+        with self._lock:
+            self._pages.add(page)
+        return page
+
+    def left(self, page: queue.Queue[str | None]) -> None:
+        """Forget a page."""
+        with self._lock:
+            self._pages.discard(page)
+
+
+def _drain(page: queue.Queue[str | None]) -> None:
+    with suppress(queue.Empty):
+        while True:
+            page.get_nowait()
+    page.put_nowait(None)
+
+
+def _packed(value: Any) -> dict[str, str]:
+    """Bytes, as JSON has them."""
+    if isinstance(value, bytes | bytearray | memoryview):
+        return {"base64": base64.b64encode(value).decode()}
+    raise TypeError(f"a page is sent {type(value).__name__}, which JSON does not have")
+
+
+class _Server(ThreadingHTTPServer):
+    daemon_threads = True
+    block_on_close = False
+
+
+class _Handler(BaseHTTPRequestHandler):
+    """Answers a page."""
+
+    protocol_version = "HTTP/1.1"
+    timeout = 60.0
+
+    def __init__(self, *words: Any, pages: PageServer) -> None:
+        self.pages = pages
+        super().__init__(*words)
+
+    def log_message(self, format: str, *args: Any) -> None:  # the base class's name for it
+        """Say nothing: a terminal belongs to the tool."""
+
+    def _asked(self) -> str | None:
+        """What is asked for under the token; None, and an answer, where the request is not from a page of ours."""
+        hosts = {f"{name}:{self.pages.port}" for name in (LOOPBACK, "localhost")}
+        origin = self.headers.get("Origin")
+        is_ours = self.headers.get("Host") in hosts and (
+            origin is None or origin.removeprefix("http://") in hosts
+        )
+        root, _, rest = self.path.removeprefix("/").partition("/")
+        if not is_ours or not secrets.compare_digest(root.encode(), self.pages.token.encode()):
+            self._answer(HTTPStatus.NOT_FOUND, "text/plain", b"there is nothing here\n")
+            return None
+        return rest
+
+    def do_GET(self) -> None:
+        """Send the page, its module, its data, or what happens."""
+        match self._asked():
+            case "":
+                page = PAGE.format(title=escape(self.pages.title))
+                self._answer(HTTPStatus.OK, "text/html; charset=utf-8", page.encode())
+            case "page.js":
+                text = self.pages.widget.script
+                self._answer(HTTPStatus.OK, "text/javascript; charset=utf-8", text.encode())
+            case "data.json":
+                data = json.dumps(self.pages.widget.state, default=_packed)
+                self._answer(HTTPStatus.OK, "application/json", data.encode())
+            case "events":
+                self._events()
+            case None:
+                pass
+            case _:
+                self._answer(HTTPStatus.NOT_FOUND, "text/plain", b"there is nothing here\n")
+
+    def do_POST(self) -> None:
+        """Take what a page says."""
+        rest = self._asked()
+        if rest is None:
+            return
+        length = self.headers.get("Content-Length", "")
+        is_json = self.headers.get("Content-Type", "").partition(";")[0] == "application/json"
+        if rest != "say" or not is_json or not length.isdecimal() or int(length[:12]) > MOST_BYTES:
+            self._answer(HTTPStatus.BAD_REQUEST, "text/plain", b"a page says a short message, as JSON\n")
+            return
+        try:
+            content = json.loads(self.rfile.read(int(length)))
+        except (ValueError, RecursionError):
+            content = None
+        if not isinstance(content, dict):
+            self._answer(HTTPStatus.BAD_REQUEST, "text/plain", b"a page says a mapping\n")
+            return
+        self.pages.widget.hear(content)
+        self._answer(HTTPStatus.NO_CONTENT, "text/plain", b"")
+
+    def _events(self) -> None:
+        """Send what there is to say until the page or the server has gone."""
+        page = self.pages.opened()
+        self.close_connection = True
+        self.send_response(HTTPStatus.OK)
+        self.send_header("Content-Type", "text/event-stream")
+        self.send_header("Cache-Control", "no-store")
+        self.end_headers()
+        try:
+            while True:
+                try:
+                    event = page.get(timeout=SILENCE_S)
+                except queue.Empty:
+                    event = ""
+                if event is None:
+                    return
+                self.wfile.write(f"data: {event}\n\n".encode() if event else b":\n\n")
+        except OSError:
+            return  # the page was closed
+        finally:
+            self.pages.left(page)
+
+    def _answer(self, status: HTTPStatus, kind: str, body: bytes) -> None:
+        if status not in (HTTPStatus.OK, HTTPStatus.NO_CONTENT):
+            self.close_connection = True  # what it may still send is not read
+        self.send_response(status)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(body)))
+        self.send_header("Cache-Control", "no-store")
+        if self.close_connection:
+            self.send_header("Connection", "close")
+        self.end_headers()
+        with suppress(OSError):
+            self.wfile.write(body)
