@@ -42,11 +42,7 @@ class Chosen:
     """
 
     def __init__(self, simulation: Simulation, name: str = "") -> None:
-        drives = {
-            device.robot.name: device
-            for device in simulation.host.devices
-            if isinstance(device, DifferentialDrive) and device.commanded_by is not None
-        }
+        drives = _drives(simulation)
         if name not in drives and (name or not drives):
             hint = nearest(name, drives) or f"robots that can: {', '.join(drives) or 'none'}"
             raise TeleopError(
@@ -71,6 +67,11 @@ class Chosen:
         self.trail: list[tuple[float, float]] = []
         """Where it was at the looks so far [m]."""
         self._poses: list[Pose] = []
+
+    @staticmethod
+    def names(simulation: Simulation) -> tuple[str, ...]:
+        """All robots that listen to velocities."""
+        return tuple(_drives(simulation))
 
     @property
     def engine(self) -> Engine:
@@ -217,3 +218,12 @@ class Chosen:
         """The last scan's ranges (beams,) [m], or None if there is none yet."""
         scan = self.last_scan()
         return None if scan is None else np.asarray(scan.ranges, dtype=np.float64)
+
+
+def _drives(simulation: Simulation) -> dict[str, DifferentialDrive]:
+    """What listens to velocities, by the names of its robots."""
+    return {
+        device.robot.name: device
+        for device in simulation.host.devices
+        if isinstance(device, DifferentialDrive) and device.commanded_by is not None
+    }

@@ -51,6 +51,10 @@ SHORTEST_S = 0.015
 """No two frames follow one another faster: a graph that runs ahead of the clock sends no more than a page can show."""
 
 
+AROUND_S = 1.0
+"""No two looks for other drivers follow one another faster [s]."""
+
+
 class PageWidget(anywidget.AnyWidget):
     """The page of a pad or of a view, as Jupyter knows it."""
 
@@ -92,20 +96,27 @@ class Link:
         self._timer: Timer | None = None
         self._messages: list[list[float]] = []
         self._last: tuple[Any, ...] = ()
+        self._others: tuple[str, ...] = ()
         self._last_sent = 0.0
+        self._looked = -AROUND_S
         self._scan: NDArray[np.float32] | None = None
         """A scan that the page has not got: ranges (beams,), then the robot's pose at each beam (beams, 3)."""
         self._scans: Subscriber | None = None
-        data = pad_data(pad)
-        if pad.sight is not None and pad.gone is None:
-            # It also has the laser's code loaded now, while the cell runs, and not at the first key.
-            data["ranges"] = np.array(pad.sight.survey(), dtype=np.float32).tobytes()
+        data = self._data()
         self.widget = PageWidget(
             _esm=module((*SCRIPTS, "rosmini-pad-kernel.js"), "rosminiPadKernel"), data=data
         )
         answer_in_subshells(self.widget.comm)
         self.widget.on_msg(self.receive)
         pad.on_publish(self._published)
+
+    def _data(self) -> dict[str, Any]:
+        pad = self.pad
+        data = pad_data(pad) | {"choices": list(pad.choices), "chosen": pad.chosen}
+        if pad.sight is not None and pad.gone is None:
+            # It also has the laser's code loaded now, while the cell runs, and not at the first key.
+            data["ranges"] = np.array(pad.sight.survey(), dtype=np.float32).tobytes()
+        return data
 
     # -- from the page, in any thread ----------------------------------------------------------------------------
 
@@ -114,7 +125,7 @@ class Link:
         self._heard = self._clock()
         graph, kind = self.pad.node.graph, content.get("type")
         try:
-            if kind in ("key", "start", "reset") and not graph.is_live:
+            if kind in ("key", "steer", "start", "reset", "choose", "keys") and not graph.is_live:
                 graph.live()
         except RosminiError as error:
             self._send({"type": "error", "text": str(error)})
@@ -134,18 +145,46 @@ class Link:
             if kind == "key":
                 self._driven_by_page = True
                 self.pad.press(str(content.get("key")))
+                self._look_around()
+            elif kind == "steer":
+                self._driven_by_page = True
+                self.pad.steer(float(content.get("linear", 0)), float(content.get("angular", 0)))
+            elif kind == "keys":
+                self.pad.use(str(content.get("name")))
+            elif kind == "choose":
+                self._choose(str(content.get("name")))
             elif kind == "stop":
                 self._stop()
             elif kind == "reset":
                 self.pad.reset()
             elif kind == "hello":
                 self._hello()
-        except TeleopError as error:
+        except (TeleopError, TypeError, ValueError) as error:
             why = self.pad.gone
             if why is None:
                 self._send({"type": "error", "text": str(error)})
             else:
                 self._tell_gone(why)
+
+    def _look_around(self) -> None:
+        """See who else drives; not at each key, since the Master may be far away."""
+        now = self._clock()
+        if now - self._looked >= AROUND_S:
+            self._looked, self._others = now, tuple(self.pad.others)
+
+    def _choose(self, name: str) -> None:
+        self.pad.choose(name)
+        if self._scans is not None:
+            self._scans.unregister()
+            self._scans = None
+        if self._timer is not None:
+            self._timer.shutdown()
+            self._timer = None
+        self._scan, self._messages, self._last, self._others = None, [], (), ()
+        self._begin()
+        data = self._data()
+        ranges = data.pop("ranges", None)
+        self._send({"type": "pad", "data": data}, None if ranges is None else [ranges])
 
     def _begin(self) -> None:
         """Send frames from now on, unless that goes on already."""
@@ -180,7 +219,8 @@ class Link:
             self.pad.stop()
 
     def _published(self, twist: Any) -> None:
-        self._messages.append([twist.linear.x, twist.angular.z])
+        aside = [twist.linear.y, twist.linear.z]
+        self._messages.append([twist.linear.x, twist.angular.z, *(aside if any(aside) else ())])
         del self._messages[:-8]
 
     def _frame(self, _event: object) -> None:
@@ -212,7 +252,8 @@ class Link:
         if pad.sight is not None:
             pose, blocked, pushed = pad.sight.look(), pad.sight.blocked, pad.sight.pushed()
         scan, self._scan = self._scan, None
-        shown = (pose[0], pose[1], pose[2], *pad.teleop.target, *pad.teleop.command, blocked, pad.sent)
+        teleop = pad.teleop
+        shown = (*pose, *teleop.target, *teleop.command, *teleop.speed, teleop.keys.name, blocked, pad.sent)
         if shown == self._last and scan is None and pushed is None and now - self._last_sent < QUIET_S:
             return
         self._last, self._last_sent = shown, now
@@ -223,6 +264,9 @@ class Link:
             "at_rest": pad.teleop.at_rest,
             "blocked": blocked,
             "scan": scan is not None,
+            "keys": teleop.keys.name,
+            "speed": list(teleop.speed),
+            "others": list(self._others),
         }
         if pushed is not None:
             content["pushed"] = pushed

@@ -33,7 +33,8 @@ from rosmini.viz.book_form import book_form
 from rosmini.viz.view import MimeBundle, View
 
 from .chosen import Chosen
-from .teleop import PERIOD, Limits, Teleop, TeleopError, key_named
+from .key_maps import key_map
+from .teleop import PERIOD, Limits, Teleop, TeleopError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
@@ -49,13 +50,13 @@ class PadNode(Node):
 
 
 class TeleopPad(View):
-    """An ordinary node that publishes velocities as `turtlebot3_teleop_key` does; in a notebook it is a pad with keys.
+    """An ordinary node that publishes velocities as ROS's teleoperation programs do; in a notebook a pad with keys.
 
     A key publishes at once, and then every 0.1 s what has come nearer to the target. When nothing is wanted and
     nothing is sent any more, the pad is silent (the original goes on with zeros, in the way of any other node that
     drives), until the next key.
 
-    `press` and `stop` are what the keys, buttons and touches of a browser call too.
+    `press`, `release`, `steer` and `stop` are what the keys, buttons, touches and gamepads of a browser call too.
 
     Args:
         driven: a simulator, stageros or gzserver, whose robot is driven and shown; or a graph, and then only the
@@ -64,11 +65,15 @@ class TeleopPad(View):
         topic: where to publish, resolved and remapped as by the simulation's node; by default where the robot
             listens, and on a graph ``cmd_vel``.
         name: the name of the node.
-        limits: how fast at most; those of the simulator's robot by default, and of a Burger without one.
+        limits: how fast at most, and how fast that changes; those of the simulator's robot by default, and of a Burger
+            without one.
+        keys: whose keys it has: `turtlebot3_teleop_key` or `teleop_twist_keyboard`. (The latter sends each message
+            once; the pad sends it ten times a second, as with `_repeat_rate:=10` there.)
+        hold: whether a key has to be held, as a dead man's switch has: the robot stops when it is released.
         title: a caption under the pad, and the first line of its text form.
 
     Raises:
-        TeleopError: `driven` is neither.
+        TeleopError: `driven` is neither, there is no such robot, or no program of that name.
 
     """
 
@@ -80,17 +85,22 @@ class TeleopPad(View):
         topic: str | None = None,
         name: str = "teleop_pad",
         limits: Limits | None = None,
+        keys: str = "turtlebot3_teleop_key",
+        hold: bool = False,
         title: str | None = None,
     ) -> None:
         self.sight: Chosen | None = None
+        self.chosen = ""
+        """Which of the `choices` is driven."""
+        self.hold = hold
+        self._driven, self._limits = driven, limits
         namespace = "/"
         if isinstance(driven, Graph):
             self.graph: GraphCore = driven
         elif isinstance(driven, Simulation):
             self.graph = driven.node.graph
-            chosen = Chosen(driven, robot)
-            self.sight = chosen if chosen.sees else None
-            namespace, limits = chosen.namespace, limits or chosen.limits
+            chosen = self._see(driven, robot)
+            namespace = chosen.namespace
             topic = chosen.topic if topic is None else driven.node.resolve(topic)
         else:
             raise TeleopError(
@@ -98,7 +108,7 @@ class TeleopPad(View):
                 "Give it rosrun('rosmini_sim', 'simulator').instance(), that of stageros or gzserver, or a Graph."
             )
         self.title = title
-        self.teleop = Teleop(limits)
+        self.teleop = Teleop(self._limits_now(), key_map(keys))
         self.sent = 0
         """How many messages were published."""
         self.twist_class = message_class("geometry_msgs/Twist")
@@ -107,11 +117,22 @@ class TeleopPad(View):
             before.shutdown("a new pad took its place")
         self.node = PadNode(name, self.graph, namespace=namespace)
         self._publisher = self.node.publisher(topic or "cmd_vel", self.twist_class, queue_size=10)
+        if self.sight is None:
+            self.chosen = self.topic
         self._twist = self.twist_class()
         self._timer: Timer | None = None
         self._listeners: list[Callable[[Any], object]] = []
         self._link: Any = None
         self._meet_listeners()
+
+    def _see(self, simulation: Simulation, robot: str) -> Chosen:
+        chosen = Chosen(simulation, robot)
+        self.chosen, self._robot_limits = chosen.name, chosen.limits
+        self.sight = chosen if chosen.sees else None
+        return chosen
+
+    def _limits_now(self) -> Limits | None:
+        return self._limits or getattr(self, "_robot_limits", None)
 
     def _meet_listeners(self) -> None:
         if self.topic in dict(self.node.master.ask("getSystemState")[1]):
@@ -139,10 +160,12 @@ class TeleopPad(View):
     def press(self, key: str, times: int = 1) -> None:
         """Take a key (`w`, `x`, `a`, `d`, `s`, `space`, or an arrow: `up`, `down`, `left`, `right`) `times` times, now.
 
+        Those are the keys of `turtlebot3_teleop_key`; with others (`use`) it is the keys of that program.
+
         Raises `TeleopError` for another key and when the robot has been removed, `ROSException` when the node was
         shut down.
         """
-        named = key_named(key)
+        named = self.teleop.keys.named(key)
         if times < 1:
             raise TeleopError(f"a key is pressed once or more often, not {times} times")
         self._require_robot()
@@ -151,7 +174,70 @@ class TeleopPad(View):
 
     def stop(self) -> None:
         """Stop at once, as the key `s` does. Raises as `press` does."""
-        self.press("s")
+        self.press("space")
+
+    def release(self) -> None:
+        """Release all keys: with `hold` the robot stops. Raises as `press` does."""
+        if self.hold and not self.teleop.at_rest:
+            self.stop()
+
+    def steer(self, linear: float, angular: float) -> None:
+        """Want these velocities [m/s, rad/s], within the limits, as a gamepad does. Raises as `press` does."""
+        self._require_robot()
+        self._publish(self.teleop.steer(linear, angular))
+
+    def use(self, keys: str) -> None:
+        """Have the keys of another program, and stop. Raises as `press` does, also if there is no such program."""
+        found = key_map(keys)
+        self._rest()
+        self.teleop.use(found)
+
+    @property
+    def keys(self) -> str:
+        """Whose keys it has: the name of a program."""
+        return self.teleop.keys.name
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """What can be driven: the robots of the simulation, or the topics of the graph that are heard."""
+        if isinstance(self._driven, Simulation):
+            return Chosen.names(self._driven)
+        master = self.node.master
+        types = dict(master.ask("getTopicTypes"))
+        heard = {topic for topic, _ in master.ask("getSystemState")[1]}
+        found = {topic for topic in heard if types.get(topic) == self.twist_class._type}
+        return tuple(sorted(found | {self.topic}))
+
+    def choose(self, name: str) -> None:
+        """Stop what is driven, and drive another one of the `choices`, with its own limits.
+
+        Raises `TeleopError` if it is none of them, and `ROSException` when the node was shut down.
+        """
+        if isinstance(self._driven, Simulation):
+            if name not in self.choices:
+                Chosen(self._driven, name)  # which says what there is
+            self._rest()
+            topic = self._see(self._driven, name).topic
+        else:
+            if name not in self.choices:
+                raise TeleopError(f"nobody hears {name!r}; {', '.join(self.choices)} can be driven")
+            self._rest()
+            topic = self.chosen = name
+        self.teleop = Teleop(self._limits_now(), self.teleop.keys)
+        if topic != self.topic:
+            self._publisher.unregister()
+            self._publisher = self.node.publisher(topic, self.twist_class, queue_size=10)
+            self._meet_listeners()
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        """The other nodes that publish on the topic: a robot obeys the last word, whoever says it."""
+        publishers = dict(self.node.master.ask("getSystemState")[0]).get(self.topic, ())
+        return tuple(sorted(name for name in publishers if name != self.node.name))
+
+    def _rest(self) -> None:
+        if self.gone is None and not self.teleop.at_rest:
+            self.stop()
 
     def reset(self) -> None:
         """Stop, and reset the simulator's robot. Raises `TeleopError` without a simulator, and as `press` does."""
@@ -173,18 +259,24 @@ class TeleopPad(View):
             self._timer = None
         twist = self.twist_class()
         twist.linear.x, twist.angular.z = velocity
+        twist.linear.y, twist.linear.z = self.teleop.aside
         self._publisher.publish(twist)
         self._twist = twist
         self.sent += 1
         for listener in self._listeners:
             listener(twist)
         if not self.teleop.at_rest:
-            self._timer = self.node.timer(PERIOD, self._cycle, oneshot=True)
+            until = PERIOD if self.teleop.repeats else self.teleop.keys.holds or PERIOD
+            self._timer = self.node.timer(until, self._cycle, oneshot=True)
 
     def _cycle(self, _event: object) -> None:
         self._timer = None
-        if self.gone is None:
+        if self.gone is not None:
+            return
+        if self.teleop.repeats:
             self._publish(self.teleop.cycle())
+        else:
+            self.teleop.stop()  # what is driven has forgotten the message by now
 
     # -- the robot -----------------------------------------------------------------------------------------------
 
@@ -203,7 +295,7 @@ class TeleopPad(View):
     def _require_robot(self) -> None:
         why = self.gone
         if why is not None:
-            self.teleop = Teleop(self.teleop.limits)
+            self.teleop.stop()
             raise TeleopError(f"the pad has nothing to drive: {why} The graph goes on.")
 
     # -- to look at ----------------------------------------------------------------------------------------------
@@ -231,7 +323,8 @@ class TeleopPad(View):
     def alt(self) -> str:
         """The pad in a sentence or two."""
         drives = "" if self.sight is None else f" the {self.sight.model.name} in its world and"
-        return f"A pad with the keys w, a, s, d and x that shows{drives} the messages on {self.topic}. {self._state()}"
+        keys = "w, a, s, d and x" if self.teleop.keys.adds else f"of {self.keys}"
+        return f"A pad with the keys {keys} that shows{drives} the messages on {self.topic}. {self._state()}"
 
     def _images(self) -> dict[str, bytes]:
         return {}

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from rosmini.viz.embed import asset_path, embed
 from rosmini.viz.svg import element, escape
 
+from .key_maps import NAMES, key_map
 from .teleop import table
 
 if TYPE_CHECKING:
@@ -21,7 +22,13 @@ if TYPE_CHECKING:
 STEP = 0.005
 """How long one step of the robot in a page is [s]: that of the engine's physics."""
 
-SCRIPTS = ("rosmini-canvas.js", "rosmini-teleop.js", "rosmini-pad-style.js", "rosmini-pad.js")
+SCRIPTS = (
+    "rosmini-canvas.js",
+    "rosmini-teleop.js",
+    "rosmini-pad-style.js",
+    "rosmini-pad-keys.js",
+    "rosmini-pad.js",
+)
 HEIGHT = 420
 
 
@@ -31,6 +38,8 @@ class Pad(Protocol):
     sight: Chosen | None
     teleop: Teleop
     sent: int
+    hold: bool
+    chosen: str
 
     @property
     def node(self) -> Node:
@@ -52,8 +61,25 @@ class Pad(Protocol):
     def alt(self) -> str:
         """The pad in a sentence or two."""
 
+    @property
+    def choices(self) -> Sequence[str]:
+        """What can be driven."""
+
+    @property
+    def others(self) -> Sequence[str]:
+        """Who else drives it."""
+
     def press(self, key: str) -> None:
         """Take a key."""
+
+    def steer(self, linear: float, angular: float) -> None:
+        """Take velocities."""
+
+    def use(self, keys: str) -> None:
+        """Have the keys of another program."""
+
+    def choose(self, name: str) -> None:
+        """Drive another one."""
 
     def stop(self) -> None:
         """Stop at once."""
@@ -70,7 +96,9 @@ def pad_data(pad: Pad) -> dict[str, Any]:
     data: dict[str, Any] = {
         "title": title(pad),
         "topic": pad.topic,
-        "teleop": table(pad.teleop.limits),
+        "maps": [table(pad.teleop.limits, key_map(name)) for name in NAMES],
+        "keys": pad.teleop.keys.name,
+        "hold": pad.hold,
         "step": STEP,
         "scene": None,
         "pose": None,

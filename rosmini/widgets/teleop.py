@@ -1,28 +1,23 @@
-"""From keys to velocities, as TurtleBot3's own `turtlebot3_teleop_key` does it. No node and no clock is in here.
+"""From keys to velocities, as ROS's teleoperation programs do it. No node and no clock is in here.
 
-A key moves a *target*; what is sent approaches the target, by half a step in each cycle of 0.1 s. The space bar and
-`s` set both to zero at once. Each key begins a cycle of its own, as the read of the keyboard there ends with a key or
-after 0.1 s.
+With the keys of `turtlebot3_teleop_key` a key moves a *target*; what is sent approaches the target, by half a step in
+each cycle of 0.1 s. Its stop sets both to zero at once. Each key begins a cycle of its own, as the read of the
+keyboard there ends with a key or after 0.1 s. With those of `teleop_twist_keyboard` a key says where to go, at a speed
+that other keys change. Which keys there are is in `rosmini.widgets.key_maps`.
 
-The facts (keys, steps, slopes, cycle, limits) are those of `turtlebot3_teleop/nodes/turtlebot3_teleop_key` in
-https://github.com/ROBOTIS-GIT/turtlebot3, branch noetic. The arrow keys are ours, and so is the rounding to a
-millionth, without which six steps of 0.01 would give 0.060000000000000005.
+The facts (slopes, cycle) are those of `turtlebot3_teleop/nodes/turtlebot3_teleop_key` in
+https://github.com/ROBOTIS-GIT/turtlebot3, branch noetic. Ours is the rounding to a millionth, without which six steps
+of 0.01 would give 0.060000000000000005; ours are ramps, too (`Limits.linear_acceleration`).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any
 
-from rosmini.errors import RosminiError, nearest
+from .key_maps import KeyMap, TeleopError, burger_limits, key_map
 
-LINEAR_STEP = 0.01
-"""What `w` and `x` add to the target [m/s]."""
-ANGULAR_STEP = 0.1
-"""What `a` and `d` add to the target [rad/s]."""
 PERIOD = 0.1
 """How long a cycle is without a key [s]."""
 SLOPE = 0.5
@@ -30,44 +25,27 @@ SLOPE = 0.5
 GRAIN = 1e6
 """Velocities are multiples of a part of this many."""
 
-STOP = (0, 0)
-KEYS: Mapping[str, tuple[int, int]] = MappingProxyType(
-    {
-        "w": (1, 0),
-        "x": (-1, 0),
-        "a": (0, 1),
-        "d": (0, -1),
-        "s": STOP,
-        " ": STOP,
-        "ArrowUp": (1, 0),
-        "ArrowDown": (-1, 0),
-        "ArrowLeft": (0, 1),
-        "ArrowRight": (0, -1),
-    }
-)
-"""Steps ahead and to the left for each key, named as browsers name them; no step at all is the stop."""
+REST = (0.0, 0.0)
+_LINEAR, _ANGULAR = burger_limits()
 
-_NAMES: Mapping[str, str] = MappingProxyType(
-    {key.lower(): key for key in KEYS}
-    | {"space": " ", "up": "ArrowUp", "down": "ArrowDown", "left": "ArrowLeft", "right": "ArrowRight"}
-)
-
-
-class TeleopError(RosminiError, ValueError):
-    """A key that the pad does not know, invalid limits, or a robot that is no longer there."""
+__all__ = ["GRAIN", "PERIOD", "SLOPE", "KeyMap", "Limits", "Teleop", "TeleopError", "key_map", "table"]
 
 
 @dataclass(frozen=True)
 class Limits:
-    """How fast a robot may be sent: those of the TurtleBot3 Burger if nothing else is given.
+    """How fast a robot may be sent, and how fast that may change: at most as a TurtleBot3 Burger by default.
 
-    Raises `TeleopError` if one of them is not a positive number.
+    Raises `TeleopError` if one of them is not a positive number; accelerations may be infinite.
     """
 
-    linear: float = 0.22
+    linear: float = _LINEAR
     """[m/s]"""
-    angular: float = 2.84
+    angular: float = _ANGULAR
     """[rad/s]"""
+    linear_acceleration: float = math.inf
+    """[m/s²]"""
+    angular_acceleration: float = math.inf
+    """[rad/s²]"""
 
     def __post_init__(self) -> None:
         for name, value in (("linear", self.linear), ("angular", self.angular)):
@@ -75,71 +53,134 @@ class Limits:
                 raise TeleopError(
                     f"the {name} limit of a pad must be a positive number, not {value!r}; Burger: 0.22 m/s, 2.84 rad/s"
                 )
-
-
-def key_named(name: str) -> str:
-    """The key that `name` means: as browsers name it, in any case, or "space", "up", "down", "left", "right".
-
-    Raises `TeleopError` with the nearest name, or with all of them.
-    """
-    key = _NAMES.get(name.lower())
-    if key is None:
-        names = ["w", "x", "a", "d", "s", "space", "up", "down", "left", "right"]
-        guess = nearest(name, names)
-        raise TeleopError(
-            f"the pad has no key {name!r}; {guess or 'it has ' + ', '.join(names)}. "
-            "w and x: faster and slower, a and d: left and right, s or space: stop."
-        )
-    return key
+        for name, value in (("linear", self.linear_acceleration), ("angular", self.angular_acceleration)):
+            if not value > 0:
+                raise TeleopError(
+                    f"the {name} acceleration of a pad must be positive or math.inf, not {value!r}"
+                )
 
 
 class Teleop:
     """The velocities that are wanted, and those that are sent: linear [m/s] and angular [rad/s]."""
 
-    def __init__(self, limits: Limits | None = None) -> None:
+    def __init__(self, limits: Limits | None = None, keys: KeyMap | None = None) -> None:
         self.limits = limits or Limits()
-        self.target = (0.0, 0.0)
+        self.use(keys or key_map())
+
+    def use(self, keys: KeyMap) -> None:
+        """Have other keys, at their own speed at first, and be at rest."""
+        self.keys = keys
+        self.speed = (
+            _limited(keys.linear, self.limits.linear),
+            _limited(keys.angular, self.limits.angular),
+        )
+        """What a key without steps asks for."""
+        self.stop()
+
+    def stop(self) -> None:
+        """Want nothing, and send nothing but zeros."""
+        self.target = REST
         """What the keys ask for."""
-        self.command = (0.0, 0.0)
+        self.command = REST
         """What was sent last."""
+        self.aside = REST
+        """What was sent last to the left and up [m/s], by `teleop_twist_keyboard` with Shift, t and b."""
+        self._direction = (0.0, 0.0, 0.0, 0.0)
+        self.is_steered = False
+        """Whether a gamepad said last what is wanted, not a key."""
 
     @property
     def at_rest(self) -> bool:
         """Whether nothing is wanted and nothing is sent."""
-        return self.target == self.command == (0.0, 0.0)
+        return self.target == self.command == self.aside == REST
+
+    @property
+    def repeats(self) -> bool:
+        """Whether what is sent is sent again in the next cycle; else it is forgotten after `keys.holds`."""
+        return self.keys.holds is None or self.is_steered
 
     def press(self, key: str) -> tuple[float, float]:
-        """Take a key, named as in `KEYS`, and return what is to be sent. Raises `KeyError`."""
-        ahead, left = KEYS[key]
-        if (ahead, left) == STOP:
-            self.target = self.command = (0.0, 0.0)
-        else:
+        """Take a key, named as in the key map, and return what is to be sent. Raises `KeyError`."""
+        if key in self.keys.stops:
+            self.stop()
+        elif key in self.keys.factors:
+            for_linear, for_angular = self.keys.factors[key]
+            linear, angular = self.speed
+            self.speed = (
+                _limited(linear * for_linear, self.limits.linear),
+                _limited(angular * for_angular, self.limits.angular),
+            )
+            if not self.is_steered:
+                self._aim()
+        elif self.keys.adds:
+            ahead, _, _, left = self.keys.moves[key]
             linear, angular = self.target
             self.target = (
-                _limited(linear + ahead * LINEAR_STEP, self.limits.linear),
-                _limited(angular + left * ANGULAR_STEP, self.limits.angular),
+                _limited(linear + ahead * self.keys.linear, self.limits.linear),
+                _limited(angular + left * self.keys.angular, self.limits.angular),
             )
+            self.is_steered = False
+        else:
+            self._direction = self.keys.moves[key]
+            self.is_steered = False
+            self._aim()
+        return self.cycle()
+
+    def steer(self, linear: float, angular: float) -> tuple[float, float]:
+        """Want these velocities, and return what is to be sent. Raises `TeleopError` unless they are finite."""
+        if not (math.isfinite(linear) and math.isfinite(angular)):
+            raise TeleopError(f"a pad is steered with finite velocities, not {linear!r} and {angular!r}")
+        self.is_steered = True
+        self.aside, self._direction = REST, (0.0, 0.0, 0.0, 0.0)
+        self.target = _limited(linear, self.limits.linear), _limited(angular, self.limits.angular)
         return self.cycle()
 
     def cycle(self) -> tuple[float, float]:
-        """Come nearer to the target by half a step, and return what is to be sent."""
+        """Come nearer to the target, and return what is to be sent."""
+        slopes = slopes_of(self.keys, self.limits)
         self.command = (
-            _approach(self.command[0], self.target[0], SLOPE * LINEAR_STEP),
-            _approach(self.command[1], self.target[1], SLOPE * ANGULAR_STEP),
+            _approach(self.command[0], self.target[0], slopes[0]),
+            _approach(self.command[1], self.target[1], slopes[1]),
         )
         return self.command
 
+    def _aim(self) -> None:
+        ahead, left, up, turn = self._direction
+        linear, angular = self.speed
+        self.target = _rounded(ahead * linear), _rounded(turn * angular)
+        self.aside = _rounded(left * linear), _rounded(up * linear)
 
-def table(limits: Limits) -> dict[str, Any]:
-    """All numbers of this module, for the script that does the same in the browser."""
+
+def slopes_of(keys: KeyMap, limits: Limits) -> tuple[float, float]:
+    """How much what is sent changes in a cycle at most: linear [m/s], angular [rad/s]."""
+    linear, angular = (SLOPE * keys.linear, SLOPE * keys.angular) if keys.adds else (math.inf, math.inf)
+    return min(linear, PERIOD * limits.linear_acceleration), min(
+        angular, PERIOD * limits.angular_acceleration
+    )
+
+
+def table(limits: Limits, keys: KeyMap | None = None) -> dict[str, Any]:
+    """All numbers of a pad, for the script that does the same in the browser; None is without a bound."""
+    keys = keys or key_map()
+    slopes = [slope if math.isfinite(slope) else None for slope in slopes_of(keys, limits)]
     return {
-        "linear": {"step": LINEAR_STEP, "max": limits.linear},
-        "angular": {"step": ANGULAR_STEP, "max": limits.angular},
-        "slope": SLOPE,
+        "name": keys.name,
+        "linear": {"step": keys.linear, "max": limits.linear, "slope": slopes[0]},
+        "angular": {"step": keys.angular, "max": limits.angular, "slope": slopes[1]},
         "period": PERIOD,
         "grain": GRAIN,
-        "keys": {key: list(steps) for key, steps in KEYS.items()},
+        "adds": keys.adds,
+        "holds": keys.holds,
+        "others_stop": keys.others_stop,
+        "moves": {key: [_number(part) for part in move] for key, move in keys.moves.items()},
+        "factors": {key: list(factors) for key, factors in keys.factors.items()},
+        "stops": list(keys.stops),
+        "buttons": list(keys.buttons),
     }
+
+
+def _number(value: float) -> float | int:
+    return int(value) if value == int(value) else value
 
 
 def _limited(value: float, limit: float) -> float:

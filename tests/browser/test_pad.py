@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import shutil
 from dataclasses import replace
@@ -17,8 +18,9 @@ from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import Box, Cylinder, Obstacle, Polygon, World
 from rosmini.viz.embed import STATIC
 from rosmini.widgets import Limits, TeleopPad
+from rosmini.widgets.key_maps import NAMES
 from rosmini.widgets.page import SCRIPTS, pad_data
-from rosmini.widgets.teleop import KEYS, PERIOD, Teleop, table
+from rosmini.widgets.teleop import PERIOD, Teleop, key_map, table
 
 pytestmark = pytest.mark.browser
 
@@ -111,7 +113,9 @@ class Pad:
         return float(x), float(y), float(theta)
 
     def focused(self) -> str:
-        return self.page.evaluate("document.activeElement.id || document.activeElement.className")
+        return self.page.evaluate(
+            "(({id, dataset, className, tagName}) => id || dataset.key || className || tagName)(document.activeElement)"
+        )
 
 
 @pytest.fixture
@@ -149,26 +153,35 @@ def bare(chromium, site):
 
 def test_the_same_keys_give_the_same_messages_as_in_python(bare):
     rng = np.random.default_rng(3)
-    for limits in (Limits(), Limits(0.26, 1.82)):
-        keys = [None if k == len(KEYS) else [*KEYS][k] for k in rng.integers(0, len(KEYS) + 1, 3000)]
-        keys += ["w"] * 60 + ["d"] * 60 + [None] * 120 + ["x"] * 99 + ["ArrowLeft"] * 99 + [None] * 120
-        teleop = Teleop(limits)
-        ours = [teleop.cycle() if key is None else teleop.press(key) for key in keys]
+    for name, limits in itertools.product(NAMES, (Limits(), Limits(0.26, 1.82, 0.5, 4.0))):
+        known = [*key_map(name).keys, None]
+        keys = [known[k] for k in rng.integers(0, len(known), 3000)]
+        if name == "turtlebot3_teleop_key":
+            keys += ["w"] * 60 + ["d"] * 60 + [None] * 120 + ["x"] * 99 + ["ArrowLeft"] * 99 + [None] * 120
+        teleop = Teleop(limits, key_map(name))
+        ours = [
+            (*(teleop.cycle() if key is None else teleop.press(key)), *teleop.aside, *teleop.speed)
+            for key in keys
+        ]
         theirs = bare.evaluate(
             """([table, keys]) => {
               const teleop = new rosminiTeleop.Teleop(table);
-              return keys.map((key) => [...(key === null ? teleop.cycle() : teleop.press(key))]);
+              return keys.map((key) => [
+                ...(key === null ? teleop.cycle() : teleop.press(key)), ...teleop.aside, ...teleop.speed]);
             }""",
-            [table(limits), keys],
+            [table(limits, key_map(name)), keys],
         )
-        assert [tuple(pair) for pair in theirs] == ours  # to the last bit
+        assert [tuple(row) for row in theirs] == ours  # to the last bit
 
 
 @pytest.mark.parametrize("velocity", [(0.0, 0.0), (0.005, -0.1), (-0.22, 2.84), (0.1, 1.0), (0.015, 0.05)])
 def test_a_message_is_shown_as_rostopic_echo_prints_it(bare, velocity):
     twist = Twist()
     twist.linear.x, twist.angular.z = velocity
-    shown = bare.evaluate("([linear, angular]) => rosminiTeleop.yaml({linear, angular})", velocity)
+    twist.linear.y = velocity[0]
+    shown = bare.evaluate(
+        "([linear, angular]) => rosminiTeleop.yaml({linear, angular, aside: [linear, 0]})", velocity
+    )
     assert shown == f"{twist}\n---"
 
 
@@ -401,15 +414,14 @@ def test_the_keyboard_alone_is_enough(show):
     pad = show("light")
     pad.page.locator("#before").focus()
     order = []
-    for _ in range(8):
+    for _ in range(10):
         pad.page.keyboard.press("Tab")
         order.append(pad.focused())
-    keys = [f"rp-key rp-key-{key}" for key in "wasdx"]
-    assert order == ["rp-stage", *keys, "rp-plain", "after"]
+    assert order == ["rp-stage", *"wasdx", "rp-plain", "SELECT", "INPUT", "after"]
     # Enter presses a button; the keys and the space bar drive there too.
-    for _ in range(5):
+    for _ in range(7):
         pad.page.keyboard.press("Shift+Tab")
-    assert pad.focused() == "rp-key rp-key-a"
+    assert pad.focused() == "a"
     pad.page.keyboard.press("Enter")
     pad.keys("w")
     pad.run(1.0)
@@ -497,7 +509,7 @@ def test_whoever_leaves_the_pad_stops_the_robot_with_one_message(show):
 
 def test_a_held_button_repeats_and_a_click_moves_the_focus_to_the_pad(show):
     pad = show("light")
-    box = pad.page.locator(".rp-key-w").bounding_box()
+    box = pad.page.locator("[data-key=w]").bounding_box()
     pad.page.mouse.move(box["x"] + 20, box["y"] + 20)
     pad.page.mouse.down()
     pad.run(1.05)
@@ -509,6 +521,72 @@ def test_a_held_button_repeats_and_a_click_moves_the_focus_to_the_pad(show):
     pad.page.keyboard.press("Space")  # does not press the button again
     pad.run(0.5)
     assert pad.mood == "ready"
+
+
+def test_the_keys_of_another_program_and_a_dead_mans_switch(show):
+    pad = show("blind")
+    keys = pad.page.get_by_label("Keys of")
+    keys.select_option("teleop_twist_keyboard")
+    assert pad.focused() == "rp-stage"
+    pad.run(0.1)
+    assert [b.get_attribute("data-key") for b in pad.page.locator(".rp-key").all()] == [
+        *"uiojklm,.",
+        "z",
+        "q",
+    ]
+    assert "any other key: stop" in pad.page.locator(".rp-help").inner_text()
+    pad.keys("u")
+    pad.run(0.3)
+    twist = Twist()
+    twist.linear.x, twist.angular.z = 0.22, 1.0
+    assert pad.message == f"{twist}\n---"
+    pad.page.keyboard.press("Shift+J")
+    pad.run(0.1)
+    twist = Twist()
+    twist.linear.y = 0.22
+    assert pad.message == f"{twist}\n---"
+    pad.keys("z5")  # slower; and a key that means nothing stops
+    pad.run(0.1)
+    assert (pad.mood, pad.message) == ("ready", f"{Twist()}\n---")
+    assert "currently: speed 0.198, turn 0.9" in pad.page.locator(".rp-gauges").inner_text()
+    pad.page.get_by_label("hold to drive").check()
+    pad.page.keyboard.down("i")
+    pad.page.keyboard.down("l")
+    pad.page.keyboard.up("i")
+    pad.run(0.3)
+    assert pad.mood == "driving"
+    pad.page.keyboard.up("l")
+    pad.run(0.3)
+    assert pad.mood == "ready"
+    keys.select_option("turtlebot3_teleop_key")
+    pad.run(0.1)
+    assert pad.page.locator(".rp-key").count() == 5
+
+
+def test_a_gamepad_drives_while_its_switch_is_held(show):
+    pad = show("light")
+    pad.page.evaluate(
+        """() => {
+          const buttons = Array.from({length: 16}, () => ({pressed: false}));
+          globalThis.stick = { connected: true, axes: [-0.54, -1, 0, 0], buttons };
+          navigator.getGamepads = () => [null, globalThis.stick];
+          window.dispatchEvent(new Event("gamepadconnected"));
+        }"""
+    )
+    pad.stage.focus()
+    pad.run(0.5)
+    assert pad.mood == "ready"  # its switch is not held
+    pad.page.evaluate("stick.buttons[5].pressed = true")
+    pad.run(6.0)
+    twist = Twist()
+    twist.linear.x, twist.angular.z = 0.22, 1.42
+    assert pad.message == f"{twist}\n---"
+    pad.page.evaluate("stick.buttons[5].pressed = false")
+    pad.run(0.5)
+    assert (pad.mood, pad.message) == ("ready", f"{Twist()}\n---")
+    pad.page.evaluate("stick.buttons[5].pressed = true; document.activeElement.blur()")
+    pad.run(0.5)
+    assert pad.mood == "ready"  # the pad has not the focus
 
 
 PHONE = {
@@ -529,13 +607,13 @@ def test_on_a_phone_fingers_drive(show, name, shared_tmp):
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= 390
     for _ in range(3):
-        pad.page.locator(".rp-key-w").tap()
-    pad.page.locator(".rp-key-d").tap()
+        pad.page.locator("[data-key=w]").tap()
+    pad.page.locator("[data-key=d]").tap()
     pad.run(1.0)
     assert "x: 0.03" in pad.message
     assert "z: -0.1" in pad.message
     pad.page.screenshot(path=shared_tmp / f"pad_phone_{name}.png", full_page=False)
-    pad.page.locator(".rp-key-s").tap()
+    pad.page.locator("[data-key=s]").tap()
     pad.run(0.5)
     assert pad.mood == "ready"
 
@@ -574,7 +652,7 @@ def test_the_pad_has_the_theme_of_its_page(show, name, shared_tmp):
         ".rp-readings .rp-value",
         ".rp-readings .rp-name",
         ".rp-help",
-        ".rp-key-w kbd",
+        ".rp-key kbd",
         ".rp-log pre:nth-child(2)",
         ".rp-command em",
     ):
@@ -630,4 +708,4 @@ def test_the_book_form_is_small_and_the_same_each_time(monkeypatch):
         '<script type="application/json">'
     )
     told = json.loads(data["text/html"][start : data["text/html"].index("</script>", start)])
-    assert told["teleop"] == table(Limits())
+    assert told["maps"] == [table(Limits(), key_map(name)) for name in NAMES]

@@ -112,7 +112,7 @@ def test_keys_buttons_and_a_busy_kernel(open_lab, shared_tmp):
         stage.focus()
         page.keyboard.press("w")
         lab.mood("driving")
-        page.locator(".rp-key-s").click()
+        page.locator("[data-key=s]").click()
         lab.mood("ready")
         lab.run(2)
         lab.says(2, "rest True 0.0")

@@ -93,8 +93,9 @@ def test_the_workspace_of_the_report(shell: dict[str, str], tmp_path: Path) -> N
     """7.7, 9.4.3: the launch file of two robots is read, and all that it names is there."""
     shutil.copytree(assets_dir() / "workspaces" / "report_ws" / "src", tmp_path / "src")
     env = {**shell, "ROS_PACKAGE_PATH": str(tmp_path / "src"), "TURTLEBOT3_MODEL": "burger"}
-    done = run([*ROSMINI, "roslaunch", "--check", "turtlebot3_ds", "my_multi_turtlebot3.launch"], env=env)
-    assert "all is there" in done.stdout, done.stderr
+    for name in ("my_multi_turtlebot3", "turtlebot3_teleop_key_tb3_0", "turtlebot3_teleop_key_tb3_1"):
+        done = run([*ROSMINI, "roslaunch", "--check", "turtlebot3_ds", f"{name}.launch"], env=env)
+        assert "all is there" in done.stdout, done.stderr
 
 
 @pytest.mark.processes

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from rosmini.errors import RosminiError
+from rosmini.msgs.geometry_msgs.msg import Twist
+from rosmini.sim.simulator import Simulator
 from rosmini.widgets import TeleopError, TeleopPad
 from rosmini.widgets.live import Link
 
@@ -278,3 +280,40 @@ def test_without_anywidget_the_twin_works_and_the_page_says_what_to_install(grap
     pad.press("w")
     with pytest.raises(TeleopError, match=r"needs anywidget.*pip install 'rosmini\[book\]'"):
         _ = pad.link
+
+
+def test_a_page_steers_chooses_keys_and_learns_who_else_drives(graph):
+    graph.node("autopilot").publisher("cmd_vel", Twist)
+    page = Page(pad := TeleopPad(graph))
+    page.say("keys", name="teleop_twist_keyboard")
+    page.say("key", key="J")
+    page.run(0.2)
+    content, _ = page.frames()[-1]
+    assert (content["keys"], content["speed"]) == ("teleop_twist_keyboard", [0.22, 1.0])
+    assert content["others"] == ["/autopilot"]
+    assert [0.0, 0.0, 0.22, 0.0] in [message for frame, _ in page.frames() for message in frame["messages"]]
+    page.say("steer", linear=0.1, angular="left")
+    page.say("steer", linear=0.1, angular=-1)
+    page.run(0.2)
+    assert pad.teleop.command == (0.1, -1.0)
+    page.run(1.2, beats=False)
+    assert pad.teleop.at_rest  # its dead man's second
+
+
+def test_a_page_chooses_another_robot(graph):
+    graph.master.setParam("/test", "/simulator/robots", 2)
+    pad = Simulator(graph.node("simulator")).pad()
+    page = Page(pad)
+    assert page.link.widget.data["choices"] == ["tb3_0", "tb3_1"]
+    page.say("key", key="w")
+    page.run(0.5)
+    page.say("choose", name="tb3_1")
+    page.run(0.5)
+    ((content, buffers),) = [sent for sent in page.sent if sent[0]["type"] == "pad"]
+    assert (content["data"]["chosen"], content["data"]["topic"]) == ("tb3_1", "/tb3_1/cmd_vel")
+    assert content["data"]["pose"] == pytest.approx(pad.sight.truth(), abs=1e-3)
+    assert len(buffers[0]) == 4 * 360
+    page.say("choose", name="nobody")
+    page.run(0.1)
+    assert any("no robot 'nobody'" in sent.get("text", "") for sent, _ in page.sent)
+    assert pad.chosen == "tb3_1"

@@ -196,3 +196,96 @@ def test_a_pad_that_is_made_again_takes_the_place_of_the_first(simulator, graph,
     assert "shut down" in first.text
     captured = capfd.readouterr()
     assert (captured.out, captured.err) == ("", "")
+
+
+# -- several robots, other keys --
+
+
+@pytest.fixture
+def two(graph):
+    graph.master.setParam("/test", "/simulator/noise", 0.0)
+    graph.master.setParam("/test", "/simulator/robots", 2)
+    return Simulator(graph.node("simulator"))
+
+
+def test_one_pad_drives_several_robots_one_at_a_time(two, graph):
+    pad = two.pad()
+    assert (pad.choices, pad.chosen, pad.topic) == (("tb3_0", "tb3_1"), "tb3_0", "/tb3_0/cmd_vel")
+    stopped = []
+    graph.node("listener").subscriber("/tb3_0/cmd_vel", Twist, lambda twist: stopped.append(twist.linear.x))
+    pad.press("w", times=10)
+    graph.run(1.0)
+    pad.choose("tb3_1")
+    assert (pad.chosen, pad.topic, pad.sight.name) == ("tb3_1", "/tb3_1/cmd_vel", "tb3_1")
+    graph.run(1.0)
+    assert stopped[-1] == 0.0  # the first one stands
+    rest, before = two.truth("tb3_0"), two.truth("tb3_1")
+    pad.press("x", times=10)
+    graph.run(2.0)
+    assert two.truth("tb3_0") == rest
+    assert two.truth("tb3_1")[:2] != pytest.approx(before[:2], abs=0.05)
+    with pytest.raises(TeleopError, match=r"no robot 'tb3_2'.*tb3_"):
+        pad.choose("tb3_2")
+    assert pad.chosen == "tb3_1"
+
+
+def test_on_a_graph_the_topics_that_are_heard_can_be_chosen(graph):
+    heard = []
+    for name in ("a", "b"):
+        graph.node(name).subscriber(
+            f"/{name}/cmd_vel", Twist, lambda twist, name=name: heard.append((name, twist.linear.x))
+        )
+    pad = TeleopPad(graph, topic="a/cmd_vel")
+    assert pad.choices == ("/a/cmd_vel", "/b/cmd_vel")
+    pad.press("w")
+    pad.choose("/b/cmd_vel")
+    pad.press("w")
+    graph.run(0.01)
+    assert heard == [("a", 0.005), ("a", 0.0), ("b", 0.005)]
+    with pytest.raises(TeleopError, match="nobody hears '/c/cmd_vel'; /a/cmd_vel, /b/cmd_vel can be driven"):
+        pad.choose("/c/cmd_vel")
+
+
+def test_who_else_drives_is_known(graph):
+    pad = TeleopPad(graph)
+    assert pad.others == ()
+    graph.node("autopilot").publisher("cmd_vel", Twist)
+    assert pad.others == ("/autopilot",)
+
+
+def test_the_keys_of_another_program(graph, heard):
+    pad = TeleopPad(graph, keys="teleop_twist_keyboard", limits=Limits(2.0, 2.0))
+    pad.press("u")
+    graph.run(0.15)
+    assert heard == [(0.0, 0.5, 1.0), (0.1, 0.5, 1.0)]
+    pad.press("J")
+    assert (pad.twist.linear.x, pad.twist.linear.y) == (0.0, 0.5)
+    pad.press("5")  # any other key
+    assert pad.twist == Twist()
+    pad.use("turtlebot3_teleop_key")
+    pad.press("w")
+    assert (pad.keys, pad.twist.linear.x) == ("turtlebot3_teleop_key", 0.005)
+    with pytest.raises(TeleopError, match="no keys of a program 'rviz'"):
+        pad.use("rviz")
+
+
+def test_a_dead_mans_switch_stops_when_the_key_is_released(graph, heard):
+    pad = TeleopPad(graph, hold=True)
+    pad.press("w", times=4)
+    pad.release()
+    pad.release()  # at rest already
+    graph.run(0.3)
+    assert [v for _, v, _ in heard] == [0.005, 0.01, 0.015, 0.02, 0.0]
+    pad.hold = False
+    pad.press("w")
+    pad.release()
+    assert not pad.teleop.at_rest
+
+
+def test_a_gamepad_steers_and_ramps_are_kept(graph, heard):
+    pad = TeleopPad(graph, keys="teleop_twist_keyboard", limits=Limits(0.22, 2.84, linear_acceleration=1.0))
+    pad.steer(0.5, -1.0)
+    graph.run(0.25)
+    assert heard == [(0.0, 0.1, -1.0), (0.1, 0.2, -1.0), (0.2, 0.22, -1.0)]
+    pad.stop()
+    assert pad.twist == Twist()

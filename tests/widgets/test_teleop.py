@@ -9,11 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosmini.widgets.teleop import KEYS, Limits, Teleop, TeleopError, key_named, table
+from rosmini.widgets.key_maps import NAMES
+from rosmini.widgets.teleop import Limits, Teleop, TeleopError, key_map, table
 
 BURGER = Limits(0.22, 2.84)
 
-presses = st.lists(st.sampled_from([*KEYS, None]), max_size=200)
+presses = st.lists(st.sampled_from([*key_map().keys, None]), max_size=200)
 
 
 def play(teleop: Teleop, keys) -> list[tuple[float, float]]:
@@ -89,30 +90,75 @@ def test_what_is_sent_prints_without_binary_noise(keys):
             assert math.copysign(1, value) == 1 or value < 0  # no -0.0
 
 
-@pytest.mark.parametrize(
-    ("name", "key"),
-    [("w", "w"), ("W", "w"), ("space", " "), (" ", " "), ("up", "ArrowUp"), ("ArrowLeft", "ArrowLeft")],
-)
-def test_keys_have_several_names(name, key):
-    assert key_named(name) == key
-
-
-def test_an_unknown_key_is_refused_with_the_nearest():
-    with pytest.raises(TeleopError, match=r"no key 'rigth'.*right"):
-        key_named("rigth")
-    with pytest.raises(TeleopError, match="no key 'q'; it has w, x, a, d, s, space"):
-        key_named("q")
-
-
 @pytest.mark.parametrize(("linear", "angular"), [(0.0, 1.0), (-0.2, 1.0), (math.nan, 1.0), (0.2, math.inf)])
 def test_limits_are_positive_numbers(linear, angular):
     with pytest.raises(TeleopError, match="must be a positive number"):
         Limits(linear, angular)
 
 
+def test_accelerations_are_positive():
+    assert Limits(0.22, 2.84, 0.5, 3.0).linear_acceleration == 0.5
+    with pytest.raises(TeleopError, match="the linear acceleration of a pad must be positive"):
+        Limits(0.22, 2.84, 0.0)
+    with pytest.raises(TeleopError, match="the angular acceleration"):
+        Limits(0.22, 2.84, 1.0, math.nan)
+
+
 def test_the_table_is_json_and_complete():
     told = json.loads(json.dumps(table(Limits(0.26, 1.82))))
-    assert told["linear"] == {"step": 0.01, "max": 0.26}
-    assert told["angular"] == {"step": 0.1, "max": 1.82}
-    assert (told["slope"], told["period"]) == (0.5, 0.1)
-    assert told["keys"] == {key: list(steps) for key, steps in KEYS.items()}
+    assert told["linear"] == {"step": 0.01, "max": 0.26, "slope": 0.005}
+    assert told["angular"] == {"step": 0.1, "max": 1.82, "slope": 0.05}
+    assert (told["adds"], told["period"], told["holds"]) == (True, 0.1, None)
+    assert told["moves"] == {key: list(move) for key, move in key_map().moves.items()}
+    other = json.loads(json.dumps(table(Limits(), key_map("teleop_twist_keyboard"))))
+    assert other["linear"] == {"step": 0.5, "max": 0.22, "slope": None}
+
+
+# -- the keys of teleop_twist_keyboard --
+
+
+def twist_keyboard(limits=None) -> Teleop:
+    return Teleop(limits or Limits(100.0, 100.0), key_map("teleop_twist_keyboard"))
+
+
+def test_a_key_says_where_to_go_and_other_keys_how_fast():
+    teleop = twist_keyboard()
+    assert play(teleop, ["i", "u", None, ".", "l"]) == [
+        (0.5, 0.0), (0.5, 1.0), (0.5, 1.0), (-0.5, 1.0), (0.0, -1.0),
+    ]  # fmt: skip
+    assert play(teleop, ["o", "q", "w", "c", "k"]) == [
+        (0.5, -1.0), (0.55, -1.1), (0.605, -1.1), (0.605, -0.99), (0.0, 0.0),
+    ]  # fmt: skip
+    assert teleop.speed == (0.605, 0.99)  # a stop keeps the speed
+
+
+def test_capitals_drive_sideways_and_t_and_b_up_and_down():
+    teleop = twist_keyboard()
+    for key, velocity, aside in [
+        ("O", (0.5, 0.0), (-0.5, 0.0)), ("J", (0.0, 0.0), (0.5, 0.0)), ("b", (0.0, 0.0), (0.0, -0.5)),
+        ("k", (0.0, 0.0), (0.0, 0.0)),
+    ]:  # fmt: skip
+        assert (teleop.press(key), teleop.aside) == (velocity, aside)
+    assert teleop.at_rest
+
+
+def test_limits_and_ramps_hold_for_all_keys():
+    teleop = twist_keyboard(Limits(0.22, 2.0, 0.5, 4.0))
+    assert teleop.speed == (0.22, 1.0)
+    assert play(teleop, ["u", None, None, None, None, None]) == [
+        (0.05, 0.4), (0.1, 0.8), (0.15, 1.0), (0.2, 1.0), (0.22, 1.0), (0.22, 1.0),
+    ]  # fmt: skip
+    play(teleop, ["e"] * 20)
+    assert teleop.speed == (0.22, 2.0)
+    assert teleop.press(" ") == (0.0, 0.0)  # the stop is no ramp
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_gamepad_steers_within_the_limits_until_a_key_comes(name):
+    teleop = Teleop(Limits(0.22, 2.84, 1.0), key_map(name))
+    assert teleop.steer(0.15, -9.0)[0] in (0.1, 0.005)
+    play(teleop, [None] * 200)
+    assert teleop.command == (0.15, -2.84)
+    assert teleop.press(" ") == (0.0, 0.0)
+    with pytest.raises(TeleopError, match="finite velocities"):
+        teleop.steer(math.nan, 0.0)

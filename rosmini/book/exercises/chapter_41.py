@@ -13,7 +13,7 @@ from rosmini.graph import Graph
 from rosmini.msgs.geometry_msgs.msg import Twist, Vector3
 from rosmini.msgs.sensor_msgs.msg import Joy
 from rosmini.msgs.std_msgs.msg import Bool
-from rosmini.widgets.teleop import KEYS, Limits, Teleop
+from rosmini.widgets.teleop import Limits, Teleop, key_map
 
 Velocity = tuple[float, float]
 
@@ -56,7 +56,7 @@ def keys_for(answer: Any) -> None:
             "how many steps are that? round(...) them, and look at the sign",
         )
         expect(
-            all(KEYS[key][0] for key in found[: abs(round(v / 0.01))]),
+            all(key_map().moves[key][0] for key in found[: abs(round(v / 0.01))]),
             f"Your keys {asked} are {found!r}: those for v do not come first.",
             "first w or x, then a or d",
         )

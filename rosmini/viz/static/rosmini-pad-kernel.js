@@ -1,9 +1,10 @@
 /* A teleoperation pad whose keys go to a kernel, and whose picture comes from there: the driver behind `rosminiPad.Page` in a
    live notebook. A plain script that sets `globalThis.rosminiPadKernel`; `render({ model, el })` is what anywidget calls.
 
-   To the kernel:  {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "key", key}, {type: "stop"} it is left,
+   To the kernel:  {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "key", key}, {type: "steer", linear, angular}, {type: "stop"} it is left, or its
+                   keys are released, {type: "keys", name} other keys, {type: "choose", name} another robot,
                    {type: "reset"}, {type: "start"}.
-   From the kernel: {type: "frame", messages, sent, at_rest, blocked, scan, pushed?} with a buffer of seven float64 (target and command, each linear and
+   From the kernel: {type: "pad", data} another robot is driven; {type: "frame", messages, sent, at_rest, blocked, scan, keys, speed, others, pushed?} with a buffer of seven float64 (target and command, each linear and
                    angular, and x, y, theta), and one of float32 (ranges, then x, y, theta of the robot at each beam) if `scan` is true;
                    {type: "trail"} with one of float32 (x, y, ...); {type: "still"} nobody drives the graph; {type: "gone", text} and
                    {type: "error", text}. */
@@ -25,7 +26,7 @@
       this.frames = 0;
       this.rates = [];
       this.state = {
-        pose: data.pose, ranges: data.ranges ? floats(Float32Array, data.ranges) : null, scanFrom: null, trail: [], target: [0, 0], command: [0, 0], messages: [], sent: 0,
+        keys: data.keys, speed: [data.maps[0].linear.step, data.maps[0].angular.step], pose: data.pose, ranges: data.ranges ? floats(Float32Array, data.ranges) : null, scanFrom: null, trail: [], target: [0, 0], command: [0, 0], messages: [], sent: 0,
         mood: "ready", note: "press a key to start", startable: true,
       };
       this.receive = (content, buffers) => this.hear(content, buffers ?? []);
@@ -67,6 +68,9 @@
         case "frame":
           this.frame(content, buffers);
           break;
+        case "pad":
+          this.opened(buffers[0] ? { ...content.data, ranges: buffers[0] } : content.data);
+          break;
         case "trail":
           state.trail = pairs(floats(Float32Array, buffers[0]));
           this.changed();
@@ -96,7 +100,8 @@
       while (this.heard - this.rates[0] > 1000) this.rates.shift();
       state.target = [wantedLinear, wantedAngular];
       state.command = [linear, angular];
-      for (const [v, w] of content.messages) state.messages.push({ linear: v, angular: w });
+      for (const [v, w, y = 0, z = 0] of content.messages) state.messages.push({ linear: v, angular: w, aside: [y, z] });
+      [state.keys, state.speed] = [content.keys, content.speed];
       state.messages.splice(0, state.messages.length - 8);
       state.sent = content.sent;
       state.startable = false;
@@ -116,14 +121,31 @@
       }
       const mood = content.blocked ? "blocked" : content.at_rest ? "ready" : "driving";
       const driving = state.pose ? `driving, ${this.rates.length} frames/s` : "driving";
-      this.show(mood, content.blocked ? "something is in the way" : content.at_rest ? "live" : driving);
+      const note = content.blocked ? "something is in the way" : content.at_rest ? "live" : driving;
+      this.show(mood, content.others.length ? `${note}; ${content.others.join(", ")} drives too` : note);
     }
 
     press(key) {
-      const stop = this.data.teleop.keys[key].every((steps) => steps === 0);
+      const stop = this.data.maps.some(({ stops }) => stops.includes(key));
       if (this.over || (this.waiting && !stop)) return; // it would move the robot when nobody expects it any more
       this.begin();
       this.tell({ type: "key", key });
+    }
+
+    steer(linear, angular) {
+      if (this.over || this.waiting) return;
+      this.begin();
+      this.tell({ type: "steer", linear, angular });
+    }
+
+    use({ name }) {
+      this.begin();
+      this.tell({ type: "keys", name });
+    }
+
+    choose(name) {
+      this.begin();
+      this.tell({ type: "choose", name });
     }
 
     begin() {
@@ -161,10 +183,16 @@
   const pairs = (flat) => Array.from({ length: flat.length / 2 }, (_, i) => [flat[2 * i], flat[2 * i + 1]]);
 
   function render({ model, el }) {
-    const data = model.get("data");
-    const kernel = new Kernel(model, data);
-    const page = new Page(el, data, kernel);
-    page.section.kernel = kernel; // for those who measure
+    let page;
+    const open = (data) => {
+      page?.close();
+      const kernel = new Kernel(model, data);
+      kernel.opened = open;
+      page = new Page(el, data, kernel);
+      page.section.kernel = kernel; // for those who measure
+      if (data !== model.get("data")) page.stage.focus({ preventScroll: true });
+    };
+    open(model.get("data"));
     return () => page.close();
   }
 

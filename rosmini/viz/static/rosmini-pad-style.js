@@ -79,12 +79,12 @@ globalThis.rosminiPadStyle = `
   grid-template-columns: auto minmax(150px, 1fr) minmax(0, 1.35fr);
 }
 .rp-keys { align-content: center; display: grid; gap: 6px; grid-template: repeat(3, 54px) / repeat(3, 54px); padding: 12px 16px; }
-.rp-gauges { align-content: center; display: grid; gap: 16px; padding: 12px 16px 12px 0; }
-.rp-key-w { grid-area: 1 / 2; }
-.rp-key-a { grid-area: 2 / 1; }
-.rp-key-s { grid-area: 2 / 2; }
-.rp-key-d { grid-area: 2 / 3; }
-.rp-key-x { grid-area: 3 / 2; }
+.rp-options { border-top: 1px solid var(--rp-edge); display: flex; flex-wrap: wrap; font-size: 12.5px; gap: 4px 24px; padding: 8px 16px 0; }
+.rp-options label { align-items: center; cursor: pointer; display: flex; gap: 6px; min-height: 26px; }
+.rosmini-pad select { background: var(--rosmini-page); border: 1px solid var(--rp-edge); border-radius: 6px; color: var(--rosmini-ink); font: inherit; max-width: 100%; min-height: 26px; min-width: 0; }
+.rosmini-pad input { accent-color: var(--rosmini-blue); margin: 0; }
+.rosmini-pad select:focus-visible, .rosmini-pad input:focus-visible { box-shadow: 0 0 0 3px var(--rosmini-blue); outline: 2px solid transparent; }
+.rp-gauges { align-content: center; display: grid; gap: 10px; padding: 12px 16px 12px 0; }
 .rosmini-pad button {
   appearance: none;
   background: var(--rosmini-page);
@@ -111,11 +111,11 @@ globalThis.rosminiPadStyle = `
 }
 .rp-arrow { color: var(--rosmini-blue); font-size: 19px; font-weight: 700; line-height: 1; }
 .rosmini-pad .rp-key kbd { background: none; border: 0; color: var(--rosmini-muted); padding: 0; }
-.rosmini-pad button.rp-key-s .rp-arrow { color: var(--rosmini-vermilion); font-size: 15px; line-height: 19px; }
+.rosmini-pad button.rp-stop .rp-arrow { color: var(--rosmini-vermilion); font-size: 15px; line-height: 19px; }
 .rosmini-pad button:hover { border-color: var(--rosmini-blue); }
 .rosmini-pad button:focus-visible { box-shadow: 0 0 0 3px var(--rosmini-blue); outline: 2px solid transparent; }
 .rosmini-pad button.rp-down { background: var(--rosmini-blue); border-color: var(--rosmini-blue); border-bottom-width: 1px; padding-top: 2px; }
-.rosmini-pad button.rp-key-s.rp-down { background: var(--rosmini-vermilion); border-color: var(--rosmini-vermilion); }
+.rosmini-pad button.rp-stop.rp-down { background: var(--rosmini-vermilion); border-color: var(--rosmini-vermilion); }
 .rosmini-pad button.rp-down .rp-arrow, .rosmini-pad button.rp-down kbd { color: var(--rosmini-page); }
 .rp-meters { display: grid; gap: 10px; }
 .rp-meter { display: grid; grid-template-columns: auto 1fr; }
@@ -156,7 +156,7 @@ globalThis.rosminiPadStyle = `
   padding: 0;
 }
 .rosmini-pad .rp-log pre:last-child { color: #ffffff; }
-.rosmini-pad .rp-help { border-top: 1px solid var(--rp-edge); color: var(--rosmini-muted); font-size: 12.5px; line-height: 1.75; padding: 8px 16px 10px; }
+.rosmini-pad .rp-help { color: var(--rosmini-muted); font-size: 12.5px; line-height: 1.75; padding: 8px 16px 10px; }
 .rp-help span { margin-right: 14px; white-space: nowrap; }
 .rp-spoken { clip-path: inset(50%); height: 1px; overflow: hidden; position: absolute; white-space: nowrap; width: 1px; }
 @container (max-width: 620px) {
@@ -167,8 +167,7 @@ globalThis.rosminiPadStyle = `
 }
 @container (max-width: 420px) {
   .rp-readings { display: grid; }
-  .rp-hint span { display: none; }
-}
+  }
 @media (hover: none) {
   .rp-hint { display: none; }
 }

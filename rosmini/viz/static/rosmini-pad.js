@@ -1,32 +1,26 @@
 /* The teleoperation pad in a page: keys, buttons, touch; what the robot sees; the messages.
 
-   A plain script that sets `globalThis.rosminiPad`; it needs rosmini-canvas.js, rosmini-teleop.js and
-   rosmini-pad-style.js before it.
+   A plain script that sets `globalThis.rosminiPad`; it needs rosmini-canvas.js, rosmini-teleop.js,
+   rosmini-pad-style.js and rosmini-pad-keys.js before it.
 
      mount(host, data)              a pad that drives by itself, in a page without a kernel
      new Page(host, data, driver)   a pad before another driver: rosmini-pad-kernel.js has one
 
 
-   `data` is what `rosmini.widgets.page` makes: {teleop, topic, title, scene, pose, step, scan_rate}; without a robot
+   `data` is what `rosmini.widgets.page` makes: {maps, keys, hold, topic, title, scene, pose, step, scan_rate}; without a robot
    `scene` and `pose` are null, and only the messages are shown.
 
-   A driver is what stands behind the page: press(key), reset(), close(), and `state`, which the page draws whenever
-   the driver calls `changed()`: {pose, ranges, scanFrom, scene, trail, target, command, messages, sent, mood, note, startable}. */
+   A driver is what stands behind the page: press(key), steer(linear, angular), use(map), choose(name), leave(), reset(), close(), and `state`, which the page draws whenever
+   the driver calls `changed()`: {keys, speed, pose, ranges, scanFrom, scene, trail, target, command, messages, sent, mood, note, startable}. */
 
 (() => {
   "use strict";
 
-  const KEYS = [
-    { key: "w", name: "Forward", arrow: "↑" },
-    { key: "a", name: "Turn left", arrow: "↺" },
-    { key: "s", name: "Stop", arrow: "■" },
-    { key: "d", name: "Turn right", arrow: "↻" },
-    { key: "x", name: "Backward", arrow: "↓" },
-  ];
   const SHOWN = 3; // messages
   const REPEAT_AFTER_MS = 400; // a button that is held repeats, as a key does
   const REPEAT_MS = 100;
   const SPEAK_AFTER_MS = 900; // so long without a key before the status is spoken: a screen reader would fall behind
+  const STEER_MS = 100; // between two messages of a gamepad that says the same
   const TRAIL_STEP = 0.02; // metres
   const TRAIL_JUMP = 0.3; // a longer way between two points was not driven
   const TRAIL_POINTS = 3000;
@@ -34,18 +28,12 @@
   let pads = 0;
 
   const { yaml } = globalThis.rosminiTeleop;
+  const { element, grid, keyOf, buttonOf, instructions, Gamepads } = globalThis.rosminiPadKeys;
   const degrees = (radians) => {
     const turned = ((((radians * 180) / Math.PI + 180) % 360) + 360) % 360 - 180;
     return (turned === -180 ? 180 : turned).toFixed(0).replace(/^-0$/, "0");
   };
   const fixed = (value, digits) => value.toFixed(digits).replace(/^-(0\.0+)$/, "$1");
-
-  function element(tag, attributes = {}, ...children) {
-    const made = document.createElement(tag);
-    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-    made.append(...children);
-    return made;
-  }
 
   /* The way so far, in points that are worth a line. */
   function extend(trail, [x, y]) {
@@ -61,6 +49,7 @@
     constructor(host, data, driver) {
       this.data = data;
       this.driver = driver;
+      this.map = data.maps.find(({ name }) => name === data.keys);
       this.down = new Map(); // buttons that are held, and their timers
       this.spoken = "";
       this.mood = driver.state.mood; // nothing is said of how it begins
@@ -77,30 +66,14 @@
     build(host) {
       const { data } = this;
       const id = `rosmini-pad-${(pads += 1)}`;
-      this.buttons = new Map();
-      const keys = element("div", { class: "rp-keys", role: "group", "aria-label": "Keys" });
-      for (const { key, name, arrow } of KEYS) {
-        const shortcuts = Object.entries(data.teleop.keys)
-          .filter(([, steps]) => String(steps) === String(data.teleop.keys[key]))
-          .map(([other]) => (other === " " ? "Space" : other));
-        const button = element(
-          "button",
-          { type: "button", class: `rp-key rp-key-${key}`, "data-key": key, "aria-label": name, "aria-keyshortcuts": shortcuts.join(" ") },
-          element("span", { class: "rp-arrow", "aria-hidden": "true" }, arrow),
-          element("kbd", { "aria-hidden": "true" }, key),
-        );
-        button.title = `${name} (${key})`;
-        this.buttons.set(key, button);
-        keys.append(button);
-      }
+      ({ keys: this.keys, buttons: this.buttons } = grid(this.map));
       this.meters = ["linear", "angular"].map((name) => this.meter(name));
       this.resetButton = element("button", { type: "button", class: "rp-plain", "data-act": "reset" }, "Back to the start");
       this.startButton = element("button", { type: "button", class: "rp-plain", "data-act": "start" }, "Start");
       this.startButton.hidden = true;
       this.canvas = element("canvas", { role: "img", "aria-label": "The world from above, with the robot, its laser and its way" });
       this.hint = element("div", { class: "rp-hint", "aria-hidden": "true" });
-      const [w, a, s, d, x] = KEYS.map(({ key }) => element("kbd", {}, key));
-      this.hint.append("Click here to drive", element("span", {}, " with ", w, a, s, d, x));
+      this.hint.append("Click here to drive");
       this.pill = element("div", { class: "rp-pill", "aria-hidden": "true" }, element("i"), element("span"));
       this.pose = element("span", { class: "rp-value" });
       this.seen = element("span", { class: "rp-value" });
@@ -113,6 +86,7 @@
       if (data.scene) sight.prepend(this.canvas);
       const actions = element("div", { class: "rp-actions" }, this.startButton);
       if (data.scene) actions.append(this.resetButton);
+      this.speed = element("span", { class: "rp-name" });
       this.log = element("div", { class: "rp-log" });
       this.count = element("em");
       const messages = element( // what is read, not operated: screen readers browse it
@@ -129,15 +103,18 @@
         sight,
         ...(data.scene ? [this.readings] : []),
         element(
-          "div", { class: "rp-side" }, keys,
-          element("div", { class: "rp-gauges" }, element("div", { class: "rp-meters" }, ...this.meters.map((m) => m.box)), actions),
+          "div", { class: "rp-side" }, this.keys,
+          element(
+            "div", { class: "rp-gauges" },
+            element("div", { class: "rp-meters" }, ...this.meters.map((m) => m.box)), this.speed, actions,
+          ),
           messages,
         ),
       );
-      this.help = element("p", { class: "rp-help", id: `${id}-help` }, ...this.instructions());
+      this.help = element("p", { class: "rp-help", id: `${id}-help` }, ...instructions(this.map));
       this.status = element("p", { class: "rp-spoken", role: "status" });
       this.section = element("section", { class: `rosmini-pad${data.scene ? "" : " rp-blind"}`, "aria-label": "Teleoperation pad" });
-      this.section.append(this.stage, this.help, this.status);
+      this.section.append(this.stage, this.options(), this.help, this.status);
       if (!document.getElementById("rosmini-pad-style")) {
         const sheet = element("style", { id: "rosmini-pad-style" }, globalThis.rosminiPadStyle);
         document.head.append(sheet);
@@ -155,20 +132,40 @@
         element("span", { class: "rp-name" }, label), value,
         element("div", { class: "rp-scale", "aria-hidden": "true" }, bar, mark),
       );
-      return { box, value, bar, mark, unit, max: this.data.teleop[name].max };
+      return { box, value, bar, mark, unit, max: this.map[name].max };
     }
 
-    instructions() {
-      const lines = [
-        [["w"], "faster,", ["x"], "slower;"],
-        [["a"], "more to the left,", ["d"], "more to the right;"],
-        [["s"], "or", ["space"], "stop at once;"],
-        ["the arrows do as", ["w"], ["x"], ["a"], ["d"], "do;"],
-        [["Esc"], "leaves the pad, and the robot stops."],
-      ];
-      const line = (parts) =>
-        element("span", {}, ...parts.flatMap((part) => [typeof part === "string" ? part : element("kbd", {}, ...part), " "]));
-      return lines.flatMap((parts) => [line(parts), " "]); // a line may break between them
+    /* What is driven, with whose keys, and whether they have to be held. */
+    options() {
+      const { data } = this;
+      const choice = (label, names, chosen, act) => {
+        const select = element("select", {}, ...names.map((name) => element("option", { value: name }, name)));
+        select.value = chosen;
+        select.addEventListener("change", () => { act(select.value); this.stage.focus({ preventScroll: true }); });
+        return element("label", {}, element("span", { class: "rp-name" }, label), select);
+      };
+      this.hold = element("input", { type: "checkbox" });
+      this.hold.checked = data.hold;
+      this.hold.addEventListener("change", () => this.stage.focus({ preventScroll: true }));
+      const box = element("div", { class: "rp-options" });
+      if ((data.choices ?? []).length > 1) box.append(choice("Drive", data.choices, data.chosen, (name) => this.driver.choose(name)));
+      const keys = choice("Keys of", data.maps.map(({ name }) => name), this.map.name, (name) => {
+        this.driver.use(data.maps.find((map) => map.name === name));
+      });
+      this.chooseKeys = keys.lastChild;
+      box.append(keys, element("label", { title: "A dead man's switch: the robot stops when no key is held" }, this.hold, "hold to drive"));
+      return box;
+    }
+
+    /* Have the buttons and the words of other keys. */
+    use(name) {
+      this.liftAll();
+      this.map = this.data.maps.find((map) => map.name === name);
+      this.chooseKeys.value = name;
+      const { keys, buttons } = grid(this.map);
+      this.keys.replaceWith(keys);
+      [this.keys, this.buttons] = [keys, buttons];
+      this.help.replaceChildren(...instructions(this.map));
     }
 
     // -- keys, buttons, touch -----------------------------------------------------------------------------------------
@@ -176,10 +173,12 @@
     listen() {
       const { stage } = this;
       stage.addEventListener("keydown", (event) => this.keydown(event));
-      stage.addEventListener("keyup", (event) => this.lift(this.keyOf(event)));
+      stage.addEventListener("keyup", (event) => this.lift(keyOf(this.map, event)));
       stage.addEventListener("pointerdown", (event) => this.pointerdown(event));
       stage.addEventListener("contextmenu", (event) => { if (event.target.closest(".rp-key")) event.preventDefault(); });
-      for (const kind of ["pointerup", "pointercancel"]) stage.addEventListener(kind, () => this.liftAll());
+      for (const kind of ["pointerup", "pointercancel"]) stage.addEventListener(kind, () => { this.liftAll(); this.released(); });
+      this.pressed = new Set();
+      this.gamepads = new Gamepads((sticks) => this.steer(sticks));
       stage.addEventListener("click", (event) => {
         const button = event.target.closest("button");
         if (!button) return;
@@ -200,36 +199,44 @@
       this.seenBy.observe(this.stage);
     }
 
-    keyOf(event) {
-      if (event.ctrlKey || event.metaKey || event.altKey) return undefined;
-      // Where the keyboard writes another alphabet, the place of a key counts.
-      const named = event.key.length === 1 && event.key > "~" ? event.code.replace("Key", "") : event.key;
-      const key = named.length === 1 ? named.toLowerCase() : named;
-      return key in this.data.teleop.keys ? key : undefined;
-    }
-
     keydown(event) {
-      const key = this.keyOf(event);
       if (event.key === "Escape") { document.activeElement.blur(); return; }
+      const key = keyOf(this.map, event);
       if (key === undefined) return;
       event.preventDefault(); // the page does not scroll, and space does not press a button
       event.stopPropagation();
       this.press(key);
-      this.buttonOf(key)?.classList.add("rp-down");
-    }
-
-    buttonOf(key) {
-      const steps = String(this.data.teleop.keys[key]);
-      return [...this.buttons].find(([other]) => String(this.data.teleop.keys[other]) === steps)?.[1];
+      this.pressed.add(key);
+      buttonOf(this.map, this.buttons, key)?.classList.add("rp-down");
     }
 
     lift(key) {
-      if (key !== undefined) this.buttonOf(key)?.classList.remove("rp-down");
+      if (!this.pressed.delete(key)) return;
+      buttonOf(this.map, this.buttons, key)?.classList.remove("rp-down");
+      this.released();
+    }
+
+    /* A dead man's switch: with no key held any more the robot stops. */
+    released() {
+      if (this.hold.checked && !this.pressed.size && !this.down.size) this.driver.leave();
+    }
+
+    /* Drive by the sticks of a gamepad, while the pad has the focus; null: its switch was released. */
+    steer(sticks) {
+      if (!sticks) { this.driver.leave(); this.speak(); return; }
+      if (!this.section.classList.contains("rp-held")) return;
+      const now = performance.now();
+      if (String(sticks) === this.sticks && now - this.steered < STEER_MS) return;
+      [this.sticks, this.steered] = [String(sticks), now];
+      const { linear, angular } = this.map;
+      this.driver.steer(sticks[0] * linear.max, sticks[1] * angular.max);
+      this.speak();
     }
 
     liftAll() {
       for (const timer of this.down.values()) clearTimeout(timer);
       this.down.clear();
+      this.pressed.clear();
       for (const button of this.buttons.values()) button.classList.remove("rp-down");
     }
 
@@ -299,6 +306,8 @@
         this.readings.hidden = !state.pose;
         if (state.pose) this.read(state);
       }
+      if (state.keys !== this.map.name) this.use(state.keys);
+      this.speed.textContent = this.map.adds ? "" : `currently: speed ${state.speed[0]}, turn ${state.speed[1]}`;
       this.meters.forEach(({ value, bar, mark, unit, max }, i) => {
         const [sent, wanted] = [state.command[i], state.target[i]];
         const digits = i === 0 ? 2 : 1;
@@ -360,6 +369,7 @@
       this.liftAll();
       clearTimeout(this.speaking);
       this.unwatch();
+      this.gamepads.close();
       this.seenBy.disconnect();
       globalThis.removeEventListener("blur", this.leave);
       globalThis.removeEventListener("pagehide", this.leave);
@@ -386,7 +396,7 @@
       const still = run.atRest;
       this.state = {
         pose, ranges: run.ranges, scanFrom: () => run.scanPose, trail: this.trail,
-        target: run.teleop.target, command: run.teleop.command, messages: run.messages, sent: run.sent,
+        keys: run.map.name, speed: run.teleop.speed, target: run.teleop.target, command: run.teleop.command, messages: run.messages, sent: run.sent,
         mood: blocked ? "blocked" : still ? "ready" : "driving",
         note: blocked ? "something is in the way" : still ? "ready" : "driving",
       };
@@ -398,6 +408,17 @@
       this.go();
     }
 
+    steer(linear, angular) {
+      this.run.steer(linear, angular);
+      this.go();
+    }
+
+    use(map) {
+      this.leave();
+      this.run.use(map);
+      this.update();
+    }
+
     reset() {
       this.run.reset();
       this.trail.length = 0;
@@ -405,7 +426,7 @@
     }
 
     leave() {
-      if (!this.run.teleop.atRest) this.press("s");
+      if (!this.run.teleop.atRest) this.press(" ");
     }
 
     go() {

@@ -4,11 +4,12 @@
    It does what `rosmini.widgets.teleop`, `rosmini.sim` and `rosmini.geometry` do in Python, with the numbers that Python
    hands it; tests compare the two. Metres, radians, seconds; a pose is [x, y, theta].
 
-     new Teleop(table)      keys to velocities: press(key), cycle() -> [linear, angular].
+     new Teleop(table)      keys to velocities: press(key), steer(linear, angular), cycle() -> [linear, angular].
      new Robot(scene, pose) wheels, motion and walls: command(linear, angular), step(seconds), pose, speed, blocked.
      laser(scene, pose)     the ranges of one revolution, Infinity where nothing is hit,
                             -Infinity where it is too close.
-     new Run(data)          all of it on one clock: press(key), advance(seconds), reset(), messages, ranges, time.
+     new Run(data)          all of it on one clock: press(key), steer(linear, angular), use(table), advance(seconds), reset(),
+                            messages, ranges, time.
      yaml(twist)            a geometry_msgs/Twist as `rostopic echo` prints it. */
 
 (() => {
@@ -21,40 +22,76 @@
   class Teleop {
     constructor(table) {
       this.table = table;
+      this.speed = [this.limited(table.linear.step, 0), this.limited(table.angular.step, 1)];
+      this.stop();
+    }
+
+    stop() {
       this.target = [0, 0];
       this.command = [0, 0];
+      this.aside = [0, 0]; // to the left, up
+      this.direction = [0, 0, 0, 0];
+      this.steered = false; // by a gamepad, not by keys
     }
 
     get atRest() {
-      return [...this.target, ...this.command].every((value) => value === 0);
+      return [...this.target, ...this.command, ...this.aside].every((value) => value === 0);
+    }
+
+    get repeats() {
+      return this.table.holds === null || this.steered;
     }
 
     press(key) {
-      const { keys, linear, angular } = this.table;
-      const [ahead, left] = keys[key];
-      if (ahead === 0 && left === 0) {
-        this.target = [0, 0];
-        this.command = [0, 0];
-      } else {
+      const { stops, factors, moves, adds, linear, angular } = this.table;
+      if (stops.includes(key)) this.stop();
+      else if (key in factors) {
+        this.speed = this.speed.map((speed, i) => this.limited(speed * factors[key][i], i));
+        if (!this.steered) this.aim();
+      } else if (adds) {
+        const [ahead, , , left] = moves[key];
         this.target = [
-          this.round(clamp(this.target[0] + ahead * linear.step, linear.max)),
-          this.round(clamp(this.target[1] + left * angular.step, angular.max)),
+          this.limited(this.target[0] + ahead * linear.step, 0), this.limited(this.target[1] + left * angular.step, 1),
         ];
+        this.steered = false;
+      } else {
+        this.direction = moves[key];
+        this.steered = false;
+        this.aim();
       }
       return this.cycle();
     }
 
+    aim() {
+      const [ahead, left, up, turn] = this.direction;
+      const [linear, angular] = this.speed;
+      this.target = [this.round(ahead * linear), this.round(turn * angular)];
+      this.aside = [this.round(left * linear), this.round(up * linear)];
+    }
+
+    steer(linear, angular) {
+      this.steered = true;
+      this.aside = [0, 0];
+      this.direction = [0, 0, 0, 0];
+      this.target = [this.limited(linear, 0), this.limited(angular, 1)];
+      return this.cycle();
+    }
+
     cycle() {
-      const { slope, linear, angular } = this.table;
+      const { linear, angular } = this.table;
       this.command = [
-        this.approach(this.command[0], this.target[0], slope * linear.step),
-        this.approach(this.command[1], this.target[1], slope * angular.step),
+        this.approach(this.command[0], this.target[0], linear.slope ?? Infinity),
+        this.approach(this.command[1], this.target[1], angular.slope ?? Infinity),
       ];
       return this.command;
     }
 
     approach(value, target, slope) {
       return this.round(target > value ? Math.min(target, value + slope) : Math.max(target, value - slope));
+    }
+
+    limited(value, which) {
+      return this.round(clamp(value, this.table[which ? "angular" : "linear"].max));
     }
 
     round(value) {
@@ -257,11 +294,18 @@
       this.robot = data.scene ? new Robot(data.scene, data.pose) : null;
       this.messages = []; // the last few: {linear, angular, time}
       this.sent = 0;
+      this.map = data.maps.find(({ name }) => name === data.keys);
       this.reset();
     }
 
+    use(map) {
+      this.map = map;
+      this.teleop = new Teleop(map);
+      this.nextCycle = Infinity;
+    }
+
     reset() {
-      this.teleop = new Teleop(this.data.teleop);
+      this.teleop = new Teleop(this.map);
       this.robot?.reset();
       this.steps = 0;
       this.rest = 0;
@@ -284,12 +328,17 @@
       this.send(this.teleop.press(key));
     }
 
+    steer(linear, angular) {
+      this.send(this.teleop.steer(linear, angular));
+    }
+
     send([linear, angular]) {
       this.robot?.command(linear, angular);
-      this.messages.push({ linear, angular, time: this.time });
+      this.messages.push({ linear, angular, aside: this.teleop.aside, time: this.time });
       if (this.messages.length > 8) this.messages.shift();
       this.sent += 1;
-      this.nextCycle = this.teleop.atRest ? Infinity : this.steps + Math.round(this.data.teleop.period / this.data.step);
+      const { teleop, map } = this;
+      this.nextCycle = teleop.atRest ? Infinity : this.steps + Math.round((teleop.repeats ? map.period : map.holds) / this.data.step);
     }
 
     scan() {
@@ -299,20 +348,26 @@
       this.nextScan = this.steps + Math.round(1 / this.data.scan_rate / this.data.step);
     }
 
+    cycle() {
+      if (this.teleop.repeats) { this.send(this.teleop.cycle()); return; }
+      this.teleop.stop(); // what is driven has forgotten the message by now
+      this.nextCycle = Infinity;
+    }
+
     advance(seconds) {
       for (this.rest += seconds; this.rest >= this.data.step - 1e-9; this.rest -= this.data.step) {
         this.robot?.step(this.data.step);
         this.steps += 1;
-        if (this.steps >= this.nextCycle) this.send(this.teleop.cycle());
+        if (this.steps >= this.nextCycle) this.cycle();
         if (this.steps >= this.nextScan) this.scan();
       }
     }
   }
 
-  function yaml({ linear, angular }) {
+  function yaml({ linear, angular, aside: [y, z] = [0, 0] }) {
     const number = (value) => (Number.isInteger(value) ? value.toFixed(1) : String(value));
-    const vector = (name, x, z) => `${name}: \n  x: ${number(x)}\n  y: 0.0\n  z: ${number(z)}`;
-    return `${vector("linear", linear, 0)}\n${vector("angular", 0, angular)}\n---`;
+    const vector = (name, ...parts) => `${name}: \n${["x", "y", "z"].map((axis, i) => `  ${axis}: ${number(parts[i])}`).join("\n")}`;
+    return `${vector("linear", linear, y, z)}\n${vector("angular", 0, 0, angular)}\n---`;
   }
 
   globalThis.rosminiTeleop = { Teleop, Robot, Run, laser, touches, yaml };

@@ -56,9 +56,10 @@ def test_a_page_holds_few_moving_pictures(chapter):
 def test_the_table_of_keys_is_that_of_the_pad(prose):
     from rosmini.widgets import teleop
 
-    assert f"| `w`, `x` | {teleop.LINEAR_STEP} m/s more ahead, or more back |" in prose
-    assert f"| `a`, `d` | {teleop.ANGULAR_STEP} rad/s more to the left, or to the right |" in prose
-    assert f"of {teleop.SLOPE * teleop.LINEAR_STEP} m/s at most" in prose
+    keys = teleop.key_map()
+    assert f"| `w`, `x` | {keys.linear} m/s more ahead, or more back |" in prose
+    assert f"| `a`, `d` | {keys.angular} rad/s more to the left, or to the right |" in prose
+    assert f"of {teleop.SLOPE * keys.linear} m/s at most" in prose
     assert f"and every {teleop.PERIOD} s while no key comes" in prose
     limits = teleop.Limits()
     assert f"{limits.linear} m/s and {limits.angular} rad/s" in prose
