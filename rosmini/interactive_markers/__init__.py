@@ -6,12 +6,14 @@ style, :mod:`rosmini.rospy.aliases.interactive_markers`.
 
 from __future__ import annotations
 
+from .client import InteractiveMarkerClient
 from .completion import auto_complete, title_control
 from .errors import InteractiveMarkerException
 from .menu_handler import MenuHandler
 from .server import InteractiveMarkerServer
 
 __all__ = [
+    "InteractiveMarkerClient",
     "InteractiveMarkerException",
     "InteractiveMarkerServer",
     "MenuHandler",

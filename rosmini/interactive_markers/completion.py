@@ -33,12 +33,13 @@ _RINGS = (
 )
 
 
-def auto_complete(marker: Any) -> None:
+def auto_complete(marker: Any, *, transparent: bool = True) -> None:
     """Fill in what a ``visualization_msgs/InteractiveMarker`` leaves out, in place, as RViz does before it draws it.
 
     A scale of 0 becomes 1 m; a quaternion of zeros becomes no rotation, others get length 1; controls without markers
     get the handles of their interaction mode; sizes of 0 become 1 m; controls of one name get names of their own. A
-    marker without controls is left alone: it shows nothing.
+    marker without controls is left alone: it shows nothing. Handles are half transparent, or, without ``transparent``,
+    opaque.
     """
     if not marker.controls:
         return
@@ -46,7 +47,7 @@ def auto_complete(marker: Any) -> None:
     marker.pose.orientation = _orientation(marker.pose.orientation)
     numbers = itertools.count()
     for control in marker.controls:
-        _complete_control(marker, control, numbers)
+        _complete_control(marker, control, numbers, 0.5 if transparent else 1.0)
     names: set[str] = set()
     suffixes = itertools.count()
     for control in marker.controls:
@@ -68,14 +69,14 @@ def title_control(marker: Any) -> Any:
     return control
 
 
-def _complete_control(marker: Any, control: Any, numbers: itertools.count[int]) -> None:
+def _complete_control(marker: Any, control: Any, numbers: itertools.count[int], alpha: float = 1.0) -> None:
     mode = control.interaction_mode
     control.orientation = _orientation(control.orientation, normalise=False)
     if not control.markers:
         if mode == InteractiveMarkerControl.MOVE_AXIS:
-            control.markers = [_arrow(marker.scale, control, 1.0), _arrow(marker.scale, control, -1.0)]
+            control.markers = [_arrow(marker.scale, control, alpha, sign) for sign in (1.0, -1.0)]
         elif mode in _RINGS:
-            control.markers = [_ring(marker.scale, control)]
+            control.markers = [_ring(marker.scale, control, alpha)]
         elif mode == InteractiveMarkerControl.MENU:
             control.orientation_mode = InteractiveMarkerControl.VIEW_FACING
             control.independent_marker_orientation = False
@@ -95,25 +96,25 @@ def _orientation(quaternion: Any, *, normalise: bool = True) -> Any:
     return Quaternion(*(value / length for value in values)) if normalise else quaternion
 
 
-def _color(control: Any) -> Any:
-    """Return the colour by the axis: x is red, y green, z blue; half transparent."""
-    q = control.orientation
+def _color(control: Any, alpha: float) -> Any:
+    """Return the colour by the axis: x is red, y green, z blue."""
+    q = _orientation(control.orientation)
     axis = [abs(float(value)) for value in rotate(rigid((0, 0, 0), (q.x, q.y, q.z, q.w)), (1.0, 0.0, 0.0))]
     longest = max(axis)
-    return ColorRGBA(*(value / longest for value in axis), 0.5)
+    return ColorRGBA(*(value / longest for value in axis), alpha)
 
 
-def _arrow(scale: float, control: Any, direction: float) -> Any:
-    arrow = Marker(type=Marker.ARROW, color=_color(control))
+def _arrow(scale: float, control: Any, alpha: float, direction: float) -> Any:
+    arrow = Marker(type=Marker.ARROW, color=_color(control, alpha))
     arrow.pose.orientation = control.orientation
     arrow.scale = Vector3(0.15 * scale, 0.25 * scale, 0.2 * scale)
     arrow.points = [Point(direction * scale * at, 0.0, 0.0) for at in (0.5, 0.9)]
     return arrow
 
 
-def _ring(scale: float, control: Any) -> Any:
+def _ring(scale: float, control: Any, alpha: float) -> Any:
     """Return a ring around the x axis: plain to move, striped to turn, toothed for both."""
-    base = _color(control)
+    base = _color(control, alpha)
     ring = Marker(type=Marker.TRIANGLE_LIST, color=base, scale=Vector3(scale, scale, scale))
     ring.pose.orientation = control.orientation
     angles = [math.tau * step / _STEPS for step in range(_STEPS)]

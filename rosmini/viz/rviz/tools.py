@@ -26,6 +26,7 @@ from rosmini.time import Time
 from rosmini.viz.view import ViewError
 
 from .config import Config, kind_of
+from .displays.interactive_markers import InteractiveMarkers
 from .primitives import DisplayError, Floats, Lines, Primitive, finite
 from .properties import Properties, Property
 from .shapes import arrow
@@ -313,6 +314,25 @@ class Interact(Tool, plugin="rviz/Interact"):
     properties = (
         Property("Hide Inactive Objects", True, "show the controls of markers only with this tool"),
     )
+    _marker: InteractiveMarkers | None = None
+
+    def press(self, at: Floats) -> str:
+        """Take hold of the control that is there."""
+        for display in self.scene:
+            found = display.under(at, self.scene.context) if isinstance(display, InteractiveMarkers) else None
+            if found is not None:
+                self._marker = display
+                return str(display.press(*found, at))
+        return self.hint
+
+    def move(self, at: Floats) -> str:
+        """Drag it."""
+        return self.hint if self._marker is None else str(self._marker.move(at))
+
+    def release(self, at: Floats) -> str:
+        """Let go of it."""
+        held, self._marker = self._marker, None
+        return self.hint if held is None else str(held.release(at))
 
 
 class MoveCamera(Tool, plugin="rviz/MoveCamera"):

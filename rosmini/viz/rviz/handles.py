@@ -1,0 +1,219 @@
+"""Interactive markers as they are seen and taken hold of: where their controls are, and how they follow a hand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from rosmini.interactive_markers import auto_complete, title_control
+from rosmini.msgs import message_class
+from rosmini.tf.rigid import matrix, rigid
+from rosmini.tf.transformations import quaternion_from_matrix
+
+from .context import Context
+from .display import Level
+from .marker_checks import Marker, check
+from .marker_shapes import marker_primitives
+from .primitives import DisplayError, Floats, Mesh, Primitive
+from .shapes import axes
+from .topic_display import Heard
+
+Control = message_class("visualization_msgs/InteractiveMarkerControl")
+
+FACING_UP = np.array([[0.0, -1, 0, 0], [0, 0, -1, 0], [1, 0, 0, 0], [0, 0, 0, 1]])
+"""The orientation of a control that faces the viewer, who looks down: x up, z along the fixed frame's y."""
+_EDGE = 0.05
+"""How far outside of a face a hand may be, as a share of the face."""
+
+
+class Handle:
+    """An interactive marker of a display: the message, completed, and where it is in its frame.
+
+    Raises `DisplayError` for a pose that is no pose.
+    """
+
+    def __init__(self, message: Any, arrived_ns: int, *, transparent: bool = True) -> None:
+        auto_complete(message, transparent=transparent)
+        self.message = message
+        self.heard = Heard(message, arrived_ns)
+        self.pose: Floats = matrix(self.heard.local(message.pose))
+        """The marker's pose (4, 4) in its frame."""
+        self.is_locked = self.heard.stamp_ns == 0
+        """Whether it goes with its frame."""
+        self.is_placed = False
+        """Whether its frame is known."""
+
+    @property
+    def frame(self) -> Floats:
+        """Where the marker's frame is (4, 4) in the fixed one."""
+        return matrix(self.heard.place)
+
+    def control(self, name: str) -> Any:
+        """The control of a name; the first that does something for an empty name. Raises `DisplayError`."""
+        for control in self.message.controls:
+            if control.name == name or (not name and control.interaction_mode != Control.NONE):
+                return control
+        names = ", ".join(repr(control.name) for control in self.message.controls)
+        raise DisplayError(
+            f"the marker {self.message.name!r} has no control {name!r:.60}; it has {names or 'none'}"
+        )
+
+    def control_frame(self, control: Any) -> Floats:
+        """The frame (4, 4) of a control in that of the marker's header."""
+        found: Floats = self.pose.copy()
+        if control.orientation_mode == Control.FIXED:
+            found[:3, :3] = np.eye(3)
+        elif control.orientation_mode == Control.VIEW_FACING:
+            found[:3, :3] = self.frame[:3, :3].T @ FACING_UP[:3, :3]
+        return found
+
+    def axis(self, control: Any) -> Floats:
+        """The direction (3,) of a control's x axis in the frame of the marker's header."""
+        q = control.orientation
+        turned: Floats = matrix(rigid((0, 0, 0), (q.x, q.y, q.z, q.w)))[:3, 0]
+        found: Floats = self.control_frame(control)[:3, :3] @ turned
+        return found
+
+    # -- seen ----------------------------------------------------------------------------------------------------
+
+    def shapes(self, control: Any, context: Context) -> Iterator[Primitive]:
+        """What a control looks like; markers in it that are wrong are left out, and noted. Raises `DisplayError`."""
+        placed = self.frame @ self.control_frame(control)
+        faces = control.orientation_mode == Control.VIEW_FACING
+        for shape in control.markers:
+            level, text = check(shape)
+            if level is Level.ERROR:
+                self.heard.note(f"{control.name or 'a control'}: {text}")
+                continue
+            base = placed
+            if shape.header.frame_id:
+                base = matrix(context.place(shape.header.frame_id))
+            elif faces and control.independent_marker_orientation:
+                base = self.frame @ self.pose
+            elif faces and shape.type == Marker.TEXT_VIEW_FACING:
+                base = self.frame @ self._upright()
+            yield from marker_primitives(shape, base @ matrix(self.heard.local(shape.pose)))
+
+    def _upright(self) -> Floats:
+        found: Floats = np.eye(4)
+        found[:3, 3] = self.pose[:3, 3]
+        return found
+
+    def title(self) -> Iterator[Primitive]:
+        """The marker's description, above it."""
+        if self.message.description.strip():
+            (text,) = title_control(self.message).markers
+            yield from marker_primitives(
+                text, self.frame @ self._upright() @ matrix(self.heard.local(text.pose))
+            )
+
+    def axes(self) -> Iterator[Primitive]:
+        """The axes of the marker."""
+        size = abs(self.message.scale)
+        yield from axes(self.frame @ self.pose, size, 0.05 * size)
+
+    def under(self, at: Floats, context: Context) -> list[tuple[float, Any]]:
+        """The controls that a hand at a point (3,) of the fixed frame, from above, is on: their heights, and they."""
+        found = []
+        for control in self.message.controls:
+            if control.interaction_mode == Control.NONE:
+                continue
+            heights = [
+                height
+                for shape in self.shapes(control, context)
+                if isinstance(shape, Mesh)
+                for height in _heights(shape, at)
+            ]
+            if heights:
+                found.append((max(heights), control))
+        return found
+
+
+class Grip:
+    """A hand on a control: from the point (3,) of the fixed frame where it was pressed, it moves the marker."""
+
+    def __init__(self, handle: Handle, control: Any, at: Floats) -> None:
+        self.handle = handle
+        self.control = control
+        self._start = handle.pose.copy()
+        self._grab = self._local(at)
+        self._axis = handle.axis(control)
+        self._last = self._grab
+
+    def _local(self, at: Floats) -> Floats:
+        found: Floats = np.linalg.inv(self.handle.frame)[:3] @ np.append(at, 1.0)
+        return found
+
+    def move(self, at: Floats) -> bool:
+        """Follow the hand to a point (3,) of the fixed frame, as the control's mode says; return whether it moved.
+
+        As RViz moves markers by a cursor in space: along the axis, in the plane across it, around it, or both.
+        """
+        mode, to, pose = self.control.interaction_mode, self._local(at), self._start.copy()
+        shift = to - self._grab
+        if mode == Control.MOVE_AXIS:
+            pose[:3, 3] += shift @ self._axis * self._axis
+        elif mode == Control.MOVE_PLANE:
+            pose[:3, 3] += shift - shift @ self._axis * self._axis
+        elif mode in (Control.MOVE_3D, Control.MOVE_ROTATE_3D):
+            pose[:3, 3] += shift
+        elif mode == Control.ROTATE_AXIS:
+            pose[:3, :3] = self._turn(self._start[:3, 3], self._grab, to) @ self._start[:3, :3]
+        elif mode == Control.MOVE_ROTATE:
+            pose = self._towed(to)
+        else:
+            return False
+        moved = not np.allclose(pose, self.handle.pose, rtol=0, atol=1e-12)
+        self.handle.pose = pose
+        return moved
+
+    def _turn(self, centre: Floats, start: Floats, end: Floats) -> Floats:
+        """The rotation (3, 3) about the axis through `centre` that takes `start` towards `end`."""
+        first, second = (self._across(each - centre) for each in (start, end))
+        if min(np.linalg.norm(first), np.linalg.norm(second)) < 1e-9:
+            return np.eye(3)
+        angle = math.atan2(float(np.cross(first, second) @ self._axis), float(first @ second))
+        half = math.sin(angle / 2)
+        found: Floats = matrix(rigid((0, 0, 0), (*(self._axis * half), math.cos(angle / 2))))[:3, :3]
+        return found
+
+    def _across(self, vector: Floats) -> Floats:
+        found: Floats = vector - vector @ self._axis * self._axis
+        return found
+
+    def _towed(self, to: Floats) -> Floats:
+        """Turn the point that is held towards the hand, and then move it there."""
+        pose = self.handle.pose.copy()
+        centre = pose[:3, 3].copy()
+        turn = self._turn(centre, self._last, to)
+        pose[:3, :3] = turn @ pose[:3, :3]
+        pose[:3, 3] += self._across(to - centre - turn @ (self._last - centre))
+        self._last = to
+        return pose
+
+
+def pose_message(pose: Floats) -> Any:
+    """A transform (4, 4) as a `geometry_msgs/Pose`."""
+    made = message_class("geometry_msgs/Pose")()
+    at, turned = made.position, made.orientation
+    at.x, at.y, at.z = (float(each) for each in pose[:3, 3])
+    turned.x, turned.y, turned.z, turned.w = (float(each) for each in quaternion_from_matrix(pose))
+    return made
+
+
+def _heights(mesh: Mesh, at: Floats) -> list[float]:
+    """How high the faces are at a point, seen from above."""
+    triangles = mesh.placed[mesh.faces]
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    u, v, w = b[:, :2] - a[:, :2], c[:, :2] - a[:, :2], at[:2] - a[:, :2]
+    area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    flat = np.abs(area) > 1e-12
+    safe = np.where(flat, area, 1.0)
+    s = (w[:, 0] * v[:, 1] - w[:, 1] * v[:, 0]) / safe
+    t = (u[:, 0] * w[:, 1] - u[:, 1] * w[:, 0]) / safe
+    inside = flat & (s >= -_EDGE) & (t >= -_EDGE) & (s + t <= 1 + _EDGE)
+    heights = a[:, 2] + s * (b[:, 2] - a[:, 2]) + t * (c[:, 2] - a[:, 2])
+    return [float(each) for each in heights[inside]]
