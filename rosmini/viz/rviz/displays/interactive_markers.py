@@ -215,10 +215,7 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         self._say(Feedback.MOUSE_UP, handle, control, at)
         if control.interaction_mode == Control.MENU:
             return "; ".join(_titles(handle.message.menu_entries).values())
-        x, y, z = handle.pose[:3, 3]
-        return (
-            f"{handle.message.name}: {x:.3g}, {y:.3g}, {z:.3g} in {handle.heard.frame or 'the fixed frame'}"
-        )
+        return _where(handle)
 
     def drag(
         self, marker: str, to: Sequence[float], control: str = "", start: Sequence[float] | None = None
