@@ -58,15 +58,16 @@ class Script:
     source: str
 
     @property
-    def has_gaps(self) -> bool:
-        """Whether it still has a bare `...` where the reader is to write; false for what is not Python."""
+    def gaps(self) -> list[int]:
+        """The lines with a bare `...`, where the reader is to write; none in what is not Python."""
         try:
             tree = ast.parse(self.source)
         except SyntaxError:
-            return False
-        return any(
-            isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and node.value.value is ...
+            return []
+        return sorted(
+            node.lineno
             for node in ast.walk(tree)
+            if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and node.value.value is ...
         )
 
 
@@ -92,16 +93,20 @@ class Exercise:
     """One exercise: its number ("11.2"), what is said about a right answer, and the function that examines one.
 
     `examine(answer)` raises `Wrong` (most simply through `expect`) or returns what shows the answer at work, or None.
+    `gaps` is how many bare `...` its stub has, if that is a script.
     """
 
     number: str
     praise: str
     examine: Callable[[Any], Any]
+    gaps: int = 1
 
     def grade(self, answer: Any) -> Verdict:
         """Examine `answer`. An exception out of the reader's code is a wrong answer, not an error of the check."""
-        if is_stub(answer):
+        if is_stub(answer, self.gaps):
             return self._verdict(Status.NOT_ATTEMPTED)
+        if left := gap_left(answer):
+            return self._verdict(Status.WRONG, f"There is still a `...` {left}.")
         try:
             view = self.examine(answer)
         except Wrong as wrong:
@@ -116,9 +121,9 @@ class Exercise:
         return Verdict(status, f"{text} {more}" if more else text, view)
 
 
-def exercise(number: str, *, praise: str) -> Callable[[Callable[[Any], Any]], Exercise]:
+def exercise(number: str, *, praise: str, gaps: int = 1) -> Callable[[Callable[[Any], Any]], Exercise]:
     """Make an `Exercise` of the decorated function, which examines an answer."""
-    return lambda examine: Exercise(number, praise, examine)
+    return lambda examine: Exercise(number, praise, examine, gaps)
 
 
 def expect(condition: object, message: str, hint: str = "") -> None:
@@ -220,22 +225,37 @@ def exercises_of(chapter: str) -> Iterator[Exercise]:
         )
 
 
-def is_stub(answer: Any) -> bool:
-    """Whether the reader has not begun: `...`, what holds `...`, or a function, class or script that does nothing."""
+def is_stub(answer: Any, gaps: int = 1) -> bool:
+    """Whether the reader has not begun: `...`, what holds nothing else, or a function or class that does nothing.
+
+    A script is a stub as long as it has as many bare `...` as at first, which is `gaps`.
+    """
     if answer is ...:
         return True
     if isinstance(answer, Script):
-        return answer.has_gaps
+        return len(answer.gaps) >= gaps
     if isinstance(answer, dict):
-        return any(is_stub(value) for value in answer.values())
+        return bool(answer) and all(is_stub(value) for value in answer.values())
     if isinstance(answer, list | tuple):
-        return any(is_stub(value) for value in answer)
+        return bool(answer) and all(is_stub(value) for value in answer)
     if isinstance(answer, types.FunctionType):
         return _does_nothing(answer)
     if isinstance(answer, type):
         methods = [value for value in vars(answer).values() if isinstance(value, types.FunctionType)]
         return bool(methods) and all(_does_nothing(method) for method in methods)
     return False
+
+
+def gap_left(answer: Any) -> str:
+    """Where in an answer that is not complete there is still a `...`: "in line 9"; empty if there is none."""
+    if isinstance(answer, Script) and answer.gaps:
+        return f"in line {answer.gaps[0]}"
+    if isinstance(answer, dict):
+        return next((f"for {key!r}" for key, value in answer.items() if is_stub(value)), "")
+    if isinstance(answer, list | tuple):
+        places = (number for number, value in enumerate(answer, start=1) if is_stub(value))
+        return next((f"in place {number} of {len(answer)}" for number in places), "")
+    return ""
 
 
 def _bare() -> None: ...

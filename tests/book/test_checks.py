@@ -11,7 +11,17 @@ import pytest
 
 import rosmini.book.exercises
 from rosmini.book import checks
-from rosmini.book.checks import NoAnswer, Status, UnknownExercise, check, exercise, expect, is_stub
+from rosmini.book.checks import (
+    Exercise,
+    NoAnswer,
+    Script,
+    Status,
+    UnknownExercise,
+    check,
+    exercise,
+    expect,
+    is_stub,
+)
 
 
 @exercise("98.1", praise="Six wheels it is.")
@@ -49,12 +59,26 @@ def passing_stub():
 
 
 @pytest.mark.parametrize(
-    "stub", [..., [1, ...], (..., 2), {"a": ...}, method_stub, documented_stub, passing_stub, StubNode]
+    "stub", [..., [..., ...], (...,), {"a": ...}, method_stub, documented_stub, passing_stub, StubNode]
 )
 def test_a_stub_is_not_attempted(stub):
     assert is_stub(stub)
     verdict = wheels.grade(stub)
     assert (verdict.status, verdict.text) == (Status.NOT_ATTEMPTED, "Exercise 98.1: not attempted yet.")
+
+
+@pytest.mark.parametrize(
+    ("answer", "where"),
+    [
+        ([1, ...], "in place 2 of 2"),
+        ((..., 2), "in place 1 of 2"),
+        ({"a": 1, "b": ...}, "for 'b'"),
+        (Script("stop.py", "def on_scan(scan):\n    return\n...\n"), "in line 3"),
+    ],
+)
+def test_of_an_answer_that_is_not_complete_it_says_where(answer, where):
+    verdict = Exercise("98.1", "Good.", lambda _: None, gaps=2).grade(answer)
+    assert verdict.text == f"Exercise 98.1: not right yet. There is still a `...` {where}."
 
 
 @pytest.mark.parametrize(

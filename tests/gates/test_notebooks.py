@@ -10,6 +10,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from book.tools import notebooks, solutions
+from rosmini.book.checks import Script, find
 
 from ..processes import run
 
@@ -39,6 +40,16 @@ def test_a_chapter_has_three_exercises_at_least(chapter):
     for number in numbers:
         stored = solutions.check_output(notebook, number)
         assert stored == f"Exercise {number}: not attempted yet.\n"
+
+
+@chapters
+def test_the_checks_know_how_many_gaps_a_script_has(chapter):
+    notebook = notebooks.read(chapter)
+    for number, place in solutions.stubs(notebook).items():
+        source = notebook.cells[place].source
+        if source.startswith("%%node "):
+            script = Script("stub.py", source.partition("\n")[2])
+            assert (number, find(number).gaps) == (number, len(script.gaps))
 
 
 @chapters

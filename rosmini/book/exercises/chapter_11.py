@@ -84,7 +84,7 @@ def _stops_from(answer: Script, start: float) -> Any:
 WISHES = ((0.2, 0.0), (0.1, 1.0), (-0.08, -0.6), (0.0, 0.0))
 
 
-@exercise("11.2", praise="Neither the driver nor the robot knows that your node is between them.")
+@exercise("11.2", praise="Neither the driver nor the robot knows that your node is between them.", gaps=2)
 def gentle(answer: Script) -> Any:
     """What comes on /wish goes to /cmd_vel at half the speed."""
     got: list[tuple[float, float]] = []

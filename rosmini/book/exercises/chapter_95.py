@@ -36,7 +36,7 @@ def greet(answer: Script) -> None:
 # ---- 95.2: a watchdog ----
 
 
-@exercise("95.2", praise="It barks when the laser falls silent, and only then.")
+@exercise("95.2", praise="It barks when the laser falls silent, and only then.", gaps=2)
 def watchdog(answer: Script) -> None:
     """True on /alarm while no scan has come for a second, and False while they come."""
     got: list[bool] = []

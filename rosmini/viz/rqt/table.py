@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
 from rosmini.viz.style import themed, variable
@@ -79,7 +80,9 @@ class Table(View):
 def _cell(cell: str) -> str:
     depth = len(cell) - len(cell.lstrip(" "))
     style = f"padding-left:{0.4 + 0.6 * depth:.1f}em" if depth else None
-    return element("td", escape(cell.strip()), style=style)
+    # A narrow page breaks the long names of ROS where their words end.
+    text = re.sub(r"(?<=\w)([/_])(?=\w)", r"\1<wbr>", escape(cell.strip()))
+    return element("td", text, style=style)
 
 
 def heading(titles: Iterable[str]) -> str:
@@ -123,10 +126,9 @@ CSS = (
         color="inherit",
     )
     + _rules("th", background=variable("group-fill"), font_weight="600")
-    + _rules("td", white_space="nowrap")
     + _rules("td.message", white_space="pre-wrap", min_width="11em", max_width="44em")
     + _rules("td.stamp", font_variant_numeric="tabular-nums")
-    + _rules("td.location", color=variable("muted"))
+    + _rules("td.location", color=variable("muted"), white_space="nowrap")
     + _rules("tr.marked td", background=variable("topic-fill"))
     + _rules("td.FATAL", font_weight="700")
     + "".join(_rules(f"td.{name}", color=variable(ink)) for name, ink in INKS.items())

@@ -20,6 +20,12 @@ def test_three_forms() -> None:
     assert len(table) == 3
 
 
+def test_a_narrow_page_may_break_long_names() -> None:
+    table = Table(("Type",), [("sensor_msgs/Imu",)], title="types", noun="type")
+    assert "<td>sensor_<wbr>msgs/<wbr>Imu</td>" in table.html
+    assert "sensor_msgs/Imu" in table.text
+
+
 def test_a_table_without_rows_says_so() -> None:
     table = Table(("Name",), [], title="things", noun="thing")
     assert table.text == "things: 0 things"
