@@ -12,12 +12,13 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from rosmini.geometry.slices import convex_hull
-from rosmini.viz.metrics import text_width
 from rosmini.viz.rounding import snap
+from rosmini.viz.style import LABEL_SIZE, variable
 from rosmini.viz.svg import document, element, escape
 
 from .gifs import gif
-from .primitives import Floats, Ints, Lines, Mesh, Points, Primitive, Text, Texture
+from .labels import placed
+from .primitives import Floats, Ints, Lines, Mesh, Pane, Points, Primitive, Text, Texture
 from .projection import Projection
 from .properties import Colour
 
@@ -30,15 +31,23 @@ MANY_FACES = 80
 """A mesh with more faces is drawn as its outline from this side."""
 MOST_FACES = 1500
 """Faces of one mesh in a picture; smaller ones are dots."""
-SMALLEST_TEXT, LARGEST_TEXT = 10.0, 28.0
-MOST_WORDS = 300
+GAP, HIGHEST_PANE = 12.0, 300.0
+"""Between panes, and of their pictures [px]."""
 LEVELS = 32
 """Steps of each colour channel."""
 SUN = np.array([0.25, -0.42, 0.87])
 
 
-def draw(shown: Sequence[Primitive], look: Projection, background: Colour, *, title: str, alt: str) -> str:
-    """Primitives as an SVG: textures first, the rest from far to near, words last."""
+def draw(
+    shown: Sequence[Primitive],
+    look: Projection,
+    background: Colour,
+    *,
+    title: str,
+    alt: str,
+    panes: Sequence[Pane] = (),
+) -> str:
+    """Primitives as an SVG: textures first, the rest from far to near, words last; panes in rows below."""
     behind = [each for each in shown if isinstance(each, Texture) and each.behind]
     maps = [each for each in shown if isinstance(each, Texture) and not each.behind]
     words = [each for each in shown if isinstance(each, Text)]
@@ -50,11 +59,51 @@ def draw(shown: Sequence[Primitive], look: Projection, background: Colour, *, ti
     parts = [element("rect", width=width, height=height, fill=_hex(background.rgba()), rx=4.0)]
     for each in (*behind, *maps, *rest):
         parts += _drawn(each, look)
-    parts += _words(words, look, background)
+    ink = _hex(background.rgba())
+    parts += [
+        element(
+            "text", escape(each.said), x=each.x, y=each.base, font_size=each.size, text_anchor="middle",
+            fill=_hex(each.text.colour), opacity=_opacity(each.text.colour[3]), stroke=ink, stroke_width=2.5,
+            paint_order="stroke",
+        )
+        for each in placed(words, look)
+    ]  # fmt: skip
     body = element(
         "svg", "".join(parts), width=width, height=height, overflow="hidden", stroke_linejoin="round",
     )  # fmt: skip
-    return document(body, width=width, height=height, title=title, alt=alt, css="", colours=[], kind=KIND)
+    below, high = _panes(panes, width, height)
+    return document(
+        body + below, width=width, height=high, title=title, alt=alt, css="", colours=["ink"], kind=KIND
+    )
+
+
+def _panes(panes: Sequence[Pane], width: float, top: float) -> tuple[str, float]:
+    """Panes side by side under a picture, two in a row, each with its title above; and how high all is then."""
+    parts: list[str] = []
+    wide = (width - GAP) / 2 if len(panes) > 1 else width
+    for start in range(0, len(panes), 2):
+        row = panes[start : start + 2]
+        highest = 0.0
+        for i, pane in enumerate(row):
+            tall, across = pane.pixels.shape[:2]
+            scale = min(wide / across, HIGHEST_PANE / tall)
+            x = i * (wide + GAP)
+            opaque = np.dstack([pane.pixels[..., :3], np.full((tall, across), 255, np.uint8)])
+            data, _ = gif(opaque)
+            heading = f"{pane.title}: {pane.text}" if pane.text else pane.title
+            parts.append(
+                element("text", escape(heading), x=x, y=top + 17, font_size=LABEL_SIZE, fill=variable("ink"))
+            )
+            parts.append(
+                element("image", href=_url(data), x=x, y=top + 24, width=across * scale, height=tall * scale)
+            )
+            highest = max(highest, tall * scale)
+        top += 24 + highest + GAP
+    return "".join(parts), top
+
+
+def _url(data: bytes) -> str:
+    return f"data:image/gif;base64,{base64.b64encode(data).decode()}"
 
 
 def _drawn(primitive: Primitive, look: Projection) -> Iterator[str]:
@@ -83,7 +132,7 @@ def _texture(texture: Texture, look: Projection) -> Iterator[str]:
         return
     a, b, c, d = (f"{value:.6g}" for value in (*(right - origin), *(up - origin)))
     yield element(
-        "image", href=f"data:image/gif;base64,{base64.b64encode(data).decode()}", width=1, height=1,
+        "image", href=_url(data), width=1, height=1,
         preserveAspectRatio="none", transform=f"matrix({a} {b} {c} {d} {origin[0]:.6g} {origin[1]:.6g})",
         style="image-rendering:pixelated", opacity=_opacity(opacity),
     )  # fmt: skip
@@ -202,26 +251,6 @@ def _largest(triangles: Floats, seen: Ints, look: Projection) -> tuple[Ints, Int
     sizes = np.ptp(flat, axis=1).sum(axis=1)
     by_size = np.argsort(-sizes, kind="stable")
     return np.sort(seen[by_size[:MOST_FACES]]), np.sort(seen[by_size[MOST_FACES:]])
-
-
-def _words(words: Sequence[Text], look: Projection, background: Colour) -> Iterator[str]:
-    """Words below their points, or further below where others are already."""
-    halo = _hex(background.rgba())
-    taken: list[tuple[float, float, float]] = []
-    for text in words[:MOST_WORDS]:
-        x, y = look.pixels(text.position[None])[0].tolist()
-        if not (0 <= x <= look.width and 0 <= y <= look.height):
-            continue
-        size = min(max(float(snap(1.4 * text.height * look.scale, 0.1)), SMALLEST_TEXT), LARGEST_TEXT)
-        half, base = text_width(text.text, size) / 2, y + size
-        while any(abs(x - u) < half + v and abs(base - w) < size for u, v, w in taken):
-            base += 1.05 * size
-        taken.append((x, half, base))
-        yield element(
-            "text", escape(text.text), x=x, y=base, font_size=size, text_anchor="middle",
-            fill=_hex(text.colour), opacity=_opacity(text.colour[3]), stroke=halo, stroke_width=2.5,
-            paint_order="stroke",
-        )  # fmt: skip
 
 
 def _steps(colours: Floats, count: int) -> Floats:

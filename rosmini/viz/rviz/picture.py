@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.viz.figures import WIDTH
-from rosmini.viz.view import Picture, ViewError
+from rosmini.viz.meshcat import MeshcatView
+from rosmini.viz.view import Picture, View, ViewError
 from rosmini.viz.words import plural
 
 from .config import Config
 from .display import Display, Level
 from .displays.group import Group
 from .flat import draw
-from .primitives import Primitive
+from .labels import placed
+from .primitives import Primitive, Text
 from .projection import Projection, projection
 from .scene import Layer, Scene
+from .solid import Drawing, RvizScene, camera_of, words_in
 from .suggestions import suggested
+from .views import Sight
 
 if TYPE_CHECKING:
     from rosmini.graph import Graph
@@ -25,12 +30,15 @@ if TYPE_CHECKING:
 BACKDROP = ("rviz/Grid",)
 """Displays that a picture is not made larger for, if there is anything else."""
 TALLEST = 2000.0
+DEFAULT_HEIGHT = 420.0
+"""Of the view in three dimensions [CSS px]."""
 
 
 def rviz(
     graph: Graph, config: Config | str | Path | None = None, *, fixed_frame: str | None = None, duration: float = 1.0,
     title: str | None = None, width: float = WIDTH, height: float | None = None, fit: bool = False,
-) -> Picture:  # fmt: skip
+    turn: bool = False,
+) -> View:  # fmt: skip
     """What RViz shows of a graph: listen for some time with the displays of a file, then draw.
 
     Args:
@@ -39,9 +47,10 @@ def rviz(
         fixed_frame: overrides that of the file.
         duration: how long to listen [s of graph time].
         title: a caption under the picture, and the first words of its text form.
-        width: of the picture [CSS px].
+        width: of the still [CSS px].
         height: of the picture [CSS px]; as high as it needs if None.
         fit: from above and around everything, whatever the view of the file is.
+        turn: a view in three dimensions that can be turned in the page, in place of the still.
 
     Raises:
         ConfigError: the file is no configuration of RViz.
@@ -53,6 +62,8 @@ def rviz(
     chosen = suggested(graph, fixed_frame) if config is None else config
     with Scene(graph, chosen, fixed_frame=fixed_frame) as scene:
         graph.run(duration)
+        if turn:
+            return turnable(scene, title=title, height=height, fit=fit)
         return still(scene, title=title, width=width, height=height, fit=fit)
 
 
@@ -65,15 +76,60 @@ def still(
     fit: bool = False,
 ) -> Picture:
     """What a scene shows now, from where its view looks; with `fit`, from above and around everything."""
+    layers = scene.update()
+    alt = alt_text(scene, layers)
+    svg = _drawn(scene, layers, title, width, height, fit=fit)
+    return Picture(svg, text=words(scene, layers, title), alt=alt, caption=title)
+
+
+def turnable(
+    scene: Scene, *, title: str | None = None, height: float | None = None, fit: bool = False
+) -> RvizView:
+    """What a scene shows now, in three dimensions: the reader turns it. Its image is the still."""
+    layers = scene.update()
+    svg = _drawn(scene, layers, title, WIDTH, height, fit=fit)
+    text, alt = words(scene, layers, title), alt_text(scene, layers)
+    look = look_at(scene, layers, WIDTH, height, fit=fit)
+    around = Sight(look.ground, -math.pi / 2, math.radians(50.0), WIDTH / look.scale)
+    given = None if scene.view is None or fit else scene.view.sight(scene.context)
+    made = RvizScene(camera_of(given if given is not None and given.width else around, WIDTH / look.scale))
+    drawing = Drawing(made)
+    for layer in layers:
+        drawing.add(layer.primitives)
+    texts = [each for layer in layers for each in layer.primitives if isinstance(each, Text)]
+    colour = scene.options["Background Color"]
+    background = "#" + "".join(f"{part:02x}" for part in colour)
+    ink = "#ffffff" if sum(colour) < 384 else "#000000"
+    high = round(height or DEFAULT_HEIGHT)
+    view = RvizView(made, label=title or "RViz", text=text, alt=alt, height=high)
+    view.title, view.still = title, svg
+    labels = words_in(placed(texts, look, shifts=0), made.camera)
+    view.extra = {"background": [background, background, ink], "labels": labels}
+    return view
+
+
+class RvizView(MeshcatView):
+    """A scene that can be turned; its image is the still, without perspective."""
+
+    still: str = ""
+
+    @property
+    def svg(self) -> str:
+        """The still."""
+        return self.still
+
+
+def _drawn(
+    scene: Scene, layers: Sequence[Layer], title: str | None, width: float, height: float | None, *, fit: bool
+) -> str:
     for name, value in (("width", width), ("height", height)):
         if value is not None and not 100 <= value <= TALLEST:
             raise ViewError(f"the {name} of a picture is 100 to {TALLEST:g} pixels, not {value}")
-    layers = scene.update()
     look = look_at(scene, layers, width, height, fit=fit)
-    text, alt = words(scene, layers, title), alt_text(scene, layers)
     shown = [each for layer in layers for each in layer.primitives]
-    svg = draw(shown, look, scene.options["Background Color"], title=title or "RViz", alt=alt)
-    return Picture(svg, text=text, alt=alt, caption=title)
+    panes = [each for layer in layers for each in layer.panes]
+    alt = alt_text(scene, layers)
+    return draw(shown, look, scene.options["Background Color"], title=title or "RViz", alt=alt, panes=panes)
 
 
 def look_at(

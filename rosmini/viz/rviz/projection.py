@@ -40,6 +40,11 @@ class Projection:
         right, up = flat[:, 0] * self.scale, flat[:, 1] * self.scale
         return snap(np.column_stack([self.width / 2 + right, self.height / 2 - up]), 0.1)
 
+    @property
+    def ground(self) -> Floats:
+        """The point (3,) of the ground in the middle of the picture."""
+        return np.array(self.metres(self.width / 2, self.height / 2))
+
     def nearness(self, points: Floats) -> Floats:
         """How near points (n, 3) are to the viewer (n,) [m], to a millimetre."""
         return snap(points @ self.axes[2])

@@ -15,7 +15,7 @@ from rosmini.viz.meshcat.links import lathe, surfaces_of
 
 from .primitives import Floats, Lines, Mesh
 
-__all__ = ["arrow", "axes", "ball", "box", "cylinder", "flat_arrow", "outline", "surface_mesh"]
+__all__ = ["arrow", "axes", "ball", "box", "cone", "cylinder", "flat_arrow", "outline", "surface_mesh"]
 
 RED, GREEN, BLUE = (np.array(colour) for colour in ((1.0, 0, 0, 1), (0, 1.0, 0, 1), (0, 0, 1.0, 1)))
 """The colours of axes: x, y, z."""
@@ -69,6 +69,11 @@ def cylinder(pose: Floats, colour: Floats, diameters: tuple[float, float], heigh
     return surface_mesh(_cylinder(), colour, pose @ np.diag([*diameters, height, 1.0]))
 
 
+def cone(pose: Floats, colour: Floats, length: float, radius: float) -> Mesh:
+    """A cone with its tip in the origin of `pose`, open along x."""
+    return surface_mesh(_cone(), colour, pose @ np.diag([length, radius, radius, 1.0]))
+
+
 def ball(pose: Floats, colour: Floats, size: tuple[float, float, float] | Floats) -> Mesh:
     """An ellipsoid around the origin of `pose`; `size` are its diameters."""
     return surface_mesh(_ball(), colour, pose @ np.diag([*size, 1.0]))
@@ -101,6 +106,11 @@ def _rod(length: float, radius: float) -> Surface:
 @lru_cache(maxsize=1)
 def _box() -> Surface:
     return surfaces_of(Box((1.0, 1.0, 1.0)))[0]
+
+
+@lru_cache(maxsize=1)
+def _cone() -> Surface:
+    return lathe([(0.0, 0.0), (1.0, 1.0), (0.0, 1.0)], corners=24).moved(_ALONG_X)
 
 
 @lru_cache(maxsize=1)

@@ -17,6 +17,8 @@ MOST = 40
 """Displays at most."""
 SPECIAL = {"tf2_msgs/TFMessage": "rviz/TF"}
 COSTMAP = "costmap"
+SMALL = {"Shaft Length": 0.25, "Shaft Radius": 0.02, "Head Length": 0.1, "Head Radius": 0.05}
+"""An arrow for robots of the size of a TurtleBot3: RViz's own is longer than a metre [m]."""
 
 
 def suggested(graph: Graph, fixed_frame: str | None = None) -> Config:
@@ -54,6 +56,10 @@ def _display(kind: type[TopicDisplay], topic: str) -> dict[str, Any]:
     named: dict[str, Any] = {"Class": kind.plugin_name, "Name": topic, kind.topic_property: topic}
     if kind.plugin_name == "rviz/Map" and COSTMAP in topic:
         named |= {"Color Scheme": "costmap", "Alpha": 0.5}
+    if kind.plugin_name == "rviz/Odometry":
+        named |= {"Covariance": {"Value": False}, "Keep": 30, "Shape": {"Value": "Arrow", **SMALL}}
+    elif kind.plugin_name in ("rviz/Pose", "rviz/PoseWithCovariance"):
+        named |= SMALL
     return named
 
 

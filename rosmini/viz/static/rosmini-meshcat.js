@@ -3,7 +3,8 @@
    `rosminiMeshcat.mount(host, data, options)` as `rosmini/viz/embed.py` calls it. `data` is what `rosmini/viz/meshcat` makes:
    `commands` (base64 of packed commands), `themes` (colours of paths on light and dark pages), `duration` [s] of the
    animation or 0, `follow` (the path of what the camera follows, or null), `legend` (names and colours of lines), and
-   `scan` with a recorded laser (or absent), `copies` with pairs of paths: at the second is once more what is at the first (or absent).
+   `scan` with a recorded laser (or absent), `copies` with pairs of paths: at the second is once more what is at the first (or absent),
+   `background` with the scene's own colour (or absent: that of the page), `labels` with words at points (or absent).
 
    The viewer runs in a frame, so its styles and its globals stay there. It is made when the reader comes near it, and
    again if the page takes the frame out and puts it back. Outside a click it leaves the wheel to the page. */
@@ -95,6 +96,7 @@
         const known = viewer.scene_tree.find([...parts(from), "<object>"]).object;
         viewer.set_object(parts(to), known.clone());
       }
+      for (const each of data.labels ?? []) label(frame.contentWindow, viewer, each);
       state.viewer = frame.contentWindow.viewer = viewer; // where meshcat's own page has it
       state.target = null;
       viewer.controls.minDistance = 0.15;
@@ -116,7 +118,7 @@
 
   function paint(viewer, data) {
     const name = theme();
-    const [top, bottom, ink] = GROUND[name];
+    const [top, bottom, ink] = data.background ?? GROUND[name];
     const page = viewer.dom_element.ownerDocument;
     page.body.style.background = `linear-gradient(${top}, ${bottom})`;
     viewer.renderer.domElement.style.outlineColor = ink;
@@ -124,6 +126,29 @@
       viewer.set_property(parts(path), "color", colour);
     }
     viewer.set_dirty();
+  }
+
+  /* Words that face the reader and that nothing hides: `text`, `at` [m], `height` of its letters [m], `colour`. */
+  function label(page, viewer, { text, at, height, colour }) {
+    const canvas = page.document.createElement("canvas");
+    const pen = canvas.getContext("2d");
+    const font = "40px sans-serif";
+    pen.font = font;
+    canvas.width = Math.min(pen.measureText(text).width + 16, 2048);
+    canvas.height = 56;
+    Object.assign(pen, { font, textBaseline: "middle", textAlign: "center", lineWidth: 8, lineJoin: "round" });
+    pen.strokeStyle = "rgba(0, 0, 0, 0.7)";
+    pen.strokeText(text, canvas.width / 2, 28);
+    pen.fillStyle = colour;
+    pen.fillText(text, canvas.width / 2, 28);
+    const { THREE } = page.MeshCat;
+    const map = new THREE.CanvasTexture(canvas);
+    const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map, depthTest: false, transparent: true }));
+    const scale = (1.4 * height) / 40;
+    sprite.scale.set(canvas.width * scale, canvas.height * scale, 1);
+    sprite.center.set(0.5, 1);
+    sprite.position.set(...at);
+    find(viewer, "/meshcat").add(sprite);
   }
 
   /* Keys, wheel and touch. The wheel zooms and a finger turns it in all directions only after a click or a tap; before,

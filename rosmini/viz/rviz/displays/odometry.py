@@ -1,0 +1,57 @@
+"""Odometry: arrows along the way that a robot believes to have gone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from rosmini.tf.rigid import Rigid
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.pose_style import COVARIANCE_PROPERTIES, covariance_shape, pose_properties, pose_shape
+from rosmini.viz.rviz.primitives import INVALID, DisplayError, Primitive
+from rosmini.viz.rviz.properties import Property
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+
+class Odometry(TopicDisplay, plugin="rviz/Odometry"):
+    """A `nav_msgs/Odometry` for each step of some length; the last ones are kept."""
+
+    message = "nav_msgs/Odometry"
+    history = "Keep"
+    properties = (
+        Property("Position Tolerance", 0.1, "a new arrow after so far a way", unit="m", minimum=0.0),
+        Property("Angle Tolerance", 0.1, "or after such a rotation", unit="rad", minimum=0.0),
+        Property("Keep", 100, "how many arrows stay; 0: all", minimum=0, maximum=10_000),
+        *pose_properties("Shape/"),
+        *COVARIANCE_PROPERTIES,
+    )
+
+    def accept(self, heard: Heard, context: Context) -> bool:
+        """Whether it is far enough from the last one."""
+        del context
+        found = heard.message
+        if not np.isfinite(np.asarray(found.pose.covariance, dtype=float)).all():
+            raise DisplayError(INVALID)
+        now = heard.local(found.pose.pose)
+        if self.kept:
+            last = self.kept[-1].local(self.kept[-1].message.pose.pose)
+            near = math.dist(now[:3], last[:3]) < self["Position Tolerance"]
+            if near and _turned(now, last) < self["Angle Tolerance"]:
+                return False
+        return True
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """One arrow, and how uncertain it is."""
+        del context
+        found = heard.message.pose
+        pose = heard.pose(found.pose)
+        yield from pose_shape(pose, self, "Shape/")
+        yield from covariance_shape(pose, found.covariance, self, heard)
+
+
+def _turned(a: Rigid, b: Rigid) -> float:
+    """The angle between two orientations [rad]."""
+    cosine = abs(sum(x * y for x, y in zip(a[3:], b[3:], strict=True)))
+    return 2.0 * math.acos(min(cosine, 1.0))

@@ -1,0 +1,64 @@
+"""Path: the way that a planner chose, or that a robot went."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.display import Level
+from rosmini.viz.rviz.primitives import DisplayError, Floats, Lines, Primitive
+from rosmini.viz.rviz.properties import Colour, Property, Vector
+from rosmini.viz.rviz.shapes import arrow, axes
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+MOST_POSES, MOST_SHAPES = 200_000, 500
+
+
+def _length(name: str, default: float) -> Property:
+    return Property(name, default, "of the shapes of poses", unit="m", minimum=0.0, maximum=1e4)
+
+
+class Path(TopicDisplay, plugin="rviz/Path"):
+    """A `nav_msgs/Path` as a line, with its poses if one wants them."""
+
+    message = "nav_msgs/Path"
+    history = "Buffer Length"
+    properties = (
+        Property("Line Style", "Lines", "thin lines or wide ones", choices=("Lines", "Billboards")),
+        Property("Line Width", 0.03, "of wide lines", unit="m", minimum=0.001, maximum=1e4),
+        Property("Color", Colour(25, 255, 0), "of the line"),
+        Property("Alpha", 1.0, "how opaque it is", minimum=0.0, maximum=1.0),
+        Property("Buffer Length", 1, "how many paths stay", minimum=1, maximum=1000),
+        Property("Offset", Vector(0.0, 0.0, 0.0), "by how much it is moved", unit="m"),
+        Property("Pose Style", "None", "how its poses are drawn", choices=("None", "Axes", "Arrows")),
+        Property("Pose Color", Colour(255, 85, 255), "of the arrows"),
+        _length("Length", 0.3), _length("Radius", 0.03), _length("Shaft Length", 0.1),
+        _length("Head Length", 0.2), _length("Shaft Diameter", 0.1), _length("Head Diameter", 0.3),
+    )  # fmt: skip
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The line and the poses."""
+        del context
+        poses = heard.message.poses
+        if len(poses) > MOST_POSES:
+            raise DisplayError(f"a path of {len(poses)} poses is too long: at most {MOST_POSES}")
+        points = heard.points([each.pose.position for each in poses]) + np.array(self["Offset"])
+        width = self["Line Width"] if self["Line Style"] == "Billboards" else 0.0
+        self.set_status(Level.OK if len(points) else Level.WARN, "Path", f"{len(points)} poses")
+        yield Lines(points, self["Color"].rgba(self["Alpha"]), width)
+        if self["Pose Style"] != "None":
+            step = -(-len(poses) // MOST_SHAPES) or 1
+            for each in poses[::step]:
+                yield from self._shape(heard.pose(each.pose))
+
+    def _shape(self, pose: Floats) -> Iterator[Primitive]:
+        pose = pose.copy()
+        pose[:3, 3] += self["Offset"]
+        if self["Pose Style"] == "Axes":
+            yield from axes(pose, self["Length"], self["Radius"])
+            return
+        colour = self["Pose Color"].rgba(self["Alpha"])
+        shaft, head = self["Shaft Diameter"] / 2, self["Head Diameter"] / 2
+        yield arrow(pose, colour, self["Shaft Length"], shaft, self["Head Length"], head)

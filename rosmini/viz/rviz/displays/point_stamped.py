@@ -1,0 +1,35 @@
+"""PointStamped: a point, such as one that was clicked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.primitives import INVALID, DisplayError, Primitive
+from rosmini.viz.rviz.properties import Colour, Property
+from rosmini.viz.rviz.shapes import ball
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+
+class PointStamped(TopicDisplay, plugin="rviz/PointStamped"):
+    """A `geometry_msgs/PointStamped` as a ball."""
+
+    message = "geometry_msgs/PointStamped"
+    history = "History Length"
+    properties = (
+        Property("Color", Colour(204, 41, 204), "of the balls"),
+        Property("Alpha", 1.0, "how opaque they are", minimum=0.0, maximum=1.0),
+        Property("Radius", 0.2, "of the balls", unit="m", minimum=0.0, maximum=1e4),
+        Property("History Length", 1, "how many points stay", minimum=1, maximum=10_000),
+    )
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """A ball."""
+        del context
+        pose = np.eye(4)
+        pose[:3, 3] = heard.points([heard.message.point])[0]
+        if not np.isfinite(pose).all():
+            raise DisplayError(INVALID)
+        yield ball(pose, self["Color"].rgba(self["Alpha"]), (2.0 * self["Radius"],) * 3)

@@ -1,0 +1,26 @@
+"""Polygon: an outline, such as a robot's footprint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.primitives import Primitive
+from rosmini.viz.rviz.properties import Colour, Property
+from rosmini.viz.rviz.shapes import outline
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+
+class Polygon(TopicDisplay, plugin="rviz/Polygon"):
+    """A `geometry_msgs/PolygonStamped` as a closed line."""
+
+    message = "geometry_msgs/PolygonStamped"
+    properties = (
+        Property("Color", Colour(25, 255, 0), "of the line"),
+        Property("Alpha", 1.0, "how opaque it is", minimum=0.0, maximum=1.0),
+    )
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The line."""
+        del context
+        yield outline(heard.points(heard.message.polygon.points), self["Color"].rgba(self["Alpha"]))

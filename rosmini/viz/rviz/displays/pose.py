@@ -1,0 +1,22 @@
+"""Pose: one pose, such as the goal of the navigation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.pose_style import pose_properties, pose_shape
+from rosmini.viz.rviz.primitives import Primitive
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+
+class Pose(TopicDisplay, plugin="rviz/Pose"):
+    """A `geometry_msgs/PoseStamped` as an arrow or as axes."""
+
+    message = "geometry_msgs/PoseStamped"
+    properties = pose_properties()
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The pose."""
+        del context
+        yield from pose_shape(heard.pose(heard.message.pose), self)

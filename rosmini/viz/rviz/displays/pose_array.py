@@ -1,0 +1,63 @@
+"""PoseArray: many poses, such as the particles of amcl."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from rosmini.tf.rigid import matrix
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.display import Level
+from rosmini.viz.rviz.primitives import Floats, Lines, Primitive
+from rosmini.viz.rviz.properties import Colour, Property
+from rosmini.viz.rviz.shapes import arrow, axes, flat_arrow
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+SHAPES = ("Arrow (Flat)", "Arrow (3D)", "Axes", "Arrow")
+MOST_FLAT, MOST_SOLID = 20_000, 500
+"""Poses drawn at most; of more, evenly many."""
+
+
+def _length(name: str, default: float) -> Property:
+    return Property(name, default, "of the shape", unit="m", minimum=0.0, maximum=1e4)
+
+
+class PoseArray(TopicDisplay, plugin="rviz/PoseArray"):
+    """A `geometry_msgs/PoseArray` as flat arrows, which are one primitive, or as arrows or axes."""
+
+    message = "geometry_msgs/PoseArray"
+    properties = (
+        Property("Shape", "Arrow (Flat)", "how a pose is drawn", choices=SHAPES),
+        Property("Color", Colour(255, 25, 0), "of the arrows"),
+        Property("Alpha", 1.0, "how opaque they are", minimum=0.0, maximum=1.0),
+        _length("Arrow Length", 0.3), _length("Axes Length", 0.3), _length("Axes Radius", 0.01),
+        _length("Head Length", 0.07), _length("Head Radius", 0.03), _length("Shaft Length", 0.23),
+        _length("Shaft Radius", 0.01),
+    )  # fmt: skip
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The poses."""
+        del context
+        poses = heard.message.poses
+        is_flat = self["Shape"] == "Arrow (Flat)"
+        step = -(-len(poses) // (MOST_FLAT if is_flat else MOST_SOLID)) or 1
+        shown = [heard.local(pose) for pose in poses[::step]]
+        text = f"Showing [{len(shown)}] of [{len(poses)}] poses"
+        self.set_status(Level.OK if step == 1 else Level.WARN, "Poses", text)
+        colour = self["Color"].rgba(self["Alpha"])
+        base: Floats = matrix(heard.place)
+        placed = [base @ matrix(pose) for pose in shown]
+        if is_flat:
+            if placed:
+                arrows = [flat_arrow(pose, colour, self["Arrow Length"]).points for pose in placed]
+                yield Lines(np.vstack(arrows), colour, strip=False)
+            return
+        for pose in placed:
+            if self["Shape"] == "Axes":
+                yield from axes(pose, self["Axes Length"], self["Axes Radius"])
+            else:
+                sizes = (
+                    self[name] for name in ("Shaft Length", "Shaft Radius", "Head Length", "Head Radius")
+                )
+                yield arrow(pose, colour, *sizes)

@@ -1,0 +1,25 @@
+"""PoseWithCovariance: a pose and how uncertain it is, such as that of amcl."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.pose_style import COVARIANCE_PROPERTIES, covariance_shape, pose_properties, pose_shape
+from rosmini.viz.rviz.primitives import Primitive
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+
+class PoseWithCovariance(TopicDisplay, plugin="rviz/PoseWithCovariance"):
+    """A `geometry_msgs/PoseWithCovarianceStamped`."""
+
+    message = "geometry_msgs/PoseWithCovarianceStamped"
+    properties = (*pose_properties(), *COVARIANCE_PROPERTIES)
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The pose, its ellipsoid, and the sector of its yaw."""
+        del context
+        found = heard.message.pose
+        pose = heard.pose(found.pose)
+        yield from pose_shape(pose, self)
+        yield from covariance_shape(pose, found.covariance, self, heard)

@@ -1,0 +1,110 @@
+"""RobotModel: the robot as its URDF describes it, each link where tf says that it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from rosmini.errors import RosminiError
+from rosmini.tf import TransformException
+from rosmini.tf.rigid import matrix
+from rosmini.urdf import Robot, load
+from rosmini.urdf.meshes import Surface
+from rosmini.viz.meshcat.links import link_surfaces
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.display import Display, Level
+from rosmini.viz.rviz.primitives import Mesh, Primitive
+from rosmini.viz.rviz.properties import Property, Tree
+
+GREY = (0.6, 0.6, 0.6, 1.0)
+
+
+class RobotModel(Display, plugin="rviz/RobotModel"):
+    """The links of the robot in a parameter; it is read again when the parameter changed."""
+
+    properties = (
+        Property("Robot Description", "robot_description", "the parameter with the URDF"),
+        Property("TF Prefix", "", "before the names of all links"),
+        Property(
+            "Update Interval", 0.0, "how often links are moved; here at each picture", unit="s", minimum=0.0
+        ),
+        Property("Alpha", 1.0, "how opaque the robot is", minimum=0.0, maximum=1.0),
+        Property("Visual Enabled", True, "what one sees of it"),
+        Property("Collision Enabled", False, "what touches others"),
+        Property("Links", Tree(), "which links are shown"),
+    )
+
+    def __init__(self, name: str = "", tree: Mapping[str, Any] | None = None) -> None:
+        super().__init__(name, tree)
+        self._read: tuple[str, bool] | None = None
+        self._surfaces: dict[str, list[Surface]] = {}
+
+    def reset(self) -> None:
+        """Read the robot again."""
+        self._read = None
+
+    def primitives(self, context: Context) -> Iterable[Primitive]:
+        """A mesh for each colour of each link."""
+        if not self._load(context):
+            return []
+        found: list[Primitive] = []
+        links = self["Links"]
+        for link, surfaces in self._surfaces.items():
+            told = links.get(link)
+            one = told if isinstance(told, dict) else {}
+            if not (one.get("Value", True) if surfaces else False):
+                continue
+            frame = "/".join(filter(None, (self["TF Prefix"].strip("/"), link)))
+            try:
+                pose = matrix(context.place(frame))
+            except TransformException:
+                text = f"No transform from [{frame}] to [{context.fixed_frame}]"
+                self.set_status(Level.ERROR, link, text)
+                continue
+            self.set_status(Level.OK, link, "Transform OK")
+            alpha = self["Alpha"] * float(one.get("Alpha", 1.0))
+            for surface in surfaces:
+                colour = np.array(surface.colour or GREY)
+                colour[3] *= alpha
+                found.append(Mesh(surface.vertices, surface.faces, colour, pose))
+        return found
+
+    def _load(self, context: Context) -> bool:
+        """Read the robot if it is another one; whether there is one."""
+        name = self["Robot Description"]
+        key = context.node.search_param(name)
+        text = "" if key is None else str(context.node.get_param(key))
+        wanted = (text, self["Collision Enabled"])
+        if self._read == wanted:
+            return bool(self._surfaces)
+        for each in self.statuses:
+            self.clear_status(each.name)
+        self._read, self._surfaces = wanted, {}
+        if key is None:
+            said = f"Parameter [{name}] does not exist, and was not found by searchParam()"
+            self.set_status(Level.ERROR, "URDF", said)
+            return False
+        try:
+            robot = load(text.strip().encode(), path=key)
+        except RosminiError as error:
+            # without its meshes the rest of the robot may still be seen
+            self.set_status(Level.ERROR, "URDF", str(error).partition("\n")[0])
+            try:
+                robot = load(text.strip().encode(), meshes=False, path=key)
+            except RosminiError:
+                return False
+        else:
+            self.set_status(Level.OK, "URDF", "URDF parsed OK")
+        for link in robot.links:
+            self._surfaces[link] = self._seen(robot, link)
+        return True
+
+    def _seen(self, robot: Robot, link: str) -> list[Surface]:
+        try:
+            found = link_surfaces(robot, link) if self["Visual Enabled"] else []
+            return found + (link_surfaces(robot, link, collisions=True) if self["Collision Enabled"] else [])
+        except RosminiError as error:
+            self.set_status(Level.ERROR, link, str(error).partition("\n")[0])
+            return []

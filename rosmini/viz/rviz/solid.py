@@ -1,0 +1,254 @@
+"""Scenes in three dimensions: primitives as commands for meshcat's viewer, with no server (`rosmini.viz.meshcat`)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from rosmini.viz.meshcat.command_recorder import meshcat
+from rosmini.viz.meshcat.scene3d import Camera, Scene3D
+from rosmini.viz.meshcat.solids import rounded
+from rosmini.viz.rounding import snap
+
+from .gifs import gif
+from .labels import Label
+from .primitives import Floats, Lines, Mesh, Points, Primitive, Texture
+from .views import Sight
+
+MOST_POINTS = 20_000
+"""Points of one display in a page: of more, evenly many."""
+MOST_SEGMENTS = 40_000
+LEAST_POINT = 0.02
+"""[m]: smaller ones would hardly be seen."""
+PIXEL = 0.004
+"""How large a pixel of the style "Points" is drawn, by the camera's distance."""
+LIFT = 0.001
+"""By how much a map lies below what is on the ground, and below the next map [m]."""
+LEAST_LETTER = 0.013
+"""The height of letters, at least, by the distance of the camera."""
+
+
+class RvizScene(Scene3D):
+    """A scene as RViz shows it: its own background instead of ground and colours of the page."""
+
+    @property
+    def themes(self) -> dict[str, dict[str, Sequence[float]]]:
+        """Nothing changes with the page."""
+        return {"light": {}, "dark": {}}
+
+
+def camera_of(sight: Sight, reach: float) -> Camera:
+    """The camera of a view; one from above looks down steeply, from as far as it needs to see as much."""
+    x, y, z = (round(part, 3) for part in snap(sight.target).tolist())
+    wide = sight.width or reach
+    angle = min(max(sight.field_of_view, 10.0), 100.0)
+    distance = 0.62 * wide / 2 / math.tan(math.radians(angle / 2))
+    pitch = min(max(math.degrees(sight.pitch), 5.0), 88.0)
+    return Camera((x, y, z), max(round(float(distance), 3), 0.2), math.degrees(sight.yaw), pitch, angle)
+
+
+def words_in(labels: Iterable[Label], camera: Camera) -> list[dict[str, Any]]:
+    """Words for the viewer to show, large enough to be read from the camera."""
+    least = LEAST_LETTER * camera.distance
+    found: list[dict[str, Any]] = []
+    for label in labels:
+        colour = "#" + "".join(f"{int(part * 255 + 0.5371):02x}" for part in label.text.colour[:3])
+        at = [round(float(each), 4) for each in rounded(label.text.position)]
+        height = float(snap(max(label.text.height, least)))
+        found.append({"text": label.said, "at": at, "height": height, "colour": colour})
+    return found
+
+
+class Drawing:
+    """Primitives, without words, in a scene."""
+
+    def __init__(self, scene: Scene3D) -> None:
+        self.scene = scene
+        self._known: dict[tuple[bytes, bytes, bytes], str] = {}
+        self._count = 0
+        self._maps = 0
+
+    def add(self, shown: Iterable[Primitive]) -> None:
+        """Add primitives: each gets a path of its own."""
+        for primitive in shown:
+            path = f"rviz/{self._count}"
+            self._count += 1
+            if isinstance(primitive, Mesh):
+                self._mesh(primitive, path)
+            elif isinstance(primitive, Lines):
+                self._lines(primitive, path)
+            elif isinstance(primitive, Points):
+                self._points(primitive, path)
+            elif isinstance(primitive, Texture):
+                self._texture(primitive, path)
+
+    def _mesh(self, mesh: Mesh, path: str) -> None:
+        if not len(mesh.faces):
+            return
+        vertices = rounded(mesh.vertices)
+        known = (vertices.tobytes(), mesh.faces.tobytes(), np.round(mesh.colours, 3).tobytes())
+        first = self._known.setdefault(known, path)
+        if first != path:
+            self.scene.copies.append((f"/meshcat/{first}", f"/meshcat/{path}"))
+        else:
+            self._put(path, *_triangles(vertices, mesh))
+        if mesh.pose is not None:
+            self.scene.place(path, mesh.pose)
+
+    def _put(self, path: str, geometry: Any, material: Any) -> None:
+        self.scene.visualizer[path].set_object(geometry, material)
+
+    def _lines(self, lines: Lines, path: str) -> None:
+        segments, colours = lines.segments(), lines.segment_colours()
+        if not len(segments):
+            return
+        step = -(-len(segments) // MOST_SEGMENTS)
+        segments = segments[::step]
+        colours = np.broadcast_to(colours if colours.ndim == 1 else colours[::step], (len(segments), 4))
+        geometry = meshcat().geometry
+        alpha = float(snap(colours[:, 3].mean(), 0.01))
+        see_through = {"opacity": alpha, "transparent": alpha < 1.0}
+        if lines.width > 0:
+            vertices, faces = _ribbons(segments, lines.width)
+            paint = np.repeat(colours[:, :3], 4, axis=0)
+            material = geometry.MeshBasicMaterial(vertexColors=True, **see_through)
+            self._put(
+                path, geometry.TriangularMeshGeometry(rounded(vertices), faces, rounded(paint)), material
+            )
+            return
+        points = rounded(segments.reshape(-1, 3)).T.astype(np.float32)
+        paint = rounded(np.repeat(colours[:, :3], 2, axis=0)).T.astype(np.float32)
+        material = geometry.LineBasicMaterial(vertexColors=True, **see_through)
+        self.scene.visualizer[path].set_object(
+            geometry.LineSegments(geometry.PointsGeometry(points, paint), material)
+        )
+
+    def _points(self, points: Points, path: str) -> None:
+        step = -(-len(points.points) // MOST_POINTS)
+        if not step:
+            return
+        shown = points.points[::step]
+        colours = points.colours if points.colours.ndim == 1 else points.colours[::step]
+        colours = np.broadcast_to(colours, (len(shown), 4))
+        geometry = meshcat().geometry
+        size = points.size
+        if points.style == "Tiles":
+            half = np.array([(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)]) * size
+            corners = (shown[:, None, :] + half).reshape(-1, 3)
+            faces = (4 * np.arange(len(shown))[:, None, None] + _TILE).reshape(-1, 3)
+            paint = np.repeat(colours, 2, axis=0)
+            self._put(path, *_triangles(rounded(corners), Mesh(corners, faces, paint, lit=False)))
+            return
+        if points.style == "Points":
+            size *= PIXEL * self.scene.camera.distance
+        cloud = geometry.PointCloud(
+            rounded(shown).T.astype(np.float32), rounded(colours[:, :3]).T.astype(np.float32),
+            size=float(snap(max(size, LEAST_POINT))),
+        )  # fmt: skip
+        self.scene.visualizer[path].set_object(cloud)
+
+    def _texture(self, texture: Texture, path: str) -> None:
+        pixels = texture.pixels[::-1]  # the viewer's rows begin above
+        data, opacity = gif(pixels)
+        if not opacity:
+            return
+        width, height = texture.size
+        geometry = meshcat().geometry
+        material = geometry.MeshBasicMaterial(
+            map=geometry.ImageTexture(image=_GifImage(data), magFilter=1003), opacity=opacity, transparent=True,
+            depthWrite=False, polygonOffset=True, polygonOffsetFactor=1, polygonOffsetUnits=4 * (20 - self._maps),
+        )  # fmt: skip
+        self._maps += 1
+        middle = np.eye(4)
+        middle[:3, 3] = (width / 2, height / 2, -LIFT * (20 - min(self._maps, 18) + 20 * texture.behind))
+        self._put(path, _Rectangle(float(width), float(height)), material)
+        self.scene.place(path, texture.pose @ middle)
+
+
+class _Lowered:
+    """What meshcat takes for one of its elements: something with an id that says what the viewer reads."""
+
+    field = ""
+
+    def __init__(self) -> None:
+        import uuid
+
+        self.uuid = str(uuid.uuid1())  # numbered by the recorder
+
+    def intrinsic_transform(self) -> Floats:
+        return np.eye(4)
+
+    def lower(self, object_data: Any) -> dict[str, Any]:
+        raise NotImplementedError
+
+    def lower_in_object(self, object_data: Any) -> str:
+        object_data.setdefault(self.field, []).append(self.lower(object_data))
+        return self.uuid
+
+
+class _Rectangle(_Lowered):
+    """A rectangle in x and y around its origin, on which an image fits (three.js's PlaneGeometry)."""
+
+    field = "geometries"
+
+    def __init__(self, width: float, height: float) -> None:
+        super().__init__()
+        self._size = (width, height)
+
+    def lower(self, object_data: Any) -> dict[str, Any]:
+        del object_data
+        return {"uuid": self.uuid, "type": "PlaneGeometry", "width": self._size[0], "height": self._size[1]}
+
+
+class _GifImage(_Lowered):
+    field = "images"
+
+    def __init__(self, data: bytes) -> None:
+        super().__init__()
+        self._data = data
+
+    def lower(self, object_data: Any) -> dict[str, Any]:
+        import base64
+
+        del object_data
+        return {"uuid": self.uuid, "url": "data:image/gif;base64," + base64.b64encode(self._data).decode()}
+
+
+def _triangles(vertices: Floats, mesh: Mesh) -> tuple[Any, Any]:
+    geometry = meshcat().geometry
+    colours = np.atleast_2d(mesh.colours)
+    alpha = float(snap(colours[:, 3].mean(), 0.01))
+    kind = geometry.MeshPhongMaterial if mesh.lit else geometry.MeshBasicMaterial
+    options: dict[str, Any] = {"opacity": alpha, "transparent": alpha < 1.0}
+    if mesh.lit:
+        options |= {"shininess": 26, "specular": 0x0E0E0E}
+    if mesh.colours.ndim == 1:
+        red, green, blue = (int(part * 255 + 0.5371) for part in mesh.colours[:3])
+        return geometry.TriangularMeshGeometry(vertices, mesh.faces), kind(
+            color=red << 16 | green << 8 | blue, **options
+        )
+    split = vertices[mesh.faces].reshape(-1, 3)
+    faces = np.arange(len(split)).reshape(-1, 3)
+    paint = rounded(np.repeat(mesh.colours[:, :3], 3, axis=0))
+    return geometry.TriangularMeshGeometry(split, faces, paint), kind(vertexColors=True, **options)
+
+
+_TILE = np.array([(0, 1, 2), (0, 2, 3)])
+_QUAD = np.array([(0, 2, 1), (1, 2, 3)])
+
+
+def _ribbons(segments: Floats, width: float) -> tuple[Floats, Any]:
+    """Flat strips along segments (m, 2, 3), level where that can be: vertices (4m, 3) and faces (2m, 3)."""
+    along = segments[:, 1] - segments[:, 0]
+    side = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(along))])
+    lengths = np.linalg.norm(side, axis=1)
+    side[lengths < 1e-9] = (1.0, 0.0, 0.0)
+    side /= np.maximum(np.linalg.norm(side, axis=1), 1e-12)[:, None]
+    half = side[:, None, :] * width / 2
+    vertices = np.concatenate([segments + half, segments - half], axis=1).reshape(-1, 3)
+    first = 4 * np.arange(len(segments))[:, None]
+    faces = np.concatenate([first + corners for corners in _QUAD], axis=1).reshape(-1, 3)
+    return vertices, faces
