@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
+from rosmini.viz.map_colours import scheme_of
 
 from .config import Config
 from .display import Display
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
 MOST = 40
 """Displays at most."""
 SPECIAL = {"tf2_msgs/TFMessage": "rviz/TF"}
-COSTMAP = "costmap"
 SMALL = {"Shaft Length": 0.25, "Shaft Radius": 0.02, "Head Length": 0.1, "Head Radius": 0.05}
 """An arrow for robots of the size of a TurtleBot3: RViz's own is longer than a metre [m]."""
 
@@ -54,7 +54,7 @@ def suggested(graph: Graph, fixed_frame: str | None = None) -> Config:
 
 def _display(kind: type[TopicDisplay], topic: str) -> dict[str, Any]:
     named: dict[str, Any] = {"Class": kind.plugin_name, "Name": topic, kind.topic_property: topic}
-    if kind.plugin_name == "rviz/Map" and COSTMAP in topic:
+    if kind.plugin_name == "rviz/Map" and scheme_of(topic) == "costmap":
         named |= {"Color Scheme": "costmap", "Alpha": 0.5}
     if kind.plugin_name == "rviz/Odometry":
         named |= {"Covariance": {"Value": False}, "Keep": 30, "Shape": {"Value": "Arrow", **SMALL}}

@@ -9,11 +9,12 @@ import numpy as np
 
 from rosmini.errors import RosminiError
 from rosmini.tf.rigid import compose, matrix
+from rosmini.viz.map_colours import SCHEMES, painted
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Level
-from rosmini.viz.rviz.palettes import COLOUR_SCHEMES, thinned
 from rosmini.viz.rviz.primitives import DisplayError, Pixels, Primitive, Texture
 from rosmini.viz.rviz.properties import Property
+from rosmini.viz.rviz.thinning import thinned
 from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
 
 MOST_CELLS = 100_000_000
@@ -25,7 +26,7 @@ class Map(TopicDisplay, plugin="rviz/Map"):
     message = "nav_msgs/OccupancyGrid"
     properties = (
         Property("Alpha", 0.7, "how opaque it is", minimum=0.0, maximum=1.0),
-        Property("Color Scheme", "map", "how cells are coloured", choices=tuple(COLOUR_SCHEMES)),
+        Property("Color Scheme", "map", "how cells are coloured", choices=SCHEMES),
         Property("Draw Behind", False, "behind everything else"),
         Property("Use Timestamp", False, "where the map's frame was at its stamp, not where it is now"),
     )
@@ -87,7 +88,7 @@ class Map(TopicDisplay, plugin="rviz/Map"):
         origin = heard.local(info.origin)
         height, width = self._cells.shape
         cells, factor = thinned(self._cells, self["Color Scheme"])
-        pixels = COLOUR_SCHEMES[self["Color Scheme"]][cells]
+        pixels = painted(cells, self["Color Scheme"])
         pixels[..., 3] = np.round(pixels[..., 3] * float(self["Alpha"]))
         side = factor * float(info.resolution)
         size = (cells.shape[1] * side, cells.shape[0] * side)

@@ -7,7 +7,8 @@ import pytest
 
 from rosmini.msgs.map_msgs.msg import OccupancyGridUpdate
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
-from rosmini.viz.rviz.palettes import COLOUR_SCHEMES, MOST_SIDE, thinned
+from rosmini.viz.map_colours import colours_of
+from rosmini.viz.rviz.thinning import MOST_SIDE, thinned
 
 
 def grid(cells, resolution=0.5) -> OccupancyGrid:
@@ -21,16 +22,6 @@ def grid(cells, resolution=0.5) -> OccupancyGrid:
     return made
 
 
-def test_colours_of_the_schemes():
-    assert COLOUR_SCHEMES["map"][[0, 100, 255, 50]].tolist() == [
-        [255, 255, 255, 255], [0, 0, 0, 255], [0x70, 0x89, 0x86, 255], [128, 128, 128, 255]
-    ]  # fmt: skip
-    assert COLOUR_SCHEMES["costmap"][[0, 1, 98, 99, 100]].tolist() == [
-        [0, 0, 0, 0], [2, 0, 253, 255], [249, 0, 6, 255], [0, 255, 255, 255], [255, 0, 255, 255]
-    ]  # fmt: skip
-    assert COLOUR_SCHEMES["raw"][7].tolist() == [7, 7, 7, 255]
-
-
 def test_a_map_is_where_its_origin_is_and_goes_with_its_frame(stage):
     scene, _ = stage.display("Map", "/map", Alpha=1.0)
     stage.place("map", "odom", (10.0, 0.0, 0.0))
@@ -38,7 +29,7 @@ def test_a_map_is_where_its_origin_is_and_goes_with_its_frame(stage):
     (texture,) = scene.update()[0].primitives
     assert texture.corners[0] == pytest.approx((9.0, 0.0, 0.0))
     assert texture.size == pytest.approx((1.5, 0.5))
-    assert texture.pixels[0].tolist() == COLOUR_SCHEMES["map"][[0, 100, 255]].tolist()
+    assert texture.pixels[0].tolist() == colours_of("map")[[0, 100, 255]].tolist()
     stage.graph.run(0.1)
     stage.place("map", "odom", (20.0, 0.0, 0.0))
     stage.graph.run(0.1)
