@@ -139,7 +139,7 @@ def test_each_shell_has_its_lines(
 
 def test_only_names_of_ros_are_given() -> None:
     assert {"rostopic", "roscd", "roslaunch", "rosbag"} <= set(aliases.names())
-    assert not {"test", "run", "world", "lab", "bench", "aliases", "gz"} & set(aliases.names())
+    assert not {"test", "run", "world", "lab", "bench", "aliases", "gz", "mcap"} & set(aliases.names())
 
 
 def test_program_paths_are_quoted() -> None:

@@ -1,0 +1,78 @@
+"""A bag as an MCAP file, read back with the library of that format."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+from rosmini.bag import Bag, ROSBagException
+from rosmini.bag.mcap import to_mcap
+from rosmini.msgs import message_class
+from rosmini.time import Time
+
+reader = pytest.importorskip("mcap.reader")
+
+
+@pytest.fixture
+def bag(tmp_path):
+    """Two topics, on one of them two publishers, a latched one among them."""
+    text, pose = message_class("std_msgs/String"), message_class("geometry_msgs/PoseStamped")
+    header = {"type": "std_msgs/String", "md5sum": text._md5sum, "message_definition": text._full_text}
+    with Bag(tmp_path / "drive.bag", "w") as bag:
+        for i in range(30):
+            bag.write("/chatter", text(data=f"hello {i}"), Time(100, i))
+            bag.write("/pose", pose(), Time(100, 1000 * i))
+        bag.write(
+            "/chatter",
+            text(data="latched"),
+            Time(101),
+            connection_header={**header, "latching": "1", "callerid": "/map"},
+        )
+    return tmp_path / "drive.bag"
+
+
+def test_everything_is_in_the_file(bag, tmp_path):
+    target = tmp_path / "drive.mcap"
+    assert to_mcap(bag, target) == (61, 61)
+    with target.open("rb") as file, Bag(bag) as source:
+        found = reader.make_reader(file, validate_crcs=True)
+        assert found.get_header().profile == "ros1"
+        messages = list(found.iter_messages())
+        summary = found.get_summary()
+        wanted = list(source.read_raw())
+    assert [m.log_time for _, _, m in messages] == [time for _, time, *_ in wanted]
+    assert [m.data for _, _, m in messages] == [data for _, _, data, *_ in wanted]
+    assert {(s.name, s.encoding) for s, _, _ in messages} == {
+        ("std_msgs/String", "ros1msg"), ("geometry_msgs/PoseStamped", "ros1msg")
+    }  # fmt: skip
+    assert len(summary.schemas) == 2
+    assert len(summary.channels) == 3
+    assert {c.message_encoding for c in summary.channels.values()} == {"ros1"}
+    latched = next(c for c in summary.channels.values() if c.metadata.get("latching"))
+    assert (latched.topic, latched.metadata["callerid"]) == ("/chatter", "/map")
+    definition = next(s.data.decode() for s in summary.schemas.values() if s.name.endswith("PoseStamped"))
+    assert definition == message_class("geometry_msgs/PoseStamped")._full_text
+    assert summary.statistics.message_count == 61
+
+
+def test_an_empty_bag_becomes_an_empty_file(tmp_path):
+    Bag(tmp_path / "empty.bag", "w").close()
+    assert to_mcap(tmp_path / "empty.bag", tmp_path / "empty.mcap") == (0, 0)
+    with (tmp_path / "empty.mcap").open("rb") as file:
+        assert list(reader.make_reader(file).iter_messages()) == []
+
+
+def test_what_is_no_bag_leaves_no_file(tmp_path):
+    (tmp_path / "wrong.bag").write_bytes(b"#ROSBAG V9.9\n")
+    with pytest.raises(ROSBagException):
+        to_mcap(tmp_path / "wrong.bag", tmp_path / "wrong.mcap")
+    assert not list(tmp_path.glob("*.mcap*"))
+    with pytest.raises(ROSBagException, match="same file"):
+        to_mcap(tmp_path / "wrong.bag", tmp_path / "wrong.bag")
+
+
+def test_without_the_library_it_says_what_to_install(bag, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "mcap.writer", None)
+    with pytest.raises(ROSBagException, match=r"pip install 'rosmini\[mcap\]'"):
+        to_mcap(bag, tmp_path / "drive.mcap")
