@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-TURTLESIM = "turtlesim's window and its two nodes are not built yet"
 NAVIGATION = "move_base, gmapping, amcl and map_server are not built yet"
 EXPLORATION = "the exploration packages stand on move_base, which is not built yet"
 NO_ROS = "no ROS is installed, so nothing is there to be sourced"
@@ -243,7 +242,11 @@ LINES = (
     ),
     Line("8.2.1", "roscore", "shell"),
     slip(
-        "8.2.1", "roslaunch turtlesim turtlesim_node", "roslaunch turtlesim turtlesim_node", waits=TURTLESIM
+        "8.2.1",
+        "roslaunch turtlesim turtlesim_node",
+        "roslaunch turtlesim turtlesim_node",
+        "%roslaunch turtlesim turtlesim_node",
+        "rosrun turtlesim turtlesim_node",
     ),
     slip(
         "8.2.1",
@@ -251,7 +254,6 @@ LINES = (
         "roslaunch turtlesim turtle_teleop_key",
         "%roslaunch turtlesim turtle_teleop_key",
         "rosrun turtlesim turtle_teleop_key",
-        waits=TURTLESIM,
     ),
     Line("8.2.1", "rqt_graph", "test_pictures_are_written_as_pages", "%rqt_graph", ""),
     Line("8.2.1", "rostopic -h", "test_help", "%rostopic -h", "rostopic <verb>"),
@@ -263,19 +265,22 @@ LINES = (
         "8.2.3",
         "roslaunch turtlesim turtlesim_node __name:=master_turtle",
         "roslaunch turtlesim turtlesim_node",
-        waits=TURTLESIM,
+        "%roslaunch turtlesim turtlesim_node __name:=master_turtle",
+        "rosrun turtlesim turtlesim_node",
     ),
     slip(
         "8.2.3",
         "roslaunch turtlesim turtle_teleop_key",
         "roslaunch turtlesim turtle_teleop_key",
-        waits=TURTLESIM,
+        "%roslaunch turtlesim turtle_teleop_key",
+        "rosrun turtlesim turtle_teleop_key",
     ),
     slip(
         "8.2.3",
         "roslaunch turtlesim turtlesim_node __name:=node1_turtle",
         "roslaunch turtlesim turtlesim_node",
-        waits=TURTLESIM,
+        "%roslaunch turtlesim turtlesim_node __name:=node1_turtle",
+        "rosrun turtlesim turtlesim_node",
     ),
     Line("9.3", "roslaunch navigation_stage move_base_gmapping_5cm.launch", waits=NAVIGATION),
     Line("9.3", "roslaunch navigation_stage move_base.xml", waits=NAVIGATION),
