@@ -35,6 +35,15 @@ _PYTHON_2_MODULES = {
 }
 
 
+_SECOND_LOOP = (
+    "asyncio.run() cannot be called from a running event loop",
+    "Runner.run() cannot be called from a running event loop",
+    "Cannot run the event loop while another loop is running",
+    "This event loop is already running",
+)
+"""How asyncio refuses to run in a thread in which it runs already."""
+
+
 def user_traceback(error: BaseException) -> str:
     """Return the traceback of ``error`` as Python prints it, without the frames inside rosmini.
 
@@ -79,4 +88,10 @@ def _hint(error: BaseException) -> str:
         return f"({error.name} is Python 2; in Python 3 it is {_PYTHON_2_NAMES[error.name]})\n"
     if isinstance(error, ModuleNotFoundError) and error.name in _PYTHON_2_MODULES:
         return f"({error.name} is Python 2; in Python 3 it is {_PYTHON_2_MODULES[error.name]})\n"
+    if isinstance(error, RuntimeError) and str(error) in _SECOND_LOOP:
+        return (
+            "(a notebook's kernel runs an event loop of its own in this thread, in which no second one can run, and "
+            "no time of the graph would pass in it: let callbacks, a rospy.Timer or threading.Thread do several "
+            "things at once; in a process of its own, `rosmini rosrun`, the script can use asyncio)\n"
+        )
     return ""
