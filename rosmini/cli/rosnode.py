@@ -357,11 +357,16 @@ def cleanup(_given: Values, call: Call) -> Cleaned:
     if not _agreed(call):
         call.say("aborting")
         return Cleaned()
+    gone = []
     for name in silent:
+        if not nodes.silent(call.peers, [name]):  # it was busy, or has been started again meanwhile
+            call.say(f"{name} answers now, and stays")
+            continue
         call.say(f"Unregistering {name}")
         nodes.forget(call.peers, [name])
+        gone.append(name)
     call.say("done")
-    return Cleaned(names=tuple(silent))
+    return Cleaned(names=tuple(gone))
 
 
 def _agreed(call: Call) -> bool:

@@ -347,9 +347,15 @@ class Node(ServiceApi):
         self.shutdown("it was killed", hooks=False)
 
     def shutdown_requested(self, caller: str, reason: str) -> None:
-        """Learn by the slave API that the node is to end; it does so in a lane of its own."""
+        """Learn by the slave API that the node is to end; it does so in a lane of its own.
+
+        The Master's word for the older of two nodes with another name was sent to one that had this address before.
+        """
+        is_replaced = caller == "/master" and "same name" in reason
+        if is_replaced and reason.startswith("[/") and not reason.startswith(f"[{self.name}]"):
+            return
         self.logger.console(LEVELS["WARN"], f"shutdown request: {reason}")
-        if caller == "/master" and "same name" in reason:
+        if is_replaced:
             problem = DuplicateNode(
                 f"{self.name} was shut down because another node registered under its name. Give one of them another "
                 f"name: __name:=other on the command line, anonymous=True, or another namespace."

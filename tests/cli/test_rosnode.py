@@ -15,6 +15,7 @@ from rosmini import Graph
 from rosmini.cli.rosnode import TOOL
 from rosmini.cli.verbs import Call, Result, VerbError
 from rosmini.errors import UsageError
+from rosmini.msgs import message_class
 
 from ..processes import free_port
 from .transcripts import masked, read, talkers
@@ -215,6 +216,21 @@ def test_cleanup_asks_in_a_terminal(graph: Graph) -> None:
     assert said[-2:] == ["Unregistering /talker", "done"]
     assert "/talker" not in run(graph, "list").names
     assert vars(act(graph, "cleanup", [], said, typed()))["names"] == ()
+
+
+def test_cleanup_spares_a_node_that_is_there_again_when_the_answer_comes(graph: Graph) -> None:
+    """Somebody has started it again before typing `y`: what the Master knows is the new one's."""
+    crash(graph, "/talker")
+    crash(graph, "/srv_server")
+    said: list[str] = []
+
+    def start_again_and_agree() -> str:
+        graph.node("talker").publisher("chatter", message_class("std_msgs/String"))
+        return "y\n"
+
+    assert vars(act(graph, "cleanup", [], said, start_again_and_agree))["names"] == ("/srv_server",)
+    assert "/talker answers now, and stays" in said
+    assert "/talker" in run(graph, "list").names
 
 
 def test_cleanup_in_python_does_not_ask(graph: Graph) -> None:

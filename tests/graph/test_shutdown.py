@@ -307,3 +307,14 @@ def test_a_lane_that_ignores_the_interrupt_is_ended_with_the_graph(graph: Graph)
 
     node.run(main)
     settle(graph)
+
+
+def test_the_masters_word_for_a_node_that_had_this_address_before_ends_nobody(graph: Graph) -> None:
+    """The older of two nodes is dead, and its port has been given to a node of another name."""
+    node = graph.node("simulator")
+    slave = node.slave
+    assert slave.call("shutdown", "/master", "[/talker] Reason: new node registered with same name")[0] == 1
+    settle(graph)
+    assert not node.is_shutdown()
+    slave.call("shutdown", "/master", "[/simulator] Reason: new node registered with same name")
+    until(graph, node.is_shutdown)
