@@ -248,7 +248,9 @@ def test_the_stored_form_is_the_same_in_every_run(tmp_path: Path, root: Path) ->
 
 def test_a_script_with_asyncio_is_told_why_it_cannot_run_here(new_kernel: Any) -> None:
     new_kernel.ok("%load_ext rosmini\n%roscore")
-    cell = "%%node a.py\nimport asyncio\nasync def main():\n    await asyncio.sleep(0.1)\nasyncio.run(main())\n"
+    cell = (
+        "%%node a.py\nimport asyncio\nasync def main():\n    await asyncio.sleep(0.1)\nasyncio.run(main())\n"
+    )
     ended = new_kernel.ok(cell)
     assert "RuntimeError: asyncio.run() cannot be called from a running event loop" in ended.stderr
     assert "a notebook's kernel runs an event loop of its own in this thread" in ended.stderr

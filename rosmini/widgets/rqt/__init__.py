@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .bag import BagTimeline
 from .browsers import ActionTypes, ImageView, MessageTypes, ServiceTypes, TfTree
 from .console import LogConsole
 from .graph import NodeGraph
@@ -17,6 +18,7 @@ from .window import Rqt
 
 __all__ = [
     "ActionTypes",
+    "BagTimeline",
     "DynamicReconfigure",
     "ImageView",
     "LogConsole",

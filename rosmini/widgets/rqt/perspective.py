@@ -22,6 +22,10 @@ MOST = 100
 """How many plugins may run."""
 
 
+def _no_group() -> dict[str, Any]:
+    return {"keys": {}, "groups": {}}
+
+
 @dataclass(frozen=True)
 class Running:
     """A plugin that runs: ``plugin`` is ``rqt_graph/RosGraph``, and ``settings`` are what it keeps."""
@@ -41,6 +45,8 @@ class Perspective:
     """An arrangement of plugins."""
 
     running: tuple[Running, ...] = ()
+    docks: dict[str, Any] = field(default_factory=_no_group)
+    """Where the docks are in the window of the real rqt, in Qt's own form: kept for it, and not shown here."""
 
     @classmethod
     def read(cls, path: str | Path) -> Perspective:
@@ -78,7 +84,7 @@ class Perspective:
         ]
         if len(running) > MOST:
             raise ViewError(f"it runs {len(running)} plugins; {MOST} are allowed")
-        return cls(tuple(running))
+        return cls(tuple(running), _group(found, "mainwindow") or _no_group())
 
     def dumps(self) -> str:
         """Return the text of a file."""
@@ -90,7 +96,10 @@ class Perspective:
             for each in self.running
         }
         manager = {"keys": _keys({"running-plugins": plugins}), "groups": groups}
-        whole = {"keys": {}, "groups": {"mainwindow": {"keys": {}, "groups": {}}, "pluginmanager": manager}}
+        whole = {
+            "keys": {},
+            "groups": {"mainwindow": self.docks, "pluginmanager": manager},
+        }
         return json.dumps(whole, indent=2, sort_keys=True) + "\n"
 
     def write(self, path: str | Path) -> None:

@@ -12,6 +12,7 @@ from rosmini.errors import RosminiError, nearest
 from rosmini.viz.rqt.plugins import PLUGINS
 from rosmini.viz.view import ViewError
 
+from .bag import BagTimeline
 from .browsers import ActionTypes, ImageView, MessageTypes, ServiceTypes, TfTree
 from .console import LogConsole
 from .graph import NodeGraph
@@ -34,8 +35,8 @@ if TYPE_CHECKING:
     from .parts import Cell, Part
 
 PANELS: tuple[type[Panel], ...] = (
-    ActionTypes, DynamicReconfigure, NodeGraph, LogConsole, LoggerLevel, ServiceCaller, ServiceTypes, MessagePublisher,
-    MessageTypes, TopicMonitor, ImageView, Plot, TfTree,
+    ActionTypes, DynamicReconfigure, NodeGraph, BagTimeline, LogConsole, LoggerLevel, ServiceCaller, ServiceTypes,
+    MessagePublisher, MessageTypes, TopicMonitor, ImageView, Plot, TfTree,
 )  # fmt: skip
 """What can be opened in a window."""
 
@@ -76,6 +77,7 @@ class Rqt(Panel):
         self.missing: list[str] = []
         """What the perspective that was opened last has and this window has not, each with what serves instead."""
         self._numbered = 0
+        self._docks = Perspective().docks
         self._written = {"perspective": "my perspective", "file": "my.perspective"}
         if perspective is not None:
             self.import_file(perspective)
@@ -118,7 +120,7 @@ class Rqt(Panel):
         for panel in self.running.values():
             counted[panel.plugin] = number = counted.get(panel.plugin, 0) + 1
             found.append(Running(panel.plugin, number, panel.settings()))
-        return Perspective(tuple(found))
+        return Perspective(tuple(found), self._docks)
 
     def arrange(self, perspective: Perspective) -> None:
         """Close what runs, and open what a perspective has; `missing` names what could not be opened or restored."""
@@ -126,6 +128,7 @@ class Rqt(Panel):
         for number in list(self.running):
             self.end(number)
         self.missing = []
+        self._docks = perspective.docks
         for each in perspective.running:
             try:
                 self.open(each.plugin).restore(each.settings)

@@ -130,3 +130,20 @@ def test_files_are_exported_and_imported_and_what_is_missing_is_named(window, gr
     ]
     assert "not here: rqt_shell/Shell: Shell (rqt_shell) is no panel of this window" in window.text
     assert running(Rqt(graph, perspective=path, name="other")) == ["rqt_plot"]
+
+
+def test_where_the_docks_of_the_real_window_are_survives_import_and_export(window, tmp_path):
+    """They are in Qt's own form: nothing here reads them, and the real rqt finds its window as it was."""
+    state = {"type": "repr(QByteArray.hex)", "repr(QByteArray.hex)": "QtCore.QByteArray('00ff')"}
+    docks = {
+        "keys": {"geometry": state, "state": state},
+        "groups": {"toolbar_areas": {"keys": {}, "groups": {}}},
+    }
+    text = json.loads(window.perspective().dumps())
+    text["groups"]["mainwindow"] = docks
+    (tmp_path / "theirs.perspective").write_text(json.dumps(text), encoding="utf-8")
+    window.import_file(tmp_path / "theirs.perspective")
+    window.open("rqt_console")
+    window.export_file(tmp_path / "ours.perspective")
+    kept = json.loads((tmp_path / "ours.perspective").read_text(encoding="utf-8"))
+    assert kept["groups"]["mainwindow"] == docks
