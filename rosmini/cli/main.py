@@ -123,6 +123,9 @@ COMMANDS: dict[str, Entry] = {
         f"rqt_{verb}": Entry("rosmini.cli.rqt", f"rqt: {summary}", is_magic=True, only=verb)
         for verb, summary in RQT.items()
     },
+    "rviz": Entry(
+        "rosmini.cli.rviz", "what RViz shows: displays in a scene, and their status", is_magic=True
+    ),
     "rosbag": Entry("rosmini.cli.rosbag", "record, play and look into bags", is_magic=True),
     "rospack": Entry(
         "rosmini.cli.rospack", "packages: where they are, what they need, what they export", is_magic=True

@@ -87,7 +87,7 @@ def _live(kind: str, call: Call, *words: str, **options: Any) -> Shown:
     return Shown(view=vars(rqt)[kind](call.graph, *words, **options))
 
 
-def _shown(view: View, verb: str, given: Values, call: Call) -> Shown:
+def shown(view: View, name: str, given: Values, call: Call) -> Shown:
     """Write the page that was asked for; in a terminal open one in the browser if none was."""
     if given.output:
         return Shown(view=view, path=view.save(given.output))
@@ -95,7 +95,7 @@ def _shown(view: View, verb: str, given: Values, call: Call) -> Shown:
         return Shown(view=view)
     import webbrowser
 
-    path = view.save(Path(tempfile.mkdtemp(prefix="rosmini_")) / f"rqt_{verb}.html")
+    path = view.save(Path(tempfile.mkdtemp(prefix="rosmini_")) / f"{name}.html")
     webbrowser.open(path.as_uri())
     return Shown(view=view, path=path)
 
@@ -158,7 +158,7 @@ def graph(given: Values, call: Call) -> Shown:
         master.ask("getTopicTypes"),
         unreachable=silent(call.peers, names(call.peers)),
     )
-    return _shown(rqt_graph(state, title=given.title, **options), "graph", given, call)
+    return shown(rqt_graph(state, title=given.title, **options), "rqt_graph", given, call)
 
 
 def _switches(given: str | None, default: tuple[str, ...]) -> tuple[str, ...]:
@@ -177,7 +177,7 @@ def _definition(verb: str, example: str) -> None:
         from rosmini.viz.rqt import definitions
 
         draw: Callable[[str], View] = vars(definitions)[f"rqt_{verb}"]
-        return _shown(draw(_one_word(given, parser(), "type")), verb, given, call)
+        return shown(draw(_one_word(given, parser(), "type")), f"rqt_{verb}", given, call)
 
 
 for _verb, _example in (
@@ -199,7 +199,7 @@ def plugins(given: Values, call: Call) -> Shown:
     """Show the table of plugins."""
     from rosmini.viz.rqt.plugins import rqt_plugins
 
-    return _shown(rqt_plugins(), "plugins", given, call)
+    return shown(rqt_plugins(), "rqt_plugins", given, call)
 
 
 def _bag_parser() -> Parser:
@@ -213,7 +213,7 @@ def bag(given: Values, call: Call) -> Shown:
     from rosmini.viz.rqt.bag import rqt_bag
 
     with Bag(_one_word(given, _bag_parser(), "bag")) as opened:
-        return _shown(rqt_bag(opened, title=given.title), "bag", given, call)
+        return shown(rqt_bag(opened, title=given.title), "rqt_bag", given, call)
 
 
 # -- what listens ------------------------------------------------------------------------------------------------------
@@ -236,7 +236,7 @@ def plot(given: Values, call: Call) -> Shown:
     if given.live:
         return _live("Plot", call, *fields)
     view = rqt_plot(call.graph, *fields, duration=given.duration, title=given.title)
-    return _shown(view, "plot", given, call)
+    return shown(view, "rqt_plot", given, call)
 
 
 def _topic_parser() -> Parser:
@@ -252,7 +252,7 @@ def topic(given: Values, call: Call) -> Shown:
     expand = [global_name(word) for word in given.words]
     if given.live:
         return _live("TopicMonitor", call, *expand)
-    return _shown(rqt_topic(call.graph, expand=expand, duration=given.duration), "topic", given, call)
+    return shown(rqt_topic(call.graph, expand=expand, duration=given.duration), "rqt_topic", given, call)
 
 
 def _console_parser() -> Parser:
@@ -273,7 +273,7 @@ def console(given: Values, call: Call) -> Shown:
     log = call.graph.console()
     try:
         _pass(call, given.duration)
-        return _shown(rqt_console(log, level=given.level), "console", given, call)
+        return shown(rqt_console(log, level=given.level), "rqt_console", given, call)
     finally:
         log.close()
 
@@ -291,7 +291,7 @@ def tf_tree(given: Values, call: Call) -> Shown:
     with tool_node(call.graph, "rqt_tf_tree") as node:
         listener = TransformListener(node)
         _pass(call, given.duration)
-        return _shown(draw(listener), "tf_tree", given, call)
+        return shown(draw(listener), "rqt_tf_tree", given, call)
 
 
 def _image_parser() -> Parser:
@@ -322,7 +322,7 @@ def image_view(given: Values, call: Call) -> Shown:
         raise VerbError(
             f"no image came on {name} in {given.duration:g} s; `rosmini rostopic info {name}` says who publishes it"
         )
-    return _shown(image_picture(heard[0], title=name), "image_view", given, call)
+    return shown(image_picture(heard[0], title=name), "rqt_image_view", given, call)
 
 
 # -- what is operated --------------------------------------------------------------------------------------------------

@@ -34,7 +34,7 @@ PLUGINS: tuple[tuple[str, str, str, str], ...] = (
     ("Visualization", "Image View", "rqt_image_view", "rqt_image_view"),
     ("Visualization", "Plot", "rqt_plot", "rqt_plot"),
     ("Visualization", "Pose View", "rqt_pose_view", "simulator.show3d()"),
-    ("Visualization", "RViz", "rqt_rviz", "not here yet"),
+    ("Visualization", "RViz", "rqt_rviz", "rviz"),
     ("Visualization", "TF Tree", "rqt_tf_tree", "rqt_tf_tree"),
 )
 """Group, name in the menu, package, and what serves here: the same tool, or another way to the same end."""
