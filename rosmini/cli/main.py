@@ -123,6 +123,8 @@ COMMANDS: dict[str, Entry] = {
         f"rqt_{verb}": Entry("rosmini.cli.rqt", f"rqt: {summary}", is_magic=True, only=verb)
         for verb, summary in RQT.items()
     },
+    "logo": Entry(
+        "rosmini.cli.logo", "run a program in Logo, which drives turtles and robots", is_magic=True
     "rviz": Entry(
         "rosmini.cli.rviz", "what RViz shows: displays in a scene, and their status", is_magic=True
     ),

@@ -40,6 +40,9 @@ SPIN, SLOWEST_SPIN = 1.2, 0.05
 NEAR, NEAR_ANGLE = 0.003, math.radians(0.3)
 """A goal that is as near as this is reached [m, rad]."""
 
+TRACE = 1.0
+"""Where it drove is noted at such distances [steps]."""
+
 PATIENCE = 5.0
 """A robot that has come no nearer for so long is stuck; so long is odometry waited for [s]."""
 
@@ -62,6 +65,7 @@ class FloorTurtle(ExactTurtle):
         except ROSException as error:
             raise LogoError(f"{self.name} does not say where it is: {error}") from error
         self._origin = self._odom
+        self._noted = self.pose
         node.subscriber(topic, kind, self._hear, queue_size=1)
 
     @property
@@ -148,11 +152,19 @@ class FloorTurtle(ExactTurtle):
                     )
                 twist.linear.x, twist.angular.z = command(off)
                 self._publisher.publish(twist)
-                before = self.pose
                 self.node.sleep(1.0 / RATE)
-                self.trace(before)
+                self._trail(TRACE)
         finally:
             self.stop()
+            self._trail(0.0)
+
+    def _trail(self, least: float) -> None:
+        """Note the line from where it was noted last, if it is as long as that [steps], or the robot has turned."""
+        here = self.pose
+        turned = abs(math.remainder(here.heading - self._noted.heading, 360.0))
+        if math.dist(here[:2], self._noted[:2]) >= max(least, 1e-9) or turned > 10.0:
+            self.trace(self._noted)
+            self._noted = here
 
     def _move(self, pose: Pose) -> None:
         self.place(pose)

@@ -32,7 +32,7 @@ class Limits:
     steps: int = 5_000_000
     """So many instructions; making a large list counts as several."""
 
-    moves: int = 50_000
+    moves: int = 20_000
     """So many movements of turtles."""
 
     depth: int = 10_000

@@ -10,7 +10,7 @@ from rosmini.cli import magics
 from rosmini.errors import UsageError
 from rosmini.rospy.importer import install, ros_is_installed, uninstall
 
-from . import file_cells, node_cell
+from . import file_cells, logo_cell, node_cell
 from .completion import complete
 from .saving import save_package
 from .session import Session, begin_session, end_session, session_of
@@ -40,6 +40,7 @@ def load(shell: Any) -> None:
         ("line", "roslaunch", node_cell.roslaunch),
         ("cell", "node", node_cell.node),
         ("cell", "terminal", terminal),
+        ("cell", "logo", logo_cell.logo),
         ("cell", "msg", file_cells.msg),
         ("cell", "srv", file_cells.srv),
         ("cell", "action", file_cells.action),

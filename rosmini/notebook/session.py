@@ -25,6 +25,7 @@ from .terminal import Terminals
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rosmini.logo import Logo
     from rosmini.scripts.streams import ScriptOutput
 
 _ATTRIBUTE = "rosmini_session"
@@ -69,6 +70,14 @@ class Session:
             graph.record()  # %roswhy asks about what was, and nobody knows before what that will be
             set_default_graph(graph)
             self.runs = Runs(graph, self.say)
+            self.logos: dict[tuple[str, ...], Logo] = {}
+            """The interpreters of ``%%logo`` cells, by the names of their turtles."""
+
+    def logo(self, names: tuple[str, ...], make: Callable[[], Logo]) -> Logo:
+        """Return the interpreter that drives these turtles in this graph, made now if there is none."""
+        if names not in self.logos:
+            self.logos[names] = make()
+        return self.logos[names]
 
     def _end_graph(self) -> None:
         """Shut all nodes down; what they print meanwhile went to terminals of theirs, and is not shown."""

@@ -1,0 +1,53 @@
+"""``%%logo [--title TEXT] [TURTLE ...]``: the cell is a program in Logo, for turtles and robots of the graph."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.cli.magics import words as words_of
+from rosmini.errors import UsageError
+from rosmini.logo import Logo, LogoError
+
+if TYPE_CHECKING:
+    from .session import Session
+
+USAGE = "%%logo [--title TEXT] [TURTLE ...]"
+
+TITLE = "--title"
+
+
+def logo(session: Session, line: str, cell: str) -> Any:
+    """Run the cell as a program in Logo; show what is drawn.
+
+    Without names it drives what is there: turtlesim's first turtle, or all robots, or a turtle on paper. A procedure
+    that one cell defines is known to the next, until %roscore; so is what is on the paper, until clearscreen.
+    A program that fails says so, with the line of the cell, as Logo does; the cell itself does not fail, as that of a
+    ``%%node`` does not. Raises ``UsageError`` for a line that makes no sense, and ``LogoError`` for a turtle that is
+    not there.
+    """
+    words = words_of(line, "%logo", session.shell.user_ns)
+    title: str | None = None
+    if TITLE in words:
+        at = words.index(TITLE)
+        if at + 1 == len(words):
+            raise UsageError(f"{TITLE} takes a caption. Usage: {USAGE}")
+        title = words[at + 1]
+        del words[at : at + 2]
+    wrong = next((word for word in words if word.startswith("-")), None)
+    if wrong is not None:
+        raise UsageError(f"unknown option {wrong!r}. Usage: {USAGE}")
+    session.look()
+    interpreter = session.logo(tuple(words), lambda: _begin(session, words))
+    before = len(interpreter.drawing.lines)
+    try:
+        interpreter.run(cell, first_line=2)
+    except LogoError as error:
+        session.say(str(error))
+    drawing = interpreter.drawing
+    has_changed = title is not None or len(drawing.lines) != before
+    return drawing.show(title=title) if has_changed and drawing.strokes else None
+
+
+def _begin(session: Session, names: list[str]) -> Logo:
+    graph = session.graph
+    return Logo.on(graph.node("logo", anonymous=bool(session.logos)), *names, say=session.say)
