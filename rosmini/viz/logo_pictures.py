@@ -91,8 +91,9 @@ def _times(strokes: tuple[Stroke, ...], speed: float) -> Floats:
         + abs(math.remainder(stroke.end.heading - stroke.start.heading, 360.0)) / TURNING
         for stroke in strokes
     ]
-    times = np.concatenate([[0.0], np.cumsum(spans)])
-    return times * min(1.0, LONGEST / max(times[-1], 1e-9))
+    times: Floats = np.concatenate([[0.0], np.cumsum(spans)])
+    faster: Floats = times * min(1.0, LONGEST / max(float(times[-1]), 1e-9))
+    return faster
 
 
 def _strokes(drawing: Drawing, times: Floats) -> dict[str, tuple[Line, ...]]:

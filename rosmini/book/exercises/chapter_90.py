@@ -141,7 +141,7 @@ def tiny_logo(answer: Script) -> Any:
         graph.run(0.5)
         publisher = graph.node("speaker").publisher("logo", String)
         graph.run(0.5)
-        expect(publisher.get_num_connections() > 0, "It does not subscribe to `/logo`.")
+        expect(publisher.num_connections() > 0, "It does not subscribe to `/logo`.")
         for command in (
             "forward 45",
             "right 90",
