@@ -79,7 +79,7 @@ def logo_picture(drawing: Drawing, *, title: str | None = None, speed: float = 2
     bodies = tuple(_body(each, drawing, times) for each in drawing.turtles if each.visible)
     run = Run(
         "Logo", 0.0, end, bodies=bodies, layers=layers, frame=drawing.place, bounds=_bounds(drawing),
-        background=_hex(drawing.background) if drawing.middle else None,
+        background=_hex(drawing.background) if drawing.middle else None, opens_at_end=True,
     )  # fmt: skip
     return ReplayView([_Shown(drawing, run)], title=title)
 

@@ -580,3 +580,19 @@ def test_each_beam_is_drawn_from_where_the_recording_puts_it(write, opened, turn
             [replay_data(turning), turning.scan_times[which], beams],
         )
         assert np.array(poses) == pytest.approx(turning.scan_poses(which), abs=0.005)
+
+
+def test_a_drawing_of_logo_is_there_before_it_is_played(write, opened):
+    from types import SimpleNamespace
+
+    from rosmini.logo import Logo
+
+    logo = Logo()
+    logo.run('setpencolor "yellow setpensize 20 repeat 4 [forward 100 right 90]')
+    page = opened(write(SimpleNamespace(replay=logo.drawing.show)))
+    painted(page)
+    yellow = {"yellow": "#ffff00"}
+    assert count(page, "yellow", yellow) > 500
+    assert time_of(page) > 2
+    scrub(page, 0)
+    assert count(page, "yellow", yellow) == 0

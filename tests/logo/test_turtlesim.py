@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from math import pi
 
 import pytest
-from rosmini.turtlesim.node import TurtleSim
 
 from rosmini import Graph
 from rosmini.graph import Node
 from rosmini.logo import Logo, LogoError
 from rosmini.msgs import service_class
+from rosmini.turtlesim.node import TurtleSim
 
 MIDDLE = 499 / 90
 

@@ -55,6 +55,7 @@ def test_forms_and_equal_bytes():
     first, second = (logo_picture(drawing("repeat 5 [fd 100 rt 144]")) for _ in range(2))
     assert first.html == second.html
     assert "rosminiReplay" in (first.html or "")
+    assert first.data["opens"] == "end"
     assert first._images()["image/svg+xml"].startswith(b"<svg")
     assert (
         logo_picture(drawing("print 1")).text

@@ -106,6 +106,7 @@ class Run:
         bounds: what is shown, x0, y0, x1, y1 [m]; if not given, all that there is.
         background: a colour `#rrggbb`; the page's own with a grid of metres, if not given.
         notes: what was left out or thinned, in sentences.
+        opens_at_end: whether the player shows the end until it is played, as for a drawing.
 
     """
 
@@ -118,6 +119,7 @@ class Run:
     bounds: Bounds | None = None
     background: str | None = None
     notes: tuple[str, ...] = ()
+    opens_at_end: bool = False
 
     def __post_init__(self) -> None:
         if not math.isfinite(self.start) or not math.isfinite(self.end) or self.end < self.start:
@@ -155,6 +157,8 @@ class Run:
             "bounds": [round(side, 3) for side in self.extent()],
             "bodies": [body.data() for body in self.bodies],
         }
+        if self.opens_at_end:
+            data["opens"] = "end"
         if self.background is not None:
             data["background"] = self.background
         layers, notes = thinned(self.layers, budget - size(data))

@@ -400,7 +400,7 @@ margin:0;padding:.2rem .7rem .6rem}
       this.shown = Object.fromEntries([...switches(runs).keys()].map((key) => [key, true]));
       this.camera = { zoom: 1, follow: false, moved: null };
       this.calm = matchMedia("(prefers-reduced-motion: reduce)");
-      [this.time, this.playing, this.visible] = [this.start, false, true];
+      [this.time, this.playing, this.visible] = [data.opens === "end" ? this.end : this.start, false, true];
       [this.request, this.ticked, this.drawn] = [0, 0, -Infinity];
 
       const { start, end } = this;
