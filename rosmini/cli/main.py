@@ -125,6 +125,7 @@ COMMANDS: dict[str, Entry] = {
     },
     "logo": Entry(
         "rosmini.cli.logo", "run a program in Logo, which drives turtles and robots", is_magic=True
+    ),
     "rviz": Entry(
         "rosmini.cli.rviz", "what RViz shows: displays in a scene, and their status", is_magic=True
     ),
