@@ -33,7 +33,7 @@ END_S = 2.0
 
 PAGE = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}</title>
+<title>{title}</title><link rel="icon" href="data:,">
 <style>:root{{color-scheme:light dark}}body{{margin:12px;font-family:sans-serif}}</style></head>
 <body><main id="page"></main><p id="link" role="status"></p>
 <script type="module">

@@ -28,7 +28,7 @@ from .primitives import Pane, Primitive
 from .views import ViewController, view_controller
 
 if TYPE_CHECKING:
-    from rosmini.graph import Graph
+    from rosmini.graph import Graph, Node
 
 
 class Layer(NamedTuple):
@@ -46,7 +46,7 @@ class Scene:
         graph: the graph.
         config: a `.rviz` file, its path, or None for a scene without displays.
         fixed_frame: overrides that of the file.
-        name: of the node, to which a number is added.
+        node: listens and, with tools, publishes; one of its own, `rviz` with a number, by default.
 
     Raises:
         ConfigError: the file is no configuration of RViz.
@@ -55,7 +55,7 @@ class Scene:
 
     def __init__(
         self, graph: Graph, config: Config | str | Path | None = None, *, fixed_frame: str | None = None,
-        name: str = "rviz",
+        node: Node | None = None,
     ) -> None:  # fmt: skip
         if config is None:
             config = Config()
@@ -65,7 +65,7 @@ class Scene:
             self.options["Fixed Frame"] = fixed_frame
         self.root = Group("root", {"Displays": self.config.mappings("Displays")})
         self.view: ViewController | None = view_controller(self.config.mapping("Views", "Current"))
-        self.node = graph.node(name, anonymous=True)
+        self.node = graph.node("rviz", anonymous=True) if node is None else node
         self.context = Context(self.node, str(self.options["Fixed Frame"]).lstrip("/"))
         self._listener = TransformListener(self.node, self.context.buffer)
         self._last_ns = self.context.now_ns

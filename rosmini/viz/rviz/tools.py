@@ -49,6 +49,8 @@ class Tool(Plugin, ABC):
     """The key that takes the tool."""
     hint: ClassVar[str] = ""
     """What the status bar says before anything is done."""
+    needs_object: ClassVar[bool] = False
+    """Whether it takes points of what is drawn only, not of the empty ground."""
     properties: ClassVar[tuple[Property, ...]] = ()
 
     def __init__(self, scene: Scene, tree: Mapping[str, Any] | None = None) -> None:
@@ -245,6 +247,7 @@ class PublishPoint(PublishingTool, plugin="rviz/PublishPoint"):
     """Publish Point: tells others a point that was clicked."""
 
     label, key, message = "Publish Point", "u", "geometry_msgs/PointStamped"
+    needs_object = True
     hint = "Move over an object to select the target point."
     properties = (
         Property("Topic", "/clicked_point", "where points are published"),
@@ -268,6 +271,7 @@ class Measure(Tool, plugin="rviz/Measure"):
     """Measure: the distance of two points."""
 
     label, key = "Measure", "n"
+    needs_object = True
     hint = "Click on two points to measure their distance."
 
     def __init__(self, scene: Scene, tree: Mapping[str, Any] | None = None) -> None:
@@ -306,35 +310,6 @@ class FocusCamera(Tool, plugin="rviz/FocusCamera"):
         return f"Focused on [{at[0]:.3g},{at[1]:.3g},{at[2]:.3g}]"
 
 
-class Interact(Tool, plugin="rviz/Interact"):
-    """Interact: for interactive markers; elsewhere it moves the camera."""
-
-    label, key = "Interact", "i"
-    hint = "Click an interactive marker, or drag to move the camera."
-    properties = (
-        Property("Hide Inactive Objects", True, "show the controls of markers only with this tool"),
-    )
-    _marker: InteractiveMarkers | None = None
-
-    def press(self, at: Floats) -> str:
-        """Take hold of the control that is there."""
-        for display in self.scene:
-            found = display.under(at, self.scene.context) if isinstance(display, InteractiveMarkers) else None
-            if found is not None:
-                self._marker = display
-                return str(display.press(*found, at))
-        return self.hint
-
-    def move(self, at: Floats) -> str:
-        """Drag it."""
-        return self.hint if self._marker is None else str(self._marker.move(at))
-
-    def release(self, at: Floats) -> str:
-        """Let go of it."""
-        held, self._marker = self._marker, None
-        return self.hint if held is None else str(held.release(at))
-
-
 class MoveCamera(Tool, plugin="rviz/MoveCamera"):
     """Move Camera: a drag moves the view."""
 
@@ -356,6 +331,35 @@ class MoveCamera(Tool, plugin="rviz/MoveCamera"):
         """Let go."""
         del at
         return self.hint
+
+
+class Interact(MoveCamera, plugin="rviz/Interact"):
+    """Interact: for interactive markers; elsewhere it moves the camera."""
+
+    label, key = "Interact", "i"
+    hint = "Click an interactive marker, or drag to move the camera."
+    properties = (
+        Property("Hide Inactive Objects", True, "show the controls of markers only with this tool"),
+    )
+    _marker: InteractiveMarkers | None = None
+
+    def press(self, at: Floats) -> str:
+        """Take hold of the control that is there."""
+        for display in self.scene:
+            found = display.under(at, self.scene.context) if isinstance(display, InteractiveMarkers) else None
+            if found is not None:
+                self._marker = display
+                return str(display.press(*found, at))
+        return super().press(at)
+
+    def move(self, at: Floats) -> str:
+        """Drag it."""
+        return super().move(at) if self._marker is None else str(self._marker.move(at))
+
+    def release(self, at: Floats) -> str:
+        """Let go of it."""
+        held, self._marker = self._marker, None
+        return self.hint if held is None else str(held.release(at))
 
 
 class Select(Tool, plugin="rviz/Select"):

@@ -97,6 +97,10 @@ class ViewController(Plugin):
         """Move the middle of the view by `offset` (3,) of the fixed frame [m]."""
         raise NotImplementedError
 
+    def zoom(self, factor: float) -> None:
+        """Look from closer, by a factor."""
+        raise NotImplementedError
+
     def target(self, context: Context) -> tuple[Floats, float]:
         """Origin (3,) and heading [rad] of the target frame in the fixed frame."""
         with suppress(TransformException):
@@ -119,6 +123,10 @@ class Orbit(ViewController, plugin="rviz/Orbit"):
         """Move the focal point."""
         del context
         self["Focal Point"] = Vector(*(float(each) for each in np.array(self["Focal Point"]) + offset))
+
+    def zoom(self, factor: float) -> None:
+        """Come closer to the focal point."""
+        self["Distance"] = self["Distance"] / factor
 
     def _around(self, target: Floats, yaw: float) -> Sight:
         angle = self["Field of View"]
@@ -175,6 +183,10 @@ class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
         """Move the middle of the view."""
         del context
         self["X"], self["Y"] = self["X"] + float(offset[0]), self["Y"] + float(offset[1])
+
+    def zoom(self, factor: float) -> None:
+        """Draw everything larger."""
+        self["Scale"] = self["Scale"] * factor
 
 
 def view_controller(tree: Mapping[str, Any]) -> ViewController | None:

@@ -2,7 +2,7 @@
    A plain script that sets `globalThis.rosminiRqt`; `render({ model, el })` is what anywidget calls.
 
    To the kernel:   {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "start"} let the graph go on,
-                    {type: "set", key, value} a control was operated.
+                    {type: "set", key, value} a control was operated; a pointer on a drawing is told in words, "press 10 20".
    From the kernel: {type: "sheet", html} what the panel shows now, {type: "alive"} the same as before, {type: "said", text},
                     {type: "still"} nobody drives the graph; {type: "gone", text}.
 
@@ -13,6 +13,7 @@
 
   const BEAT_MS = 500;
   const PATIENCE_MS = 3000;
+  const MOVE_MS = 50; // no two moves of a pointer follow one another faster
   const typed = new WeakSet(); // fields that somebody is writing into
 
   /* Make an element like another one, with as few changes as that takes. */
@@ -62,6 +63,8 @@
       this.receive = (content) => this.hear(content);
       model.on("msg:custom", this.receive);
       for (const kind of ["change", "click", "input", "keydown"]) this.host.addEventListener(kind, (event) => this[kind](event));
+      for (const kind of ["pointerdown", "pointermove", "pointerup", "pointercancel"]) this.host.addEventListener(kind, (event) => this.point(event));
+      this.host.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
       this.timer = setInterval(() => this.beat(), BEAT_MS);
       this.tell({ type: "hello" });
     }
@@ -88,6 +91,47 @@
 
     keydown(event) {
       event.stopPropagation(); // a notebook has commands on single keys
+      const { target, key, ctrlKey, altKey, metaKey } = event;
+      if (!target.dataset?.points || key === "Tab" || ctrlKey || altKey || metaKey) return;
+      event.preventDefault();
+      this.set(target.dataset.points, `key ${key}`);
+    }
+
+    /* Where a pointer is on a drawing, in its own pixels. */
+    at(drawing, event) {
+      const svg = drawing.querySelector("svg");
+      const box = svg.getBoundingClientRect();
+      const { width, height } = svg.viewBox.baseVal;
+      const x = ((event.clientX - box.left) / box.width) * width;
+      const y = ((event.clientY - box.top) / box.height) * height;
+      return `${x.toFixed(1)} ${y.toFixed(1)}`;
+    }
+
+    point(event) {
+      if (event.type === "pointerdown") this.held = event.button === 0 ? event.target.closest?.("[data-points]") : null;
+      if (!this.held) return;
+      const key = this.held.dataset.points;
+      if (event.type === "pointerdown") {
+        this.held.focus({ preventScroll: true });
+        this.held.setPointerCapture(event.pointerId);
+        event.preventDefault(); // no text is marked
+        this.set(key, `press ${this.at(this.held, event)}`);
+      } else if (event.type === "pointermove") {
+        if (performance.now() - (this.moved ?? 0) < MOVE_MS) return;
+        this.moved = performance.now();
+        this.set(key, `move ${this.at(this.held, event)}`);
+      } else {
+        this.set(key, `release ${this.at(this.held, event)}`);
+        this.held = null;
+      }
+    }
+
+    /* With Ctrl, as on maps: the wheel alone scrolls the page. */
+    wheel(event) {
+      const drawing = event.ctrlKey && event.target.closest?.("[data-points]");
+      if (!drawing) return;
+      event.preventDefault();
+      this.set(drawing.dataset.points, `wheel ${Math.sign(event.deltaY)} ${this.at(drawing, event)}`);
     }
 
     set(key, value) {

@@ -37,7 +37,7 @@ def _part(part: Part) -> str:
         case Rows():
             return _table(part)
         case Drawing():
-            return element("div", part.markup, class_="rq-drawing", data_picks=part.key or None)
+            return _drawing(part)
         case Words():
             kind = "rq-words rq-bad" if part.is_bad else "rq-words"
             return element("p", escape(part.text).replace("\n", "<br>"), class_=kind, role="status")
@@ -45,6 +45,12 @@ def _part(part: Part) -> str:
             close = "" if part.close is None else _control(part.close)
             head = element("header", element("strong", escape(part.title)) + close)
             return element("section", head + markup(part.parts), class_="rq-box", aria_label=part.title)
+
+
+def _drawing(part: Drawing) -> str:
+    hand = part.pointer
+    touched = {} if hand is None else {"data_points": hand.key, "tabindex": "0", "aria_label": hand.label}
+    return element("div", part.markup, class_="rq-drawing", data_picks=part.key or None, **touched)
 
 
 def _in_bar(cell: Cell) -> str:
@@ -81,7 +87,10 @@ def _control(control: Control) -> str:
     }
     match control.kind:
         case "button":
-            return element("button", escape(control.label), type="button", data_key=control.key)
+            pressed = str(control.value).lower() if isinstance(control.value, bool) else None
+            return element(
+                "button", escape(control.label), type="button", data_key=control.key, aria_pressed=pressed
+            )
         case "choice":
             options = "".join(
                 element(
@@ -140,6 +149,10 @@ CSS = (
     + _rule("input[type=number]", width="7.5em")
     + _rule("button", cursor="pointer")
     + _rule("button:hover:enabled", border_color=variable("blue"))
+    + _rule("button[aria-pressed=true]", border_color=variable("blue"), background=variable("topic-fill"))
+    + _rule("[data-points]", touch_action="pan-y", cursor="crosshair")
+    + _rule("[data-points] svg", width="100%")
+    + _rule("[data-points]:focus-visible", outline=f"2px solid {variable('blue')}", outline_offset="-2px")
     + _rule("input:focus-visible,select:focus-visible,button:focus-visible,.rq-table:focus-visible",
             outline=f"2px solid {variable('blue')}", outline_offset="1px")
     + _rule("[aria-invalid=true]", border_color=variable("bad-line"))

@@ -114,11 +114,16 @@ class Rows:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A picture; ``key`` is what is operated by a click on a node in it."""
+    """A picture; ``key`` is what is operated by a click on a node in it, ``pointer`` by a hand anywhere on it.
+
+    The pointer's control is told in words where the hand is, from the left upper corner [px]: ``press 10 20``,
+    ``move 12 20``, ``release 15 24``, ``wheel -1 15 24``, and ``key g``.
+    """
 
     markup: str
     text: str
     key: str = ""
+    pointer: Control | None = None
 
 
 @dataclass(frozen=True)
@@ -152,6 +157,8 @@ def controls(parts: Iterable[Part]) -> Iterator[Control]:
             cells = part.cells
         elif isinstance(part, Rows):
             cells = [cell for row in part.rows for cell in row.cells]
+        elif isinstance(part, Drawing) and part.pointer is not None:
+            cells = (part.pointer,)
         yield from (cell for cell in cells if isinstance(cell, Control))
 
 
@@ -169,7 +176,8 @@ def within(prefix: str, parts: Iterable[Part]) -> tuple[Part, ...]:
                 rows = tuple(replace(row, cells=tuple(map(cell, row.cells))) for row in part.rows)
                 return replace(part, rows=rows)
             case Drawing():
-                return replace(part, key=part.key and f"{prefix}/{part.key}")
+                pointer = part.pointer and replace(part.pointer, key=f"{prefix}/{part.pointer.key}")
+                return replace(part, key=part.key and f"{prefix}/{part.key}", pointer=pointer)
             case Box():
                 close = None if part.close is None else replace(part.close, key=f"{prefix}/{part.close.key}")
                 return replace(part, parts=within(prefix, part.parts), close=close)

@@ -1,0 +1,273 @@
+"""RViz's window on a running graph: the scene, its tools under a hand or keys, its displays with their statuses.
+
+It is a panel as those of rqt are, in which the real RViz can be, too (`rqt_rviz`). What a hand does in a page,
+:meth:`RVizWindow.set` does in a script.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from rosmini.viz.figures import WIDTH
+from rosmini.viz.rviz import Config, Level, Scene
+from rosmini.viz.rviz.displays.group import Group
+from rosmini.viz.rviz.flat import draw
+from rosmini.viz.rviz.panels import TimePanel, selection
+from rosmini.viz.rviz.picture import alt_text, look_at, words
+from rosmini.viz.rviz.primitives import Lines
+from rosmini.viz.rviz.selection import Picked, hit, picked
+from rosmini.viz.rviz.suggestions import suggested
+from rosmini.viz.rviz.tools import Select, Tools
+from rosmini.viz.rviz.views import PIXELS, TopDownOrtho
+from rosmini.viz.view import ViewError
+
+from .rqt.panel import Panel, bar
+from .rqt.parts import Control, Drawing, Row, Rows, Words
+
+if TYPE_CHECKING:
+    from rosmini.graph import Graph
+    from rosmini.viz.rviz import Display, Layer
+    from rosmini.viz.rviz.primitives import Floats, Primitive
+    from rosmini.viz.rviz.projection import Projection
+
+    from .rqt.parts import Part
+
+ZOOM = 1.25
+STEP = 0.2
+"""Of the picture's height, by which an arrow key moves a hand that is nowhere else."""
+YELLOW = np.array([1.0, 0.9, 0.2, 1.0])
+ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
+WORDS = ("press", "move", "release", "wheel", "key")
+
+
+class RVizWindow(Panel):
+    """A scene that goes on.
+
+    Args:
+        graph: the graph.
+        config: a `.rviz` file, or its path; without one, displays are chosen by what is published.
+        fixed_frame: overrides that of the file.
+        name: of the window's node, without which another window takes this one's place; `rviz` by default.
+        height: of the picture [CSS px].
+
+    Raises:
+        ConfigError: the file is no configuration of RViz.
+
+    """
+
+    tool: ClassVar[str] = "rviz"
+    heading: ClassVar[str] = "RViz"
+    plugin: ClassVar[str] = "rqt_rviz/RViz"
+
+    def __init__(
+        self, graph: Graph, config: Config | str | Path | None = None, *, fixed_frame: str | None = None,
+        name: str | None = None, height: float = 0.62 * WIDTH,
+    ) -> None:  # fmt: skip
+        chosen = suggested(graph, fixed_frame) if config is None else config
+        found = chosen if isinstance(chosen, Config) else Config.read(chosen)
+        super().__init__(graph, name=name)
+        self.scene = Scene(graph, found, fixed_frame=fixed_frame, node=self.node)
+        self.tools = Tools(self.scene)
+        self.time = TimePanel(self.scene)
+        self.selected: list[Picked] = []
+        """What the tool Select took last."""
+        self._size = (WIDTH, height)
+        self._layers: list[Layer] = []
+        self._look: Projection | None = None
+        self._held = False
+        self._hand = np.array(self._size) / 2
+        self._said = self.tools.current.hint
+        self.graph.scheduler.on_hub(self.fit)
+
+    def close(self) -> None:
+        """End it, as one closes a window. Harmless when repeated."""
+        self.scene.close()
+        super().close()
+
+    # -- what it shows -------------------------------------------------------------------------------------------
+
+    def parts(self) -> Sequence[Part]:
+        """Tools, the scene, what the tool says, view and frame, the displays, time, and what is selected."""
+        self._layers = self.scene.update()
+        if self._look is None or not self._held:  # what a hand holds stays under it
+            self._look = look_at(self.scene, self._layers, *self._size)
+        level = max(status.level for status in self.scene.global_status)
+        found: list[Part] = [
+            bar(*(self._tool(tool.label) for tool in self.tools)),
+            self._picture(self._look),
+            Words(self._said),
+            bar(
+                Control("frame", "Fixed Frame", "choice", self.scene.fixed_frame, self._frames()),
+                Control("closer", "Zoom in", "button"),
+                Control("farther", "Zoom out", "button"),
+                Control("fit", "Show all", "button"),
+                Control("reset", "Reset", "button"),
+            ),
+            Words(
+                "; ".join(
+                    f"Global Status: {level}: {each.name}: {each.text}" for each in self.scene.global_status
+                ),
+                is_bad=level is Level.ERROR,
+            ),
+            Rows(("Display", "on", "Status"), tuple(self._rows(self.scene.displays, 0)), "Displays"),
+            Words(self.time.words(wall=False).replace("\n", ", ")),
+        ]
+        return [*found, Words(selection(self.selected))] if self.selected else found
+
+    def _tool(self, label: str) -> Control:
+        return Control(f"tool/{label}", label, "button", label == self.tools.current.label)
+
+    def _frames(self) -> tuple[str, ...]:
+        return tuple(sorted({*self.scene.context.tree, self.scene.fixed_frame}))
+
+    def _picture(self, look: Projection) -> Drawing:
+        shown: list[Primitive] = [each for layer in self._layers for each in layer.primitives]
+        shown += self.tools.current.primitives()
+        tool = self.tools.current
+        if isinstance(tool, Select) and tool.corners is not None and self._held:
+            shown.append(_rectangle(*tool.corners, look))
+        alt = alt_text(self.scene, self._layers)
+        panes = [pane for layer in self._layers for pane in layer.panes]
+        background = self.scene.options["Background Color"]
+        svg = draw(shown, look, background, title="RViz", alt=alt, panes=panes)
+        pointer = Control("view", f"The scene; {tool.label}: arrow keys and Enter", "text")
+        return Drawing(svg, words(self.scene, self._layers), pointer=pointer)
+
+    def _rows(self, displays: Sequence[Display], depth: int) -> list[Row]:
+        rows = []
+        for display in displays:
+            key = f"display/{self._number(display)}"
+            said = "; ".join(map(str, display.statuses)) if display.enabled else ""
+            level = str(display.level) if display.enabled else "off"
+            switch = Control(key, display.name, "check", display.enabled)
+            rows.append(Row((display.name, switch, f"{level}: {said}" if said else level), depth))
+            if isinstance(display, Group):
+                rows += self._rows(display.displays, depth + 1)
+        return rows
+
+    def _number(self, wanted: Display) -> int:
+        return next(number for number, each in enumerate(self.scene) if each is wanted)
+
+    # -- what a hand does ----------------------------------------------------------------------------------------
+
+    def _operate(self, key: Sequence[str], value: Any) -> None:
+        match key[0]:
+            case "tool":
+                self._said = self.tools.take(key[1]).hint
+            case "view":
+                self._touch(str(value))
+            case "frame":
+                self.scene.fixed_frame = value
+            case "closer" | "farther":
+                self.zoom(ZOOM if key[0] == "closer" else 1 / ZOOM)
+            case "fit":
+                self.fit()
+            case "reset":
+                self.time.reset()
+                self.selected = []
+            case _:
+                display = list(self.scene)[int(key[1])]
+                display.enabled = value
+
+    def fit(self) -> None:
+        """Look from above, at all there is, as long as nothing of the file says otherwise."""
+        view = self.scene.view
+        if view is not None and not isinstance(view, TopDownOrtho):
+            return
+        self._layers = self.scene.update()
+        self.scene.view = None
+        look = look_at(self.scene, self._layers, *self._size, fit=True)
+        self.scene.view = made = TopDownOrtho()
+        made["Scale"] = look.scale * PIXELS / look.width
+        made.look_at(look.ground, self.scene.context)
+
+    def zoom(self, factor: float) -> None:
+        """Look from closer, or with a factor under 1 from farther away."""
+        view = self.scene.view
+        if view is not None:
+            view.zoom(factor)
+
+    def _touch(self, text: str) -> None:
+        """Do what a hand does on the picture; see `Drawing`. Raises `ViewError` for anything else."""
+        kind, *rest = text.split() or [""]
+        if kind == "key" and len(rest) == 1:
+            self._press_key(rest[0])
+            return
+        try:
+            numbers = [float(each) for each in rest]
+        except ValueError:
+            numbers = []
+        if (
+            kind not in WORDS
+            or len(numbers) != (3 if kind == "wheel" else 2)
+            or not np.isfinite(numbers).all()
+        ):
+            raise ViewError(f"a hand does {', '.join(WORDS)} on a picture, not {text!r:.60}")
+        self._hand = np.array(numbers[-2:])
+        if kind == "wheel":
+            self.zoom(ZOOM ** -np.sign(numbers[0]))
+        else:
+            self._use(kind)
+
+    def _use(self, kind: str) -> None:
+        """Let the tool in the hand press, move or be released where the hand is."""
+        look = self._look
+        if look is None:
+            return
+        tool = self.tools.current
+        at = self._point(look)
+        if at is None and kind == "release" and tool.needs_object:
+            self._said, self._held = tool.hint, False
+            return
+        place = np.array(look.metres(*self._hand)) if at is None else at
+        self._held = kind != "release"
+        tool.is_finished = False
+        self._said = {"press": tool.press, "move": tool.move, "release": tool.release}[kind](place)
+        if kind == "release" and isinstance(tool, Select) and tool.corners is not None:
+            first, last = look.pixels(np.array(tool.corners))
+            self.selected = picked(self._layers, look, first, last)
+            self._said = f"{sum(each.number for each in self.selected)} selected"
+        if kind == "release":
+            self.tools.put_away()
+
+    def _point(self, look: Projection) -> Floats | None:
+        """What of the scene is under the hand, for tools that take what is there; else the ground."""
+        if self.tools.current.needs_object:
+            return hit(self._layers, look, self._hand)
+        return np.array(look.metres(*self._hand))
+
+    def _press_key(self, key: str) -> None:
+        """Take a tool by its key, move the hand by arrows, press and release by Enter."""
+        if key in ARROWS:
+            self._hand = np.clip(
+                self._hand + STEP * 0.1 * self._size[1] * np.array(ARROWS[key]), 0, self._size
+            )
+            if self._held:
+                self._use("move")
+            else:
+                self._said = f"{self.tools.current.label}: {self._where()}"
+        elif key == "Enter":
+            self._use("release" if self._held else "press")
+        elif key in ("+", "-"):
+            self.zoom(ZOOM if key == "+" else 1 / ZOOM)
+        else:
+            keys = {tool.key: tool for tool in self.tools}
+            if key in keys:
+                self._said = self.tools.take(key).hint
+
+    def _where(self) -> str:
+        if self._look is None:
+            return ""
+        x, y, _ = self._look.metres(*self._hand)
+        return f"at ({x:.2f}, {y:.2f})"
+
+
+def _rectangle(first: Floats, last: Floats, look: Projection) -> Lines:
+    """The outline of a rectangle of the picture, on the ground."""
+    (left, top), (right, bottom) = look.pixels(np.array([first, last]))
+    corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)]
+    return Lines(np.array([look.metres(*corner) for corner in corners]), YELLOW)

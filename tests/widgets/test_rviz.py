@@ -1,0 +1,175 @@
+"""RViz's window: what a hand or keys do on it, on a running graph."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from rosmini import Graph
+from rosmini.msgs.geometry_msgs.msg import PointStamped, PoseStamped
+from rosmini.msgs.nav_msgs.msg import OccupancyGrid
+from rosmini.viz import ViewError
+from rosmini.viz.rviz import Config
+from rosmini.widgets.rqt.parts import Drawing, Rows
+from rosmini.widgets.rviz import RVizWindow
+
+
+def grid(side: int = 40) -> OccupancyGrid:
+    message = OccupancyGrid(data=[0] * side * side)
+    message.header.frame_id = "map"
+    message.info.width = message.info.height = side
+    message.info.resolution, message.info.origin.orientation.w = 0.1, 1.0
+    return message
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    with Graph() as made:
+        node = made.node("map_server")
+        node.publisher("/map", OccupancyGrid, latch=True).publish(grid())
+        made.run(0.1)
+        yield made
+
+
+@pytest.fixture
+def window(graph) -> Iterator[RVizWindow]:
+    made = RVizWindow(graph, fixed_frame="map")
+    graph.run(0.5)
+    made.set("fit")
+    yield made
+    made.close()
+
+
+def listen(graph, topic, kind):
+    heard = []
+    graph.node("listener", anonymous=True).subscriber(topic, kind, heard.append)
+    graph.run(0.1)
+    return heard
+
+
+def pixel(window, x, y):
+    window.parts()
+    (found,) = window._look.pixels(np.array([[x, y, 0.0]]))
+    return f"{found[0]:.1f} {found[1]:.1f}"
+
+
+def test_a_goal_is_published_where_a_hand_drags(graph, window):
+    goals = listen(graph, "/move_base_simple/goal", PoseStamped)
+    window.set("tool/2D Nav Goal")
+    window.set("view", f"press {pixel(window, 1.0, 2.0)}")
+    window.set("view", f"move {pixel(window, 1.5, 2.0)}")
+    window.set("view", f"release {pixel(window, 1.0, 3.0)}")
+    graph.run(0.1)
+    (goal,) = goals
+    assert goal.header.frame_id == "map"
+    assert (goal.pose.position.x, goal.pose.position.y) == pytest.approx((1.0, 2.0), abs=0.02)
+    assert 2 * math.atan2(goal.pose.orientation.z, goal.pose.orientation.w) == pytest.approx(
+        math.pi / 2, abs=0.02
+    )
+    assert window.tools.current.label == "Interact"
+    assert "Setting goal" in window.text
+
+
+def test_a_point_is_taken_of_what_is_drawn_and_not_of_empty_ground(graph, window):
+    points = listen(graph, "/clicked_point", PointStamped)
+    window.set("view", "key u")
+    assert window.tools.current.label == "Publish Point"
+    for kind in ("press", "release"):
+        window.set("view", f"{kind} {pixel(window, -0.15, 2.0)}")
+    graph.run(0.1)
+    assert points == []
+    assert window.tools.current.label == "Publish Point"
+    for kind in ("press", "release"):
+        window.set("view", f"{kind} {pixel(window, 1.5, 2.5)}")
+    graph.run(0.1)
+    (found,) = points
+    assert (found.point.x, found.point.y) == pytest.approx((1.5, 2.5), abs=0.02)
+
+
+def test_keys_do_what_a_hand_does(graph, window):
+    goals = listen(graph, "/move_base_simple/goal", PoseStamped)
+    for key in ("g", "ArrowUp", "Enter", "ArrowLeft", "Enter"):
+        window.set("view", f"key {key}")
+    graph.run(0.1)
+    (goal,) = goals
+    assert abs(goal.pose.orientation.z) == pytest.approx(1.0)
+    assert goal.pose.position.y > 2.0
+
+
+def test_the_camera_follows_a_drag_and_zooms_around(graph, window):
+    before = pixel(window, 2.0, 2.0)
+    window.set("tool/Move Camera")
+    window.set("view", f"press {pixel(window, 2.0, 2.0)}")
+    window.set("view", f"move {pixel(window, 3.0, 2.0)}")
+    window.set("view", f"release {pixel(window, 3.0, 2.0)}")
+    moved = [
+        float(a) - float(b) for a, b in zip(pixel(window, 2.0, 2.0).split(), before.split(), strict=True)
+    ]
+    window.parts()
+    assert moved == pytest.approx([window._look.scale, 0.0], abs=0.5)
+    scale = window._look.scale
+    window.set("closer")
+    window.parts()
+    assert window._look.scale == pytest.approx(1.25 * scale)
+    window.set("view", "wheel 1 10 10")
+    window.parts()
+    assert window._look.scale == pytest.approx(scale)
+
+
+def test_displays_are_switched_and_say_how_they_are(graph, window):
+    (table,) = [part for part in window.parts() if isinstance(part, Rows)]
+    names = [row.cells[0] for row in table.rows]
+    assert "/map" in names
+    number = names.index("/map")
+    assert "Map received" in table.rows[number].cells[2]
+    window.set(f"display/{number}", False)
+    graph.run(0.1)
+    (table,) = [part for part in window.parts() if isinstance(part, Rows)]
+    assert table.rows[number].cells[2] == "off"
+    (drawing,) = [part for part in window.parts() if isinstance(part, Drawing)]
+    assert "<image" not in drawing.markup
+
+
+def test_select_lists_what_is_in_the_rectangle(graph, window):
+    window.set("tool/Select")
+    window.set("view", "press 0 0")
+    window.set("view", "move 10000 10000")
+    window.set("view", "release 10000 10000")
+    assert [each.display.name for each in window.selected] == ["Grid"]
+    assert "Grid (rviz/Grid)" in window.text
+
+
+def test_a_frame_is_chosen_and_the_scene_begins_again(graph, window):
+    with pytest.raises(ViewError, match="Fixed Frame"):
+        window.set("frame", "nowhere")
+    window.set("reset")
+    assert "ROS Elapsed: 0.00" in window.text
+
+
+def test_what_is_no_movement_is_refused(window):
+    for wrong in ("press", "press 1", "press a b", "press nan 1", "fly 1 2", "", "key", "wheel 1 2"):
+        with pytest.raises(ViewError):
+            window.set("view", wrong)
+    window.set("view", "key F12")
+
+
+def test_a_window_takes_the_place_of_the_one_before_it_and_leaves_nothing(graph):
+    first = RVizWindow(graph)
+    second = RVizWindow(graph)
+    assert first.gone
+    assert second.node.name == "/rviz"
+    second.close()
+    state = graph.ask_as("/test").ask("getSystemState")
+    assert "/rviz" not in {node for side in state for _, nodes in side for node in nodes}
+
+
+def test_the_view_of_a_file_is_kept(graph):
+    text = "Visualization Manager:\n  Views:\n    Current: {Class: rviz/Orbit, Distance: 7}\n"
+    window = RVizWindow(graph, Config.parse(text))
+    assert window.scene.view.plugin_name == "rviz/Orbit"
+    window.set("closer")
+    assert window.scene.view["Distance"] == pytest.approx(5.6)
+    window.close()
