@@ -1,6 +1,7 @@
 """A recorded run as a player that needs no server: `replay(recording)`, or `recording.replay()`.
 
 A bag is played by `replay("demo.bag")`; what no messages have is a `Run`, of bodies and layers.
+`rosmini.viz.replay.time_travel.what_if` makes a run again with something changed at an instant of it.
 """
 
 from __future__ import annotations

@@ -1,0 +1,199 @@
+"""Time travel: a run as it was, and as it would have been if something had been changed at an instant of it.
+
+A world could be saved at that instant (`Simulation.save`), but not what its nodes were doing: a script is somewhere in
+the middle of its code, with messages on their way to it. So the run is made again from its start, with the change at
+that instant. Simulated time makes that honest, and it is proven each time: all messages of both runs up to the instant
+are compared byte by byte.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from io import BytesIO
+from itertools import zip_longest
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from rosmini.bag import Bag, RecordOptions
+from rosmini.bag import Recorder as BagRecorder
+from rosmini.dynamic_reconfigure.client import Client
+from rosmini.errors import RosminiError
+from rosmini.graph import Graph
+from rosmini.launch import roslaunch
+from rosmini.sim.recorder import Recorder
+from rosmini.sim.recording import Recording, RecordingError
+from rosmini.viz.replay.player import ReplayView, replay
+from rosmini.viz.rounding import fixed
+
+NAME = "time_travel"
+Setup = Callable[[Graph], Any] | Sequence[str | os.PathLike[str]]
+Change = Mapping[str, Any] | Callable[[Graph], object]
+
+
+class TimeTravelError(RosminiError):
+    """A run cannot be changed at the instant asked for, or is not the same when it is made again."""
+
+
+@dataclass(frozen=True)
+class Heard:
+    """A message: when [ns of the graph's time], on which topic, of which type, and its bytes."""
+
+    time: int
+    topic: str
+    type: str
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Made:
+    """A run: all its messages, as a bag and in order, and what its robot did, if a simulation ran."""
+
+    bag: bytes
+    messages: tuple[Heard, ...]
+    start: int
+    """The time of the start [ns]."""
+    until_change: int
+    """How many of the messages were there before the instant."""
+    recording: Recording | None
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write all messages into a bag, and return its path."""
+        target = Path(path)
+        target.write_bytes(self.bag)
+        return target
+
+
+@dataclass(frozen=True)
+class Fork:
+    """A run as it was, and as it is with the change, which came `at` seconds after its start."""
+
+    at: float
+    what: str
+    """The change, in words."""
+    before: Made
+    after: Made
+
+    @property
+    def differs_after(self) -> float | None:
+        """When the first message was another one [s after the start]; None if the change had no effect."""
+        for one, other in zip_longest(self.before.messages, self.after.messages):
+            if one != other and not (_is_own(one) or _is_own(other)):
+                return min((each.time - self.before.start) / 1e9 for each in (one, other) if each is not None)
+        return None
+
+    def __str__(self) -> str:
+        differs = self.differs_after
+        effect = "which changed nothing" if differs is None else f"and differs from {fixed(differs, 2)} s on"
+        same = f"{self.before.until_change} messages are the same to the byte up to {fixed(self.at, 2)} s"
+        return f"{same}; then {self.what}, {effect}"
+
+    def replay(self, *, title: str | None = None, topics: Sequence[str] | None = None) -> ReplayView:
+        """Return a player of both runs, side by side by one clock.
+
+        `title` is a caption, `topics` are the only ones that are shown beside the robot. Raises ``ViewError`` if
+        nothing can be shown.
+        """
+        names = ("as it was", f"from {fixed(self.at, 1)} s: {self.what}")
+        runs: list[Any] = [self.before.recording, self.after.recording]
+        if None in runs:
+            runs = [Bag(BytesIO(made.bag)) for made in (self.before, self.after)]
+        return replay(*runs, title=title, names=names, topics=topics)
+
+
+def what_if(setup: Setup, change: Change, *, at: float, seconds: float, seed: int = 0) -> Fork:
+    """Make a run twice, in simulated time: as it is, and with a change at an instant of it.
+
+    Args:
+        setup: starts everything in a new graph: the words of `roslaunch`, such as `("my_pkg", "drive.launch")`, or a
+            function of the graph. What it returns, if that is a simulator, is what is recorded; else the one that runs.
+        change: parameters and their new values (`{"/driver/speed": 0.1}`), which nodes with dynamic_reconfigure hear
+            of; or a function of the graph, for any other change.
+        at: when it comes [s after the start].
+        seconds: how long both runs are [s].
+        seed: of the graph's random numbers.
+
+    Raises:
+        TimeTravelError: the instant is not within the run; or the two runs differ before it, since something in them
+            depends on more than simulated time.
+
+    """
+    if not 0 <= at <= seconds:
+        raise TimeTravelError(f"the change has to come within the run of {seconds} s, not at {at} s")
+    before = _made(setup, None, at, seconds, seed)
+    after = _made(setup, change, at, seconds, seed)
+    _check(before, after)
+    return Fork(at, _words(change), before, after)
+
+
+def _made(setup: Setup, change: Change | None, at: float, seconds: float, seed: int) -> Made:
+    with TemporaryDirectory(prefix="rosmini-") as folder, Graph(seed=seed) as graph:
+        options = RecordOptions(all=True, quiet=True, output_name=str(Path(folder) / "run.bag"))
+        start = graph.now().to_nsec()
+        log = BagRecorder(graph.node(NAME), options)
+        simulator = setup(graph) if callable(setup) else roslaunch(*setup, graph=graph)
+        graph.run(0.0)  # what was launched is there only then
+        robot = None
+        with suppress(RecordingError):
+            found: Any = simulator if hasattr(simulator, "world") else None
+            robot = Recorder(graph, found, name=f"{NAME}_robot", layers=True)
+        graph.run(at)
+        until_change = sum(log.counts.values())
+        if change is not None:
+            _apply(graph, change)
+        graph.run(seconds - at)
+        recording = None
+        if robot is not None:
+            with suppress(RecordingError):
+                recording = robot.recording()
+        [path] = log.stop()
+        data = path.read_bytes()
+    with Bag(BytesIO(data)) as bag:
+        messages = tuple(
+            Heard(time, conn.topic, conn.type, content) for conn, time, content, _, _ in bag.read_raw()
+        )
+    return Made(data, messages, start, until_change, recording)
+
+
+def _apply(graph: Graph, change: Change) -> None:
+    if callable(change):
+        change(graph)
+        return
+    node = graph.node(f"{NAME}_change")
+    servers: dict[str, dict[str, Any]] = {}
+    for name, value in change.items():
+        owner, _, last = name.rpartition("/")
+        if owner and node.master.find("lookupService", f"{owner}/set_parameters") is not None:
+            servers.setdefault(owner, {})[last] = value
+        else:
+            node.set_param(name, value)
+    for owner, values in servers.items():
+        Client(node, owner).update_configuration(values)
+
+
+def _words(change: Change) -> str:
+    if callable(change):
+        return getattr(change, "__name__", "the change").replace("_", " ").replace("<lambda>", "the change")
+    return ", ".join(f"{name} = {value}" for name, value in change.items())
+
+
+def _is_own(heard: Heard | None) -> bool:
+    """Whether a message is about the change itself: the log of the node that makes it."""
+    return heard is not None and heard.topic in ("/rosout", "/rosout_agg")
+
+
+def _check(before: Made, after: Made) -> None:
+    """Raise `TimeTravelError` unless both runs have the same messages up to the change."""
+    pairs = zip_longest(before.messages[: before.until_change], after.messages[: after.until_change])
+    for number, (one, other) in enumerate(pairs):
+        if one != other:
+            shown = one or other
+            assert shown is not None  # noqa: S101 - one of the two is there
+            raise TimeTravelError(
+                f"the run is not the same when it is made again: message {number + 1}, on {shown.topic} at "
+                f"{shown.time / 1e9:.3f} s, differs before the change. Something in it depends on more than simulated "
+                "time and seeds: wall time, unseeded random numbers, a file, another process"
+            )
