@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 
 class Drawing(NamedTuple):
-    """A turtle: its name, and its parts from the lowest up, each a path and its colour `#rrggbb`."""
+    """A turtle: name, the colour `#rrggbb` of its shell, and its parts from the lowest up, each a path and a colour."""
 
     name: str
+    colour: str
     parts: tuple[tuple[str, str], ...]
 
 
@@ -41,6 +42,7 @@ _SPOKES = "M6,-0.6L14,-0.6L14,0.6L6,0.6ZM-14,-0.6L-6,-0.6L-6,0.6L-14,0.6Z" + "".
 DRAWINGS = (
     Drawing(
         "meadow",
+        "#8bb35a",
         (
             (_TAIL, "#4f7d3a"), (_FEET, "#4f7d3a"), (_oval(17, 0, 5.5, 4.8), "#5f9446"), _EYES,
             (_oval(0, 0, 15, 12), "#2f5a2a"), (_oval(0, 0, 13, 10.2), "#8bb35a"),
@@ -49,6 +51,7 @@ DRAWINGS = (
     ),
     Drawing(
         "sea",
+        "#5fc1b4",
         (
             (_FLIPPERS, "#2a7f8a"), (_TAIL, "#2a7f8a"), (_oval(17, 0, 5.5, 4.4), "#3a9aa5"), _EYES,
             ("M14,0C14,-8 6,-12 -3,-11C-11,-9 -16,-4 -17,0C-16,4 -11,9 -3,11C6,12 14,8 14,0Z", "#174f5c"),
@@ -59,6 +62,7 @@ DRAWINGS = (
     ),
     Drawing(
         "sand",
+        "#e0bf83",
         (
             (_TAIL, "#b98a4a"), (_FEET, "#b98a4a"), (_oval(17, 0, 5, 4.6), "#cfa364"), _EYES,
             (_oval(0, 0, 15.5, 12.5), "#7a5326"), (_oval(0, 0, 13.5, 10.7), "#e0bf83"),
@@ -68,6 +72,7 @@ DRAWINGS = (
     ),
     Drawing(
         "berry",
+        "#c2456e",
         (
             (_TAIL, "#7d6a2f"), (_FEET, "#7d6a2f"), (_oval(17, 0, 5.5, 4.8), "#9a8440"), _EYES,
             (_oval(0, 0, 15, 12), "#6b1f3f"), (_oval(0, 0, 13.2, 10.4), "#c2456e"),
@@ -77,6 +82,7 @@ DRAWINGS = (
     ),
     Drawing(
         "robot",
+        "#c8d1d9",
         (
             ("M-14,-15L-3,-15L-3,-10L-14,-10ZM3,-15L14,-15L14,-10L3,-10Z", "#2b333b"),
             ("M-14,10L-3,10L-3,15L-14,15ZM3,10L14,10L14,15L3,15Z", "#2b333b"),

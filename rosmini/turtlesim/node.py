@@ -22,6 +22,7 @@ from rosmini.parameters import Parameters, parameter
 from .drawings import DRAWINGS
 from .frame import Frame
 from .paper import BACKGROUND, Colour
+from .tape import Tape
 from .turtle import START, STEP_S, Turtle, TurtleError
 
 if TYPE_CHECKING:
@@ -68,6 +69,7 @@ class TurtleSim:
         rng = node.graph.rng(f"{node.name}/turtles")
         self.frame = Frame(self.parameters.background, lambda: int(rng.integers(len(DRAWINGS))))
         self._plugs: dict[str, Plugs] = {}
+        self._tapes: list[Tape] = []
         self._requests: list[tuple[Callable[[], object], Waiter]] = []
         self._clock = GraphClock(node.scheduler)
         for colour in ("background_r", "background_g", "background_b"):
@@ -95,6 +97,12 @@ class TurtleSim:
     def state(self, since: int = 0, clears: int | None = None) -> dict[str, Any]:
         """What a canvas needs to draw the window: see `Frame.state`."""
         return self.frame.state(since, clears)
+
+    def record(self) -> Tape:
+        """Keep from now on what the turtles do and draw, until the tape's `stop()`; its `replay()` plays it."""
+        tape = Tape(self.node.name, self._clock.now_ns() * 1e-9, self.frame)
+        self._tapes.append(tape)
+        return tape
 
     def show(self, **options: Any) -> Any:
         """A picture of the window.
@@ -222,6 +230,10 @@ class TurtleSim:
                 plugs.publish(turtle)
                 turtle.draw(frame.paper)
         frame.updates += 1
+        if self._tapes:
+            for tape in self._tapes:
+                tape.note(now, frame)
+            self._tapes = [tape for tape in self._tapes if tape.is_running]
 
 
 class Plugs:

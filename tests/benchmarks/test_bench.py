@@ -21,6 +21,7 @@ from rosmini_bench import (
     table,
     tools,
     transforms,
+    turtles,
     wire,
 )
 from rosmini_bench.peer import find_rospy
@@ -51,6 +52,7 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
             *tools.measures(None, 1),
             *bags.measures(tmp_path, None, 1),
             *sim.measures(None, None, 1),
+            *turtles.measures(1),
         ]
     )
     for row in written["figures"]:

@@ -1,0 +1,77 @@
+"""What turtles drew, to be played: a tape of a turtlesim in the player of runs."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rosmini.turtlesim.drawings import DRAWINGS
+from rosmini.turtlesim.tape import Line, Tape, Track
+from rosmini.turtlesim.turtle import LIMIT
+from rosmini.viz.replay import Body, ReplayView, Run, Stroke, Strokes, replay
+
+THINNER = 0.7
+"""By how much pens are thinner than in the window: the player is smaller."""
+
+OUTLINE = (
+    (0.5, 0.0), (0.42, 0.1), (0.32, 0.12), (0.3, 0.34), (0.2, 0.34), (0.14, 0.25), (-0.1, 0.27), (-0.2, 0.34),
+    (-0.3, 0.32), (-0.3, 0.12), (-0.46, 0.0),
+)  # fmt: skip
+"""Half of a turtle from above, the left one [m]."""
+
+
+def turtle_replay(tape: Tape, *, title: str | None = None) -> ReplayView:
+    """Play a tape: turtles that move, and their strokes as they grew, on the background that the window has at the end.
+
+    Args:
+        tape: what `TurtleSim.record()` gave.
+        title: a caption, and the first words of the text form.
+
+    Raises:
+        ViewError: there is nothing to see on the tape.
+
+    """
+    strokes = tuple(_stroke(line) for line in tape.lines())
+    notes = ("The tape was full before the end.",) if tape.is_full else ()
+    run = Run(
+        tape.name,
+        tape.start_s,
+        tape.end_s,
+        bodies=tuple(_body(track, tape) for track in tape.tracks),
+        layers=(Strokes("drawing", strokes),) if strokes else (),
+        bounds=(0.0, 0.0, LIMIT, LIMIT),
+        background=_hex(tape.background),
+        notes=notes,
+    )
+    return replay(run, title=title)
+
+
+def _body(track: Track, tape: Tape) -> Body:
+    half = [*OUTLINE, *((x, -y) for x, y in reversed(OUTLINE[1:-1]))]
+    drawing = DRAWINGS[track.turtle.kind % len(DRAWINGS)]
+    came = -math.inf if track.came_s <= tape.start_s else track.came_s
+    return Body(
+        track.turtle.name,
+        np.array(track.times),
+        np.array(track.poses),
+        colour=drawing.colour,
+        outline=tuple(half),
+        shown_from=came,
+        shown_until=track.gone_s,
+        trail=False,
+    )
+
+
+def _stroke(line: Line) -> Stroke:
+    return Stroke(
+        np.array(line.times),
+        np.array(line.points),
+        colour=_hex(line.pen.colour),
+        width=THINNER * line.pen.width,
+        until=line.until_s,
+    )
+
+
+def _hex(colour: tuple[int, int, int]) -> str:
+    return "#" + "".join(f"{part:02x}" for part in colour)
