@@ -304,7 +304,7 @@ class Simulation(ABC):
             topic=None: where to publish, as the simulation's node resolves it; None: where the robot listens
             name='teleop_pad': the name of the pad's node
             limits=None: how fast at most, and how fast that changes; None: as fast as the robot may
-            keys='turtlebot3_teleop_key': whose keys it has; or 'teleop_twist_keyboard'
+            keys='': whose keys it has; '': those of turtlebot3_teleop_key; or 'teleop_twist_keyboard'
             hold=False: whether a key has to be held, as a dead man's switch has
             title=None: a caption under the pad, and the first line of its text form
         """

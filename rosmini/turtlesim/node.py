@@ -113,6 +113,19 @@ class TurtleSim:
         """
         return show("turtlesim", self.frame, **options)
 
+    def pad(self, robot: str = "", **options: Any) -> Any:
+        """A pad to drive a turtle with, the first if none is named; in a live notebook its window moves.
+
+        Options, with what they are unless given:
+            topic=None: where to publish; None: where the turtle listens
+            name='teleop_pad': the name of the pad's node
+            limits=None: how fast at most; None: as fast as turtle_teleop_key
+            keys='': whose keys it has; '': those of turtle_teleop_key
+            hold=False: whether a key has to be held, as a dead man's switch has
+            title=None: a caption under the pad, and the first line of its text form
+        """
+        return show("teleop_pad", self, robot=robot, **options)
+
     # -- turtles come and go -------------------------------------------------------------------------------------
 
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> str:

@@ -11,12 +11,13 @@ from .teleop import Limits, Teleop, TeleopError
 if TYPE_CHECKING:
     from rosmini.graph import Graph
     from rosmini.sim.simulation import Simulation
+    from rosmini.turtlesim import TurtleSim
 
 __all__ = ["Limits", "SimulationView", "Teleop", "TeleopError", "TeleopPad", "simulation_view", "teleop_pad"]
 
 
-def teleop_pad(driven: Simulation | Graph, **options: Any) -> TeleopPad:
-    """The renderer "teleop_pad": a pad for a robot of a simulation, or for what listens on a graph; see `TeleopPad`."""
+def teleop_pad(driven: Simulation | TurtleSim | Graph, **options: Any) -> TeleopPad:
+    """The renderer "teleop_pad": a pad for a robot, a turtle, or what listens on a graph; see `TeleopPad`."""
     return TeleopPad(driven, **options)
 
 

@@ -90,6 +90,7 @@ _HELP = MappingProxyType(
         "turtlebot3_teleop_key": "w and x: faster and slower, a and d: left and right, s or space: stop.",
         "teleop_twist_keyboard": "i and ,: ahead and back, j and l: turn, u, o, m and .: both, k or space: stop; "
         "with Shift sideways; t and b: up and down; q and z, w and x, e and c: faster and slower.",
+        "turtle_teleop_key": "the arrow keys: ahead, back and turns, a second each; space: stop.",
     }
 )
 NAMES = tuple(_HELP)
@@ -115,6 +116,15 @@ def key_map(name: str = "turtlebot3_teleop_key") -> KeyMap:
             name, _with_arrows(told["MOVES"], "i,jl"), told["SPEED"], told["TURN"], ("k", " "), tuple("uiojklm,."),
             others_stop=True, factors=MappingProxyType(told["FACTORS"]),
         )  # fmt: skip
+    if name == "turtle_teleop_key":
+        told = _literals("turtlesim", name)
+        codes = dict(
+            zip("ABDC", ARROWS.values(), strict=True)
+        )  # the ends of what a terminal sends for arrow keys
+        moves = {codes[key]: (ahead, 0.0, 0.0, turn) for key, (ahead, turn) in told["KEYS"].items()}
+        buttons = ("", "ArrowUp", "", "ArrowLeft", " ", "ArrowRight", "", "ArrowDown", "")
+        scale = told["SCALE"]
+        return KeyMap(name, MappingProxyType(moves), scale, scale, (" ",), buttons, holds=told["HOLD"])
     guess = nearest(name, NAMES) or f"there are those of {', '.join(NAMES)}"
     raise TeleopError(f"there are no keys of a program {name!r}; {guess}")
 

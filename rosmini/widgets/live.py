@@ -20,7 +20,7 @@ import numpy as np
 from rosmini.errors import RosminiError
 from rosmini.msgs import message_class
 
-from .page import SCRIPTS, Pad, module, pad_data
+from .page import Pad, module, pad_data, scripts_of
 from .teleop import TeleopError
 
 try:
@@ -97,6 +97,8 @@ class Link:
         self._messages: list[list[float]] = []
         self._last: tuple[Any, ...] = ()
         self._others: tuple[str, ...] = ()
+        self._drawn: tuple[int, int | None] = (0, None)
+        """Which strokes of turtles the page has: their number, and how often the paper was cleared before."""
         self._last_sent = 0.0
         self._looked = -AROUND_S
         self._scan: NDArray[np.float32] | None = None
@@ -104,7 +106,7 @@ class Link:
         self._scans: Subscriber | None = None
         data = self._data()
         self.widget = PageWidget(
-            _esm=module((*SCRIPTS, "rosmini-pad-kernel.js"), "rosminiPadKernel"), data=data
+            _esm=module((*scripts_of(pad), "rosmini-pad-kernel.js"), "rosminiPadKernel"), data=data
         )
         answer_in_subshells(self.widget.comm)
         self.widget.on_msg(self.receive)
@@ -210,6 +212,7 @@ class Link:
         sight = self.pad.sight
         if sight is not None and sight.trail:
             self._send({"type": "trail"}, [np.array(sight.trail, dtype=np.float32).tobytes()])
+        self._drawn = (0, None)
         self._last = ()
 
     def _stop(self) -> None:
@@ -249,11 +252,28 @@ class Link:
     def _show(self, now: float) -> None:
         pad = self.pad
         pose, blocked, pushed = (np.nan, np.nan, np.nan), False, None
+        if pad.turtle is not None:
+            pose, blocked = pad.turtle.look(), pad.turtle.blocked
         if pad.sight is not None:
             pose, blocked, pushed = pad.sight.look(), pad.sight.blocked, pad.sight.pushed()
         scan, self._scan = self._scan, None
         teleop = pad.teleop
-        shown = (*pose, *teleop.target, *teleop.command, *teleop.speed, teleop.keys.name, blocked, pad.sent)
+        window = None if pad.turtle is None else pad.turtle.state(*self._drawn)
+        drawn = (
+            ()
+            if window is None
+            else (window["next"], window["clears"], *(t["pose"] for t in window["turtles"]))
+        )
+        shown = (
+            *pose,
+            *drawn,
+            *teleop.target,
+            *teleop.command,
+            *teleop.speed,
+            teleop.keys.name,
+            blocked,
+            pad.sent,
+        )
         if shown == self._last and scan is None and pushed is None and now - self._last_sent < QUIET_S:
             return
         self._last, self._last_sent = shown, now
@@ -268,6 +288,9 @@ class Link:
             "speed": list(teleop.speed),
             "others": list(self._others),
         }
+        if window is not None:
+            content["window"] = window
+            self._drawn = window["next"], window["clears"]
         if pushed is not None:
             content["pushed"] = pushed
         numbers = np.array([*pad.teleop.target, *pad.teleop.command, *pose], dtype=np.float64)

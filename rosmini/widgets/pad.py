@@ -29,10 +29,12 @@ from rosmini.graph.notebook import kernel_shell
 from rosmini.msgs import message_class
 from rosmini.names import resolve
 from rosmini.sim.simulation import Simulation
+from rosmini.turtlesim import TurtleSim
 from rosmini.viz.book_form import book_form
 from rosmini.viz.view import MimeBundle, View
 
 from .chosen import Chosen
+from .driven_turtle import DrivenTurtle
 from .key_maps import key_map
 from .teleop import PERIOD, Limits, Teleop, TeleopError
 
@@ -59,15 +61,17 @@ class TeleopPad(View):
     `press`, `release`, `steer` and `stop` are what the keys, buttons, touches and gamepads of a browser call too.
 
     Args:
-        driven: a simulator, stageros or gzserver, whose robot is driven and shown; or a graph, and then only the
-            messages are shown.
-        robot: which robot; without it the first. One without a laser is driven, but not shown: `view()` shows all.
+        driven: a simulator, stageros or gzserver, whose robot is driven and shown; a turtlesim, whose turtle is; or a
+            graph, and then only the messages are shown.
+        robot: which robot or turtle; without it the first. One without a laser is driven, but not shown: `view()`
+            shows all.
         topic: where to publish, resolved and remapped as by the simulation's node; by default where the robot
             listens, and on a graph ``cmd_vel``.
         name: the name of the node.
         limits: how fast at most, and how fast that changes; those of the simulator's robot by default, and of a Burger
             without one.
-        keys: whose keys it has: `turtlebot3_teleop_key` or `teleop_twist_keyboard`. (The latter sends each message
+        keys: whose keys it has: `turtlebot3_teleop_key`, the default for robots, `turtle_teleop_key`, the default for
+            turtles, or `teleop_twist_keyboard`. (The last sends each message
             once; the pad sends it ten times a second, as with `_repeat_rate:=10` there.)
         hold: whether a key has to be held, as a dead man's switch has: the robot stops when it is released.
         title: a caption under the pad, and the first line of its text form.
@@ -79,17 +83,18 @@ class TeleopPad(View):
 
     def __init__(
         self,
-        driven: Simulation | Graph,
+        driven: Simulation | TurtleSim | Graph,
         *,
         robot: str = "",
         topic: str | None = None,
         name: str = "teleop_pad",
         limits: Limits | None = None,
-        keys: str = "turtlebot3_teleop_key",
+        keys: str = "",
         hold: bool = False,
         title: str | None = None,
     ) -> None:
         self.sight: Chosen | None = None
+        self.turtle: DrivenTurtle | None = None
         self.chosen = ""
         """Which of the `choices` is driven."""
         self.hold = hold
@@ -97,18 +102,20 @@ class TeleopPad(View):
         namespace = "/"
         if isinstance(driven, Graph):
             self.graph: GraphCore = driven
-        elif isinstance(driven, Simulation):
+        elif isinstance(driven, Simulation | TurtleSim):
             self.graph = driven.node.graph
             chosen = self._see(driven, robot)
             namespace = chosen.namespace
             topic = chosen.topic if topic is None else driven.node.resolve(topic)
         else:
             raise TeleopError(
-                f"a pad drives the robot of a simulator, or what listens on a graph, not a {type(driven).__name__}. "
-                "Give it rosrun('rosmini_sim', 'simulator').instance(), that of stageros or gzserver, or a Graph."
+                f"a pad drives the robot of a simulator, a turtle, or what listens on a graph, not a "
+                f"{type(driven).__name__}. Give it rosrun('rosmini_sim', 'simulator').instance(), that of stageros, "
+                "gzserver or turtlesim_node, or a Graph."
             )
         self.title = title
-        self.teleop = Teleop(self._limits_now(), key_map(keys))
+        usual = "turtlebot3_teleop_key" if self.turtle is None else "turtle_teleop_key"
+        self.teleop = Teleop(self._limits_now(), key_map(keys or usual))
         self.sent = 0
         """How many messages were published."""
         self.twist_class = message_class("geometry_msgs/Twist")
@@ -117,7 +124,7 @@ class TeleopPad(View):
             before.shutdown("a new pad took its place")
         self.node = PadNode(name, self.graph, namespace=namespace)
         self._publisher = self.node.publisher(topic or "cmd_vel", self.twist_class, queue_size=10)
-        if self.sight is None:
+        if isinstance(driven, Graph):
             self.chosen = self.topic
         self._twist = self.twist_class()
         self._timer: Timer | None = None
@@ -125,10 +132,14 @@ class TeleopPad(View):
         self._link: Any = None
         self._meet_listeners()
 
-    def _see(self, simulation: Simulation, robot: str) -> Chosen:
-        chosen = Chosen(simulation, robot)
+    def _see(self, driven: Simulation | TurtleSim, robot: str) -> Chosen | DrivenTurtle:
+        chosen: Chosen | DrivenTurtle
+        if isinstance(driven, TurtleSim):
+            chosen = self.turtle = DrivenTurtle(driven, robot)
+        else:
+            chosen = Chosen(driven, robot)
+            self.sight = chosen if chosen.sees else None
         self.chosen, self._robot_limits = chosen.name, chosen.limits
-        self.sight = chosen if chosen.sees else None
         return chosen
 
     def _limits_now(self) -> Limits | None:
@@ -199,9 +210,11 @@ class TeleopPad(View):
 
     @property
     def choices(self) -> tuple[str, ...]:
-        """What can be driven: the robots of the simulation, or the topics of the graph that are heard."""
+        """What can be driven: the robots of the simulation, the turtles, or the topics of the graph that are heard."""
         if isinstance(self._driven, Simulation):
             return Chosen.names(self._driven)
+        if isinstance(self._driven, TurtleSim):
+            return DrivenTurtle.names(self._driven)
         master = self.node.master
         types = dict(master.ask("getTopicTypes"))
         heard = {topic for topic, _ in master.ask("getSystemState")[1]}
@@ -213,9 +226,10 @@ class TeleopPad(View):
 
         Raises `TeleopError` if it is none of them, and `ROSException` when the node was shut down.
         """
-        if isinstance(self._driven, Simulation):
+        if isinstance(self._driven, Simulation | TurtleSim):
+            kind = Chosen if isinstance(self._driven, Simulation) else DrivenTurtle
             if name not in self.choices:
-                Chosen(self._driven, name)  # which says what there is
+                kind(self._driven, name)  # type: ignore[arg-type]  # which says what there is
             self._rest()
             topic = self._see(self._driven, name).topic
         else:
@@ -241,6 +255,10 @@ class TeleopPad(View):
 
     def reset(self) -> None:
         """Stop, and reset the simulator's robot. Raises `TeleopError` without a simulator, and as `press` does."""
+        if self.turtle is not None:
+            self.stop()
+            self.turtle.reset()
+            return
         if self.sight is None:
             raise TeleopError(
                 "this pad has no simulator, so it cannot put a robot back; give it one: TeleopPad(simulator)"
@@ -285,9 +303,9 @@ class TeleopPad(View):
         """Why there is nothing to drive any more (the robot was removed, or the node shut down), or None."""
         if self.node.is_shutdown():
             return f"the node {self.node.name} was shut down."
-        if self.sight is not None:
+        if self.sight is not None or self.turtle is not None:
             try:
-                self.sight.truth()
+                _ = self.sight.truth() if self.sight is not None else self.turtle and self.turtle.turtle
             except RosminiError as error:
                 return str(error)
         return None
@@ -315,14 +333,16 @@ class TeleopPad(View):
         why = self.gone
         if why is not None:
             lines.append(f"nothing to drive: {why}")
-        elif self.sight is not None:
-            lines.append(self.sight.describe())
+        elif self.sight is not None or self.turtle is not None:
+            lines.append((self.sight or self.turtle).describe())  # type: ignore[union-attr]  # one of them is there
         return "\n".join(lines)
 
     @property
     def alt(self) -> str:
         """The pad in a sentence or two."""
         drives = "" if self.sight is None else f" the {self.sight.model.name} in its world and"
+        if self.turtle is not None:
+            drives = " turtles in their window and"
         keys = "w, a, s, d and x" if self.teleop.keys.adds else f"of {self.keys}"
         return f"A pad with the keys {keys} that shows{drives} the messages on {self.topic}. {self._state()}"
 

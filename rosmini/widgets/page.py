@@ -17,10 +17,14 @@ if TYPE_CHECKING:
     from rosmini.graph import Node
 
     from .chosen import Chosen
+    from .driven_turtle import DrivenTurtle
     from .teleop import Teleop
 
 STEP = 0.005
 """How long one step of the robot in a page is [s]: that of the engine's physics."""
+
+TURTLE_STEP = 0.004
+"""The same of a turtle: both its 16 ms and the 0.1 s between messages are so many of these [s]."""
 
 SCRIPTS = (
     "rosmini-canvas.js",
@@ -32,10 +36,16 @@ SCRIPTS = (
 HEIGHT = 420
 
 
+def scripts_of(pad: Pad) -> tuple[str, ...]:
+    """The scripts of a pad's page, in the order in which they are run."""
+    return SCRIPTS if pad.turtle is None else (*SCRIPTS, "rosmini-turtle.js")
+
+
 class Pad(Protocol):
     """A teleoperation pad, as its pages see it: :class:`~rosmini.widgets.pad.TeleopPad`."""
 
     sight: Chosen | None
+    turtle: DrivenTurtle | None
     teleop: Teleop
     sent: int
     hold: bool
@@ -96,7 +106,7 @@ def pad_data(pad: Pad) -> dict[str, Any]:
     data: dict[str, Any] = {
         "title": title(pad),
         "topic": pad.topic,
-        "maps": [table(pad.teleop.limits, key_map(name)) for name in NAMES],
+        "maps": [table(pad.teleop.limits, key_map(name)) for name in _maps(pad)],
         "keys": pad.teleop.keys.name,
         "hold": pad.hold,
         "step": STEP,
@@ -104,6 +114,8 @@ def pad_data(pad: Pad) -> dict[str, Any]:
         "pose": None,
         "scan_rate": 0.0,
     }
+    if pad.turtle is not None and pad.gone is None:
+        data |= {"turtle": pad.turtle.data(), "pose": list(pad.turtle.look()), "step": TURTLE_STEP}
     if pad.sight is not None and pad.gone is None:
         x, y, theta = pad.sight.look()
         pose = [round(x + 1e-8, 3) + 0.0, round(y + 1e-8, 3) + 0.0, round(theta + 1e-8, 4) + 0.0]
@@ -111,8 +123,19 @@ def pad_data(pad: Pad) -> dict[str, Any]:
     return data
 
 
+def _maps(pad: Pad) -> list[str]:
+    """Whose keys it can have: keys that hold for a moment are for turtles."""
+    return [
+        name
+        for name in NAMES
+        if pad.turtle is not None or key_map(name).holds is None or name == pad.teleop.keys.name
+    ]
+
+
 def title(pad: Pad) -> str:
     """What the pad drives, in a few words."""
+    if pad.turtle is not None:
+        return pad.turtle.title
     if pad.sight is None:
         return f"Drive on {pad.topic}"
     model = pad.sight.model
@@ -128,7 +151,7 @@ def static_html(pad: Pad, *, caption: str | None = None) -> str:
     if pad.sight is not None and not pad.sight.simple:
         return _still(pad)
     return embed(
-        SCRIPTS,
+        scripts_of(pad),
         "rosminiPad.mount",
         pad_data(pad),
         title=title(pad),
@@ -149,9 +172,9 @@ def module(names: Sequence[str], driver: str) -> str:
 def _still(pad: Pad) -> str:
     """What is there without scripts and in print: the world, if there is one, and how things stand."""
     words = element("p", escape(pad.text).replace("\n", "<br>"))
-    if pad.sight is None or pad.gone is not None:
+    if (pad.sight is None and pad.turtle is None) or pad.gone is not None:
         return words
     from rosmini.graph.show import show
 
-    picture = show("simulation", pad.sight)
+    picture = show("simulation", pad.sight) if pad.turtle is None else pad.turtle.sim.show()
     return f"{picture.html or ''}{words}"

@@ -104,7 +104,7 @@ class Pad:
     @property
     def message(self) -> str:
         """The last one: as in a terminal, the newest is at the bottom."""
-        return self.page.locator(".rp-log").locator("pre, p").last.text_content()
+        return self.page.locator(".rp-log").first.locator("pre, p").last.text_content()
 
     @property
     def pose(self) -> tuple[float, ...]:

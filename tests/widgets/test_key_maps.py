@@ -47,6 +47,11 @@ def test_the_steps_and_speeds_are_those_of_the_programs():
     burger, twist = key_map(), key_map("teleop_twist_keyboard")
     assert (burger.linear, burger.angular, burger.adds) == (0.01, 0.1, True)
     assert (twist.linear, twist.angular, twist.adds) == (0.5, 1.0, False)
+    turtle = key_map("turtle_teleop_key")
+    assert (turtle.linear, turtle.angular, turtle.holds) == (2.0, 2.0, 1.0)
+    assert [turtle.moves[turtle.named(key)] for key in ("up", "down", "left", "right")] == [
+        (1, 0, 0, 0), (-1, 0, 0, 0), (0, 0, 0, 1), (0, 0, 0, -1),
+    ]  # fmt: skip
     assert (burger.moves["a"], twist.moves["m"], twist.factors["w"]) == (
         (0, 0, 0, 1),
         (-1, 0, 0, -1),

@@ -4,7 +4,7 @@
    To the kernel:  {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "key", key}, {type: "steer", linear, angular}, {type: "stop"} it is left, or its
                    keys are released, {type: "keys", name} other keys, {type: "choose", name} another robot,
                    {type: "reset"}, {type: "start"}.
-   From the kernel: {type: "pad", data} another robot is driven; {type: "frame", messages, sent, at_rest, blocked, scan, keys, speed, others, pushed?} with a buffer of seven float64 (target and command, each linear and
+   From the kernel: {type: "pad", data} another robot is driven; {type: "frame", messages, sent, at_rest, blocked, scan, keys, speed, others, pushed?, window?} with a buffer of seven float64 (target and command, each linear and
                    angular, and x, y, theta), and one of float32 (ranges, then x, y, theta of the robot at each beam) if `scan` is true;
                    {type: "trail"} with one of float32 (x, y, ...); {type: "still"} nobody drives the graph; {type: "gone", text} and
                    {type: "error", text}. */
@@ -26,7 +26,7 @@
       this.frames = 0;
       this.rates = [];
       this.state = {
-        keys: data.keys, speed: [data.maps[0].linear.step, data.maps[0].angular.step], pose: data.pose, ranges: data.ranges ? floats(Float32Array, data.ranges) : null, scanFrom: null, trail: [], target: [0, 0], command: [0, 0], messages: [], sent: 0,
+        keys: data.keys, speed: [data.maps[0].linear.step, data.maps[0].angular.step], window: data.turtle?.state, pose: data.pose, ranges: data.ranges ? floats(Float32Array, data.ranges) : null, scanFrom: null, trail: [], target: [0, 0], command: [0, 0], messages: [], sent: 0,
         mood: "ready", note: "press a key to start", startable: true,
       };
       this.receive = (content, buffers) => this.hear(content, buffers ?? []);
@@ -105,6 +105,7 @@
       state.messages.splice(0, state.messages.length - 8);
       state.sent = content.sent;
       state.startable = false;
+      if (content.window) state.window = content.window;
       if (Number.isFinite(x)) {
         state.pose = [x, y, theta];
         extend(state.trail, state.pose);
@@ -121,7 +122,7 @@
       }
       const mood = content.blocked ? "blocked" : content.at_rest ? "ready" : "driving";
       const driving = state.pose ? `driving, ${this.rates.length} frames/s` : "driving";
-      const note = content.blocked ? "something is in the way" : content.at_rest ? "live" : driving;
+      const note = content.blocked ? state.window ? "Oh no! I hit the wall!" : "something is in the way" : content.at_rest ? "live" : driving;
       this.show(mood, content.others.length ? `${note}; ${content.others.join(", ")} drives too` : note);
     }
 

@@ -34,7 +34,13 @@
       [["e"], ["c"], "turning only;"],
       ["with", ["Shift"], "sideways,", ["t"], ["b"], "up and down, where a robot can;"],
     ],
+    turtle_teleop_key: [
+      [["↑"], ["↓"], "ahead and back,", ["←"], ["→"], "turns,"],
+      ["a message and a second for each;"],
+      [["space"], "stop at once;"],
+    ],
   };
+  const NAMES = { " ": "space", ArrowUp: "↑", ArrowDown: "↓", ArrowLeft: "←", ArrowRight: "→" };
   const LAST = [["Esc"], "leaves the pad, and the robot stops."];
   const SWITCHES = [4, 5, 6, 7]; // the shoulder buttons of a standard gamepad
   const DEAD_ZONE = 0.08;
@@ -58,7 +64,7 @@
         type: "button", class: `rp-key${map.stops.includes(key) ? " rp-stop" : ""}`, "data-key": key, "aria-label": name,
         "aria-keyshortcuts": shortcuts.join(" "), title: `${name} (${key})`,
       },
-      element("span", { class: "rp-arrow", "aria-hidden": "true" }, arrow), element("kbd", { "aria-hidden": "true" }, key),
+      element("span", { class: "rp-arrow", "aria-hidden": "true" }, arrow), element("kbd", { "aria-hidden": "true" }, NAMES[key] ?? key),
     );
     return made;
   }

@@ -159,7 +159,15 @@ globalThis.rosminiPadStyle = `
 .rosmini-pad .rp-help { color: var(--rosmini-muted); font-size: 12.5px; line-height: 1.75; padding: 8px 16px 10px; }
 .rp-help span { margin-right: 14px; white-space: nowrap; }
 .rp-spoken { clip-path: inset(50%); height: 1px; overflow: hidden; position: absolute; white-space: nowrap; width: 1px; }
+.rp-turtles .rp-stage { display: grid; grid-template-columns: minmax(0, 440px) minmax(0, 1fr); }
+.rp-turtles .rp-side { grid-column: 1; grid-template-columns: auto minmax(0, 1fr); }
+.rp-turtles .rp-messages { grid-area: 1 / 2 / 3 / 3; }
+.rp-turtles .rp-log { flex: 1 1 170px; min-height: 170px; }
+.rp-turtles .rp-poses { flex: 0 0 110px; min-height: 110px; }
+.rp-turtles .rp-sight canvas { aspect-ratio: 1; display: block; width: 100%; }
 @container (max-width: 620px) {
+  .rp-turtles .rp-stage { grid-template-columns: minmax(0, 1fr); }
+  .rp-turtles .rp-messages { grid-area: auto; }
   .rp-side { grid-template-columns: auto minmax(0, 1fr); }
   .rp-keys, .rp-gauges { padding: 12px; }
   .rp-gauges { padding-left: 0; }

@@ -56,7 +56,7 @@
       this.build(host);
       this.listen();
       this.fit();
-      this.unwatch = globalThis.rosminiCanvas.watch(data.scene ? this.canvas : this.stage, () => { this.fit(); this.draw(); });
+      this.unwatch = globalThis.rosminiCanvas.watch(data.scene || data.turtle ? this.canvas : this.stage, () => { this.fit(); this.draw(); });
       driver.changed = () => this.request();
       this.draw();
     }
@@ -71,7 +71,7 @@
       this.resetButton = element("button", { type: "button", class: "rp-plain", "data-act": "reset" }, "Back to the start");
       this.startButton = element("button", { type: "button", class: "rp-plain", "data-act": "start" }, "Start");
       this.startButton.hidden = true;
-      this.canvas = element("canvas", { role: "img", "aria-label": "The world from above, with the robot, its laser and its way" });
+      this.canvas = element("canvas", { role: "img", "aria-label": data.turtle ? "The window with the turtles and what they drew" : "The world from above, with the robot, its laser and its way" });
       this.hint = element("div", { class: "rp-hint", "aria-hidden": "true" });
       this.hint.append("Click here to drive");
       this.pill = element("div", { class: "rp-pill", "aria-hidden": "true" }, element("i"), element("span"));
@@ -83,17 +83,24 @@
         element("div", {}, element("span", { class: "rp-name" }, "Laser"), this.seen),
       );
       const sight = element("div", { class: "rp-sight" }, this.pill, this.hint);
-      if (data.scene) sight.prepend(this.canvas);
+      if (data.scene || data.turtle) sight.prepend(this.canvas);
       const actions = element("div", { class: "rp-actions" }, this.startButton);
-      if (data.scene) actions.append(this.resetButton);
+      if (data.scene || data.turtle) actions.append(this.resetButton);
+      if (data.turtle) {
+        this.paper = new globalThis.rosminiTurtle.Paper(this.canvas, data.turtle);
+        this.resetButton.textContent = "Reset";
+      }
       this.speed = element("span", { class: "rp-name" });
       this.log = element("div", { class: "rp-log" });
       this.count = element("em");
+      const command = (topic, ...more) => element("div", { class: "rp-command" }, element("span", {}, "$ "), `rostopic echo ${topic}`, ...more);
       const messages = element( // what is read, not operated: screen readers browse it
-        "div", { class: "rp-messages", role: "document", "aria-label": "Messages" },
-        element("div", { class: "rp-command" }, element("span", {}, "$ "), `rostopic echo ${data.topic}`, this.count),
-        this.log,
+        "div", { class: "rp-messages", role: "document", "aria-label": "Messages" }, command(data.topic, this.count), this.log,
       );
+      if (data.turtle) {
+        this.poses = element("div", { class: "rp-log rp-poses" });
+        messages.append(command(data.turtle.pose_topic), this.poses);
+      }
       this.stage = element(
         "div",
         {
@@ -108,12 +115,13 @@
             "div", { class: "rp-gauges" },
             element("div", { class: "rp-meters" }, ...this.meters.map((m) => m.box)), this.speed, actions,
           ),
-          messages,
+          ...(data.turtle ? [] : [messages]),
         ),
+        ...(data.turtle ? [messages] : []),
       );
       this.help = element("p", { class: "rp-help", id: `${id}-help` }, ...instructions(this.map));
       this.status = element("p", { class: "rp-spoken", role: "status" });
-      this.section = element("section", { class: `rosmini-pad${data.scene ? "" : " rp-blind"}`, "aria-label": "Teleoperation pad" });
+      this.section = element("section", { class: `rosmini-pad${data.scene ? "" : data.turtle ? " rp-turtles" : " rp-blind"}`, "aria-label": "Teleoperation pad" });
       this.section.append(this.stage, this.options(), this.help, this.status);
       if (!document.getElementById("rosmini-pad-style")) {
         const sheet = element("style", { id: "rosmini-pad-style" }, globalThis.rosminiPadStyle);
@@ -306,8 +314,12 @@
         this.readings.hidden = !state.pose;
         if (state.pose) this.read(state);
       }
+      if (this.paper && state.window) {
+        this.paper.draw(state.window);
+        this.poses.replaceChildren(element("pre", {}, this.paper.message(state.window)));
+      }
       if (state.keys !== this.map.name) this.use(state.keys);
-      this.speed.textContent = this.map.adds ? "" : `currently: speed ${state.speed[0]}, turn ${state.speed[1]}`;
+      this.speed.textContent = !Object.keys(this.map.factors).length ? "" : `currently: speed ${state.speed[0]}, turn ${state.speed[1]}`;
       this.meters.forEach(({ value, bar, mark, unit, max }, i) => {
         const [sent, wanted] = [state.command[i], state.target[i]];
         const digits = i === 0 ? 2 : 1;
@@ -383,7 +395,7 @@
   /* Drives a robot of its own, as fast as the clock on the wall, and only while there is something to drive. */
   class OwnRobot {
     constructor(data) {
-      this.run = new globalThis.rosminiTeleop.Run(data);
+      this.run = data.turtle ? globalThis.rosminiTurtle.run(data) : new globalThis.rosminiTeleop.Run(data);
       this.trail = [];
       this.changed = () => {};
       this.update();
@@ -398,7 +410,8 @@
         pose, ranges: run.ranges, scanFrom: () => run.scanPose, trail: this.trail,
         keys: run.map.name, speed: run.teleop.speed, target: run.teleop.target, command: run.teleop.command, messages: run.messages, sent: run.sent,
         mood: blocked ? "blocked" : still ? "ready" : "driving",
-        note: blocked ? "something is in the way" : still ? "ready" : "driving",
+        note: blocked ? run.robot.hit ?? "something is in the way" : still ? "ready" : "driving",
+        window: run.robot?.window,
       };
       this.changed();
     }

@@ -289,9 +289,9 @@
 
   /* A run on a clock of its own, which goes in whole steps: the same keys at the same times give the same run. */
   class Run {
-    constructor(data) {
+    constructor(data, robot = null) {
       this.data = data;
-      this.robot = data.scene ? new Robot(data.scene, data.pose) : null;
+      this.robot = robot ?? (data.scene ? new Robot(data.scene, data.pose) : null);
       this.messages = []; // the last few: {linear, angular, time}
       this.sent = 0;
       this.map = data.maps.find(({ name }) => name === data.keys);
@@ -333,7 +333,7 @@
     }
 
     send([linear, angular]) {
-      this.robot?.command(linear, angular);
+      this.robot?.command(linear, angular, this.teleop.aside[0]);
       this.messages.push({ linear, angular, aside: this.teleop.aside, time: this.time });
       if (this.messages.length > 8) this.messages.shift();
       this.sent += 1;
@@ -342,7 +342,7 @@
     }
 
     scan() {
-      if (!this.robot) return;
+      if (!this.data.scene) { this.nextScan = Infinity; return; }
       this.scanPose = this.robot.pose;
       this.ranges = laser(this.data.scene, this.robot.pose);
       this.nextScan = this.steps + Math.round(1 / this.data.scan_rate / this.data.step);
@@ -364,11 +364,17 @@
     }
   }
 
+  /* A number as Python prints it. */
+  function number(value) {
+    if (Number.isInteger(value) && Math.abs(value) < 1e16) return Object.is(value, -0) ? "-0.0" : value.toFixed(1);
+    if (Math.abs(value) >= 1e-4) return String(value);
+    return value.toExponential().replace(/e-(\d)$/, "e-0$1");
+  }
+
   function yaml({ linear, angular, aside: [y, z] = [0, 0] }) {
-    const number = (value) => (Number.isInteger(value) ? value.toFixed(1) : String(value));
     const vector = (name, ...parts) => `${name}: \n${["x", "y", "z"].map((axis, i) => `  ${axis}: ${number(parts[i])}`).join("\n")}`;
     return `${vector("linear", linear, y, z)}\n${vector("angular", 0, 0, angular)}\n---`;
   }
 
-  globalThis.rosminiTeleop = { Teleop, Robot, Run, laser, touches, yaml };
+  globalThis.rosminiTeleop = { Teleop, Robot, Run, laser, touches, yaml, number };
 })();
