@@ -4,7 +4,7 @@
 
      decode(data)             a layer from what `rosmini.viz.replay.layers` (grids, images) made:
                               {name, colour, bounds?, draw(view, time), words(time)}; times are seconds.
-     body(data)               something that moves: {name, colour, at(time), draw(view, time)}.
+     body(data)               something that moves: {name, colour, at(time), isThere(time), draw(view, time)}.
 
    A layer shows what came last, and nothing before its first moment. */
 
@@ -261,8 +261,9 @@
       colour: data.colour,
       trail: data.trail !== false,
       at,
+      isThere: (time) => time >= from && time < until,
       draw(view, time, withTrail) {
-        if (time < from || time >= until) return;
+        if (!this.isThere(time)) return;
         const { context } = view;
         const pose = at(time);
         const colour = paint(view, data.colour);

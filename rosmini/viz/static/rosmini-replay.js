@@ -69,6 +69,7 @@ height:32px;margin-left:auto;padding:0 .3rem;width:auto}
 .rosmini-replay kbd{all:unset;border:1px solid var(--group-line);border-radius:3px;padding:0 .3em}
 .rosmini-replay dl{display:grid;gap:.1rem 1.2rem;grid-auto-flow:column;grid-template-rows:auto auto;justify-content:start;
 margin:0;padding:.2rem .7rem .6rem}
+.rosmini-replay .rr-pane dl{grid-auto-flow:row;grid-template-rows:none}
 .rosmini-replay dl div{display:flex;gap:.5rem}
 .rosmini-replay dt{color:var(--muted);flex:0 0 5.4rem;font-weight:400;margin:0}
 .rosmini-replay dd{margin:0;min-width:10.5rem}
@@ -225,7 +226,7 @@ margin:0;padding:.2rem .7rem .6rem}
   /* What is so at a time, in words, [key, label, text]: where the robot is, where odometry puts it, what it was told. */
   function readings(run, time) {
     if (!run.scene) {
-      return run.bodies.slice(0, 4).map((body, i) => [`body${i}`, body.name, place(body.at(time))]);
+      return run.bodies.slice(0, 4).map((body, i) => [`body${i}`, body.name, body.isThere(time) ? place(body.at(time)) : "not there"]);
     }
     const [truth, odom] = [poseAt(run, run.truth, time), poseAt(run, run.odom, time)];
     const command = latest(run.commands, time);
