@@ -43,8 +43,10 @@ ENCODINGS = {
     "mono16": Encoding("u2", 1, (0, 0, 0)),
     "32FC1": Encoding("f4", 1, (), 1.0),
     "16UC1": Encoding("u2", 1, (), MILLIMETRES),
+    "16SC1": Encoding("i2", 1, (), MILLIMETRES),
+    **{f"bayer_{order}8": Encoding("u1", 1, (0, 0, 0)) for order in ("rggb", "bggr", "gbrg", "grbg")},
 }
-"""Those of `sensor_msgs/image_encodings.h` that cameras and depth cameras write (depths: REP 118)."""
+"""Those of `sensor_msgs/image_encodings.h` that cameras and depth cameras write (depths: REP 118); raw are grey."""
 
 
 def image_picture(

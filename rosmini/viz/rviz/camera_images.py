@@ -1,0 +1,137 @@
+"""Images of cameras as RViz shows them: colours as they are, ranges from black to white."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rosmini.viz.image_pictures import ENCODINGS, pixels_of, values_of
+from rosmini.viz.view import ViewError
+
+from .primitives import DisplayError, Floats, Pixels
+
+RANGED = ("32FC1", "16UC1", "16SC1", "mono16")
+"""Encodings whose least and greatest values are shown as black and white."""
+MOST_SIDE = 10_000
+MOST_SHOWN = 320 * 240
+"""Pixels of an image in a page; a larger one is made smaller by whole factors."""
+
+
+class PinHole(NamedTuple):
+    """A camera's projection: focal lengths and principal point [px], of an image of a size [px]."""
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    width: int
+    height: int
+    tx: float = 0.0
+    ty: float = 0.0
+    """The camera's place in its frame [m]: of a right camera beside the left one."""
+
+
+def pin_hole(info: Any, width: int, height: int) -> PinHole:
+    """The projection of a `sensor_msgs/CameraInfo`, by its P; its size is the image's where it has none.
+
+    Raises:
+        DisplayError: it has numbers that are not finite, or no focal length.
+
+    """
+    p = np.asarray(info.P, dtype=float).reshape(-1)
+    if len(p) != 12 or not np.isfinite(p).all():
+        raise DisplayError("Contains invalid floating point values (nans or infs)")
+    if p[0] <= 0 or p[5] <= 0:
+        raise DisplayError(f"CameraInfo/P has the focal lengths {p[0]:g} and {p[5]:g}; they are more than 0")
+    if max(info.width, info.height) > MOST_SIDE:
+        raise DisplayError(f"an image of {info.width} x {info.height} pixels is too large to draw")
+    return PinHole(
+        p[0],
+        p[5],
+        p[2],
+        p[6],
+        int(info.width) or width,
+        int(info.height) or height,
+        -p[3] / p[0],
+        -p[7] / p[5],
+    )
+
+
+def info_topic(image_topic: str) -> str:
+    """The topic of the `sensor_msgs/CameraInfo` that belongs to an image: `camera_info` beside it."""
+    above, slash, _ = image_topic.rpartition("/")
+    return f"{above}{slash}camera_info"
+
+
+def check_image(message: Any) -> None:
+    """Raise `DisplayError` for an encoding that is not known, and for a size that no image has."""
+    if message.encoding not in ENCODINGS:
+        raise DisplayError(f"Unsupported image encoding [{message.encoding:.50}]")
+    if not (0 < message.width <= MOST_SIDE and 0 < message.height <= MOST_SIDE):
+        raise DisplayError(f"an image of {message.width} x {message.height} pixels cannot be drawn")
+
+
+def image_range(message: Any) -> tuple[float, float] | None:
+    """The least and the greatest value of an image of ranges, 0 and 1 if it has none; None for one of colours.
+
+    Raises `DisplayError` if its data do not fit its size.
+    """
+    if message.encoding not in RANGED:
+        return None
+    values = _values(message)
+    known = values[np.isfinite(values)]
+    return (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)
+
+
+def image_pixels(message: Any, bounds: tuple[float, float] = (0.0, 1.0)) -> Pixels:
+    """The pixels (h, w, 3) of a `sensor_msgs/Image`; values of one of ranges go from black to white between `bounds`.
+
+    Raises `DisplayError` if its data do not fit its size.
+    """
+    check_image(message)
+    if message.encoding not in RANGED:
+        try:
+            return np.asarray(pixels_of(message), dtype=np.uint8)
+        except ViewError as error:
+            raise DisplayError(str(error)) from error
+    low, high = bounds
+    share = (_values(message) - low) / ((high - low) or 1.0)
+    grey = np.round(np.clip(np.nan_to_num(share), 0.0, 1.0) * 255).astype(np.uint8)
+    return np.repeat(grey[..., None], 3, axis=2)
+
+
+def depths(message: Any) -> Floats:
+    """The depths (h, w) [m] of a `sensor_msgs/Image`, nan for none. Raises `DisplayError` if it has none."""
+    check_image(message)
+    if ENCODINGS[message.encoding].order:
+        raise DisplayError(
+            f"an image of the encoding [{message.encoding}] has no depths: 32FC1 and 16UC1 have"
+        )
+    try:
+        return np.asarray(pixels_of(message), dtype=float)
+    except ViewError as error:
+        raise DisplayError(str(error)) from error
+
+
+def thinned_image(pixels: Pixels) -> Pixels:
+    """Pixels (h, w, 3) as means of squares of them, so that there are at most `MOST_SHOWN`."""
+    height, width = pixels.shape[:2]
+    factor = max(1, math.ceil(math.sqrt(height * width / MOST_SHOWN)))
+    while factor > 1 and (height // factor) * (width // factor) == 0:
+        factor -= 1
+    if factor == 1:
+        return pixels
+    rows, columns = height // factor, width // factor
+    squares = pixels[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor, 3)
+    thinned: Pixels = np.round(squares.mean(axis=(1, 3), dtype=np.float32)).astype(np.uint8)
+    return thinned
+
+
+def _values(message: Any) -> Floats:
+    check_image(message)
+    try:
+        return np.asarray(values_of(message, ENCODINGS[message.encoding])[..., 0], dtype=float)
+    except ViewError as error:
+        raise DisplayError(str(error)) from error

@@ -1,0 +1,147 @@
+"""DepthCloud: the points that a depth camera sees, in the colours of another image."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from rosmini.errors import RosminiError
+from rosmini.viz.rviz.camera_images import depths, image_pixels, info_topic
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.display import Level
+from rosmini.viz.rviz.points_display import PointsDisplay
+from rosmini.viz.rviz.points_style import styled
+from rosmini.viz.rviz.primitives import DisplayError, Floats, Primitive
+from rosmini.viz.rviz.properties import Property
+from rosmini.viz.rviz.topic_display import Heard
+
+NEAR_NS = 500_000_000
+"""How far apart the stamps of depths and colours may be [ns]."""
+INFO = "sensor_msgs/CameraInfo"
+
+
+class DepthCloud(PointsDisplay, plugin="rviz/DepthCloud"):
+    """A `sensor_msgs/Image` of depths with the `CameraInfo` beside it, and an image of colours of the same size."""
+
+    message = "sensor_msgs/Image"
+    topic_property = "Depth Map Topic"
+    properties = (
+        Property("Depth Map Topic", "", "the topic of depths"),
+        Property("Depth Map Transport Hint", "raw", "how images are sent; here always raw"),
+        Property("Color Image Topic", "", "the topic of colours; empty: none"),
+        Property("Color Transport Hint", "raw", "how images are sent; here always raw"),
+        Property("Queue Size", 5, "how many messages wait for their transform", minimum=1, maximum=1000),
+        Property("Topic Filter", True, "which topics are offered; here all"),
+        Property("Auto Size", True, "points are as large as a pixel at their distance"),
+        Property("Auto Size/Auto Size Factor", 1.0, "times this", minimum=0.0001),
+        Property("Occlusion Compensation", False, "points stay that nearer ones hide; not here"),
+        Property("Occlusion Compensation/Occlusion Time-Out", 30.0, "for how long", unit="s", minimum=0.0),
+    )
+
+    def __init__(self, name: str = "", tree: Any = None) -> None:
+        super().__init__(name, tree)
+        self._info: Any = None
+        self._colours: deque[Any] = deque(maxlen=20)
+
+    def start(self, context: Context) -> None:
+        """Subscribe to depths, to the camera's calibration, and to colours."""
+        super().start(context)
+        if not self.topic:
+            return
+        self._topic = info_topic(self.topic)
+        try:
+            self.listen(context, self._topic, INFO, self._take_info)
+            if self["Color Image Topic"]:
+                self.listen(context, self["Color Image Topic"], self.message, self._take_colours)
+        except RosminiError as error:
+            self.fail("Message", error)
+        self.set_status(Level.WARN, "CameraInfo", f"No CameraInfo received on [{self._topic}]")
+
+    def changed(self, name: str) -> None:
+        """Subscribe to another topic."""
+        super().changed(name)
+        if name == "Color Image Topic":
+            self.restart()
+
+    def reset(self) -> None:
+        """Forget all images."""
+        super().reset()
+        self._info = None
+        self._colours.clear()
+
+    def _take_info(self, info: Any) -> None:
+        self._info = info
+        self._again()
+
+    def _take_colours(self, image: Any) -> None:
+        self._colours.append(image)
+        self._again()
+
+    def _again(self) -> None:
+        """Draw the last depths again, with what came for them."""
+        if self.kept:
+            self.kept[-1].drawn = None
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """A point for each pixel with a depth."""
+        del context
+        info, image = self._info, heard.message
+        if info is None:
+            return
+        size = f"{image.width} x {image.height}"
+        if (info.width, info.height) != (image.width, image.height):
+            raise DisplayError(
+                f"Depth image size and camera info don't match: {size} vs {info.width} x {info.height}"
+            )
+        k = np.asarray(info.K, dtype=float)
+        if not (np.isfinite(k).all() and k[0] > 0 and k[4] > 0):
+            raise DisplayError("CameraInfo/K has no focal lengths")
+        self.set_status(Level.OK, "CameraInfo", "OK")
+        self.set_status(Level.OK, "Depth Image Size", size)
+        away = depths(image)
+        rows, columns = np.nonzero(np.isfinite(away) & (away > 0))
+        z = away[rows, columns]
+        local = np.column_stack([(columns - k[2]) * z / k[0], (rows - k[5]) * z / k[4], z])
+        channels: dict[str, Floats] = {}
+        colours = self._colours_of(heard)
+        if colours is not None:
+            channels["rgb"] = colours[rows, columns] / 255.0
+        chosen = _RGB8(self) if channels else self
+        points = styled(heard.points(local), chosen, channels, local)
+        if self["Auto Size"] and len(z) and points.style != "Points":
+            points = replace(points, size=float(self["Auto Size/Auto Size Factor"] * np.median(z) / k[0]))
+        yield points
+
+    def _colours_of(self, heard: Heard) -> Any:
+        """The colours (h, w, 3) that came nearest to depths; None if none did."""
+        near = [
+            each for each in self._colours if abs(each.header.stamp.to_nsec() - heard.stamp_ns) <= NEAR_NS
+        ]
+        if not near:
+            return None
+        image = min(near, key=lambda each: abs(each.header.stamp.to_nsec() - heard.stamp_ns))
+        depth = heard.message
+        if (image.width, image.height) != (depth.width, depth.height):
+            raise DisplayError(
+                f"Depth image resolution ({depth.width}x{depth.height}) does not match color image resolution "
+                f"({image.width}x{image.height})"
+            )
+        if image.header.frame_id != heard.frame:
+            heard.note(
+                f"Depth image frame id [{heard.frame}] doesn't match color image frame id [{image.header.frame_id}]"
+            )
+        return image_pixels(image)
+
+
+class _RGB8:
+    """The properties of a display, but that colours are those that came with the points."""
+
+    def __init__(self, display: DepthCloud) -> None:
+        self._display = display
+
+    def __getitem__(self, name: str) -> Any:
+        return "RGB8" if name == "Color Transformer" else self._display[name]

@@ -1,0 +1,126 @@
+"""Effort: how hard the joints of a robot work, as circles around their axes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+
+from rosmini.errors import ROSException, RosminiError
+from rosmini.tf import TransformException
+from rosmini.tf.rigid import matrix
+from rosmini.urdf import Joint, Robot, load
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.display import Level
+from rosmini.viz.rviz.marker_shapes import towards
+from rosmini.viz.rviz.points_style import rainbow
+from rosmini.viz.rviz.primitives import INVALID, DisplayError, Floats, Lines, Primitive
+from rosmini.viz.rviz.properties import Property, Tree
+from rosmini.viz.rviz.shapes import arrow
+from rosmini.viz.rviz.topic_display import Heard, TopicDisplay
+
+INNER = 0.05
+"""The radius of a circle without effort [m]."""
+TURNING = ("revolute", "continuous")
+
+
+class Effort(TopicDisplay, plugin="rviz/Effort"):
+    """A circle for each joint of a `sensor_msgs/JointState` that turns; wide and red near its limit."""
+
+    message = "sensor_msgs/JointState"
+    history = "History Length"
+    needs_transform = False
+    properties = (
+        Property("Alpha", 1.0, "how opaque they are", minimum=0.0, maximum=1.0),
+        Property("Width", 0.02, "of the circles' lines", unit="m", minimum=0.0),
+        Property("Scale", 1.0, "of the circles", minimum=0.0),
+        Property("History Length", 1, "how many messages are shown", minimum=1, maximum=100_000),
+        Property("Robot Description", "robot_description", "the parameter with the URDF"),
+        Property("TF Prefix", "", "before the names of all links"),
+        Property("Joints", Tree(), "which joints are shown"),
+    )
+
+    def __init__(self, name: str = "", tree: Any = None) -> None:
+        super().__init__(name, tree)
+        self._read = ""
+        self._robot: Robot | None = None
+
+    def reset(self) -> None:
+        """Forget messages and robot."""
+        super().reset()
+        self._read, self._robot = "", None
+
+    def update(self, context: Context) -> None:
+        """Read the robot if it is another one, and look where its links are now."""
+        super().update(context)
+        self._load(context)
+        for heard in self.kept:
+            heard.drawn = None
+
+    def _load(self, context: Context) -> None:
+        name = self["Robot Description"]
+        try:
+            found = context.node.search_param(name)
+            text = context.node.get_param(found, "") if found else ""
+        except ROSException as error:
+            self.fail("URDF", error)
+            return
+        if not found:
+            text = f"Parameter [{name}] does not exist, and was not found by searchParam()"
+            self.set_status(Level.ERROR, "URDF", text)
+            self._read, self._robot = "", None
+        elif text != self._read:
+            self._read, self._robot = text, None
+            try:
+                if not str(text).lstrip().startswith("<"):
+                    raise DisplayError("URDF is empty" if not str(text).strip() else "it is no XML")
+                self._robot = load(str(text), meshes=False)
+                self.set_status(Level.OK, "URDF", "Robot model parsed Ok")
+            except RosminiError as error:
+                said = str(error).partition("\n")[0]
+                self.set_status(Level.ERROR, "URDF", f"Unable to parse robot model description! {said}")
+
+    def accept(self, heard: Heard, context: Context) -> bool:
+        """Take a message with as many efforts as joints."""
+        del context
+        if len(heard.message.name) != len(heard.message.effort):
+            raise DisplayError("Received a joint state msg with different joint names and efforts size!")
+        if not np.isfinite(np.asarray(heard.message.effort, dtype=float)).all():
+            raise DisplayError(INVALID)
+        return True
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """The circles."""
+        joints = {} if self._robot is None else self._robot.joints
+        for name, effort in zip(heard.message.name, heard.message.effort, strict=True):
+            joint = joints.get(name)
+            if joint is None or joint.type not in TURNING or not self._is_shown(name):
+                continue
+            link = "/".join(filter(None, (self["TF Prefix"].strip("/"), joint.child)))
+            try:
+                place = matrix(context.place(link))
+            except TransformException as error:
+                self.set_status(Level.ERROR, name, context.problem(link, error))
+                continue
+            limit = 0.0 if joint.limit is None else joint.limit.effort
+            self.set_status(Level.OK, name, f"{effort:.4g} N m" + (f" of {limit:g}" if limit else ""))
+            yield from self._circle(joint, place, float(effort), limit)
+
+    def _is_shown(self, joint: str) -> bool:
+        one = self["Joints"].get(joint, True)
+        return bool(one.get("Value", True) if isinstance(one, dict) else one)
+
+    def _circle(self, joint: Joint, place: Floats, effort: float, limit: float) -> Iterator[Primitive]:
+        share = (min(abs(effort) / limit, 1.0) if limit else abs(effort)) + 0.05
+        radius, width = INNER + 0.5 * share * self["Scale"], self["Width"]
+        angles = np.arange(30) * (math.tau / 32)
+        sign = -1.0 if effort < 0 else 1.0
+        flat = np.column_stack([np.zeros(30), -sign * radius * np.sin(angles), radius * np.cos(angles)])
+        pose = place @ towards(np.zeros(3), np.array(joint.axis))
+        colour = np.append(rainbow(np.array([share]))[0], self["Alpha"])
+        placed = flat @ pose[:3, :3].T + pose[:3, 3]
+        yield Lines(placed, colour, width)
+        head = towards(placed[0], placed[0] + sign * pose[:3, 1])
+        yield arrow(head, colour, 0.0, 2 * width, 2 * width, 2 * width)

@@ -1,0 +1,31 @@
+"""Image: what a camera sees, in a pane of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from rosmini.viz.rviz.camera_images import image_pixels, thinned_image
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.image_display import ImageDisplay, described
+from rosmini.viz.rviz.primitives import Pane
+from rosmini.viz.rviz.properties import Property
+
+
+class Image(ImageDisplay, plugin="rviz/Image"):
+    """A `sensor_msgs/Image`; one of ranges goes from black to white."""
+
+    properties = (
+        Property("Normalize Range", True, "of an image of ranges: from its least value to its greatest"),
+        Property("Min Value", 0.0, "what is black if it is not normalised"),
+        Property("Max Value", 1.0, "what is white if it is not normalised"),
+        Property("Median window", 5, "over how many images the range is smoothed", minimum=1, maximum=1000),
+    )
+
+    def pane(self, image: Any, context: Context, layers: Sequence[Any]) -> Pane | None:
+        """The image."""
+        del context, layers
+        normalised = self["Normalize Range"]
+        bounds = self.bounds(self["Median window"]) if normalised else (self["Min Value"], self["Max Value"])
+        pixels = image_pixels(image, bounds)
+        return Pane(self.name, thinned_image(pixels), described(image, pixels))

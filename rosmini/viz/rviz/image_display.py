@@ -1,0 +1,83 @@
+"""What displays of images have in common: their topic, what they count, and the range of grey ones."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections import deque
+from collections.abc import Iterable, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+
+from .camera_images import check_image, image_range
+from .context import Context
+from .display import Level
+from .primitives import Pane, Pixels, Primitive
+from .properties import Property
+from .topic_display import Heard, TopicDisplay
+
+
+class ImageDisplay(TopicDisplay):
+    """The base of displays that show an image in a pane of its own."""
+
+    message = "sensor_msgs/Image"
+    topic_property = "Image Topic"
+    needs_transform = False
+    properties: ClassVar[tuple[Property, ...]] = (
+        Property("Image Topic", "", "the topic to subscribe to"),
+        Property("Transport Hint", "raw", "how images are sent; here always raw"),
+        Property("Queue Size", 2, "how many images wait", minimum=1, maximum=1000),
+    )
+
+    def __init__(self, name: str = "", tree: Any = None) -> None:
+        super().__init__(name, tree)
+        self._ranges: deque[tuple[float, float]] = deque(maxlen=1000)
+
+    def reset(self) -> None:
+        """Forget all images."""
+        super().reset()
+        self._ranges.clear()
+
+    def accept(self, heard: Heard, context: Context) -> bool:
+        """Take an image that can be shown."""
+        del context
+        check_image(heard.message)
+        found = image_range(heard.message)
+        if found is not None:
+            self._ranges.append(found)
+        return True
+
+    def bounds(self, window: int) -> tuple[float, float]:
+        """The medians of the least and of the greatest values of the last `window` images."""
+        last = list(self._ranges)[-window:]
+        low, high = np.median(np.array(last or [(0.0, 1.0)]), axis=0)
+        return float(low), float(high)
+
+    def draw(self, heard: Heard, context: Context) -> Iterable[Primitive]:
+        """Nothing in the scene."""
+        del heard, context
+        return ()
+
+    @abstractmethod
+    def pane(self, image: Any, context: Context, layers: Sequence[Any]) -> Pane | None:
+        """What is shown of an image beside the scene of these layers. May raise `DisplayError`."""
+
+    def panes(self, context: Context, layers: Sequence[Any] = ()) -> Iterable[Pane]:
+        """The last image."""
+        if not self.kept:
+            self.set_status(Level.WARN, "Image", "No Image received")
+            return ()
+        try:
+            found = self.pane(self.kept[-1].message, context, layers)
+        except Exception as error:  # the scene stands, whatever one image does
+            self.fail("Image", error)
+            return ()
+        self.set_status(Level.OK, "Image", f"{self.received} images received")
+        return () if found is None else (found,)
+
+
+def described(image: Any, pixels: Pixels) -> str:
+    """An image in a line of words: its size, its encoding, and its frame."""
+    height, width = pixels.shape[:2]
+    frame = f", in {image.header.frame_id}" if image.header.frame_id else ""
+    return f"{width} x {height} pixels, {image.encoding}{frame}"
