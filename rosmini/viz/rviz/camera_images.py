@@ -15,6 +15,7 @@ from .primitives import DisplayError, Floats, Pixels
 RANGED = ("32FC1", "16UC1", "16SC1", "mono16")
 """Encodings whose least and greatest values are shown as black and white."""
 MOST_SIDE = 10_000
+MOST_PIXELS = 25_000_000
 MOST_SHOWN = 320 * 240
 """Pixels of an image in a page; a larger one is made smaller by whole factors."""
 
@@ -31,6 +32,14 @@ class PinHole(NamedTuple):
     tx: float = 0.0
     ty: float = 0.0
     """The camera's place in its frame [m]: of a right camera beside the left one."""
+
+    def zoomed(self, factor: float) -> PinHole:
+        """The projection magnified around the middle of the image."""
+        middle = (
+            (self.cx - self.width / 2) * factor + self.width / 2,
+            (self.cy - self.height / 2) * factor + self.height / 2,
+        )
+        return self._replace(fx=self.fx * factor, fy=self.fy * factor, cx=middle[0], cy=middle[1])
 
 
 def pin_hole(info: Any, width: int, height: int) -> PinHole:
@@ -69,7 +78,8 @@ def check_image(message: Any) -> None:
     """Raise `DisplayError` for an encoding that is not known, and for a size that no image has."""
     if message.encoding not in ENCODINGS:
         raise DisplayError(f"Unsupported image encoding [{message.encoding:.50}]")
-    if not (0 < message.width <= MOST_SIDE and 0 < message.height <= MOST_SIDE):
+    size = int(message.width) * int(message.height)
+    if not 0 < size <= MOST_PIXELS or max(message.width, message.height) > MOST_SIDE:
         raise DisplayError(f"an image of {message.width} x {message.height} pixels cannot be drawn")
 
 
@@ -127,6 +137,18 @@ def thinned_image(pixels: Pixels) -> Pixels:
     squares = pixels[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor, 3)
     thinned: Pixels = np.round(squares.mean(axis=(1, 3), dtype=np.float32)).astype(np.uint8)
     return thinned
+
+
+def resized(pixels: Pixels, width: int, height: int, zoom: float = 1.0) -> Pixels:
+    """Pixels (h, w, 3) in another size, magnified around the middle; black beyond the image."""
+    rows = np.floor(((np.arange(height) + 0.5) / height - 0.5) / zoom * len(pixels) + len(pixels) / 2)
+    columns = np.floor(
+        ((np.arange(width) + 0.5) / width - 0.5) / zoom * pixels.shape[1] + pixels.shape[1] / 2
+    )
+    found = np.zeros((height, width, 3), dtype=np.uint8)
+    i, j = ((rows >= 0) & (rows < len(pixels))), ((columns >= 0) & (columns < pixels.shape[1]))
+    found[np.ix_(i, j)] = pixels[np.ix_(rows[i].astype(int), columns[j].astype(int))]
+    return found
 
 
 def _values(message: Any) -> Floats:

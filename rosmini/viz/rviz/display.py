@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import enum
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple
 
 from rosmini.plugins import Plugin
@@ -27,6 +27,8 @@ from .properties import Properties, Property
 
 __all__ = ["Context", "Display", "DisplayError", "Level", "Status"]
 
+Shown = tuple[str, tuple[Primitive, ...]]
+"""The name of a display, and what it draws."""
 RESERVED = ("Class", "Name", "Enabled", "Value")
 """What a file has of each display beside its properties."""
 
@@ -94,8 +96,8 @@ class Display(Plugin, ABC):
     def primitives(self, context: Context) -> Iterable[Primitive]:
         """What there is to draw now, in the fixed frame. May raise `DisplayError`, which becomes a status."""
 
-    def panes(self, _context: Context) -> Iterable[Pane]:
-        """Pictures beside the scene: images of cameras, plots."""
+    def panes(self, _context: Context, _shown: Sequence[Shown] = ()) -> Iterable[Pane]:
+        """Pictures beside the scene: images of cameras, plots; `_shown` is what the other displays draw."""
         return ()
 
     def start(self, context: Context) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from .camera_images import check_image, image_range
 from .context import Context
-from .display import Level
+from .display import Level, Shown
 from .primitives import Pane, Pixels, Primitive
 from .properties import Property
 from .topic_display import Heard, TopicDisplay
@@ -59,16 +59,16 @@ class ImageDisplay(TopicDisplay):
         return ()
 
     @abstractmethod
-    def pane(self, image: Any, context: Context, layers: Sequence[Any]) -> Pane | None:
-        """What is shown of an image beside the scene of these layers. May raise `DisplayError`."""
+    def pane(self, image: Any, context: Context, shown: Sequence[Shown]) -> Pane | None:
+        """What there is to see of an image, beside what the other displays draw. May raise `DisplayError`."""
 
-    def panes(self, context: Context, layers: Sequence[Any] = ()) -> Iterable[Pane]:
+    def panes(self, context: Context, shown: Sequence[Shown] = ()) -> Iterable[Pane]:
         """The last image."""
         if not self.kept:
             self.set_status(Level.WARN, "Image", "No Image received")
             return ()
         try:
-            found = self.pane(self.kept[-1].message, context, layers)
+            found = self.pane(self.kept[-1].message, context, shown)
         except Exception as error:  # the scene stands, whatever one image does
             self.fail("Image", error)
             return ()

@@ -172,17 +172,26 @@ class Scene:
             self.root.attach(context)
         self._last_ns = now
         context.refresh()
-        return [self._layer(display) for display in self.root.walk() if display.is_running]
+        layers = [self._layer(display) for display in self.root.walk() if display.is_running]
+        return [Layer(one.display, one.primitives, self._panes(one.display, layers)) for one in layers]
 
     def _layer(self, display: Display) -> Layer:
         try:
             display.update(self.context)
-            drawn, panes = tuple(display.primitives(self.context)), tuple(display.panes(self.context))
+            drawn = tuple(display.primitives(self.context))
         except Exception as error:  # the scene stands, whatever one display does
             display.fail("Display", error)
             return Layer(display, (), ())
         display.clear_status("Display")
-        return Layer(display, drawn, panes)
+        return Layer(display, drawn, ())
+
+    def _panes(self, display: Display, layers: list[Layer]) -> tuple[Pane, ...]:
+        shown = [(layer.display.name, layer.primitives) for layer in layers if layer.display is not display]
+        try:
+            return tuple(display.panes(self.context, shown))
+        except Exception as error:  # the scene stands, whatever one display does
+            display.fail("Display", error)
+            return ()
 
     # -- files ---------------------------------------------------------------------------------------------------
 

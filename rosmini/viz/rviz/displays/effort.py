@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rosmini.errors import ROSException, RosminiError
+from rosmini.errors import RosminiError
 from rosmini.tf import TransformException
 from rosmini.tf.rigid import matrix
 from rosmini.urdf import Joint, Robot, load
@@ -60,27 +60,22 @@ class Effort(TopicDisplay, plugin="rviz/Effort"):
             heard.drawn = None
 
     def _load(self, context: Context) -> None:
+        """Read the robot if it is another one."""
         name = self["Robot Description"]
-        try:
-            found = context.node.search_param(name)
-            text = context.node.get_param(found, "") if found else ""
-        except ROSException as error:
-            self.fail("URDF", error)
+        key = context.node.search_param(name)
+        text = "" if key is None else str(context.node.get_param(key))
+        if key is not None and text == self._read:
             return
-        if not found:
-            text = f"Parameter [{name}] does not exist, and was not found by searchParam()"
-            self.set_status(Level.ERROR, "URDF", text)
-            self._read, self._robot = "", None
-        elif text != self._read:
-            self._read, self._robot = text, None
-            try:
-                if not str(text).lstrip().startswith("<"):
-                    raise DisplayError("URDF is empty" if not str(text).strip() else "it is no XML")
-                self._robot = load(str(text), meshes=False)
-                self.set_status(Level.OK, "URDF", "Robot model parsed Ok")
-            except RosminiError as error:
-                said = str(error).partition("\n")[0]
-                self.set_status(Level.ERROR, "URDF", f"Unable to parse robot model description! {said}")
+        self._read, self._robot = text, None
+        if key is None:
+            said = f"Parameter [{name}] does not exist, and was not found by searchParam()"
+            self.set_status(Level.ERROR, "URDF", said)
+            return
+        try:
+            self._robot = load(text.strip().encode(), meshes=False, path=key)
+            self.set_status(Level.OK, "URDF", "URDF parsed OK")
+        except RosminiError as error:
+            self.set_status(Level.ERROR, "URDF", str(error).partition("\n")[0])
 
     def accept(self, heard: Heard, context: Context) -> bool:
         """Take a message with as many efforts as joints."""

@@ -7,6 +7,7 @@ from typing import Any
 
 from rosmini.viz.rviz.camera_images import image_pixels, thinned_image
 from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.display import Shown
 from rosmini.viz.rviz.image_display import ImageDisplay, described
 from rosmini.viz.rviz.primitives import Pane
 from rosmini.viz.rviz.properties import Property
@@ -22,9 +23,9 @@ class Image(ImageDisplay, plugin="rviz/Image"):
         Property("Median window", 5, "over how many images the range is smoothed", minimum=1, maximum=1000),
     )
 
-    def pane(self, image: Any, context: Context, layers: Sequence[Any]) -> Pane | None:
+    def pane(self, image: Any, context: Context, shown: Sequence[Shown]) -> Pane | None:
         """The image."""
-        del context, layers
+        del context, shown
         normalised = self["Normalize Range"]
         bounds = self.bounds(self["Median window"]) if normalised else (self["Min Value"], self["Max Value"])
         pixels = image_pixels(image, bounds)

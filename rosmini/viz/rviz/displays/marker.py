@@ -44,6 +44,7 @@ class Marker(TopicDisplay, plugin="rviz/Marker"):
         self.markers: dict[tuple[str, int], Heard] = {}
         """The markers by namespace and id."""
         self._silent: set[tuple[str, int]] = set()
+        self["Namespaces"] = self["Namespaces"]  # a copy: namespaces that come are added
 
     # -- hearing -------------------------------------------------------------------------------------------------
 

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from rosmini.msgs import message_class
 from rosmini.time import Duration
 from rosmini.viz.rviz import still
+from rosmini.viz.rviz.displays.marker import Marker as MarkerDisplay
 from rosmini.viz.rviz.primitives import Lines, Mesh, Points, Text
 
 Color = message_class("std_msgs/ColorRGBA")
@@ -245,6 +246,7 @@ def test_namespaces_are_listed_and_switched(shown):
     drawn, said = shown()
     assert (len(drawn), said["Markers"][1]) == (1, "Showing [1] of [2] markers in [2] namespaces")
     assert shown.display.tree()["Namespaces"] == {"a": False}
+    assert MarkerDisplay()["Namespaces"] == {}
 
 
 def test_arrays_come_by_either_display(stage, statuses, shown):

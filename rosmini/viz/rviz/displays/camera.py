@@ -1,0 +1,98 @@
+"""Camera: what a camera sees, with the scene drawn over it as the camera would see it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from rosmini.errors import RosminiError
+from rosmini.tf import TransformException
+from rosmini.tf.rigid import matrix
+from rosmini.viz.rviz.camera_images import (
+    MOST_SHOWN,
+    image_pixels,
+    info_topic,
+    pin_hole,
+    resized,
+)
+from rosmini.viz.rviz.context import Context
+from rosmini.viz.rviz.display import Level, Shown
+from rosmini.viz.rviz.image_display import ImageDisplay, described
+from rosmini.viz.rviz.overlay import Overlay
+from rosmini.viz.rviz.primitives import DisplayError, Pane
+from rosmini.viz.rviz.properties import Property, Tree
+
+BACKGROUND, OVERLAY, BOTH = "background", "overlay", "background and overlay"
+EMPTY = 48
+"""How bright it is behind the scene without an image there."""
+
+
+class Camera(ImageDisplay, plugin="rviz/Camera"):
+    """A `sensor_msgs/Image` and the `sensor_msgs/CameraInfo` beside it, whose projection the scene is drawn with."""
+
+    properties = (
+        Property("Image Rendering", BOTH, "where the image is", choices=(BACKGROUND, OVERLAY, BOTH)),
+        Property("Overlay Alpha", 0.5, "how opaque the image is over the scene", minimum=0.0, maximum=1.0),
+        Property("Zoom Factor", 1.0, "more than 1 magnifies", minimum=0.00001, maximum=100_000.0),
+        Property("Visibility", Tree(), "which displays are seen by the camera"),
+    )
+
+    def __init__(self, name: str = "", tree: Any = None) -> None:
+        super().__init__(name, tree)
+        self._info: Any = None
+
+    def start(self, context: Context) -> None:
+        """Subscribe to images, and to the camera's calibration."""
+        super().start(context)
+        if self.topic:
+            topic = info_topic(self.topic)
+            text = f"No CameraInfo received on [{topic}].  Topic may not exist."
+            self.set_status(Level.WARN, "Camera Info", text)
+            try:
+                self.listen(context, topic, "sensor_msgs/CameraInfo", self._take)
+            except RosminiError as error:
+                self.fail("Camera Info", error)
+
+    def _take(self, info: Any) -> None:
+        self._info = info
+
+    def reset(self) -> None:
+        """Forget image and calibration."""
+        super().reset()
+        self._info = None
+
+    def pane(self, image: Any, context: Context, shown: Sequence[Shown]) -> Pane | None:
+        """The image, and the scene over it."""
+        if self._info is None:
+            return None
+        try:
+            camera = pin_hole(self._info, image.width, image.height)
+        except DisplayError as error:
+            self.fail("Camera Info", error)
+            return None
+        self.set_status(Level.OK, "Camera Info", "OK")
+        try:
+            pose = matrix(context.place(image.header.frame_id, image.header.stamp.to_nsec()))
+        except TransformException:
+            try:
+                pose = matrix(context.place(image.header.frame_id))
+            except TransformException as error:
+                raise DisplayError(context.problem(image.header.frame_id, error)) from error
+        pixels = image_pixels(image, self.bounds(5))
+        scale = min(1.0, math.sqrt(MOST_SHOWN / (camera.width * camera.height)))
+        zoom = float(self["Zoom Factor"])
+        overlay = Overlay(camera.zoomed(zoom), pose, scale)
+        overlay.draw(each for name, primitives in shown if self._is_seen(name) for each in primitives)
+        rendering, alpha = self["Image Rendering"], float(self["Overlay Alpha"])
+        behind = resized(pixels, overlay.width, overlay.height, zoom)
+        seen = overlay.over(np.full_like(behind, EMPTY) if rendering == OVERLAY else behind)
+        if rendering != BACKGROUND:
+            seen = np.round(seen * (1.0 - alpha) + behind * alpha).astype(np.uint8)
+        return Pane(self.name, seen, described(image, pixels))
+
+    def _is_seen(self, name: str) -> bool:
+        one = self["Visibility"].get(name, True)
+        return bool(one.get("Value", True) if isinstance(one, dict) else one)
