@@ -1,7 +1,8 @@
-"""`rosmini rviz`: what RViz shows of a graph, at this moment (http://wiki.ros.org/rviz).
+"""`rosmini rviz`: what RViz shows of a graph (http://wiki.ros.org/rviz).
 
-In a notebook `%rviz -d FILE` shows a view that can be turned, with `--still` a picture; in a terminal both are a page.
-``TOOL.run("-d", "my.rviz", graph=graph).view`` is the view in Python.
+In a terminal it is a page on this machine that follows the graph until Ctrl-C. In a notebook `%rviz -d FILE` shows a
+view of this moment that can be turned, with `--still` a picture, and with `--live` the window that goes on; the first
+two are a page in a terminal, too. ``TOOL.run("-d", "my.rviz", graph=graph).view`` is the view in Python.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from rosmini.introspection.options import Parser
 
 from .listening import Span
 from .rqt import Shown, shown
-from .verbs import Call, Tool
+from .verbs import Call, Result, Tool
 
 if TYPE_CHECKING:
     from optparse import Values
@@ -36,9 +37,13 @@ def _parser() -> Parser:
     parser.add_option("-d", "--display-config", metavar="FILE", help="a .rviz file")
     parser.add_option("-f", "--fixed-frame", metavar="FRAME", help="the frame in which everything is drawn")
     parser.add_option(
-        "--duration", type="float", default=DURATION, metavar="S",
-        help=f"listen for S seconds of graph time ({DURATION:g} if not given)",
+        "--duration", type="float", metavar="S",
+        help=f"show what there is after S seconds of graph time ({DURATION:g} if not given)",
     )  # fmt: skip
+    parser.flag(
+        "--live", help="the window that goes on; in a terminal that is so without any of the other options"
+    )
+    parser.flag("--no-browser", help="in a terminal: say the address of the window, and open nothing")
     parser.flag("--still", help="a picture that is not to be turned")
     parser.flag("--fit", help="from above and around everything, whatever the view of the file is")
     parser.add_option("--title", metavar="TEXT", help="a caption under the picture")
@@ -49,8 +54,8 @@ def _parser() -> Parser:
 
 
 @TOOL.verb("show what there is", parser=_parser)
-def show(given: Values, call: Call) -> Shown:
-    """Listen for some time, and show what there is then."""
+def show(given: Values, call: Call) -> Result:
+    """Open the window, or listen for some time and show what there is then."""
     from rosmini.viz.rviz import Scene, still, turnable
     from rosmini.viz.rviz.suggestions import suggested
 
@@ -59,11 +64,38 @@ def show(given: Values, call: Call) -> Shown:
             f"rviz takes no words but options, not {given.words[0]!r}; a file is given by -d FILE"
         )
     config, graph = given.display_config, call.graph
+    is_still = given.still or given.output or given.title or given.duration is not None
+    if given.live or (call.in_terminal and not is_still):
+        return _live(given, call)
+    duration = DURATION if given.duration is None else max(given.duration, 0.0)
     chosen = suggested(graph, given.fixed_frame) if config is None else config
     with Scene(graph, chosen, fixed_frame=given.fixed_frame) as scene:
-        for _ in Span.of(graph, round(max(given.duration, 0.0) * 1e9)).every(100_000_000):
+        for _ in Span.of(graph, round(duration * 1e9)).every(100_000_000):
             pass
         if scene.warning:
             call.warn(f"[WARN] {scene.config.source}: {scene.warning}")
         make = still if given.still else turnable
         return shown(make(scene, title=given.title, fit=given.fit), "rviz", given, call)
+
+
+def _live(given: Values, call: Call) -> Result:
+    """Open the window: in a notebook a widget, in a terminal a page that is served until Ctrl-C."""
+    from rosmini.widgets.rviz import RVizWindow
+
+    window = RVizWindow(call.graph, given.display_config, fixed_frame=given.fixed_frame)
+    if window.scene.warning:
+        call.warn(f"[WARN] {window.scene.config.source}: {window.scene.warning}")
+    if not call.in_terminal:
+        return Shown(view=window)
+    import webbrowser
+
+    from rosmini.widgets.loopback import PageServer
+
+    with PageServer(window.link.widget, title="RViz") as server:
+        call.say(f"RViz: {server.url}\nThis page follows the graph until Ctrl-C.")
+        if not given.no_browser:
+            webbrowser.open(server.url)
+        for _ in Span.of(call.graph, None).every(100_000_000):
+            pass
+    window.close()
+    return Result()

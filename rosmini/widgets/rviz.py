@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 
     from .rqt.parts import Part
 
+SETTLES_NS = 2_000_000_000
+"""For so long the view follows what comes, unless a hand is on it."""
 ZOOM = 1.25
 STEP = 0.2
 """Of the picture's height, by which an arrow key moves a hand that is nowhere else."""
@@ -81,7 +83,7 @@ class RVizWindow(Panel):
         self._held = False
         self._hand = np.array(self._size) / 2
         self._said = self.tools.current.hint
-        self.graph.scheduler.on_hub(self.fit)
+        self._fits_until_ns = self.scene.context.now_ns + SETTLES_NS
 
     def close(self) -> None:
         """End it, as one closes a window. Harmless when repeated."""
@@ -92,6 +94,8 @@ class RVizWindow(Panel):
 
     def parts(self) -> Sequence[Part]:
         """Tools, the scene, what the tool says, view and frame, the displays, time, and what is selected."""
+        if self._look is None or self.scene.context.now_ns < self._fits_until_ns:
+            self.fit()
         self._layers = self.scene.update()
         if self._look is None or not self._held:  # what a hand holds stays under it
             self._look = look_at(self.scene, self._layers, *self._size)
@@ -187,6 +191,7 @@ class RVizWindow(Panel):
 
     def zoom(self, factor: float) -> None:
         """Look from closer, or with a factor under 1 from farther away."""
+        self._fits_until_ns = 0
         view = self.scene.view
         if view is not None:
             view.zoom(factor)
@@ -194,6 +199,7 @@ class RVizWindow(Panel):
     def _touch(self, text: str) -> None:
         """Do what a hand does on the picture; see `Drawing`. Raises `ViewError` for anything else."""
         kind, *rest = text.split() or [""]
+        self._fits_until_ns = 0
         if kind == "key" and len(rest) == 1:
             self._press_key(rest[0])
             return

@@ -8,10 +8,12 @@ from pathlib import Path
 import pytest
 
 from rosmini import Graph
+from rosmini.cli.rqt import Shown
 from rosmini.cli.rviz import TOOL
 from rosmini.errors import UsageError
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.viz.rviz import ConfigError, RvizView
+from rosmini.widgets.rviz import RVizWindow
 
 
 @pytest.fixture
@@ -54,6 +56,18 @@ def test_a_file_and_a_frame(graph: Graph, tmp_path: Path) -> None:
     (tmp_path / "my.rviz").write_text(text, encoding="utf-8")
     TOOL.run("-d", str(tmp_path / "my.rviz"), graph=graph, warn=warned.append)
     assert warned == ["[WARN] my.rviz: not known here, and kept: property Front laser/Use unicorn"]
+
+
+def test_live_it_is_a_window_that_goes_on(graph: Graph) -> None:
+    result = TOOL.run("--live", "-f", "odom", graph=graph)
+    assert isinstance(result, Shown)
+    window = result.view
+    assert isinstance(window, RVizWindow)
+    graph.run(1.0)
+    assert "10 messages received" in window.text or "9 messages received" in window.text
+    assert "/rviz" in graph.nodes
+    window.close()
+    assert "/rviz" not in graph.nodes
 
 
 def test_what_makes_no_sense(graph: Graph) -> None:

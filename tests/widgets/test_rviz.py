@@ -166,6 +166,21 @@ def test_a_window_takes_the_place_of_the_one_before_it_and_leaves_nothing(graph)
     assert "/rviz" not in {node for side in state for _, nodes in side for node in nodes}
 
 
+def test_the_view_follows_what_comes_until_a_hand_is_on_it(graph):
+    window = RVizWindow(graph, fixed_frame="map")
+    window.parts()
+    before = window._look.scale
+    graph.run(0.5)
+    window.parts()
+    after = window._look.scale
+    assert after > 1.5 * before  # the map has come, and is smaller than the grid
+    window.set("closer")
+    graph.run(0.5)
+    window.parts()
+    assert window._look.scale == pytest.approx(1.25 * after)
+    window.close()
+
+
 def test_the_view_of_a_file_is_kept(graph):
     text = "Visualization Manager:\n  Views:\n    Current: {Class: rviz/Orbit, Distance: 7}\n"
     window = RVizWindow(graph, Config.parse(text))
