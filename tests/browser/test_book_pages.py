@@ -9,6 +9,10 @@ pytestmark = pytest.mark.browser
 WIDTHS = {"desktop": (1280, 900), "phone": (390, 844)}
 SIDEWAYS = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
 
+CODE_ASIDE = """[...document.querySelectorAll(".bd-article div.highlight pre")]
+    .filter(code => code.scrollWidth > code.clientWidth + 1).length"""
+"""How many listings one has to push aside to read."""
+
 
 @pytest.mark.parametrize("width", WIDTHS)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -29,6 +33,8 @@ def test_every_page_opens_with_an_empty_console(book_html, chromium, watch, shar
         problems += [f"{name}: {seen}" for seen in watcher.seen]
         if page.evaluate(SIDEWAYS) > 0:
             problems.append(f"{name}: wider than the {width}")
+        if width == "phone" and page.evaluate(CODE_ASIDE):
+            problems.append(f"{name}: lines of code are wider than the phone")
         if page.evaluate("document.documentElement.dataset.theme") != scheme:
             problems.append(f"{name}: not {scheme}")
         page.screenshot(path=screenshots / f"{name.replace('/', '_')}-{scheme}-{width}.png", full_page=True)
