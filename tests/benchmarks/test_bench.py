@@ -15,6 +15,7 @@ from rosmini_bench import (
     Measure,
     actions,
     bags,
+    displays,
     graph,
     launch_files,
     sim,
@@ -51,6 +52,7 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
             *launch_files.measures(None, 1),
             *tools.measures(None, 1),
             *bags.measures(tmp_path, None, 1),
+            *displays.measures(1),
             *sim.measures(None, None, 1),
             *turtles.measures(1),
         ]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from rosmini.viz.svg import document, element, escape
 
 from .gifs import gif
 from .labels import placed
-from .primitives import Floats, Ints, Lines, Mesh, Pane, Points, Primitive, Text, Texture
+from .primitives import MOST_POINTS, Floats, Ints, Lines, Mesh, Pane, Points, Primitive, Text, Texture
 from .projection import Projection
 from .properties import Colour
 
@@ -33,6 +34,7 @@ MOST_FACES = 1500
 """Faces of one mesh in a picture; smaller ones are dots."""
 GAP, HIGHEST_PANE = 12.0, 300.0
 """Between panes, and of their pictures [px]."""
+OPAQUE = 0.99
 LEVELS = 32
 """Steps of each colour channel."""
 SUN = np.array([0.25, -0.42, 0.87])
@@ -51,10 +53,8 @@ def draw(
     behind = [each for each in shown if isinstance(each, Texture) and each.behind]
     maps = [each for each in shown if isinstance(each, Texture) and not each.behind]
     words = [each for each in shown if isinstance(each, Text)]
-    rest = sorted(
-        (each for each in shown if not isinstance(each, Texture | Text)),
-        key=lambda each: _nearest(each, look),
-    )
+    others = [each for each in shown if not isinstance(each, Texture | Text)]
+    rest = _joined(sorted(others, key=lambda each: _nearest(each, look)))
     width, height = look.width, look.height
     parts = [element("rect", width=width, height=height, fill=_hex(background.rgba()), rx=4.0)]
     for each in (*behind, *maps, *rest):
@@ -117,6 +117,21 @@ def _drawn(primitive: Primitive, look: Projection) -> Iterator[str]:
         yield from _mesh(primitive, look)
 
 
+def _joined(shown: Sequence[Primitive]) -> Iterator[Primitive]:
+    """Primitives in order; points that are drawn alike and follow one another, such as old scans, as one."""
+    for alike, group in groupby(
+        shown, key=lambda each: (each.style, each.size) if isinstance(each, Points) else None
+    ):
+        several = list(group)
+        clouds = [each for each in several if isinstance(each, Points)]
+        if alike is None or len(clouds) == 1 or sum(len(each.points) for each in clouds) > MOST_POINTS:
+            yield from several
+            continue
+        points = np.vstack([each.points for each in clouds])
+        colours = np.vstack([np.broadcast_to(each.colours, (len(each.points), 4)) for each in clouds])
+        yield Points(points, colours, clouds[0].size, clouds[0].style)
+
+
 def _nearest(primitive: Primitive, look: Projection) -> float:
     """How near its nearest point is."""
     points = (
@@ -130,11 +145,14 @@ def _texture(texture: Texture, look: Projection) -> Iterator[str]:
     data, opacity = gif(texture.pixels)
     if not opacity:
         return
+    # Smaller than a pixel, cells are mixed: of those that are left out one may be a wall.
+    is_large = np.abs(right - origin).max() >= texture.pixels.shape[1]
+    rendering = "image-rendering:pixelated" if is_large else None
     a, b, c, d = (f"{value:.6g}" for value in (*(right - origin), *(up - origin)))
     yield element(
         "image", href=_url(data), width=1, height=1,
         preserveAspectRatio="none", transform=f"matrix({a} {b} {c} {d} {origin[0]:.6g} {origin[1]:.6g})",
-        style="image-rendering:pixelated", opacity=_opacity(opacity),
+        style=rendering, opacity=_opacity(opacity),
     )  # fmt: skip
 
 
@@ -229,7 +247,8 @@ def _mesh(mesh: Mesh, look: Projection) -> Iterator[str]:
         yield from _points(Points(triangles[small].mean(axis=1), rest, LEAST_DOT, "Points"), look)
     order = seen[np.argsort(look.nearness(triangles[seen].mean(axis=1)), kind="stable")]
     light = np.ones(len(order))
-    if mesh.lit:
+    see_through = mesh.colours.ndim == 1 and mesh.colours[3] < OPAQUE
+    if mesh.lit and not see_through:  # else edges would be seen where faces overlap
         light = 0.7 + 0.3 * np.clip(normals[order] @ SUN / sizes[order], 0.0, 1.0)
     colours = (
         mesh.colours[order] if mesh.colours.ndim == 2 else np.tile(mesh.colours, (len(order), 1))

@@ -95,7 +95,7 @@ def outline(points: Floats, colour: Floats, width: float = 0.0) -> Lines:
 def _arrow(shaft: float, radius: float, head: float, wide: float) -> Surface:
     whole = shaft + head
     profile = [(0.0, 0.0), (radius, 0.0), (radius, shaft), (wide, shaft), (0.0, whole)]
-    return lathe(profile, corners=12).moved(_ALONG_X)
+    return lathe(profile, corners=8).moved(_ALONG_X)
 
 
 @lru_cache(maxsize=256)

@@ -101,7 +101,7 @@ def table(figures: Iterable[Figure]) -> str:
     )
 
 
-SUBJECTS = ("graph", "wire", "sim")
+SUBJECTS = ("graph", "wire", "sim", "rviz")
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
@@ -113,7 +113,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "subject",
         nargs="?",
         choices=SUBJECTS,
-        help="the computation graph, the wire between processes, or the simulator (default: all)",
+        help="the computation graph, the wire between processes, the simulator, or RViz's displays (default: all)",
     )
     parser.add_argument(
         "--rounds", type=int, default=3, metavar="N", help="rounds of which the median is shown (default: 3)"
@@ -159,7 +159,7 @@ def main(args: argparse.Namespace) -> int:
 def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
     """What is to be measured; the peers that have to be stopped go to `peers`."""
     rospy = None
-    if args.subject != "sim":
+    if args.subject not in ("sim", "rviz"):
         from .peer import find_rospy
 
         rospy = None if args.no_peer else find_rospy()
@@ -193,6 +193,10 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         peers.callback(folder.close)
         rosbag = None if args.no_peer else bags.find_rosbag(folder.path)
         yield from bags.measures(folder.path, rosbag, args.scale)
+    if args.subject in (None, "rviz"):
+        from . import displays
+
+        yield from displays.measures(args.scale)
     if args.subject in (None, "sim"):
         from . import sim, turtles
         from .sim_mujoco import find_mujoco

@@ -233,3 +233,28 @@ def test_primitives_are_finite_and_near(bad):
     ):  # fmt: skip
         with pytest.raises(DisplayError):
             make()
+
+
+def test_points_that_are_drawn_alike_are_one_path(stage):
+    scene = stage.scene()
+    at = np.random.default_rng(2).uniform(-5, 5, (360, 3))
+    scene.add(Given(*(Points(at, np.ones(4)) for _ in range(50))))
+    many = still(scene).svg
+    scene.displays[0].given = (Points(at, np.ones(4)),)
+    assert len(many) == pytest.approx(len(still(scene).svg), rel=0.01)
+
+
+def test_what_one_sees_through_has_no_edges_inside(stage):
+    from rosmini.viz.rviz.shapes import cone
+
+    scene = stage.scene()
+    scene.add(Given(cone(np.eye(4), np.array([1.0, 1, 1, 0.5]), 2.0, 1.0)))
+    assert still(scene).svg.count("<path") == 1
+
+
+def test_cells_that_are_smaller_than_a_pixel_are_mixed(stage):
+    scene = stage.scene()
+    for pixels, is_mixed in ((100, False), (1000, True)):
+        scene.add(Given(Texture(np.full((pixels, pixels, 4), 255, np.uint8), (1.0, 1.0), np.eye(4))))
+        assert ("image-rendering:pixelated" in still(scene).svg) is not is_mixed
+        scene.remove(scene.displays[0])
