@@ -53,6 +53,7 @@ class Publication:
         """
         self._latched: Any = None
         self.warns_unheard = True
+        self.how_to_wait = "call wait_for_subscribers() first"
         """Whether it warns when it publishes and nobody is connected; it does so once."""
         self._stamp = bool(message_class._has_header)
         header: Any = message_class._nested.get("std_msgs/Header") if self._stamp else None
@@ -194,7 +195,7 @@ class Publication:
             return
         self.node.logwarn(
             f"published on {self.topic} while nobody was connected: the message is lost. Connections take a moment: "
-            "call wait_for_subscribers() first, or publish with latch=True if late subscribers need the last message."
+            f"{self.how_to_wait}, or publish with latch=True if late subscribers need the last message."
         )
 
     def accept(self, header: Header, sender: Sender) -> Header:
@@ -319,6 +320,11 @@ class Publisher:
         """Do not warn of messages that are published while nobody is connected."""
         if self._publication is not None:
             self._publication.warns_unheard = False
+
+    def advise(self, how_to_wait: str) -> None:
+        """Say so, in the words of another API, in the warning of a message that nobody gets."""
+        if self._publication is not None:
+            self._publication.how_to_wait = how_to_wait
 
     def publish_frozen(self, frozen: Any) -> None:
         """Publish what a `rosmini.msgs.template` made, and nobody holds: no snapshot of it is taken.

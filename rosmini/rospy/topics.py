@@ -195,6 +195,7 @@ class Publisher(Topic):
             on_connect=None if listener is None else self._peer_came,
             on_disconnect=None if listener is None else self._peer_went,
         )
+        self._handle.advise("wait while get_num_connections() is 0")
 
     def publish(self, *args: Any, **kwds: Any) -> None:
         """Publish a message, or one made from its fields: all in order, or some by name.

@@ -150,6 +150,18 @@ def test_latched_messages_reach_late_subscribers_and_second_ones(programs):
     assert programs(talker, main) == [("first", "1"), ("second", "kept")]
 
 
+def test_of_a_lost_message_it_is_said_what_a_script_can_do(programs, capfd):
+    def main():
+        rospy.init_node("main")
+        rospy.Publisher("t", String, queue_size=10).publish("lost")
+        rospy.sleep(0.1)
+
+    programs(main)
+    said = "".join(capfd.readouterr())
+    assert "wait while get_num_connections() is 0" in said
+    assert "wait_for_subscribers" not in said
+
+
 def test_connections_are_counted_and_listeners_hear_of_them(programs):
     events = []
 
