@@ -106,6 +106,10 @@ class Child:
         """Return how many threads it has."""
         return len(os.listdir(f"/proc/{self.process.pid}/task"))
 
+    def descriptors(self) -> int:
+        """Return how many files and sockets it has open."""
+        return len(os.listdir(f"/proc/{self.process.pid}/fd"))
+
     def kill(self) -> None:
         """Kill it, as `kill -9` does, and wait until it is gone."""
         self.send(signal.SIGKILL)

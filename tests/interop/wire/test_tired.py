@@ -185,7 +185,7 @@ def test_a_master_dies_and_returns(stage: Stage, kind: str) -> None:
 
 
 def test_the_network_goes_down_and_up(stage: Stage) -> None:
-    """What was published meanwhile arrives, our nodes say what happened, and no thread is left of it."""
+    """What was published meanwhile arrives, our nodes say what happened, and no thread or descriptor is left of it."""
     with lone_host() as host:
         if host is None:
             pytest.skip(
@@ -200,7 +200,7 @@ def test_the_network_goes_down_and_up(stage: Stage) -> None:
         writer.ask("connected", "/news")
         assert reader.ask("call", "/mend", INFO, {}, persistent=True) == ANSWER
         assert reader.ask("call_now", "/mend", INFO) == ANSWER
-        before = [peer.threads() for peer in peers]
+        before = [(peer.threads(), peer.descriptors()) for peer in peers]
         run([*host.within, *LOOPBACK, "down"], check=True)
         for peer in peers:
             peer.wait_for(r"\[WARN\].* the Master at .* does not answer any more: ")
@@ -213,7 +213,10 @@ def test_the_network_goes_down_and_up(stage: Stage) -> None:
         assert reader.ask("hear", "/news") == [{"data": "and light"}]
         assert reader.ask("call", "/mend", INFO, {}, persistent=True) == ANSWER
         assert reader.ask("call_now", "/mend", INFO) == ANSWER
-        wait_until(lambda: [peer.threads() for peer in peers] == before, "as many threads as before")
+        wait_until(
+            lambda: [(peer.threads(), peer.descriptors()) for peer in peers] == before,
+            "as many threads and descriptors as before",
+        )
 
 
 def test_a_second_roscore_is_refused(core: Stage) -> None:
