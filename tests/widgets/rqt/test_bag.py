@@ -28,7 +28,7 @@ def test_a_bag_that_is_named_is_shown(graph, bag, tmp_path):
     assert "<svg" in panel.markup(live=True)
     with pytest.raises(ViewError, match=r"none\.bag cannot be opened: No such file"):
         panel.set("file", str(tmp_path / "none.bag"))
-    (tmp_path / "no.bag").write_text("no bag")
+    (tmp_path / "no.bag").write_text("no bag", encoding="utf-8")
     with pytest.raises(ROSBagException):
         panel.load(str(tmp_path / "no.bag"))
     assert panel.path == str(bag)
