@@ -229,6 +229,44 @@ def test_what_a_sweeping_laser_hit_lies_on_the_walls(open_page, site, turning, o
     page.screenshot(path=shared_tmp / "meshcat-turning.png")
 
 
+def test_the_player_has_the_controls_of_the_other_one(open_page):
+    page = open_page("deep/er/replay.html")
+    slider = page.get_by_role("slider", name="Time")
+    page.get_by_role("button", name="Step forward").click()
+    assert float(slider.input_value()) == pytest.approx(0.2)
+    slider.focus()
+    for key, time in (("ArrowRight", 0.4), ("ArrowLeft", 0.2), ("End", 10.0), ("Home", 0.0)):
+        page.keyboard.press(key)
+        assert float(slider.input_value()) == pytest.approx(time), key
+    page.keyboard.press("+")
+    assert page.get_by_label("Speed").input_value() == "2"
+    at_first = camera(page)
+    canvas = page.frame_locator("iframe").locator("canvas")
+    canvas.press("ArrowLeft")
+    assert np.abs(camera(page) - at_first).max() > 0.01
+    page.get_by_role("button", name="Reset the view").click()
+    assert camera(page) == pytest.approx(at_first, abs=1e-6)
+    slider.focus()
+    page.keyboard.press("f")
+    assert not page.get_by_role("checkbox", name="follow").is_checked()
+
+
+def test_the_path_that_is_still_to_come_is_not_shown(open_page):
+    page = open_page("deep/er/replay.html")
+    line = f"{node('meshcat/trails/truth/<object>')}.geometry.attributes.position.array"
+    robot = node("meshcat/robots/robot")
+    for time in ("0", "4", "10", "2.5"):
+        page.get_by_role("slider", name="Time").fill(time)
+        points = np.array(viewer(page, f"Array.from({line})")).reshape(-1, 3)[:, :2]
+        where = np.array(viewer(page, f"{robot}.position.toArray()"))[:2]
+        start = points[:2].mean(axis=0)
+        # the robot of this run drives along x, forth and perhaps back: no point lies further than where it is
+        assert points[-2:].mean(axis=0) == pytest.approx(where, abs=0.03), time
+        if time == "0":
+            assert np.ptp(points[:, 0]) < 0.02, "nothing is shown at the start"
+        assert start == pytest.approx((0.0, 0.0), abs=0.02)
+
+
 def test_a_run_ends_and_begins_anew(open_page):
     page = open_page("alone_replay.html")
     slider = page.get_by_role("slider", name="Time")

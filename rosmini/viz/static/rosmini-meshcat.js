@@ -19,6 +19,11 @@
     light: ["#ffffff", "#dfe7ee", "#1b2733", "#c3cad1"], dark: ["#14181e", "#232b34", "#e8edf2", "#46515c"],
   };
   const STEP = Math.PI / 24;
+  const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]; // as rosmini-replay.js has them
+  const JUMP = 0.2; // seconds
+  const EARLY = 1; // seconds: a scan that comes so soon after the start is there from the start
+  const SAMPLES = 240; // of the way that a robot has come
+  const ROBOT = "/meshcat/robots/robot";
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
   const parts = (path) => path.split("/").filter(Boolean);
@@ -157,6 +162,13 @@
     const canvas = viewer.renderer.domElement;
     const { controls, camera } = viewer;
     const begin = camera.position.clone();
+    const middle = controls.target.clone();
+    const home = () => {
+      if (!bar?.follows()) controls.target.copy(middle);
+      camera.position.copy(begin).add(controls.target);
+      viewer.set_dirty();
+    };
+    if (bar) bar.home = home;
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "application");
     canvas.setAttribute("aria-label", `${options.alt} Arrow keys turn it, plus and minus zoom, Home goes back.`);
@@ -177,8 +189,9 @@
       if (event.ctrlKey || event.metaKey || event.altKey) return;
       if (turn) orbit(viewer, turn[0] * STEP, turn[1] * STEP, 1);
       else if (zoom) orbit(viewer, 0, 0, zoom);
-      else if (event.key === "Home") camera.position.copy(begin).add(controls.target);
+      else if (event.key === "Home" || event.key === "0") home();
       else if (event.key === " " && bar) bar.toggle();
+      else if (event.key === "f" && bar) bar.follow();
       else return;
       event.preventDefault();
       viewer.set_dirty();
@@ -221,7 +234,7 @@
   /* Put the points of the last scan before `time` in their places: each where the laser was when it measured it, while
      the robot, to which the cloud of points belongs, goes on. */
   function showScan(viewer, scan, time) {
-    let last = -1;
+    let last = scan.times[0] < EARLY ? 0 : -1;
     while (last + 1 < scan.times.length && scan.times[last + 1] <= time) last += 1;
     const cloud = find(viewer, scan.path);
     if (scan.shown !== last || scan.viewer !== viewer) {
@@ -252,7 +265,54 @@
     });
   }
 
+  /* The lines on the ground, with how far whoever drew them had come by when; no line is shown ahead of them. */
+  function growing(viewer, data) {
+    const lines = data.legend.map(([name]) => {
+      const own = name === "truth" || name === "odometry";
+      const { geometry } = find(viewer, `/meshcat/trails/${name}/<object>`);
+      const points = Float32Array.from(geometry.attributes.position.array);
+      const along = [0];
+      const middle = (i, axis) => (points[6 * i + axis] + points[6 * i + 3 + axis]) / 2;
+      for (let i = 1; i < points.length / 6; i += 1) {
+        along.push(along[i - 1] + Math.hypot(middle(i, 0) - middle(i - 1, 0), middle(i, 1) - middle(i - 1, 1)));
+      }
+      return { mover: find(viewer, own ? ROBOT : `/meshcat/others/${name.replaceAll("/", " ")}`), geometry, points, along, way: [], at: null };
+    });
+    for (let i = 0; i <= SAMPLES; i += 1) {
+      viewer.animator.seek((i / SAMPLES) * data.duration);
+      for (const line of lines) {
+        const { x, y } = line.mover.position;
+        line.way.push(line.at ? line.way.at(-1) + Math.hypot(x - line.at[0], y - line.at[1]) : 0);
+        line.at = [x, y];
+      }
+    }
+    return lines;
+  }
+
+  /* Show of each line what was driven at a part of the time, 0 to 1: all later points lie where it ends. */
+  function grow(lines, part) {
+    const i = Math.min(Math.floor(part * SAMPLES), SAMPLES - 1);
+    for (const { geometry, points, along, way } of lines) {
+      const walked = way[i] + (part * SAMPLES - i) * (way[i + 1] - way[i]);
+      const reached = (walked / Math.max(way.at(-1), 1e-9)) * along.at(-1);
+      const last = Math.max(0, Math.min(along.findLastIndex((length) => length <= reached), along.length - 2));
+      const rest = Math.min(1, (reached - along[last]) / Math.max(along[last + 1] - along[last], 1e-9));
+      const { array } = geometry.attributes.position;
+      for (let j = 0; j < points.length; j += 1) {
+        const from = 6 * last + (j % 6);
+        array[j] = j < 6 * (last + 1) ? points[j] : points[from] + rest * (points[from + 6] - points[from]);
+      }
+      geometry.attributes.position.needsUpdate = true;
+    }
+  }
+
   function playerBar(state, data, options) {
+    const made = new WeakMap(); // the lines of each viewer: there is a new one when the page took the frame out
+    const trails = () => {
+      if (!made.has(state.viewer)) made.set(state.viewer, growing(state.viewer, data));
+      state.viewer.animator.seek(state.time);
+      return made.get(state.viewer);
+    };
     const ink = { font: "inherit", color: "inherit" };
     const element = make("div", {}, {
       display: "flex", flexWrap: "wrap", gap: "0.4em 0.8em", alignItems: "center", padding: "0.4em 0.1em",
@@ -269,9 +329,30 @@
     });
     slider.setAttribute("aria-label", "Time");
     const clock = make("output", {}, { fontVariantNumeric: "tabular-nums" });
-    element.append(button, slider, clock);
+    const plain = { ...ink, padding: "0.2em 0.5em", cursor: "pointer", background: "transparent", border: 0 };
+    const small = (text, label, act) => {
+      const one = make("button", { type: "button", textContent: text, title: label }, plain);
+      one.setAttribute("aria-label", label);
+      one.addEventListener("click", act);
+      return one;
+    };
+    const speed = make("select", {}, { ...ink, background: "transparent", border: "1px solid var(--rosmini-group-line, #9aa5af)", borderRadius: "4px" });
+    speed.setAttribute("aria-label", "Speed");
+    for (const factor of SPEEDS) speed.append(make("option", { value: factor, textContent: `${factor}\u00d7`, selected: factor === 1 }));
+    const faster = (by) => {
+      speed.selectedIndex = Math.max(0, Math.min(SPEEDS.length - 1, speed.selectedIndex + by));
+    };
+    const api = { element, seek, toggle, follow: () => box?.click(), follows: () => data.follow !== null && state.following, home: () => {} };
+    const reset = () => {
+      if (box && !box.checked) box.click();
+      api.home();
+    };
+    const [back, forward] = [-1, 1].map((way) => () => { toggle(false); seek(state.time + way * JUMP); });
+    element.append(small("\u25c2\u2758", "Step back", back), button, small("\u2758\u25b8", "Step forward", forward), slider, clock, speed,
+      small("\u26f6", "Reset the view", reset));
+    let box = null;
     if (data.follow !== null) {
-      const box = make("input", { type: "checkbox", checked: true });
+      box = make("input", { type: "checkbox", checked: true });
       const label = make("label", {}, { cursor: "pointer" });
       label.append(box, " follow");
       box.addEventListener("change", () => { state.following = box.checked; seek(state.time); });
@@ -296,6 +377,7 @@
       const { viewer } = state;
       if (!viewer) return;
       viewer.animator.seek(state.time);
+      grow(trails(), state.time / data.duration);
       if (data.scan) showScan(viewer, data.scan, state.time);
       if (data.follow !== null && state.following) follow(state, data);
       viewer.set_dirty();
@@ -309,7 +391,7 @@
       let before = null;
       const next = (now) => {
         if (!state.playing || !element.isConnected) return toggle(false);
-        if (before !== null) seek(state.time + (now - before) / 1000);
+        if (before !== null) seek(state.time + (Number(speed.value) * (now - before)) / 1000);
         before = now;
         return state.time >= data.duration ? toggle(false) : requestAnimationFrame(next);
       };
@@ -318,13 +400,22 @@
 
     button.addEventListener("click", () => toggle());
     slider.addEventListener("input", () => { toggle(false); seek(Number(slider.value)); });
+    const keys = {
+      " ": () => toggle(),
+      ArrowLeft: back, ArrowDown: back, ArrowRight: forward, ArrowUp: forward,
+      Home: () => { toggle(false); seek(0); }, End: () => { toggle(false); seek(data.duration); },
+      "+": () => faster(1), "=": () => faster(1), "-": () => faster(-1), "_": () => faster(-1),
+      f: () => api.follow(), 0: reset,
+    };
     element.addEventListener("keydown", (event) => {
-      if (event.key !== " " || event.target === button || event.target.type === "checkbox") return;
+      const { target, key } = event;
+      const own = target === speed || (key === " " && target.matches("button, [type=checkbox]"));
+      if (own || event.ctrlKey || event.altKey || event.metaKey || !(key in keys)) return;
       event.preventDefault();
-      toggle();
+      keys[key]();
     });
     seek(0);
-    return { element, seek, toggle };
+    return api;
   }
 
   globalThis.rosminiMeshcat = { mount };
