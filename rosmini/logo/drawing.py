@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from .turtles import Flock
 
 
+SHORTEST = 1e-6
+"""What is shorter is no line but the noise of sines [steps]."""
+
+
 @dataclass(frozen=True)
 class Standing:
     """A turtle at the end."""
@@ -58,7 +62,9 @@ class Drawing:
     def lines(self) -> tuple[Stroke, ...]:
         """What a pen has drawn."""
         return tuple(
-            stroke for stroke in self.strokes if stroke.pen.down and stroke.start[:2] != stroke.end[:2]
+            stroke
+            for stroke in self.strokes
+            if stroke.pen.down and math.dist(stroke.start[:2], stroke.end[:2]) > SHORTEST
         )
 
     @property

@@ -348,6 +348,14 @@ def test_deep_nesting_is_no_error_of_python(program):
     assert re.search("nested|never closed", message)
 
 
+def test_the_noise_of_sines_is_no_line():
+    logo = Logo()
+    logo.run("repeat 12 [repeat 4 [forward 90 right 90] right 30] home")
+    assert logo.drawing.turtles[0].pose == (0, 0, 0)
+    assert len(logo.drawing.lines) == 48
+    assert logo.drawing.length == pytest.approx(48 * 90)
+
+
 def test_it_can_be_run_step_by_step():
     logo = Logo()
     logo.start("repeat 3 [fd 10]")

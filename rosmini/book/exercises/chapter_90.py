@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import math
-from typing import Any
+from contextlib import redirect_stdout
+from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.book.checks import Script, exercise, expect
 from rosmini.book.trials import Trial
@@ -11,7 +13,10 @@ from rosmini.graph import Graph
 from rosmini.logo import Limits, Logo
 from rosmini.logo.drawing import Drawing
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.scripts import Console, ScriptHandle, ScriptSpec
+from rosmini.scripts import Console, ScriptHandle, ScriptSpec, rosrun
+
+if TYPE_CHECKING:
+    from rosmini.turtlesim.node import TurtleSim
 
 LIMITS = Limits(steps=200_000, moves=5_000, depth=500)
 
@@ -128,10 +133,10 @@ def visit(answer: Any) -> Any:
 @exercise("90.4", praise="A Logo of two words, for any node that has something to say.")
 def tiny_logo(answer: Script) -> Any:
     """A node that obeys commands on a topic, and lives through what it does not understand."""
-    from rosmini.turtlesim.node import TurtleSim
-
     with Graph(strict=False) as graph:
-        sim = TurtleSim(graph.node("turtlesim"))
+        with redirect_stdout(io.StringIO()):  # its log, which is not the reader's
+            started = rosrun("turtlesim", "turtlesim_node", graph=graph)
+            sim = cast("TurtleSim", cast("Any", started).instance())
         graph.run(0.1)
         console = Console(graph.scheduler, prefix=False, capture_output=True)
         handle = ScriptHandle(
