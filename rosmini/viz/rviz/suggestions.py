@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 MOST = 40
 """Displays at most."""
 SPECIAL = {"tf2_msgs/TFMessage": "rviz/TF"}
+ASKED_FOR = ("rviz/Camera", "rviz/DepthCloud", "rviz/Effort")
+"""What is shown only if it is asked for: other displays show these messages plainly, or they mean it for few robots."""
+INTERACTIVE = "visualization_msgs/InteractiveMarkerUpdate"
 SMALL = {"Shaft Length": 0.25, "Shaft Radius": 0.02, "Head Length": 0.1, "Head Radius": 0.05}
 """An arrow for robots of the size of a TurtleBot3: RViz's own is longer than a metre [m]."""
 
@@ -29,7 +32,7 @@ def suggested(graph: Graph, fixed_frame: str | None = None) -> Config:
     kinds: dict[str, type[TopicDisplay]] = {}
     for name in Display.names():
         found = Display.named(name)
-        if issubclass(found, TopicDisplay) and found.message:
+        if issubclass(found, TopicDisplay) and found.message and name not in ASKED_FOR:
             kinds.setdefault(found.message, found)
     master = graph.ask_as("/rviz")
     types = {str(topic): str(kind) for topic, kind in master.ask("getTopicTypes")}
@@ -38,8 +41,17 @@ def suggested(graph: Graph, fixed_frame: str | None = None) -> Config:
     for topic, kind in sorted(types.items()):
         if topic not in published or len(displays) >= MOST:
             continue
+        single = topic.removesuffix("_array")
+        if (
+            kind.endswith("/MarkerArray")
+            and single != topic
+            and types.get(single) == "visualization_msgs/Marker"
+        ):
+            continue  # the display of the single markers hears them, too
         if kind in kinds:
             displays.append(_display(kinds[kind], topic))
+        elif kind == INTERACTIVE:
+            displays.append({"Class": "rviz/InteractiveMarkers", "Name": topic, "Update Topic": topic})
         elif kind in SPECIAL and topic == "/tf":
             displays.append({"Class": SPECIAL[kind], "Name": "TF"})
     if "rviz/RobotModel" in Display.names() and _has_robot(graph):
