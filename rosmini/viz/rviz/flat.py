@@ -30,11 +30,12 @@ MOST_DOTS = 8000
 """Points of one display in a picture: of points on nearly the same pixel one is drawn."""
 MANY_FACES = 80
 """A mesh with more faces is drawn as its outline from this side."""
-MOST_FACES = 1500
+MOST_FACES = 600
 """Faces of one mesh in a picture; smaller ones are dots."""
 GAP, HIGHEST_PANE = 12.0, 300.0
 """Between panes, and of their pictures [px]."""
 OPAQUE = 0.99
+MOST_COLOURS = 300
 LEVELS = 32
 """Steps of each colour channel."""
 SUN = np.array([0.25, -0.42, 0.87])
@@ -164,7 +165,7 @@ def _points(points: Points, look: Projection) -> Iterator[str]:
     cap = "round" if points.style == "Spheres" else "square"
     width = max(LEAST_DOT, min(float(snap(size, 0.1)), look.width))
     flat, colours = _thinned(flat[inside], colours[inside], width)
-    for colour, among in _alike(colours):
+    for colour, among in _alike(_few(colours)):
         path = "".join(f"M{x:.5g},{y:.5g}h0" for x, y in flat[among].tolist())
         yield _path(path, colour, width, cap)
 
@@ -218,13 +219,14 @@ def _smoothed(flat: Floats) -> Floats:
     new[1:] = (np.abs(np.diff(flat, axis=0)) >= 0.1).any(axis=1)
     flat = flat[new]
     quantum = 0.5
-    while len(flat) > MOST_DOTS:
+    while len(flat) > MOST_DOTS and quantum < 4.0:
         cells = np.floor(flat / quantum)
         new = np.ones(len(flat), dtype=bool)
         new[1:-1] = (np.diff(cells, axis=0) != 0).any(axis=1)[:-1]
         flat = flat[new]
         quantum *= 1.5
-    return flat
+    step = -(-len(flat) // MOST_DOTS) or 1
+    return flat if step == 1 else np.vstack([flat[:-1:step], flat[-1:]])
 
 
 def _mesh(mesh: Mesh, look: Projection) -> Iterator[str]:
@@ -276,6 +278,15 @@ def _steps(colours: Floats, count: int) -> Floats:
     """Colours (count, 4) in few steps, so that alike ones share a path."""
     found = np.round(snap(np.atleast_2d(colours) * LEVELS, 0.01)) / LEVELS
     return np.broadcast_to(found, (count, 4)) if len(found) == 1 else found
+
+
+def _few(colours: Floats) -> Floats:
+    """Colours (n, 4) in steps so wide that at most `MOST_COLOURS` are different, since each is a path of its own."""
+    levels = LEVELS
+    while levels > 4 and len(np.unique(colours, axis=0)) > MOST_COLOURS:
+        levels //= 2
+        colours = np.round(colours * levels) / levels
+    return colours
 
 
 def _alike(colours: Floats) -> Iterator[tuple[Floats, Ints]]:

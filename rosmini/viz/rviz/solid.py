@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,10 @@ from .views import Sight
 
 MOST_POINTS = 20_000
 """Points of one display in a page: of more, evenly many."""
-MOST_SEGMENTS = 40_000
+MOST_SEGMENTS, MOST_RIBBONS = 40_000, 6_000
+"""Thin lines and wide ones of one primitive; a strip with more leaves out points, pairs leave out pairs."""
+MOST_TRIANGLES = 8_000
+"""Of one mesh of loose triangles; of more, the largest."""
 LEAST_POINT = 0.02
 """[m]: smaller ones would hardly be seen."""
 PIXEL = 0.004
@@ -88,6 +92,8 @@ class Drawing:
     def _mesh(self, mesh: Mesh, path: str) -> None:
         if not len(mesh.faces):
             return
+        if len(mesh.faces) > MOST_TRIANGLES and not mesh.lit:
+            mesh = _largest(mesh)
         vertices = rounded(mesh.vertices)
         known = (vertices.tobytes(), mesh.faces.tobytes(), np.round(mesh.colours, 3).tobytes())
         first = self._known.setdefault(known, path)
@@ -102,11 +108,15 @@ class Drawing:
         self.scene.visualizer[path].set_object(geometry, material)
 
     def _lines(self, lines: Lines, path: str) -> None:
-        segments, colours = lines.segments(), lines.segment_colours()
-        if not len(segments):
+        most = MOST_RIBBONS if lines.width > 0 else MOST_SEGMENTS
+        step = -(-len(lines.segments()) // most)
+        if not step:
             return
-        step = -(-len(segments) // MOST_SEGMENTS)
-        segments = segments[::step]
+        if lines.strip and step > 1:
+            kept = np.append(np.arange(0, len(lines.points) - 1, step), len(lines.points) - 1)
+            colours = lines.colours if lines.colours.ndim == 1 else lines.colours[kept]
+            lines, step = replace(lines, points=lines.points[kept], colours=colours), 1
+        segments, colours = lines.segments()[::step], lines.segment_colours()
         colours = np.broadcast_to(colours if colours.ndim == 1 else colours[::step], (len(segments), 4))
         geometry = meshcat().geometry
         alpha = float(snap(colours[:, 3].mean(), 0.01))
@@ -215,6 +225,16 @@ class _GifImage(_Lowered):
 
         del object_data
         return {"uuid": self.uuid, "url": "data:image/gif;base64," + base64.b64encode(self._data).decode()}
+
+
+def _largest(mesh: Mesh) -> Mesh:
+    """The largest triangles of a mesh, without the vertices of the others."""
+    corners = mesh.vertices[mesh.faces]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    kept = np.sort(np.argsort(-areas, kind="stable")[:MOST_TRIANGLES])
+    colours = mesh.colours if mesh.colours.ndim == 1 else mesh.colours[kept]
+    faces = np.arange(3 * len(kept)).reshape(-1, 3)
+    return replace(mesh, vertices=corners[kept].reshape(-1, 3), faces=faces, colours=colours)
 
 
 def _triangles(vertices: Floats, mesh: Mesh) -> tuple[Any, Any]:

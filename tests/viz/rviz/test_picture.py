@@ -29,7 +29,7 @@ class Given(Display):
     def primitives(self, context):
         return self.given
 
-    def panes(self, context):
+    def panes(self, context, shown=()):
         return self.shown
 
 

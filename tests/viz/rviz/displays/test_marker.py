@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from rosmini.msgs import message_class
 from rosmini.time import Duration
-from rosmini.viz.rviz import still
+from rosmini.viz.rviz import still, turnable
 from rosmini.viz.rviz.displays.marker import Marker as MarkerDisplay
 from rosmini.viz.rviz.primitives import Lines, Mesh, Points, Text
 
@@ -272,6 +272,16 @@ def test_many_points_and_many_bad_markers_stay_bounded(stage, shown):
     _, said = shown()
     assert len(said) < 50
     assert said["Others"][0] == "Warn"
+
+
+def test_many_loose_triangles_are_thinned_flat_and_solid(shown):
+    rng = np.random.default_rng(3)
+    corners = (rng.uniform(-5, 5, (20_000, 1, 3)) + rng.normal(0, 0.05, (20_000, 3, 3))).reshape(-1, 3)
+    points = [Point(*each) for each in corners.tolist()]
+    colors = [Color(*each, 1.0) for each in rng.uniform(0, 1, (20_000, 3)).tolist()]
+    shown(marker(Marker.TRIANGLE_LIST, points=points, colors=colors, scale=(1.0, 1.0, 1.0)))
+    assert len(still(shown.scene, fit=True).svg) < 150_000
+    assert len(turnable(shown.scene).html) < 2_000_000
 
 
 numbers = st.one_of(st.floats(width=32), st.sampled_from([0.0, 1.0, -1.0, 0.5]))
