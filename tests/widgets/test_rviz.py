@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from rosmini import Graph
+from rosmini.interactive_markers import InteractiveMarkerServer
 from rosmini.msgs.geometry_msgs.msg import PointStamped, PoseStamped
 from rosmini.msgs.nav_msgs.msg import OccupancyGrid
+from rosmini.msgs.visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl
 from rosmini.viz import ViewError
 from rosmini.viz.rviz import Config
 from rosmini.widgets.rqt.parts import Drawing, Rows
@@ -87,6 +89,28 @@ def test_a_point_is_taken_of_what_is_drawn_and_not_of_empty_ground(graph, window
     graph.run(0.1)
     (found,) = points
     assert (found.point.x, found.point.y) == pytest.approx((1.5, 2.5), abs=0.02)
+
+
+def test_a_hand_drags_an_interactive_marker(graph, window):
+    server = InteractiveMarkerServer(graph.node("basic_controls"), "basic_controls")
+    marker = InteractiveMarker(name="box", scale=1.0)
+    marker.header.frame_id = "map"
+    marker.pose.position.x = marker.pose.position.y = 2.0
+    plane = InteractiveMarkerControl(name="plane", interaction_mode=InteractiveMarkerControl.MOVE_PLANE)
+    plane.orientation.y = plane.orientation.w = 1.0
+    marker.controls = [plane]
+    server.insert(marker)
+    server.applyChanges()
+    display = window.scene.add("InteractiveMarkers", {"Update Topic": "/basic_controls/update"})
+    graph.run(1.5)
+    window.set("view", f"press {pixel(window, 2.57, 2.0)}")
+    window.set("view", f"move {pixel(window, 1.57, 3.0)}")
+    assert display.handle("box").pose[:2, 3] == pytest.approx((1.0, 3.0), abs=0.02)
+    window.set("view", f"release {pixel(window, 1.57, 3.0)}")
+    graph.run(0.1)
+    at = server.get("box").pose.position
+    assert (at.x, at.y, at.z) == pytest.approx((1.0, 3.0, 0.0), abs=0.02)
+    assert "box: " in window.text
 
 
 def test_keys_do_what_a_hand_does(graph, window):
