@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.errors import RosminiError, nearest
 from rosmini.packages import PackageIndex
+from rosmini.viz.book_form import book_form
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -181,12 +182,20 @@ def check(number: str, *answer: Any) -> None:
     Without an answer it is the script that a `%%node` cell with `# Exercise 11.2` in its second line has written.
     Raises `UnknownExercise` if there is no such exercise, and `NoAnswer` if no such cell was run.
     """
-    verdict = find(number).grade(*(answer or (written(number),)))
-    print(verdict.text)
+    given = answer or (written(number),)
+    verdict = find(number).grade(*given)
+    print(verdict.text + _where(given[0], verdict))
     if verdict.view is not None:
         from IPython.core.display_functions import display
 
         display(verdict.view)  # type: ignore[no-untyped-call]
+
+
+def _where(answer: Any, verdict: Verdict) -> str:
+    """Where a script has what makes it a stub, for who has written all but left it; the book shows stubs only."""
+    if not isinstance(answer, Script) or verdict.status is not Status.NOT_ATTEMPTED or book_form():
+        return ""
+    return f" There is a `...` {gap_left(answer)}: write yours there, or take it out."
 
 
 def written(number: str) -> Script:
