@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from rosmini.bag import Bag
-from rosmini.errors import DeserializationError, nearest
+from rosmini.errors import DeserializationError, RosminiError, nearest
 from rosmini.geometry.poses import Pose, compose, inverse
 from rosmini.viz.replay.collectors import COLLECTORS, TRANSFORMS, UPDATE, Collector, TrackCollector, laid_on
 from rosmini.viz.replay.layers import Layer
@@ -257,7 +257,7 @@ def _give(collector: Collector, entry: Entry) -> None:
         collector.take(entry.time, entry.read())
     except DeserializationError as error:
         reason = f"they cannot be read ({error})"
-    except ViewError as error:
+    except RosminiError as error:
         reason = str(error)
     else:
         return

@@ -20,7 +20,7 @@ from rosmini.viz.world_pictures import length_of, pose_text
 
 Floats = NDArray[np.float64]
 
-BUDGET = 215_000
+BUDGET = 205_000
 """The data of a run take at most so many bytes: with the still picture and the page around it, less than 300 kB."""
 MOST_POSES = 1200
 LEAST_EXTENT = 0.5

@@ -102,9 +102,15 @@ class Standing:
 
 
 def flat(pose: Any) -> Pose:
-    """A `geometry_msgs/Pose` from above. Raises `ViewError` if it is no number."""
+    """A `geometry_msgs/Pose` from above; one with a quaternion of zeros looks along x, as in RViz.
+
+    Raises `ViewError` if it is no number.
+    """
     q = pose.orientation
-    found = (float(pose.position.x), float(pose.position.y), yaw_from_quaternion(q.x, q.y, q.z, q.w))
+    turn = (float(q.x), float(q.y), float(q.z), float(q.w))
+    if not all(math.isfinite(part) for part in turn):
+        raise ViewError("a quaternion is no number (nan or infinite)")
+    found = (float(pose.position.x), float(pose.position.y), yaw_from_quaternion(*turn) if any(turn) else 0.0)
     if not all(math.isfinite(part) for part in found):
         raise ViewError("a pose is no number (nan or infinite)")
     return found

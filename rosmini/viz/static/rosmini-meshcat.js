@@ -349,7 +349,7 @@
     };
     const [back, forward] = [-1, 1].map((way) => () => { toggle(false); seek(state.time + way * JUMP); });
     element.append(small("\u25c2\u2758", "Step back", back), button, small("\u2758\u25b8", "Step forward", forward), slider, clock, speed,
-      small("\u26f6", "Reset the view", reset));
+      small("reset", "Reset the view", reset));
     let box = null;
     if (data.follow !== null) {
       box = make("input", { type: "checkbox", checked: true });

@@ -284,6 +284,17 @@ def test_numbers_that_are_none_are_left_out(bag):
     assert len(run.notes) == 2
 
 
+def test_a_quaternion_of_zeros_is_no_rotation_and_one_of_nan_is_left_out(bag):
+    unset = a_map([[0, 100]])
+    unset.info.origin.orientation.w = 0.0
+    bad = a_map([[100, 0]])
+    bad.info.origin.orientation.w = math.nan
+    run = run_of(BagLog(bag((0.0, "/map", unset), (1.0, "/map", bad))))
+    [only] = layer(run, "/map").grids
+    assert only.origin == (0.0, 0.0, 0.0)
+    assert "a quaternion is no number" in run.notes[0]
+
+
 def test_clocks_that_jump_back_break_nothing(bag):
     again = [(time + 3.0, topic, message) for time, topic, message in driving(2.0)]  # stamps begin anew
     run = run_of(BagLog(bag(*driving(2.0), *again, (5.0, "/map", a_map([[0]])))))

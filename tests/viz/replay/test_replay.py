@@ -18,6 +18,7 @@ from hypothesis.extra.numpy import arrays
 from book.tools.pages import page_problems
 from rosmini.geometry.poses import arc
 from rosmini.geometry.raycast import raycast
+from rosmini.msgs import message_class
 from rosmini.sim.models import BURGER, model
 from rosmini.sim.recording import Moved, Recording, RecordingError
 from rosmini.sim.world import Box, Compound, Cylinder, Obstacle, Polygon, Sphere, World
@@ -202,6 +203,38 @@ def test_a_minute_with_its_scans_weighs_less_than_300_kb_and_an_hour_too():
     data = replay_data(long)
     assert len(unpack(data["scan_times"])) <= MOST_SCANS
     assert len(json.dumps(data)) < 260_000
+
+
+def test_two_minutes_with_a_map_and_a_costmap_weigh_less_than_300_kb(monkeypatch):
+    two = run(120.0)
+    rng = np.random.default_rng(0)
+    grid, header = message_class("nav_msgs/OccupancyGrid"), message_class("std_msgs/Header")
+
+    def of(cells, corner):
+        made = grid(header=header(frame_id="map"), data=cells.ravel().tolist())
+        made.info.height, made.info.width = cells.shape
+        made.info.resolution = 0.05
+        made.info.origin.position.x, made.info.origin.position.y = corner
+        return made
+
+    known = np.full((384, 384), -1, dtype=np.int8)
+    messages = []
+    for second in range(0, 120, 5):
+        size = 40 + second
+        known[192 - size : 192 + size, 192 - size : 192 + size] = 0
+        known[rng.integers(150, 230, 40), rng.integers(150, 230, 40)] = 100
+        messages.append((float(second), "/map", of(known, (-9.6, -9.6))))
+    for half in range(240):
+        costs = np.clip(rng.normal(40, 30, (60, 60)), 0, 100).astype(np.int8)
+        messages.append((half / 2, "/local_costmap/costmap", of(costs, (0.05 * half, 0.0))))
+    view = replay(replace(two, messages=tuple(sorted(messages, key=lambda each: each[0]))))
+    for form in ("book", "live"):
+        monkeypatch.setenv("ROSMINI_DISPLAY", form)
+        assert len(type(view)(view.runs).html.encode()) < 300_000
+    assert [layer["name"] for layer in view.data["layers"]] == ["/map", "/local_costmap/costmap"]
+    assert "/local_costmap/costmap is thinned" in " ".join(view.data["notes"])
+    assert "scan_unit" in view.data
+    assert len(unpack(view.data["scan_times"])) / 120 >= 1.6, "scans a second"
 
 
 def test_the_same_run_gives_the_same_bytes_and_the_last_bit_does_not_matter():
