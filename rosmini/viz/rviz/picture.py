@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 BACKDROP = ("rviz/Grid",)
 """Displays that a picture is not made larger for, if there is anything else."""
 TALLEST = 2000.0
+STEEP = 1.5
+"""How much wider than what there is the view has to be for it to be seen, too."""
 DEFAULT_HEIGHT = 420.0
 """Of the view in three dimensions [CSS px]."""
 
@@ -90,9 +92,10 @@ def turnable(
     svg = _drawn(scene, layers, title, WIDTH, height, fit=fit)
     text, alt = words(scene, layers, title), alt_text(scene, layers)
     look = look_at(scene, layers, WIDTH, height, fit=fit)
-    around = Sight(look.ground, -math.pi / 2, math.radians(50.0), WIDTH / look.scale)
+    reach = max(WIDTH, STEEP * look.height) / look.scale
+    around = Sight(look.ground, -math.pi / 2, math.radians(50.0), reach)
     given = None if scene.view is None or fit else scene.view.sight(scene.context)
-    made = RvizScene(camera_of(given if given is not None and given.width else around, WIDTH / look.scale))
+    made = RvizScene(camera_of(around if given is None or not given.width else given, reach))
     drawing = Drawing(made)
     for layer in layers:
         drawing.add(layer.primitives)

@@ -184,7 +184,7 @@ class TopicDisplay(Display):
         while len(self._waiting) > self["Queue Size"]:
             dropped = self._waiting.popleft()
             if not self._placed(dropped, context):
-                self._say_why(dropped, context)
+                self._say_why(dropped, context, is_dropped=True)
         self._settle(context)
 
     def count(self) -> None:
@@ -218,7 +218,7 @@ class TopicDisplay(Display):
         self._keep(heard, context)
         return True
 
-    def _say_why(self, heard: Heard, context: Context) -> None:
+    def _say_why(self, heard: Heard, context: Context, *, is_dropped: bool = False) -> None:
         name = self.transform_status(heard)
         if context.is_past(heard.frame, self.moment(heard)):
             stamp = heard.stamp_ns / 1e9
@@ -230,8 +230,8 @@ class TopicDisplay(Display):
         except (LookupException, ConnectivityException) as error:
             self.set_status(Level.ERROR, name, context.problem(heard.frame, error))
         except TransformException as error:
-            if not self.kept:  # else the transform of this moment is on its way, as always
-                level = Level.ERROR if not heard.frame else Level.WARN
+            if is_dropped or not self.kept:  # else the transform of this moment is on its way, as always
+                level = Level.ERROR if is_dropped or not heard.frame else Level.WARN
                 self.set_status(level, name, context.problem(heard.frame, error))
 
     def _keep(self, heard: Heard, context: Context) -> None:

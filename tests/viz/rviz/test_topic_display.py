@@ -8,7 +8,7 @@ import pytest
 from rosmini.msgs.geometry_msgs.msg import Pose
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.msgs.std_msgs.msg import String
-from rosmini.time import Time
+from rosmini.time import Duration, Time
 from rosmini.viz.rviz.primitives import DisplayError
 from rosmini.viz.rviz.topic_display import Heard
 
@@ -142,3 +142,43 @@ def test_a_quaternion_of_zeros_is_no_rotation_and_noted():
     pose.position.x = float("nan")
     with pytest.raises(DisplayError, match="nans or infs"):
         heard.pose(pose)
+
+
+def test_what_is_dropped_from_the_queue_is_told_even_if_something_is_shown(stage, statuses):
+    scene, display = stage.display("LaserScan", "/scan", more={"Queue Size": 2})
+    stage.place("map", "laser")
+    stage.publish("/scan", scan(1.0), "laser")
+    assert len(scene.update()[0].primitives) == 1
+    for _ in range(3):
+        ahead = scan(1.0)
+        ahead.header.frame_id, ahead.header.stamp = "laser", stage.graph.now() + Duration(100)
+        stage.publish("/scan", ahead)
+    level, text = statuses(display)["Transform [sender=/robot]"]
+    assert level == "Error"
+    assert text.startswith("For frame [laser]: No transform from [laser] to fixed frame [map] at that time.")
+    assert len(scene.update()[0].primitives) == 1
+
+
+def test_a_message_without_a_frame_is_an_error(stage, statuses):
+    scene, display = stage.display("LaserScan", "/scan")
+    stage.place("map", "laser")
+    stage.publish("/scan", scan(1.0))
+    scene.update()
+    assert statuses(display)["Transform [sender=/robot]"] == (
+        "Error",
+        "For frame []: Frame [] does not exist",
+    )
+
+
+def test_in_the_fixed_frame_no_transforms_are_needed(stage, statuses):
+    scene, display = stage.display("LaserScan", "/scan")
+    stage.publish("/scan", scan(1.0), "/map")
+    assert len(scene.update()[0].primitives) == 1
+    assert statuses(display)["Transform [sender=/robot]"] == ("Ok", "Transform OK")
+
+
+def test_a_scan_that_is_far_too_long_is_refused(stage, statuses):
+    scene, display = stage.display("LaserScan", "/scan")
+    stage.publish("/scan", scan(*[1.0] * 1_000_001), "map")
+    assert scene.update()[0].primitives == ()
+    assert statuses(display)["Topic"] == ("Error", "a scan of 1000001 ranges is too long: at most 1000000")
