@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import shutil
+import time
+from types import SimpleNamespace
 
 import pytest
 
@@ -12,8 +14,10 @@ from rosmini.msgs.turtlesim.msg import Pose
 from rosmini.turtlesim import Frame
 from rosmini.turtlesim.turtle import START, STEP_S, single
 from rosmini.viz.embed import STATIC
+from rosmini.widgets.loopback import PageServer
 from rosmini.widgets.page import pad_data
 
+from ..processes import PATIENCE
 from .test_pad import Pad, document
 
 pytestmark = pytest.mark.browser
@@ -45,6 +49,8 @@ def pad(chromium, watch, made):
     context.close()
     assert watcher.seen == []
 
+
+PIXEL = "([x, y]) => [...document.querySelector('.rp-sight canvas').getContext('2d').getImageData(x, y, 1, 1).data]"
 
 DRIVE = [
     ((2.0, 0.0, 0.0), 80), ((0.0, 0.0, 2.0), 40), ((2.0, 0.0, 2.0), 20), ((1.0, 1.5, -1.0), 90), ((0.0, 0.0, 0.0), 3),
@@ -109,11 +115,7 @@ def test_keys_drive_the_turtle_and_both_messages_are_shown(pad, made):
     assert poses(pad)["theta"] == pytest.approx(2.0, abs=0.05)
     assert pad.page.locator(".rp-command em").inner_text() == "2 messages"  # a key is a message, and no more
     # What was drawn is in the picture: the pen's colour left of where the turtle turned.
-    colour = pad.page.evaluate(
-        "([x, y]) => [...document.querySelector('.rp-sight canvas').getContext('2d').getImageData(x, y, 1, 1).data]",
-        [round(2 * 45 * 6.4), round(2 * 45 * 5.544445)],
-    )
-    assert colour == [179, 184, 255, 255]
+    assert pad.page.evaluate(PIXEL, [round(2 * 45 * 6.4), round(2 * 45 * 5.544445)]) == [179, 184, 255, 255]
     pad.page.get_by_text("Reset").click()
     pad.run(0.2)
     assert poses(pad)["x"] == pytest.approx(START[0])
@@ -130,6 +132,49 @@ def test_a_wall_is_hit_and_told(pad):
     pad.page.keyboard.press("Escape")
     pad.run(0.5)
     assert pad.mood == "ready"
+
+
+def test_a_page_on_loopback_drives_the_node_s_turtle(chromium, watch):
+    """The live form, which JupyterLab has, too: what the node draws is in the page's picture."""
+    context = chromium.new_context(viewport={"width": 900, "height": 1000})
+    page = context.new_page()
+    watcher = watch(page)
+    with Graph() as graph:
+        sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
+        sim.spawn(2.0, 2.0, 0.0)
+        graph.run(0.1)
+        graph._live = SimpleNamespace(running=True, stop=lambda: None)  # this test drives it
+        pad = sim.pad()
+
+        def until(condition) -> None:
+            deadline = time.monotonic() + PATIENCE
+            while not condition():
+                assert time.monotonic() < deadline, watcher.seen
+                graph.run(0.05)
+                page.wait_for_timeout(5)
+
+        with PageServer(pad.link.widget, title=pad.turtle.title) as server:
+            page.goto(server.url)
+            page.locator(".rp-stage").focus()
+            page.keyboard.press("ArrowUp")
+            turtle = sim.turtles["turtle1"]
+            until(lambda: turtle.x > 7.4)
+            until(lambda: "x: 2.0" in page.locator(".rp-log").first.inner_text())
+            until(lambda: page.locator(".rp-poses").inner_text().startswith(f"x: {turtle.x:.3f}"))
+            assert page.evaluate(PIXEL, [round(2 * 45 * 6.4), round(2 * 45 * 5.544445)]) == [
+                179,
+                184,
+                255,
+                255,
+            ]
+            page.get_by_label("Drive", exact=True).select_option("turtle2")
+            until(lambda: pad.chosen == "turtle2")
+            until(lambda: page.locator(".rp-command", has_text="/turtle2/cmd_vel").count() == 1)
+            until(lambda: page.locator(".rp-held").count() == 1)
+            page.keyboard.press("ArrowLeft")
+            until(lambda: sim.turtles["turtle2"].theta > 1.9)
+            context.close()
+            assert [each for each in watcher.seen if not each.startswith(f"request: {server.url}")] == []
 
 
 def test_the_book_form_is_small(made):

@@ -26,7 +26,7 @@
       this.frames = 0;
       this.rates = [];
       this.state = {
-        keys: data.keys, speed: [data.maps[0].linear.step, data.maps[0].angular.step], window: data.turtle?.state, pose: data.pose, ranges: data.ranges ? floats(Float32Array, data.ranges) : null, scanFrom: null, trail: [], target: [0, 0], command: [0, 0], messages: [], sent: 0,
+        keys: data.keys, speed: [data.maps[0].linear.step, data.maps[0].angular.step], window: data.turtle?.state, windows: [], pose: data.pose, ranges: data.ranges ? floats(Float32Array, data.ranges) : null, scanFrom: null, trail: [], target: [0, 0], command: [0, 0], messages: [], sent: 0,
         mood: "ready", note: "press a key to start", startable: true,
       };
       this.receive = (content, buffers) => this.hear(content, buffers ?? []);
@@ -69,7 +69,8 @@
           this.frame(content, buffers);
           break;
         case "pad":
-          this.opened(buffers[0] ? { ...content.data, ranges: buffers[0] } : content.data);
+          // Not in the midst of those who are told of this message: the new page is one of them.
+          queueMicrotask(() => this.opened(buffers[0] ? { ...content.data, ranges: buffers[0] } : content.data));
           break;
         case "trail":
           state.trail = pairs(floats(Float32Array, buffers[0]));
@@ -105,7 +106,7 @@
       state.messages.splice(0, state.messages.length - 8);
       state.sent = content.sent;
       state.startable = false;
-      if (content.window) state.window = content.window;
+      if (content.window) state.windows.push(state.window = content.window); // each has strokes that the others have not
       if (Number.isFinite(x)) {
         state.pose = [x, y, theta];
         extend(state.trail, state.pose);

@@ -147,7 +147,7 @@
     options() {
       const { data } = this;
       const choice = (label, names, chosen, act) => {
-        const select = element("select", {}, ...names.map((name) => element("option", { value: name }, name)));
+        const select = element("select", { "aria-label": label }, ...names.map((name) => element("option", { value: name }, name)));
         select.value = chosen;
         select.addEventListener("change", () => { act(select.value); this.stage.focus({ preventScroll: true }); });
         return element("label", {}, element("span", { class: "rp-name" }, label), select);
@@ -315,6 +315,7 @@
         if (state.pose) this.read(state);
       }
       if (this.paper && state.window) {
+        for (const window of state.windows?.splice(0) ?? []) this.paper.paint(window);
         this.paper.draw(state.window);
         this.poses.replaceChildren(element("pre", {}, this.paper.message(state.window)));
       }
