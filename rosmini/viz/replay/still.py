@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.viz.figures import WIDTH
-from rosmini.viz.map_colours import ALPHA, painted, scheme_of
+from rosmini.viz.map_colours import ALPHA, UNKNOWN, colours_of, painted, scheme_of
 from rosmini.viz.replay.grids import Grid, Grids, coarse
 from rosmini.viz.replay.layers import Layer, Scans, Shape, Shapes, Strokes
 from rosmini.viz.replay.run import Body, Run
@@ -110,7 +110,7 @@ def _grid(grid: Grid, scheme: str, sheet: Sheet) -> str:
         edges = np.flatnonzero(np.diff(cells[row].astype(int), prepend=-1, append=-1))
         for start, end in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
             colour = tuple(colours[row, start].tolist())
-            if colour[3] and cells[row, start] != 255:
+            if colour[3] and cells[row, start] != UNKNOWN:
                 paths.setdefault(colour, []).append(f"M{start},{row}h{end - start}v1h-{end - start}z")
     (px, py), turned = sheet.px(np.array([(x, y)]))[0].tolist(), np.rad2deg(heading)
     size = resolution * sheet.scale
@@ -123,6 +123,11 @@ def _grid(grid: Grid, scheme: str, sheet: Sheet) -> str:
         )
         for (red, green, blue, alpha), data in sorted(paths.items())
     ]
+    if (
+        scheme == "map" and (cells == UNKNOWN).any()
+    ):  # below all others, since the known cells of a map cover it
+        unknown = "#" + "".join(f"{part:02x}" for part in colours_of(scheme)[UNKNOWN, :3].tolist())
+        drawn.insert(0, element("rect", width=cells.shape[1], height=cells.shape[0], style=f"fill:{unknown}"))
     return element("g", "".join(drawn), transform=placed, opacity=f"{ALPHA:g}", shape_rendering="crispEdges")
 
 

@@ -269,6 +269,8 @@ def test_a_map_of_4000_cells_a_side_is_small_in_the_page(bag):
     cells[500:3500:50, 500] = 100
     view = bag((0.0, "/map", a_map(cells, resolution=0.05))).replay()
     assert "500 x 500 cells of 0.400 m" in view.text
+    assert view.still.svg.count("#708986") == 1, "what is unknown is one rectangle below the rest"
+    assert len(view.still.svg) < 30_000
     assert len(view.html.encode()) < 100_000
 
 
