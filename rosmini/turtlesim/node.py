@@ -134,7 +134,7 @@ class TurtleSim:
         Raises `TurtleError`, and `RosminiError` if no topics can have this name.
         """
         if name:
-            check_name(name, "turtle name")
+            self._check_name(name)
         holonomic = self.parameters.holonomic
         turtle = self.frame.spawn(x, y, theta, name, holonomic=holonomic)
         try:
@@ -148,6 +148,13 @@ class TurtleSim:
         self._plugs[turtle.name] = plugs
         self.node.loginfo(f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
         return turtle.name
+
+    def _check_name(self, name: str) -> None:
+        """Raise unless a new turtle's topics can begin with this name. That it is taken is said elsewhere."""
+        space = self.node.resolve(check_name(name, "turtle name"))
+        same = next((each for each in self.turtles if self.node.resolve(each) == space), name)
+        if same != name:
+            raise TurtleError(f"a turtle {name} would have the topics of {same}: give another name")
 
     def _spawn(self, request: Any) -> str:
         try:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rosmini import Graph, rosrun
@@ -279,6 +279,28 @@ def test_names_that_no_topic_can_have_are_refused(sim: TurtleSim) -> None:
         with pytest.raises(ServiceException, match="illegal turtle name"):
             call(sim, "/spawn", "turtlesim/Spawn", 1.0, 1.0, 0.0, name)
     assert list(sim.turtles) == ["turtle1"]
+
+
+def test_two_names_of_one_namespace_are_one_too_many(sim: TurtleSim) -> None:
+    for name in ("/turtle1", "turtle1/", "/turtle1/"):
+        with pytest.raises(ServiceException, match="would have the topics of turtle1"):
+            call(sim, "/spawn", "turtlesim/Spawn", 1.0, 1.0, 0.0, name)
+    assert list(sim.turtles) == ["turtle1"]
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(name=st.text("a/~_1é .", max_size=5) | st.text(max_size=5))
+def test_whatever_name_is_asked_for_the_simulation_goes_on(sim: TurtleSim, name: str) -> None:
+    before = list(sim.turtles)
+    try:
+        given = call(sim, "/spawn", "turtlesim/Spawn", 1.0, 1.0, 0.0, name).name
+    except ServiceException:
+        assert list(sim.turtles) == before
+    else:
+        assert given == name or not name
+        call(sim, "/kill", "turtlesim/Kill", given)
+    assert set(sim.node.subscriptions) == {"/turtle1/cmd_vel"}
+    drive(sim, 0.1, seconds=0.1)
 
 
 def test_so_many_turtles_and_no_more(sim: TurtleSim, monkeypatch: pytest.MonkeyPatch) -> None:
