@@ -1,4 +1,4 @@
-"""What is measured of turtlesim: how many times faster than a clock turtles drive and draw, with all poses heard."""
+"""What is measured of turtles: how many times faster than a clock they drive and draw, and what Logo makes of them."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from rosmini import rosrun
+from rosmini.cli.logo import source
 from rosmini.errors import RosminiError
 from rosmini.graph import Graph
+from rosmini.logo import Logo
 from rosmini.msgs import message_class
 
 from . import Measure
@@ -54,6 +56,26 @@ def speed(count: int, seconds: float) -> float:
     return seconds / max(took, 1e-6)
 
 
+def programs(count: int, *, in_turtlesim: bool) -> float:
+    """Return how many times a second of the processor Logo draws Koch's snowflake: 768 lines, 18,000 instructions."""
+    graph = Graph(strict=False)
+    logo = Logo()
+    if in_turtlesim:
+        rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
+        graph.run(0.1)
+        logo = Logo.on(graph.node("logo"))
+    program = source("koch")
+    begin = time.process_time()
+    for _ in range(count):
+        logo.run(program)
+    took = time.process_time() - begin
+    graph.shutdown()
+    if len(logo.drawing.lines) != 768:
+        msg = f"the snowflake has {len(logo.drawing.lines)} lines: there is no figure"
+        raise RosminiError(msg)
+    return count / max(took, 1e-6)
+
+
 def measures(scale: float) -> Iterator[Measure]:
     """Yield what is measured."""
     for count in TURTLES:
@@ -63,4 +85,10 @@ def measures(scale: float) -> Iterator[Measure]:
             f"turtlesim: {what} at 62.5 Hz, all poses heard",
             "x real time",
             lambda count=count, seconds=seconds: speed(count, seconds),  # type: ignore[misc]
+        )
+    for where, in_turtlesim in (("on paper", False), ("in turtlesim", True)):
+        yield Measure(
+            f"Logo: Koch's snowflake of 768 lines, {where}",
+            "programs/s",
+            lambda in_turtlesim=in_turtlesim: programs(max(round(20 * scale), 1), in_turtlesim=in_turtlesim),  # type: ignore[misc]
         )
