@@ -339,7 +339,7 @@ class Interact(MoveCamera, plugin="rviz/Interact"):
     label, key = "Interact", "i"
     hint = "Click an interactive marker, or drag to move the camera."
     properties = (
-        Property("Hide Inactive Objects", True, "show the controls of markers only with this tool"),
+        Property("Hide Inactive Objects", True, "during a drag, show no controls of other markers"),
     )
     _marker: InteractiveMarkers | None = None
 
@@ -349,6 +349,7 @@ class Interact(MoveCamera, plugin="rviz/Interact"):
             found = display.under(at, self.scene.context) if isinstance(display, InteractiveMarkers) else None
             if found is not None:
                 self._marker = display
+                display.hides_inactive = self["Hide Inactive Objects"]
                 return str(display.press(*found, at))
         return super().press(at)
 
@@ -397,6 +398,7 @@ class Tools:
     """
 
     def __init__(self, scene: Scene) -> None:
+        self.scene = scene
         trees = scene.config.mappings("Tools") or Config().mappings("Tools")
         self.all: list[Tool] = []
         for tree in trees:
@@ -423,11 +425,18 @@ class Tools:
 
     def take(self, name: str) -> Tool:
         """Take a tool into the hand. Raises `ViewError` if there is none of that name."""
-        self.current = self[name]
+        self._hold(self[name])
         self.current.is_finished = False
         return self.current
+
+    def _hold(self, tool: Tool) -> None:
+        """Have a tool in the hand; controls of interactive markers are seen with Interact only, as in RViz."""
+        self.current = tool
+        for display in self.scene:
+            if isinstance(display, InteractiveMarkers):
+                display.shows_controls = isinstance(tool, Interact)
 
     def put_away(self) -> None:
         """Take the first tool again if the one in the hand has done its work."""
         if self.current.is_finished:
-            self.current = self.all[0]
+            self._hold(self.all[0])

@@ -48,6 +48,8 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         """The markers that are shown, by the ids of their servers and their names."""
         self.shows_controls = True
         """Whether all controls are seen, as with RViz's tool Interact, or only those that are always visible."""
+        self.hides_inactive = False
+        """Whether a drag hides the controls of other markers."""
         self._client = InteractiveMarkerClient()
         self._changed: set[tuple[str, str]] = set()
         self._publisher: Publisher | None = None
@@ -160,8 +162,9 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
 
     def _drawn(self, handle: Handle, context: Context) -> list[Primitive]:
         found: list[Primitive] = []
+        is_beside = self.hides_inactive and self._grip is not None and self._grip.handle is not handle
         for control in handle.message.controls:
-            if self.shows_controls or control.always_visible:
+            if control.always_visible or (self.shows_controls and not is_beside):
                 found += handle.shapes(control, context)
         if self["Show Descriptions"]:
             found += handle.title()

@@ -156,6 +156,23 @@ def test_the_tool_takes_hold_of_what_is_under_the_hand(shop):
     assert text.position[:2] == pytest.approx(np.array((3.0, 3.0)))
 
 
+def test_controls_are_seen_with_the_tool_interact_and_only_those_that_are_held_during_a_drag(shop):
+    markers = [
+        marker(Control.MOVE_PLANE, ALONG_Z),
+        marker(Control.MOVE_PLANE, ALONG_Z, name="other", at=(9.0, 9.0, 0)),
+    ]
+    assert len(shop.show(*markers)) == 4
+    tools = Tools(shop.scene)
+    tools.take("Measure")
+    assert len(shop.look()) == 2
+    tools.take("Interact")
+    assert len(shop.look()) == 4
+    tools.current.press(np.array([1.57, 2.0, 0.0]))
+    assert len(shop.look()) == 3
+    tools.current.release(np.array([1.57, 2.0, 0.0]))
+    assert len(shop.look()) == 4
+
+
 def test_buttons_and_menus(shop):
     button = marker(Control.BUTTON)
     button.controls[0].markers = [Marker(type=Marker.CUBE)]
