@@ -172,7 +172,7 @@ class Display(Plugin, ABC):
             try:
                 self.start(context)
             except Exception as error:  # the scene stands, whatever one display does
-                self.fail("Display", error)
+                self.fail("Start", error)
         self._context = context
 
     def detach(self) -> None:
@@ -242,7 +242,7 @@ class FailedDisplay(Display):
     def start(self, _context: Context) -> None:
         """Say why nothing is shown."""
         text = f"The class required for this display, '{self.kind}', could not be loaded.{self._reason}"
-        self.set_status(Level.ERROR, "Display", text)
+        self.set_status(Level.ERROR, "Class", text)
 
     def primitives(self, _context: Context) -> Iterable[Primitive]:
         """Nothing."""

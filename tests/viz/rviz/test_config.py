@@ -42,6 +42,15 @@ def test_what_is_not_known_is_named_in_one_warning(stage, data):
     assert "TopDownOrtho" not in warning
 
 
+def test_a_display_that_is_not_known_says_so(stage, data, statuses):
+    scene = stage.scene(data / "navigation.rviz", None)
+    scene.update()
+    level, text = statuses(scene["Octomap"])["Class"]
+    assert level == "Error"
+    said = "The class required for this display, 'octomap_rviz_plugin/OccupancyGrid', could not be loaded."
+    assert text.startswith(said)
+
+
 def test_values_are_those_of_the_file(stage, data):
     scene = stage.scene(data / "navigation.rviz", None)
     assert scene.fixed_frame == "map"
