@@ -130,8 +130,9 @@ class Link:
             if kind in ("key", "steer", "start", "reset", "choose", "keys") and not graph.is_live:
                 graph.live()
         except RosminiError as error:
-            self._send({"type": "error", "text": str(error)})
-            return
+            if not graph.scheduler.driven:  # else a program drives it, which is as good
+                self._send({"type": "error", "text": str(error)})
+                return
         if kind == "beat" and not graph.is_live and not graph.scheduler.driven:
             self._send({"type": "still"})
             return

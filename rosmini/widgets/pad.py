@@ -43,6 +43,8 @@ if TYPE_CHECKING:
 
     from rosmini.graph.clock import Timer
 
+    from .loopback import PageServer
+
 CONNECT_S = 1.0
 """So long a new pad waits for those who listen already, so that its first message is not lost."""
 
@@ -364,6 +366,16 @@ class TeleopPad(View):
             return super()._repr_mimebundle_(include, exclude)
         data, metadata = self.link.widget._repr_mimebundle_()
         return {**data, "text/plain": self.text}, metadata
+
+    def serve(self, port: int = 0) -> PageServer:
+        """Serve the live pad as a page on loopback, for a program in a terminal that drives the graph.
+
+        `with pad.serve() as page:` print `page.url` and let the graph run, in wall time for a person at the keys; the
+        end of the block ends the page. Raises `TeleopError` without anywidget, `OSError` if the port is in use.
+        """
+        from .loopback import PageServer
+
+        return PageServer(self.link.widget, title=self.title or f"Drive on {self.topic}", port=port)
 
     @property
     def link(self) -> Any:

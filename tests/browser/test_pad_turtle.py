@@ -14,7 +14,6 @@ from rosmini.msgs.turtlesim.msg import Pose
 from rosmini.turtlesim import Frame
 from rosmini.turtlesim.turtle import START, STEP_S, single
 from rosmini.viz.embed import STATIC
-from rosmini.widgets.loopback import PageServer
 from rosmini.widgets.page import pad_data
 
 from ..processes import PATIENCE
@@ -153,7 +152,7 @@ def test_a_page_on_loopback_drives_the_node_s_turtle(chromium, watch):
                 graph.run(0.05)
                 page.wait_for_timeout(5)
 
-        with PageServer(pad.link.widget, title=pad.turtle.title) as server:
+        with pad.serve() as server:
             page.goto(server.url)
             page.locator(".rp-stage").focus()
             page.keyboard.press("ArrowUp")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 from types import SimpleNamespace
+from urllib.request import urlopen
 
 import numpy as np
 import pytest
@@ -94,6 +95,22 @@ def test_a_graph_that_cannot_be_live_says_why(pad, page):
     ]
     page.run(0.1, beats=False)
     assert pad.sent == 0
+
+
+def test_a_graph_that_a_program_drives_needs_no_event_loop(pad, page, graph):
+    def refuse():
+        raise RosminiError("a live graph needs an event loop")
+
+    pad.graph.live = refuse
+    graph.node("program").timer(0.1, lambda _: page.say("key", key="w"), oneshot=True)
+    graph.run(0.5)
+    assert pad.teleop.command == (0.01, 0.0)
+    assert "error" not in page.kinds()
+
+
+def test_a_pad_is_served_as_a_page_on_loopback(pad):
+    with pad.serve() as server, urlopen(server.url) as answer:
+        assert "<title>Drive on /cmd_vel</title>" in answer.read().decode()
 
 
 def test_frames_come_thirty_times_a_second_while_it_moves(page):
