@@ -71,7 +71,7 @@ def _draw(logo: Logo, program: str | None, given: Values, call: Call) -> Result:
 
 
 def _converse(logo: Logo, call: Call) -> None:
-    """Read lines and run them, until `bye` or the end of what is typed; an error ends nothing."""
+    """Read lines and run them, until `bye` or the end of what is typed; an error, or Ctrl-C, ends a program only."""
     if call.read_line is None:
         raise RosminiError("nobody can type here: name a file, or use %%logo in a notebook")
     text = ""
@@ -87,6 +87,8 @@ def _converse(logo: Logo, call: Call) -> None:
             if line.strip() and ("never closed" in error.message or "has no end" in error.message):
                 continue
             call.say(str(error))
+        except KeyboardInterrupt:
+            call.say("stopped by Ctrl-C")
         text = ""
 
 

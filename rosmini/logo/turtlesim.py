@@ -65,10 +65,10 @@ class WindowTurtle(ExactTurtle):
             self.take(Pen(down=False))
             self.place(HOME)
             self._pose = HOME
-        self.take(self.pen)
+            self.take(self.pen)
 
     def look(self) -> None:
-        """Find out where the turtle is, if somebody else has moved it."""
+        """Find out where the turtle is, if somebody else has moved it, and give it the pen that it is to have."""
         try:
             found = self.node.wait_for_message(
                 f"/{self.name}/pose", message_class("turtlesim/Pose"), PATIENCE
@@ -80,6 +80,7 @@ class WindowTurtle(ExactTurtle):
             x, y = ((part - MIDDLE) * METRE for part in (found.x, found.y))
             heading = (90.0 - math.degrees(found.theta)) % 360.0
             self._pose = Pose(_whole(x), _whole(y), _whole(heading))
+        self.take(self.pen)
 
     def place(self, pose: Pose) -> None:
         """Put it there, drawing a line if its pen is down."""

@@ -71,3 +71,15 @@ def test_lines_are_typed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
     assert written == (
         "? ? 0 10\n? line 1: I don't know how to frwd; did you mean forward?\n? > > ? 8\n? > > 1\n1\n? "
     )
+
+
+def test_ctrl_c_ends_the_program_and_not_the_conversation(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def pressed(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("rosmini.logo.turtles.ExactTurtle.right", pressed)
+    monkeypatch.setattr("sys.stdin", io.StringIO("fd 10\nforever [right 1]\nprint pos\n"))
+    assert TOOL.main(Namespace(words=["--paper"])) == 0
+    assert capsys.readouterr().out == "? ? stopped by Ctrl-C\n? 0 10\n? "

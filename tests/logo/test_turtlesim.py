@@ -72,6 +72,14 @@ def test_pens_and_the_background(sim, node):
     assert logo.drawing.lines == ()
 
 
+def test_a_turtle_keeps_its_pen_when_the_window_is_reset(sim, node):
+    logo = Logo.on(node)
+    logo.run('setpencolor "red')
+    node.service_client("reset", service_class("std_srvs/Empty"))()
+    logo.run("forward 10")
+    assert {s.pen.colour for s in sim.frame.paper.strokes() if (s.x1, s.y1) != (s.x2, s.y2)} == {(255, 0, 0)}
+
+
 def test_several_turtles(sim, node):
     logo = Logo.on(node)
     logo.run('newturtle "bob tell "bob right 90 forward 50 ask 1 [forward 30]')
