@@ -90,7 +90,7 @@ def test_the_title_stands_above():
     assert (text.text, text.pose.position.z, text.scale.z) == ("the box", 2.8, 0.3)
 
 
-numbers = st.floats(-1e6, 1e6)
+numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
 
 
 @given(st.lists(st.tuples(st.integers(0, 9), st.lists(numbers, min_size=4, max_size=4)), max_size=4), numbers)
@@ -104,6 +104,6 @@ def test_whatever_comes_is_completed_once(controls, scale):
         q = shape.pose.orientation
         assert math.hypot(q.x, q.y, q.z, q.w) == pytest.approx(1)
         assert all(np.isfinite([shape.color.r, shape.color.g, shape.color.b]))
-    before = str(made)
+    before = [(control.name, [shape.type for shape in control.markers]) for control in made.controls]
     auto_complete(made)
-    assert str(made) == before or any(abs(value) < 1e-3 for _, turned in controls for value in turned)
+    assert [(control.name, [shape.type for shape in control.markers]) for control in made.controls] == before
