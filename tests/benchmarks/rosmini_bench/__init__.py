@@ -194,15 +194,15 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         rosbag = None if args.no_peer else bags.find_rosbag(folder.path)
         yield from bags.measures(folder.path, rosbag, args.scale)
     if args.subject in (None, "rviz"):
-        from . import displays
+        from . import displays, turtles
 
         yield from displays.measures(args.scale)
+        yield from turtles.measures(args.scale)
     if args.subject in (None, "sim"):
-        from . import sim, turtles
+        from . import sim
         from .sim_mujoco import find_mujoco
         from .sim_peer import find_irsim
 
-        yield from turtles.measures(args.scale)
         irsim = None if args.no_peer else find_irsim()
         if irsim is None and not args.no_peer:
             print("ir-sim is not installed here: no peer (pip install ir-sim)")
