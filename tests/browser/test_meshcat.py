@@ -13,14 +13,18 @@ from PIL import Image
 pytest.importorskip("meshcat")
 
 from rosmini import Graph
+from rosmini.msgs.geometry_msgs.msg import PoseStamped
+from rosmini.msgs.nav_msgs.msg import OccupancyGrid
 from rosmini.sim.gazebo import GazeboServer
 from rosmini.sim.models import BURGER
 from rosmini.sim.recording import Recording
 from rosmini.sim.worlds import world
+from rosmini.tf import StaticTransformBroadcaster
 from rosmini.urdf import load
 from rosmini.urdf.xacro import expand
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d, world_3d
+from rosmini.viz.rviz import Scene, turnable
 
 pytestmark = pytest.mark.browser
 
@@ -46,6 +50,29 @@ def two_in_gazebo():
         return server.show3d(focus="a", distance=1.2)
 
 
+def rviz_scene():
+    """A map with a wall, a frame with its name, and a solid arrow on the map."""
+    grid = OccupancyGrid()
+    grid.header.frame_id = "map"
+    grid.info.width, grid.info.height, grid.info.resolution = 40, 40, 0.1
+    grid.info.origin.orientation.w = 1.0
+    cells = np.zeros((40, 40), dtype=np.int8)
+    cells[18:22] = 100
+    grid.data = cells.ravel()
+    goal = PoseStamped()
+    goal.header.frame_id, goal.pose.position.x, goal.pose.orientation.w = "map", 0.5, 1.0
+    with Graph() as graph, Scene(graph, fixed_frame="map") as scene:
+        scene.add("Map", {"Topic": "/map", "Alpha": 1.0})
+        scene.add("Pose", {"Topic": "/goal"})
+        scene.add("TF", {"Show Axes": False})
+        node = graph.node("robot")
+        node.publisher("/map", OccupancyGrid, latch=True).publish(grid)
+        node.publisher("/goal", PoseStamped, latch=True).publish(goal)
+        StaticTransformBroadcaster(node).send("map", "odom", (1.0, 1.0, 0.0))
+        graph.run(0.1)
+        return turnable(scene)
+
+
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     """A nested page of a book with three pictures, two of them the same, and its scripts; beside it, live forms."""
@@ -59,6 +86,7 @@ def site(tmp_path_factory):
         "replay": replay_3d(run()),
         "urdf": urdf_3d(load("package://turtlebot3_description/urdf/turtlebot3_waffle.urdf.xacro")),
         "gazebo": two_in_gazebo(),
+        "rviz": rviz_scene(),
     }
     head = '<head><meta charset="utf-8"><title>t</title><link rel="stylesheet" href="{}_static/rosmini.css"></head>'
     for name, chosen in {**{n: [n] for n in views}, "three": ["robot", "replay", "robot"]}.items():
@@ -153,6 +181,23 @@ def test_equal_robots_share_their_geometry(open_page, path):
     )
     apart = viewer(page, f"(viewer.set_dirty(), {node(second)}.parent.parent.parent.matrix.elements[13])")
     assert apart == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize(("path", "scheme"), [("deep/er/rviz.html", "light"), ("alone_rviz.html", "dark")])
+def test_a_scene_of_rviz_has_its_own_background_a_map_and_words(open_page, shared_tmp, path, scheme):
+    page = open_page(path, scheme=scheme)
+    page.wait_for_function(
+        "(path) => document.querySelector('iframe').contentWindow.viewer.scene_tree.find(path).object"
+        ".material.map.image?.complete",
+        arg=["meshcat", "rviz", "0", "<object>"],
+    )
+    picture = pixels(page)
+    page.screenshot(path=shared_tmp / f"meshcat-rviz-{scheme}.png")
+    assert picture[4, 4] == pytest.approx([48, 48, 48], abs=2)
+    assert (picture.min(axis=2) > 240).mean() > 0.1  # free cells
+    assert (picture.max(axis=2) < 10).mean() > 0.01  # the wall
+    assert ((picture[..., 0] > 90) & (picture[..., 1] < 60)).mean() > 0.005  # the arrow
+    assert viewer(page, f"{node('meshcat')}.children.filter((each) => each.isSprite).length") == 2
 
 
 def test_the_page_follows_the_readers_change_of_theme(open_page):

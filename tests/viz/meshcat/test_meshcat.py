@@ -545,7 +545,7 @@ def test_keyframes_tell_all_samples(values, tolerance):
     times = np.arange(len(values)) * 0.1
     kept = keyframes(times, np.array(values)[:, None], tolerance)
     told = np.interp(times, times[kept], np.array(values)[kept])
-    assert np.abs(told - values).max() <= tolerance + 1e-9
+    assert np.abs(told - values).max() <= tolerance + 1e-7  # to which gaps are rounded
 
 
 def test_the_script_knows_the_dark_pages_of_the_house_style():
