@@ -101,7 +101,7 @@ def table(figures: Iterable[Figure]) -> str:
     )
 
 
-SUBJECTS = ("graph", "wire", "sim", "rviz")
+SUBJECTS = ("graph", "wire", "sim", "rviz", "turtles")
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
@@ -113,7 +113,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "subject",
         nargs="?",
         choices=SUBJECTS,
-        help="the computation graph, the wire between processes, the simulator, or RViz's displays (default: all)",
+        help="the computation graph, the wire between processes, the simulator, RViz, or turtles (default: all)",
     )
     parser.add_argument(
         "--rounds", type=int, default=3, metavar="N", help="rounds of which the median is shown (default: 3)"
@@ -194,9 +194,12 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         rosbag = None if args.no_peer else bags.find_rosbag(folder.path)
         yield from bags.measures(folder.path, rosbag, args.scale)
     if args.subject in (None, "rviz"):
-        from . import displays, turtles
+        from . import displays
 
         yield from displays.measures(args.scale)
+    if args.subject in (None, "turtles"):
+        from . import turtles
+
         yield from turtles.measures(args.scale)
     if args.subject in (None, "sim"):
         from . import sim
