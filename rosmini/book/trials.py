@@ -6,6 +6,8 @@ ever does no harm; what scripts print is kept, and what ends one is part of the 
 
 from __future__ import annotations
 
+import io
+from contextlib import redirect_stdout
 from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.graph import Graph
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from typing import Self
 
     from rosmini.sim.simulator import Simulator
+    from rosmini.turtlesim import TurtleSim
 
 
 class Trial:
@@ -35,15 +38,18 @@ class Trial:
     def __init__(self, world: str = "room", *parameters: str, is_shown: bool = True) -> None:
         from rosmini.sim.recorder import Recorder
 
-        self.graph = Graph(strict=False)
-        self._is_shown = is_shown
-        self._console = Console(self.graph.scheduler, prefix=False, capture_output=True)
-        self._scripts: list[ScriptHandle] = []
+        self._begin(is_shown=is_shown)
         started = rosrun(
             "rosmini_sim", "simulator", f"_world:={world}", *parameters, graph=self.graph, capture_output=True
         )
         self.robot = cast("Simulator", cast("Any", started).instance())
         self._recorder = Recorder(self.graph, self.robot)
+
+    def _begin(self, *, is_shown: bool) -> None:
+        self.graph = Graph(strict=False)
+        self._is_shown = is_shown
+        self._console = Console(self.graph.scheduler, prefix=False, capture_output=True)
+        self._scripts: list[ScriptHandle] = []
 
     def __enter__(self) -> Self:
         return self
@@ -97,3 +103,44 @@ class Trial:
         """Return the first line of the first error that was logged, without its time."""
         lines = [line for line in self.output.splitlines() if line.startswith("[ERROR]")]
         return lines[0].partition("]: ")[2] if lines else ""
+
+
+class TurtleTrial(Trial):
+    """A graph of its own with turtlesim, to be used in a ``with`` block as a `Trial` is.
+
+    Args:
+        parameters: of turtlesim, as rosrun takes them: ``"__name:=pond"``; None for no turtlesim.
+
+    """
+
+    def __init__(self, parameters: tuple[str, ...] | None = ()) -> None:
+        self._begin(is_shown=True)
+        if parameters is not None:
+            self.open(*parameters)
+
+    def open(self, *parameters: str) -> None:
+        """Start a turtlesim with these words, and let it begin."""
+        with redirect_stdout(io.StringIO()):  # its log, which is not the reader's
+            rosrun("turtlesim", "turtlesim_node", *parameters, graph=self.graph)
+        self.run(0.1)
+
+    def run(self, seconds: float) -> None:
+        """Let graph time pass. Raises `Wrong` if a script has failed by then."""
+        with redirect_stdout(io.StringIO()):
+            super().run(seconds)
+
+    @property
+    def sim(self) -> TurtleSim:
+        """The only turtlesim. Raises `TurtleError` if there is none, or more than one."""
+        from rosmini.turtlesim import window
+
+        return window(graph=self.graph)
+
+    def view(self) -> Any:
+        """Return the picture of the window; None where there is none."""
+        from rosmini.turtlesim import TurtleError
+
+        try:
+            return self.sim.show(title="What the turtle did")
+        except TurtleError:
+            return None
