@@ -22,6 +22,8 @@ def window(name: str | None = None, graph: Graph | None = None) -> TurtleSim:
     >>> from rosmini import Graph, rosrun
     >>> graph = Graph()
     >>> _ = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
+    [INFO] [1000.000000]: Starting turtlesim with node name /turtlesim
+    [INFO] [1000.000000]: Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]
     >>> window(graph=graph)
     <TurtleSim /turtlesim: turtle1>
 

@@ -57,7 +57,7 @@ events.onopen = () => {{ link.textContent = ""; model.send({{ type: "hello" }});
 events.onerror = gone;
 events.onmessage = ({{ data }}) => {{
   const {{ content, buffers }} = JSON.parse(data);
-  for (const callback of heard) callback(content, buffers.map(bytes));
+  for (const callback of [...heard]) callback(content, buffers.map(bytes));
 }};
 document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 app.render({{ model, el: document.getElementById("page") }});
