@@ -60,6 +60,15 @@ class Context:
             return IDENTITY
         return self.tree.lookup(self.fixed_frame, frame, stamp_ns).transform
 
+    def knows(self, frame: str) -> bool:
+        """Whether tf told of a frame and of the fixed one; where it did not, to look a way up would be in vain."""
+        name = frame.lstrip("/")
+        return (
+            frame == FIXED_FRAME
+            or name == self.fixed_frame
+            or (name in self.tree and self.fixed_frame in self.tree)
+        )
+
     def is_past(self, frame: str, stamp_ns: int) -> bool:
         """Whether a transform is missing because it is too long ago to come any more."""
         try:
@@ -67,7 +76,7 @@ class Context:
         except TransformException:
             return False
 
-    def problem(self, frame: str, error: TransformException) -> str:
+    def problem(self, frame: str, error: TransformException | None = None) -> str:
         """What RViz says where a frame cannot be brought to the fixed one."""
         name = frame.lstrip("/")
         if self.fixed_frame not in self.tree:

@@ -183,7 +183,7 @@ class TopicDisplay(Display):
         self._waiting.append(heard)
         while len(self._waiting) > self["Queue Size"]:
             dropped = self._waiting.popleft()
-            if not self._placed(dropped, context):
+            if not (context.knows(dropped.frame) and self._placed(dropped, context)):
                 self._say_why(dropped, context, is_dropped=True)
         self._settle(context)
 
@@ -200,14 +200,20 @@ class TopicDisplay(Display):
     def _settle(self, context: Context) -> None:
         """Keep what waited and can be placed now, in order of arrival; what is too old is dropped."""
         still: deque[Heard] = deque()
+        lost: Heard | None = None
         while self._waiting:
             heard = self._waiting.popleft()
+            if not context.knows(heard.frame):
+                still.append(lost := heard)
+                continue
             if self._placed(heard, context):
                 continue
             self._say_why(heard, context)
             if not context.is_past(heard.frame, self.moment(heard)):
                 still.append(heard)
         self._waiting = still
+        if lost is not None:
+            self._say_why(lost, context)
 
     def _placed(self, heard: Heard, context: Context) -> bool:
         try:
@@ -220,6 +226,9 @@ class TopicDisplay(Display):
 
     def _say_why(self, heard: Heard, context: Context, *, is_dropped: bool = False) -> None:
         name = self.transform_status(heard)
+        if not context.knows(heard.frame):
+            self.set_status(Level.ERROR, name, context.problem(heard.frame))
+            return
         if context.is_past(heard.frame, self.moment(heard)):
             stamp = heard.stamp_ns / 1e9
             text = f"Message removed because it is too old (frame=[{heard.frame}], stamp=[{stamp:.9f}])"

@@ -182,3 +182,15 @@ def test_a_scan_that_is_far_too_long_is_refused(stage, statuses):
     stage.publish("/scan", scan(*[1.0] * 1_000_001), "map")
     assert scene.update()[0].primitives == ()
     assert statuses(display)["Topic"] == ("Error", "a scan of 1000001 ranges is too long: at most 1000000")
+
+
+def test_of_a_frame_that_nobody_told_of_no_way_is_looked_up(stage, statuses, monkeypatch):
+    scene, scan = stage.display("LaserScan", "/scan")
+    stage.place("map", "odom")
+    looked = []
+    monkeypatch.setattr(type(scene.context), "place", lambda _, frame, stamp=0: looked.append(frame))
+    for _ in range(5):
+        stage.publish("/scan", LaserScan(range_max=2.0, ranges=[1.0]), "laser")
+    scene.update()
+    assert looked == []
+    assert "Frame [laser] does not exist" in statuses(scan)["Transform [sender=/robot]"][1]
