@@ -1,0 +1,119 @@
+"""What is right in the exercises of chapter 63, Many machines: two lines, four causes, and a node between turtles."""
+
+from __future__ import annotations
+
+import shlex
+from typing import Any
+from urllib.parse import urlsplit
+
+from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
+from rosmini.book.trials import TurtleTrial
+from rosmini.msgs.geometry_msgs.msg import Twist
+from rosmini.scripts import rosrun
+from rosmini.turtlesim import window
+
+MASTER, PORT, TABLET = "192.168.1.10", 11311, "192.168.1.42"
+
+# ---- 63.1: a third computer ----
+
+
+def _exported(text: str) -> dict[str, str]:
+    """Return what the lines of a ~/.bashrc export."""
+    found = {}
+    for line in text.splitlines():
+        try:
+            words = shlex.split(line, comments=True)
+        except ValueError as error:
+            raise Wrong(f"bash cannot read {line.strip()!r}: {error}.", "quotes come in pairs") from error
+        if not words:
+            continue
+        expect(words[0] == "export", f"{line.strip()!r} does not export anything.", "export NAME=VALUE")
+        for word in words[1:]:
+            name, sign, value = word.partition("=")
+            expect(
+                name and sign and value, f"{line.strip()!r} gives {word!r} no value.", "no spaces around ="
+            )
+            found[name] = value
+    return found
+
+
+@exercise("63.1", praise="The Master's address, and the tablet's own.")
+def bashrc(answer: Any) -> None:
+    """The variables of a third computer: the Master's address, and an address of its own."""
+    expect_type(answer, str, "The lines are", "a text")
+    given = _exported(answer)
+    expect("ROS_MASTER_URI" in given, "ROS_MASTER_URI is not set.", "it is the same on all computers")
+    uri = given["ROS_MASTER_URI"]
+    try:
+        parts = urlsplit(uri)
+        place = (parts.scheme, parts.hostname, parts.port)
+    except ValueError:
+        place = ("", None, None)
+    expect(
+        place == ("http", MASTER, PORT),
+        f"The Master is not at {uri}.",
+        "http://, the address of the Master's computer, and the port 11311",
+    )
+    own = given.get("ROS_HOSTNAME", given.get("ROS_IP"))
+    expect(own is not None, "The tablet does not say who it is.", "ROS_IP, with its own address")
+    expect(own == TABLET, f"The others would look for the tablet at {own}.", "its own address")
+
+
+# ---- 63.2: what is wrong? ----
+
+CAUSES = {
+    "Ada": ("master", "Which address was called here?"),
+    "Ben": ("clock", "his transforms do arrive, and are a minute old"),
+    "Cem": ("address", "the Master knows the node, so what does the list not show?"),
+    "Dea": ("name", "a node ends when another one takes something from it"),
+}
+
+
+@exercise("63.2", praise="Four messages, four causes.")
+def causes(answer: Any) -> None:
+    """For each complaint the word of its cause."""
+    expect_type(answer, dict, "causes is", "a dictionary: a person, and a word")
+    for person, (right, hint) in CAUSES.items():
+        said = answer.get(person)
+        expect(
+            isinstance(said, str) and said.strip().lower() == right,
+            f"{said!r} is not what is wrong with {person}'s.",
+            hint,
+        )
+
+
+# ---- 63.3: the other way round ----
+
+DRIVES = ((1.0, 1.0), (2.0, -0.5), (-1.0, 0.0))
+"""What the first turtle is told: ahead [units/s], to the left [rad/s]."""
+NEAR = 0.2
+"""How far the two may be apart: the second one hears of a command a little later [units, rad]."""
+
+
+@exercise("63.3", praise="A node between two namespaces, on any of the computers.")
+def mirror(answer: Script) -> Any:
+    """The second turtle goes as the first one, with left and right exchanged."""
+    with TurtleTrial(None) as trial:
+        for name in ("one", "two"):
+            rosrun("turtlesim", "turtlesim_node", f"__ns:=/{name}", graph=trial.graph, capture_output=True)
+        command = trial.graph.node("driver").publisher("/one/turtle1/cmd_vel", Twist)
+        trial.run(0.2)
+        trial.start(answer)
+        trial.run(0.5)
+        expect("/mirror" in trial.graph.nodes, "There is no node /mirror.", 'rospy.init_node("mirror")')
+        one, two = (
+            window(f"/{name}/turtlesim", graph=trial.graph).turtles["turtle1"] for name in ("one", "two")
+        )
+        start = two.y
+        for ahead, left in DRIVES:
+            twist = Twist()
+            twist.linear.x, twist.angular.z = ahead, left
+            command.publish(twist)
+            trial.run(1.5)
+            apart = (two.x - one.x, two.y + one.y - 2 * start, two.theta + one.theta)
+            expect(
+                all(abs(value) < NEAR for value in apart),
+                f"The first turtle, told {ahead:g} ahead and {left:g} to the left, is now {one}, and the second {two}.",
+                "each command is passed on: linear as it is, angular.z with the other sign",
+            )
+    return None

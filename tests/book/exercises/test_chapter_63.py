@@ -1,0 +1,61 @@
+"""Chapter 63: its size, its figures, what its cells say, and other right answers."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from book.tools import notebooks
+from rosmini.book.checks import Status, find
+
+from .conftest import NOTEBOOKS, assert_figures_are_numbered
+
+CHAPTER = NOTEBOOKS / "63_many_machines.ipynb"
+
+
+@pytest.fixture(scope="module")
+def cells():
+    return notebooks.read(CHAPTER).cells
+
+
+def printed(cells, start):
+    """What the cell with this text in it has printed."""
+    [cell] = [cell for cell in cells if cell.cell_type == "code" and start in cell.source]
+    return "".join(output.get("text", "") for output in cell.outputs)
+
+
+def test_it_is_as_short_as_a_chapter_has_to_be(cells):
+    before = []
+    for cell in cells:
+        text, exercises, _ = cell.source.partition("\n## Exercises\n")
+        before.append((cell.cell_type, text))
+        if exercises:
+            break
+    words = re.findall(r"\S*\w\S*", "\n".join(text for kind, text in before if kind == "markdown"))
+    assert len(words) <= 2300  # 200 of them in the listings of true runs
+    assert sum(kind == "code" for kind, _ in before) <= 25
+
+
+def test_its_figures_are_numbered():
+    assert_figures_are_numbered("63_many_machines", (".show(", "%rqt_graph"))
+
+
+def test_one_teleop_drives_both_turtles_and_a_namespace_parts_them(cells):
+    first, second = printed(cells, "laptop, robot =").strip().splitlines()[-2:]
+    assert first == second
+    assert "(5.54, 5.54" not in first
+    one, two = printed(cells, 'print("one:"').strip().splitlines()[-2:]
+    assert "(5.54, 5.54" in one
+    assert "(5.54, 5.54" not in two
+
+
+def test_the_mistakes_have_their_messages(cells):
+    assert "ERROR: Unable to communicate with master!" in printed(cells, "localhost:11312")
+    assert "extrapolation 5.0" in printed(cells, "lookup_transform")
+    assert "Average Delay: 5 Max Delay: 5" in printed(cells, "tf_monitor world robot")
+
+
+def test_a_name_in_the_place_of_a_number_is_right_where_it_is_the_number():
+    lines = "export ROS_MASTER_URI='http://192.168.1.10:11311/' ROS_HOSTNAME=192.168.1.42  # the tablet"
+    assert find("63.1").grade(lines).status is Status.RIGHT
