@@ -1,0 +1,58 @@
+"""Chapter 62: its size, its figures, and what its cells say."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from book.tools import notebooks
+
+from .conftest import NOTEBOOKS, assert_figures_are_numbered
+
+CHAPTER = NOTEBOOKS / "62_motion_node.ipynb"
+
+
+@pytest.fixture(scope="module")
+def cells():
+    return notebooks.read(CHAPTER).cells
+
+
+def printed(cells, start):
+    """What the cell with this text in it has printed."""
+    [cell] = [cell for cell in cells if cell.cell_type == "code" and start in cell.source]
+    return "".join(output.get("text", "") for output in cell.outputs)
+
+
+def test_it_is_as_short_as_a_chapter_has_to_be(cells):
+    before = []
+    for cell in cells:
+        text, exercises, _ = cell.source.partition("\n## Exercises\n")
+        before.append((cell.cell_type, text))
+        if exercises:
+            break
+    words = re.findall(r"\S*\w\S*", "\n".join(text for kind, text in before if kind == "markdown"))
+    assert len(words) <= 2000
+    assert sum(kind == "code" for kind, _ in before) <= 25
+
+
+def test_its_figures_are_numbered():
+    assert_figures_are_numbered("62_motion_node", (".replay(", "%rqt_graph"))
+
+
+def test_the_script_of_the_tutorials_fails_and_once_mended_never_ends(cells):
+    assert "TypeError: bad operand type for abs(): 'str'" in printed(cells, "    speed = input(")
+    assert "/robot_cleaner_" in printed(cells, "%rostopic hz")
+
+
+def test_the_corrected_script_ends(cells):
+    assert printed(cells, "rosmini.wait(4)\n%rosnode list").endswith("/rosout\n/turtlesim\n")
+
+
+def test_the_controller_errs_least_and_the_wall_is_told_by_those_that_look(cells):
+    table = printed(cells, "Table 62.1")
+    rows = [line.split() for line in table.splitlines() if re.match(r" *[0-9]", line)]
+    for _, asked, straight, measured, goal in rows[:3]:
+        errors = [abs(float(gone) - float(asked)) for gone in (straight, measured, goal)]
+        assert errors[2] == min(errors)
+    assert rows[3].count("no") == 2  # only the script that does not look believes that it is through
