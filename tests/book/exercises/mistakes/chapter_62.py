@@ -64,7 +64,7 @@ import rospy
 from geometry_msgs.msg import Twist
 from turtlesim.msg import Pose
 
-pose = {}
+pose: dict = {}
 
 
 def go_to(x, y):
@@ -111,7 +111,7 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _script(WALL, "        break", "        pass"),
         _script(WALL, "    publisher.publish(command)", "    pass"),
         _script(WALL, 'rospy.loginfo("wall")', "pass"),
-        _script(WALL, "    before = pose", '    rospy.loginfo("no wall")\n    before = pose'),
+        _script(WALL, "    before = pose", '    rospy.loginfo("wall")\n    before = pose'),
     ],
     "62.3": [
         _script(CORNERS, "(8, 2), (8, 8), (2, 8)", "(8, 8), (8, 2), (2, 8)"),
