@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +28,11 @@ TELEOPS = {
     "ours": [*ROSMINI, "rosrun", "turtlebot3_teleop", "turtlebot3_teleop_key"],
     "real": [SYSTEM_PYTHON, TELEOP],
 }
+
+
+CHAPTER = Path(__file__).parents[3] / "notebooks/63_many_machines.ipynb"
+TURTLES = {"master_turtle": "10.77.0.1", "node1_turtle": "10.77.0.2"}
+"""The turtlesims of chapter 63, and where they run in its listings."""
 
 
 class Site(Stage):
@@ -109,6 +116,56 @@ def test_one_teleop_drives_two_simulators_on_two_hosts(site: Site, hosts: Hosts,
     drivers = dict(watcher.ask("state", "getSystemState")[2][0])["/cmd_vel"]
     assert drivers == ["/turtlebot3_teleop"]
     for child in (*children, teleop):
+        child.interrupt()
+
+
+def plain(text: str) -> str:
+    """Replace what is another on each run: times and ports."""
+    return re.sub(r"\[\d+\.\d+\]", "[TIME]", re.sub(r"(//[\d.]+):\d+/", r"\1:PORT/", text))
+
+
+def listings() -> str:
+    """The console listings of chapter 63, without times and ports."""
+    text = "\n".join(
+        "".join(cell["source"]) for cell in json.loads(CHAPTER.read_text(encoding="utf-8"))["cells"]
+    )
+    return plain("\n".join(re.findall(r"^```console\n(.*?)^```", text, re.DOTALL | re.MULTILINE)))
+
+
+def test_one_teleop_drives_two_turtles_as_chapter_63_shows(site: Site, hosts: Hosts, watcher: Peer) -> None:
+    """One turtlesim beside the Master, one on another host, and a teleop; each prints what the chapter lists."""
+    shown = listings()
+    at = dict(zip(TURTLES, (hosts.a, hosts.b), strict=True))
+
+    def as_listed(text: str) -> str:
+        for name, address in TURTLES.items():
+            text = text.replace(at[name].address, address)
+        return plain(text)
+
+    turtles = []
+    for name, host in at.items():
+        words = [*ROSMINI, "rosrun", "turtlesim", "turtlesim_node", f"__name:={name}"]
+        turtle: Child = site.start(name, words, {"ROS_IP": host.address}, within=host.within)
+        turtle.wait_for("Spawning turtle .*\n")
+        turtles.append(turtle)
+    words = [*ROSMINI, "rosrun", "turtlesim", "turtle_teleop_key"]
+    teleop: Child = site.start("turtle_keys", words, {"ROS_IP": hosts.a.address}, within=hosts.a.within)
+    teleop.wait_for("'q' to quit.\n")
+    for child in (*turtles, teleop):
+        assert as_listed(child.output) in shown
+    listed, _ = ask(site, hosts.b, *ROSMINI, "rosnode", "list", "-a")
+    rows = [
+        line for line in as_listed(listed).splitlines() if line.split("/")[-1] in {*TURTLES, "teleop_turtle"}
+    ]
+    assert len(rows) == 3
+    assert all(row in shown.splitlines() for row in rows)
+    # Both publish on one topic with poses, so its own wall tells where a turtle is: three keys away, of which one that
+    # is connected late misses some.
+    teleop.process.stdin.write("A" * 30)
+    teleop.process.stdin.flush()
+    for turtle in turtles:
+        turtle.wait_for("Oh no! I hit the wall!")
+    for child in (teleop, *turtles):
         child.interrupt()
 
 
