@@ -1,8 +1,9 @@
 """Each chapter comes out the same on each run, and on another machine.
 
-It runs twice, in fresh kernels that order sets and hash strings differently. The second has no vector units beyond the
-least that numpy needs (its functions differ in the last bit between them) and casts the laser's rays in numpy instead
-of numba.
+Its stored outputs are of one run, and nbval compares a second one. This is a third, on the plainest machine: a kernel
+that orders sets and hashes strings differently, has no vector units beyond the least that numpy needs (its functions
+differ in the last bit between them), and casts the laser's rays in numpy instead of numba. The bytes of pictures, which
+nbval does not compare, are the same, too.
 """
 
 from __future__ import annotations
@@ -36,17 +37,13 @@ def plain_machine() -> dict[str, str]:
 
 
 @pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
-def test_a_chapter_run_twice_gives_its_stored_outputs_twice(
+def test_a_chapter_gives_its_stored_outputs_on_another_machine(
     path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     stored = notebooks.read(path)
-    runs = []
-    for environment in ({"PYTHONHASHSEED": "1"}, {"PYTHONHASHSEED": "2", **plain_machine()}):
-        for name, value in environment.items():
-            monkeypatch.setenv(name, value)
-        notebook = copy.deepcopy(stored)
-        notebooks.execute(notebook, path.parent)
-        notebooks.clean(notebook)
-        runs.append(outputs(notebook))
-    assert runs[0] == runs[1]
-    assert runs[0] == outputs(stored)
+    for name, value in {"PYTHONHASHSEED": "2", **plain_machine()}.items():
+        monkeypatch.setenv(name, value)
+    notebook = copy.deepcopy(stored)
+    notebooks.execute(notebook, path.parent)
+    notebooks.clean(notebook)
+    assert outputs(notebook) == outputs(stored)
