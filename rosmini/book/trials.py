@@ -129,6 +129,11 @@ class TurtleTrial(Trial):
         with redirect_stdout(io.StringIO()):
             super().run(seconds)
 
+    def spawn(self, name: str, x: float, y: float, theta: float = 0.0) -> None:
+        """Put another turtle into the window."""
+        with redirect_stdout(io.StringIO()):
+            self.sim.spawn(x, y, theta, name)
+
     @property
     def sim(self) -> TurtleSim:
         """The only turtlesim. Raises `TurtleError` if there is none, or more than one."""

@@ -1,0 +1,53 @@
+"""Chapter 61: its size, its figures, and what its cells say."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from book.tools import notebooks
+
+from .conftest import NOTEBOOKS, assert_figures_are_numbered
+
+CHAPTER = NOTEBOOKS / "61_turtlesim_topics.ipynb"
+
+
+@pytest.fixture(scope="module")
+def cells():
+    return notebooks.read(CHAPTER).cells
+
+
+def printed(cells, start):
+    """What the cell with this text in it has printed."""
+    [cell] = [cell for cell in cells if cell.cell_type == "code" and start in cell.source]
+    return "".join(output.get("text", "") for output in cell.outputs)
+
+
+def test_it_is_as_short_as_a_chapter_has_to_be(cells):
+    before = []
+    for cell in cells:
+        text, exercises, _ = cell.source.partition("\n## Exercises\n")
+        before.append((cell.cell_type, text))
+        if exercises:
+            break
+    words = re.findall(r"\S*\w\S*", "\n".join(text for kind, text in before if kind == "markdown"))
+    assert len(words) <= 2000
+    assert sum(kind == "code" for kind, _ in before) <= 25
+
+
+def test_its_figures_are_numbered():
+    assert_figures_are_numbered("61_turtlesim_topics", (".replay(", ".show(", "%rqt_graph"))
+
+
+def test_each_key_is_one_message_and_a_wrong_name_is_no_error(cells):
+    assert "/turtle1/cmd_vel" in printed(cells, "rostopic list -v")
+    assert "average rate: 62.5" in printed(cells, "rostopic hz")
+    said = printed(cells, "cmd_vell")
+    assert said.count("$ rostopic pub") == 2
+
+
+def test_services_say_what_they_cannot_do(cells):
+    said = printed(cells, "/kill turtle7")
+    assert said.count("ERROR") >= 2
+    assert "11.08" in said
