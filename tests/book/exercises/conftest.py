@@ -6,6 +6,7 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from typing import Any
 
 from book.tools import notebooks
 
@@ -18,6 +19,25 @@ def prose_of(chapter: str) -> str:
     """The text cells of a chapter."""
     cells = notebooks.read(NOTEBOOKS / f"{chapter}.ipynb").cells
     return "\n\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+
+
+def printed(cells: Any, start: str) -> str:
+    """What the cell with this text in it has printed."""
+    [cell] = [cell for cell in cells if cell.cell_type == "code" and start in cell.source]
+    return "".join(output.get("text", "") for output in cell.outputs)
+
+
+def assert_short(cells: Any, words: int = 2000) -> None:
+    """A chapter has so many words and 25 code cells before its exercises, at most (DESIGN, section 7)."""
+    before = []
+    for cell in cells:
+        text, exercises, _ = cell.source.partition("\n## Exercises\n")
+        before.append((cell.cell_type, text))
+        if exercises:
+            break
+    prose = "\n".join(text for kind, text in before if kind == "markdown")
+    assert len(re.findall(r"\S*\w\S*", prose)) <= words
+    assert sum(kind == "code" for kind, _ in before) <= 25
 
 
 def figure_numbers(chapter: str) -> list[int]:

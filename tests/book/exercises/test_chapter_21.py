@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import re
-
 import pytest
 
 from book.tools import notebooks
 
-from .conftest import NOTEBOOKS, assert_figures_are_numbered, prose_of
+from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, printed, prose_of
 
 CHAPTER = NOTEBOOKS / "21_rviz.ipynb"
 
@@ -18,22 +16,8 @@ def cells():
     return notebooks.read(CHAPTER).cells
 
 
-def printed(cells, start):
-    """What the cell with this text in it has printed."""
-    [cell] = [cell for cell in cells if cell.cell_type == "code" and start in cell.source]
-    return "".join(output.get("text", "") for output in cell.outputs)
-
-
 def test_it_is_as_short_as_a_chapter_has_to_be(cells):
-    before = []
-    for cell in cells:
-        text, exercises, _ = cell.source.partition("\n## Exercises\n")
-        before.append((cell.cell_type, text))
-        if exercises:
-            break
-    words = re.findall(r"\S*\w\S*", "\n".join(text for kind, text in before if kind == "markdown"))
-    assert len(words) <= 2000
-    assert sum(kind == "code" for kind, _ in before) <= 25
+    assert_short(cells)
 
 
 def test_its_figures_are_numbered():
