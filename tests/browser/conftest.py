@@ -81,10 +81,15 @@ class Watcher:
 
     def __init__(self, page) -> None:
         self.seen: list[str] = []
-        page.on("console", lambda message: self.seen.append(f"console {message.type}: {message.text}"))
+        page.on("console", self.console)
         page.on("pageerror", lambda error: self.seen.append(f"error: {error}"))
         page.on("requestfailed", lambda request: self.seen.append(f"failed: {request.url}"))
         page.on("request", self.request)
+
+    def console(self, message) -> None:
+        # Reading a picture back out of a software renderer, as a screenshot does, is slow, and it says so.
+        if "GPU stall due to ReadPixels" not in message.text:
+            self.seen.append(f"console {message.type}: {message.text}")
 
     def request(self, request) -> None:
         if not request.url.startswith(("file:", "data:", "blob:")):

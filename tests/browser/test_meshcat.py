@@ -117,8 +117,7 @@ def open_page(webgl, watch, site):
     yield open_page
     for page, watcher in pages:
         page.close()
-        # Reading the picture back out of a software renderer is slow, and it says so.
-        assert [seen for seen in watcher.seen if "GPU stall due to ReadPixels" not in seen] == []
+        assert watcher.seen == []
 
 
 def pixels(page, selector="iframe"):
