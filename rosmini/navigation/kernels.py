@@ -1,0 +1,30 @@
+"""The loops of navigation that are machine code: compiled on first use, and all at once before tests run in parallel.
+
+Each is plain Python in its own module, which is what runs without numba. There are few, since each first user pays for
+compiling them; numba's cache keeps them afterwards.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+KERNELS: tuple[str, ...] = ()
+"""`module:function` of the functions that return a kernel: compiled, or without numba as it is."""
+
+
+@cache
+def kernel(name: str) -> Callable[..., Any]:
+    """A kernel of `KERNELS`, by its name."""
+    module, _, function = name.partition(":")
+    made: Callable[..., Any] = getattr(import_module(module), function)()
+    return made
+
+
+def compile_all() -> list[str]:
+    """Compile every kernel, or take it from numba's cache; returns their names."""
+    for name in KERNELS:
+        kernel(name)
+    return list(KERNELS)

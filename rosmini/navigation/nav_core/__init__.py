@@ -1,0 +1,39 @@
+"""What the parts of the Navigation Stack have in common (http://wiki.ros.org/nav_core).
+
+Three interfaces, whose plugins `move_base` finds by their ROS names, and the failures with which they say why not.
+"""
+
+from __future__ import annotations
+
+from .failures import (
+    BadGoal,
+    ControlFailure,
+    GoalBlocked,
+    NavigationFailure,
+    NoPath,
+    NoValidCommand,
+    OutsideMap,
+    PlanningFailure,
+    StartBlocked,
+    TransformMissing,
+)
+from .interfaces import BaseGlobalPlanner, BaseLocalPlanner, RecoveryBehavior
+from .poses import planar_pose, pose_stamped
+
+__all__ = [
+    "BadGoal",
+    "BaseGlobalPlanner",
+    "BaseLocalPlanner",
+    "ControlFailure",
+    "GoalBlocked",
+    "NavigationFailure",
+    "NoPath",
+    "NoValidCommand",
+    "OutsideMap",
+    "PlanningFailure",
+    "RecoveryBehavior",
+    "StartBlocked",
+    "TransformMissing",
+    "planar_pose",
+    "pose_stamped",
+]

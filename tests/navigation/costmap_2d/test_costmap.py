@@ -1,0 +1,73 @@
+"""The grid of costs: cells and metres, and a window that moves over its lattice."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rosmini.navigation.costmap_2d import NO_INFORMATION, Costmap2D
+from rosmini.navigation.costmap_2d.costmap import CostmapError
+
+
+def numbered() -> Costmap2D:
+    return Costmap2D.of(np.arange(12).reshape(3, 4), 0.5, (-1.0, 2.0))
+
+
+def test_cells_are_named_column_first_from_the_lower_left_corner():
+    grid = numbered()
+    assert (grid.width, grid.height, grid.size_m) == (4, 3, (2.0, 1.5))
+    assert grid.cost(1, 2) == grid.costs[2, 1] == 9
+    assert grid.world_to_map(-1.0, 2.0) == (0, 0)
+    assert grid.map_to_world(0, 0) == (-0.75, 2.25)
+    assert grid.world_to_map(0.99, 3.49) == (3, 2)
+
+
+@pytest.mark.parametrize("point", [(-1.01, 2.0), (1.0, 2.0), (0.0, 1.99), (0.0, 3.5)])
+def test_outside_is_no_cell(point):
+    grid = numbered()
+    assert grid.world_to_map(*point) is None
+    mx, my = grid.world_to_map_clamped(*point)
+    assert grid.cost(mx, my) in grid.costs
+    with pytest.raises(IndexError, match="outside a costmap of 4 x 3 cells"):
+        grid.cost(*grid.world_to_map_no_bounds(*point))
+
+
+@given(st.integers(0, 3), st.integers(0, 2))
+def test_the_middle_of_a_cell_lies_in_it(mx, my):
+    assert numbered().world_to_map(*numbered().map_to_world(mx, my)) == (mx, my)
+
+
+@given(st.integers(-6, 6), st.integers(-6, 6), st.floats(0.001, 0.499), st.floats(0.001, 0.499))
+def test_what_stays_in_the_window_keeps_its_cost_and_its_place(dx, dy, more_x, more_y):
+    grid, before = numbered(), numbered()
+    grid.default = NO_INFORMATION
+    assert grid.move_origin(-1.0 + dx * 0.5 + more_x, 2.0 + dy * 0.5 + more_y) == (dx, dy)
+    assert grid.costs.shape == before.costs.shape
+    for my in range(3):
+        for mx in range(4):
+            there = before.world_to_map(*grid.map_to_world(mx, my))
+            assert grid.cost(mx, my) == (NO_INFORMATION if there is None else before.cost(*there))
+
+
+@pytest.mark.parametrize(
+    ("numbers", "said"),
+    [
+        ((3, 3, 0.0), "the resolution is 0.0"),
+        ((3, 3, math.nan), "the resolution is nan"),
+        ((-1, 3, 1.0), "a costmap of -1 x 3 cells"),
+        ((100_000, 100_000, 1.0), "no more than 100,000,000"),
+        ((3, 3, 1.0, (math.inf, 0.0)), "the origin of a costmap is"),
+    ],
+)
+def test_numbers_that_make_no_grid_are_refused(numbers, said):
+    with pytest.raises(CostmapError, match=said):
+        Costmap2D(*numbers)
+
+
+def test_costs_have_to_be_a_table():
+    with pytest.raises(CostmapError, match=r"the shape \(3,\)"):
+        Costmap2D.of([1, 2, 3])
