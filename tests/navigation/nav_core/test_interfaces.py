@@ -17,7 +17,7 @@ def test_a_planner_is_found_by_its_name_and_knows_its_costmap():
     planner.initialize("StraightPlanner", "the costmap")
     assert (planner.name, planner.costmap) == ("StraightPlanner", "the costmap")
     assert planner.make_plan(1, 2) == [1, 2]
-    with pytest.raises(PluginError, match="did you mean 'my_pkg/StraightPlanner'"):
+    with pytest.raises(PluginError, match="did you mean my_pkg/StraightPlanner"):
         BaseGlobalPlanner.create("my_pkg/StraitPlanner")
 
 
