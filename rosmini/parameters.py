@@ -16,7 +16,7 @@ list, for dictionaries; or a union of these. A parameter whose type allows None 
 from __future__ import annotations
 
 import types
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import Field, dataclass, field, fields
 from typing import TYPE_CHECKING, Any, ClassVar, Self, Union, get_args, get_origin, get_type_hints
 
@@ -54,10 +54,12 @@ class Place:
     name: str
     label: str
     owner: str
+    warn: Callable[[str], object] | None = None
+    """Where to tell of unknown names that are only warned of."""
 
     def inside(self, name: str) -> Place:
         """A namespace in this one."""
-        return Place(f"{self.name}/{name}", f"{self.label}{name}/", self.owner)
+        return Place(f"{self.name}/{name}", f"{self.label}{name}/", self.owner, self.warn)
 
 
 @dataclass(frozen=True)
@@ -67,6 +69,9 @@ class Parameters:
     allowed: ClassVar[tuple[str, ...]] = ()
     """Names that may be set beside the parameters, because somebody else reads them."""
 
+    tolerant: ClassVar[bool] = False
+    """Whether an unknown name is only warned of, as it suits files written for several releases of a real package."""
+
     def others(self) -> Iterable[str]:
         """Further such names, where they depend on the values of parameters: those of plugins, for example."""
         return ()
@@ -75,12 +80,12 @@ class Parameters:
     def read(cls, node: Node, namespace: str = "~", /, **given: Any) -> Self:
         """The parameters set in a namespace, the node's private one by default; those `given` take precedence.
 
-        Raises `ParameterError`, which names the parameter, for a wrong type, a value out of range, and an unknown name.
-        Nothing changes on the Parameter Server.
+        Raises `ParameterError`, which names the parameter, for a wrong type, a value out of range, and an unknown name
+        (a `tolerant` class: the node warns of it). Nothing changes on the Parameter Server.
         """
         name = node.resolve_parameter(namespace)
         label = "~" if namespace == "~" else namespace.rstrip("/") + "/"
-        values = _read(cls, node.get_param(name, {}), Place(name.rstrip("/"), label, node.name))
+        values = _read(cls, node.get_param(name, {}), Place(name.rstrip("/"), label, node.name, node.logwarn))
         return cls(**{**values, **{name: value for name, value in given.items() if value is not None}})
 
     @classmethod
@@ -119,8 +124,12 @@ def _read(cls: type[Parameters], tree: Any, place: Place) -> dict[str, Any]:
     unknown = [name for name in tree if name not in declared and name not in cls.allowed]
     others = set(cls(**values).others()) if unknown else ()
     for name in unknown:
-        if name not in others:
-            raise ParameterError(_unknown(name, list(declared), place))
+        if name in others:
+            continue
+        problem = _unknown(name, list(declared), place)
+        if not cls.tolerant or place.warn is None:
+            raise ParameterError(problem)
+        place.warn(problem)
     return values
 
 
@@ -155,7 +164,8 @@ def _converted(value: Any, declared: Field[Any], kind: Any, place: Place) -> Any
 
 
 def _element(place: Place, number: int) -> Place:
-    return Place(f"{place.name}[{number}]", f"{place.label.rstrip('/')}[{number}]/", place.owner)
+    label = f"{place.label.rstrip('/')}[{number}]/"
+    return Place(f"{place.name}[{number}]", label, place.owner, place.warn)
 
 
 def _check_range(name: str, about: Mapping[str, Any], value: Any) -> None:

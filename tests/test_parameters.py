@@ -309,3 +309,15 @@ def test_the_table_of_namespaces_and_lists():
         "how far costs reach",
     )
     assert {row[0]: row for row in Amcl.table()}["~initial_cov"][2] == "[0.25, 0.25]"
+
+
+def test_a_tolerant_class_warns_of_what_it_does_not_know(node, capsys):
+    @dataclass(frozen=True)
+    class Lenient(Parameters):
+        tolerant = True
+        reset_distance: float = parameter(3.0, "a side")
+
+    node.set_param("~", {"reset_distanze": 2, "reset_distance": 1.5})
+    assert Lenient.read(node).reset_distance == 1.5
+    assert "/worker/reset_distanze" in (said := capsys.readouterr().err)
+    assert "did you mean ~reset_distance?" in said

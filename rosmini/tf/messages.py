@@ -52,7 +52,8 @@ def transform_of(stamped: Any) -> Rigid:
     return rigid(found[:3], found[3:])
 
 
-def _pose(pose: Any) -> Rigid:
+def from_pose(pose: Any) -> Rigid:
+    """A `geometry_msgs/Pose`. Raises `InvalidArgumentException` if its quaternion has no length."""
     where, turn = pose.position, pose.orientation
     return rigid((where.x, where.y, where.z), (turn.x, turn.y, turn.z, turn.w))
 
@@ -69,11 +70,15 @@ def _vector(message: Any, transform: Rigid) -> None:
     _set(message.vector, rotate(transform, (message.vector.x, message.vector.y, message.vector.z)))
 
 
-def _move_pose(pose: Any, transform: Rigid) -> None:
-    moved = compose(transform, _pose(pose))
-    _set(pose.position, moved[:3])
+def set_pose(pose: Any, transform: Rigid) -> None:
+    """Write a transform into a `geometry_msgs/Pose`."""
+    _set(pose.position, transform[:3])
     turn = pose.orientation
-    turn.x, turn.y, turn.z, turn.w = moved[3:]
+    turn.x, turn.y, turn.z, turn.w = transform[3:]
+
+
+def _move_pose(pose: Any, transform: Rigid) -> None:
+    set_pose(pose, compose(transform, from_pose(pose)))
 
 
 def _quaternion(message: Any, transform: Rigid) -> None:

@@ -1,0 +1,119 @@
+"""`fake_localization/fake_localization` (http://wiki.ros.org/fake_localization).
+
+It stands in for amcl where the truth is known, in a simulator: from `base_pose_ground_truth` it says where odom is in
+the map, on `/tf`, and where the robot is, on `amcl_pose` and `particlecloud`. A pose on `initialpose` (RViz's *2D Pose
+Estimate*) moves the map so that the robot is there.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from rosmini.msgs import message_class
+from rosmini.parameters import Parameters, parameter
+from rosmini.tf import TransformBroadcaster, TransformException, TransformListener
+from rosmini.tf.broadcaster import resolve, tf_prefix
+from rosmini.tf.messages import from_pose, set_pose
+from rosmini.tf.rigid import Rigid, compose
+from rosmini.time import Duration
+
+from .localization import moved_offset, odom_in_map, offset
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+WAITING = 100
+"""The number of true poses that wait for the odometry's transform at their time."""
+
+
+@dataclass(frozen=True)
+class FakeLocalizationParameters(Parameters):
+    """The private parameters of `fake_localization/fake_localization`."""
+
+    odom_frame_id: str = parameter("odom", "the frame of the odometry")
+    base_frame_id: str = parameter("base_link", "the frame of the robot's base")
+    global_frame_id: str = parameter("map", "the frame of the map")
+    delta_x: float = parameter(0.0, "x of the map's origin in the frame of the true poses", unit="m")
+    delta_y: float = parameter(0.0, "y of the map's origin in the frame of the true poses", unit="m")
+    delta_yaw: float = parameter(
+        0.0, "heading of the map's origin in the frame of the true poses", unit="rad"
+    )
+    transform_tolerance: float = parameter(
+        0.1, "by so much the transform from map to odom is dated in the future", unit="s"
+    )
+
+
+class FakeLocalization:
+    """Tell the truth about where a robot is, in the form of amcl."""
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+        own = FakeLocalizationParameters.read(node)
+        prefix = tf_prefix(node)
+        self.map_frame, self.odom_frame, self.base_frame = (
+            resolve(prefix, frame) for frame in (own.global_frame_id, own.odom_frame_id, own.base_frame_id)
+        )
+        self._tolerance = Duration.from_sec(own.transform_tolerance)
+        self._offset = offset(own.delta_x, own.delta_y, own.delta_yaw)
+        self._waiting: deque[Any] = deque(maxlen=WAITING)
+        self.buffer = TransformListener(node).buffer
+        self._broadcaster = TransformBroadcaster(node)
+        posed = message_class("geometry_msgs/PoseWithCovarianceStamped")
+        self._pose = node.publisher("amcl_pose", posed, queue_size=1, latch=True)
+        self._cloud_type = message_class("geometry_msgs/PoseArray")
+        self._cloud = node.publisher("particlecloud", self._cloud_type, queue_size=1, latch=True)
+        self._pose_type = posed
+        odometry = message_class("nav_msgs/Odometry")
+        # After the listener's: what waited for the transform goes on as soon as it is there.
+        node.subscriber("/tf", message_class("tf2_msgs/TFMessage"), lambda _: self._catch_up(), numpy=False)
+        node.subscriber("base_pose_ground_truth", odometry, self._truth, queue_size=WAITING)
+        node.subscriber("initialpose", posed, self._move_map, queue_size=1)
+
+    def _truth(self, message: Any) -> None:
+        """Take a true pose, which may have to wait for the odometry's transform at its time."""
+        self._waiting.append(message)
+        self._catch_up()
+
+    def _catch_up(self) -> None:
+        """Localise by the newest pose that has its transform; older ones are of no use any more."""
+        for index in reversed(range(len(self._waiting))):
+            message = self._waiting[index]
+            stamp = message.header.stamp.to_nsec()
+            if self.buffer.tree.why_not(self.odom_frame, self.base_frame, stamp) is None:
+                for _ in range(index + 1):
+                    self._waiting.popleft()
+                self._localize(message, stamp)
+                return
+
+    def _localize(self, message: Any, stamp: int) -> None:
+        base = compose(self._offset, from_pose(message.pose.pose))
+        odom = self.buffer.tree.lookup(self.odom_frame, self.base_frame, stamp).transform
+        self._broadcaster.send_rigid(
+            self.map_frame, self.odom_frame, odom_in_map(base, odom), message.header.stamp + self._tolerance
+        )
+        self._publish(message, base)
+
+    def _publish(self, message: Any, base: Rigid) -> None:
+        posed, cloud = self._pose_type(), self._cloud_type()
+        for each in (posed, cloud):
+            each.header.stamp, each.header.frame_id = message.header.stamp, self.map_frame
+        set_pose(posed.pose.pose, base)
+        cloud.poses = [posed.pose.pose]
+        self._pose.publish(posed)
+        self._cloud.publish(cloud)
+
+    def _move_map(self, message: Any) -> None:
+        frame = message.header.frame_id.lstrip("/")
+        if frame != self.map_frame:
+            self.node.logwarn(
+                f'Frame ID of "initialpose" ({frame}) is different from the global frame {self.map_frame}'
+            )
+        try:
+            # The latest: where the robot was believed to be when the pose was drawn may not be known any more.
+            base = self.buffer.tree.lookup(self.map_frame, self.base_frame, 0).transform
+        except TransformException as error:
+            self.node.logwarn(f"Failed to lookup transform! {error}")
+            return
+        self._offset = moved_offset(self._offset, from_pose(message.pose.pose), base)

@@ -1,0 +1,137 @@
+"""`move_slow_and_clear/MoveSlowAndClear` (http://wiki.ros.org/move_slow_and_clear).
+
+It clears a square around the robot in the obstacle layers, and limits the local planner's speeds by its
+dynamic_reconfigure until the robot has driven `limited_distance`.
+
+The original takes layers with "obstacles" in their names, so with ROBOTIS's files, whose layer is obstacle_layer, it
+clears nothing; this one takes those whose names begin with "obstacle" or "voxel".
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import ServiceException
+from rosmini.msgs import message_class, service_class
+from rosmini.navigation.nav_core import RecoveryBehavior, TransformMissing, planar_pose
+from rosmini.parameters import Parameters, parameter
+
+if TYPE_CHECKING:
+    from rosmini.graph.clock import Timer
+
+CHECK_PERIOD = 0.1
+"""How often it looks how far the robot has driven [s]."""
+
+CLEARED = ("obstacle", "voxel")
+"""What the names of the layers begin with that it clears."""
+
+
+@dataclass(frozen=True)
+class MoveSlowAndClearParameters(Parameters):
+    """The parameters of a `move_slow_and_clear/MoveSlowAndClear`, in `~NAME/`."""
+
+    tolerant = True
+
+    clearing_distance: float = parameter(0.5, "half the side of the square that is cleared", unit="m")
+    limited_trans_speed: float = parameter(0.25, "the limited speed", unit="m/s")
+    limited_rot_speed: float = parameter(0.45, "the limited speed of turns", unit="rad/s")
+    limited_distance: float = parameter(
+        0.3, "after this distance, as the crow flies, the limit ends", unit="m"
+    )
+    planner_namespace: str = parameter("DWAPlannerROS", "the local planner, below the node's name")
+    max_trans_param_name: str = parameter("max_vel_trans", "what the planner calls its highest speed")
+    max_rot_param_name: str = parameter("max_vel_theta", "what it calls its fastest turn")
+
+
+class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAndClear"):
+    """Clear what is near, and get on with care."""
+
+    def initialize(self, name: str, buffer: Any, global_costmap: Any, local_costmap: Any) -> None:
+        """Read the parameters in `~name/`."""
+        super().initialize(name, buffer, global_costmap, local_costmap)
+        self.node = local_costmap.node
+        self.parameters = own = MoveSlowAndClearParameters.read(self.node, f"~{name}")
+        self._planner = f"~{own.planner_namespace}/"
+        self._reconfigure = self.node.service_client(
+            f"{self._planner}set_parameters", service_class("dynamic_reconfigure/Reconfigure")
+        )
+        self._double = message_class("dynamic_reconfigure/DoubleParameter")
+        self._config = message_class("dynamic_reconfigure/Config")
+        self._old: tuple[float, float] | None = None
+        self._start = (0.0, 0.0)
+        self._timer: Timer | None = None
+
+    def run_behavior(self) -> None:
+        """Clear the square, and limit the speeds until the robot has left where it is now."""
+        self.node.logwarn("Move slow and clear recovery behavior started.")
+        try:
+            for costmap in (self.global_costmap, self.local_costmap):
+                self._clear(costmap)
+            self._start = self._here()
+        except TransformMissing as error:
+            self.node.logerr(f"Cannot clear map because pose cannot be retrieved: {error}")
+            return
+        own = self.parameters
+        if self._old is None:
+            self._old = self._limits()
+        if self._old is None or not self._set_speeds(own.limited_trans_speed, own.limited_rot_speed):
+            return
+        if self._timer is None:
+            self._timer = self.node.timer(CHECK_PERIOD, lambda _: self._check_distance())
+
+    def _here(self) -> tuple[float, float]:
+        x, y, _ = planar_pose(self.global_costmap.robot_pose())
+        return x, y
+
+    def _clear(self, costmap: Any) -> None:
+        x, y, _ = planar_pose(costmap.robot_pose())
+        far = self.parameters.clearing_distance
+        for layer in costmap.layers:
+            if layer.name.rpartition("/")[2].startswith(CLEARED):
+                x0, y0 = layer.grid.world_to_map_no_bounds(x - far, y - far)
+                x1, y1 = layer.grid.world_to_map_no_bounds(x + far, y + far)
+                layer.clear_area(x0, y0, x1, y1, True)
+
+    def _limits(self) -> tuple[float, float] | None:
+        """The planner's own limits [m/s, rad/s]; None, and an error in the log, if it has no such parameters."""
+        own = self.parameters
+        names = [self._planner + each for each in (own.max_trans_param_name, own.max_rot_param_name)]
+        for name in names:
+            if not self.node.has_param(name):
+                self.node.logerr(
+                    f"The planner {own.planner_namespace} does not have the parameter {name}: no speed is limited. "
+                    f"~{self.name}/planner_namespace, max_trans_param_name and max_rot_param_name name it"
+                )
+                return None
+        fast, turning = (float(self.node.get_param(name)) for name in names)
+        return fast, turning
+
+    def _set_speeds(self, speed: float, turn: float) -> bool:
+        own = self.parameters
+        doubles = [
+            self._double(name=own.max_trans_param_name, value=speed),
+            self._double(name=own.max_rot_param_name, value=turn),
+        ]
+        try:
+            self._reconfigure(config=self._config(doubles=doubles))
+        except ServiceException as error:
+            self.node.logerr(f"Something went wrong in the service call to dynamic_reconfigure: {error}")
+            return False
+        self.node.loginfo(f"Recovery setting trans vel: {speed:g}")
+        self.node.loginfo(f"Recovery setting rot vel: {turn:g}")
+        return True
+
+    def _check_distance(self) -> None:
+        try:
+            gone = math.dist(self._start, self._here())
+        except TransformMissing:
+            return
+        if gone < self.parameters.limited_distance or self._timer is None or self._old is None:
+            return
+        self.node.loginfo("Moved far enough, removing speed limit.")
+        self._timer.shutdown()
+        self._timer = None
+        old, self._old = self._old, None
+        self._set_speeds(*old)
