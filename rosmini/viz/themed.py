@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
@@ -46,10 +46,13 @@ _DEFAULTS = {
 _OURS = {"#000000": style.LIGHT["ink"], "#ffffff": style.LIGHT["page"]}
 
 
-def themed_svg(svg: str, *, title: str, alt: str, adapt: bool = False) -> str:
+def themed_svg(
+    svg: str, *, title: str, alt: str, adapt: bool = False, under: str = "", steady: Collection[str] = ()
+) -> str:
     """The SVG that matplotlib wrote with `svg.fonttype` "none", rewritten. A point of the figure becomes a CSS pixel.
 
-    With `adapt` colours beside the palette are lighter on dark pages; else they stay as they are.
+    With `adapt` colours beside the palette are lighter on dark pages; else they stay as they are. `under` are elements
+    below all others; the colours of the palette that are `steady` do not change with the page.
     """
     root = fromstring(svg[svg.index("<svg") :])
     names = _new_names(root)
@@ -69,7 +72,8 @@ def themed_svg(svg: str, *, title: str, alt: str, adapt: bool = False) -> str:
         if colour in others
     )
     width, height = (float(side) for side in root.attrib["viewBox"].split()[2:])
-    drawn = element("g", body, stroke_linejoin="round")
+    light = style.declarations(style.LIGHT, list(steady)) if steady else None
+    drawn = element("g", under + body, stroke_linejoin="round", style=light)
     return document(
         drawn,
         width=width,

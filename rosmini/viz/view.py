@@ -188,13 +188,16 @@ def matplotlib_picture(
     dpi: float = 110.0,
     caption: str | None = None,
     adapt: bool = False,
+    under: str = "",
+    steady: Collection[str] = (),
 ) -> Picture:
     """A picture of a matplotlib figure, with no date and no random ids in it.
 
     As SVG it follows the theme of its page where it uses the colours of `rosmini.viz.style.LIGHT`, black or white
-    (see `rosmini.viz.themed`), and with `adapt` also where it uses others; text is laid out for DejaVu Sans. As PNG it
-    has `dpi` dots an inch. The figure is not shown by Jupyter's inline backend as well if it was made with
-    `matplotlib.figure.Figure`.
+    (see `rosmini.viz.themed`), and with `adapt` also where it uses others; text is for DejaVu Sans. `under` are
+    SVG elements that lie below all others, such as the image of a map, and `steady` the colours of the palette that
+    are as on a light page for that. As PNG it has `dpi` dots an inch. The figure is not shown by Jupyter's inline
+    backend as well if it was made with `matplotlib.figure.Figure`.
 
     Raises:
         ViewError: the alt text or the text form is empty.
@@ -212,5 +215,6 @@ def matplotlib_picture(
         figure.savefig(file, format=form, dpi=dpi, metadata=metadata)
     if form == "png":
         return Picture(file.getvalue(), text=text, alt=alt, caption=caption)
-    svg = themed_svg(file.getvalue().decode(), title=text.partition("\n")[0], alt=alt, adapt=adapt)
+    title = text.partition("\n")[0]
+    svg = themed_svg(file.getvalue().decode(), title=title, alt=alt, adapt=adapt, under=under, steady=steady)
     return Picture(svg, text=text, alt=alt, caption=caption)

@@ -120,7 +120,7 @@ class Other:
     def checked(self) -> Other:
         """Itself, if it can be drawn. Raises `ViewError`."""
         what = f"of the robot {self.name!r}"
-        trail = None if self.trail is None else _line(self.trail, f"the trail {what}")
+        trail = None if self.trail is None else line_of(self.trail, f"the trail {what}")
         return replace(self, pose=pose_of(self.pose, f"the pose {what}"), trail=trail)
 
 
@@ -168,8 +168,8 @@ class Scene:
             several = np.ndim(each) == 2
             first = pose_of(each[0] if several else each, "the pose of a scan")
             self.look(beams_of(scan, self.model.laser), first, each if several else None)
-        self.trail = None if trail is None else _line(trail, "trail")
-        self.odom = None if odom is None else _line(odom, "odom")
+        self.trail = None if trail is None else line_of(trail, "trail")
+        self.odom = None if odom is None else line_of(odom, "odom")
         self.others, self.name = [other.checked() for other in others], name
 
     def look(self, beams: Beams, robot: Pose, each: Floats | None) -> None:
@@ -414,7 +414,8 @@ def pose_of(given: Sequence[float], what: str) -> Pose:
     return (x, y, heading)
 
 
-def _line(given: ArrayLike, what: str) -> Floats:
+def line_of(given: ArrayLike, what: str) -> Floats:
+    """Points (n, 2) or (n, 3) as an array. Raises `ViewError` if they are none."""
     try:
         line = np.array(given, dtype=float)
     except (TypeError, ValueError) as error:

@@ -5,8 +5,6 @@ The map is what `map_saver` would make: cells of 5 cm, occupied where something 
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -89,7 +87,7 @@ def draw() -> GridMap:
     cells = np.where(within, 0, -1).astype(np.int8)
     for thing in things():
         cells[_covered(thing, centres)] = 100
-    return GridMap(cells.reshape(rows, columns), RESOLUTION, (left, low, 0.0), Path("floor.yaml"))
+    return GridMap(cells.reshape(rows, columns), RESOLUTION, (left, low, 0.0))
 
 
 def _at(x: float, y: float, theta: float = 0.0) -> Pose:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from rosmini.navigation.map_server import GridMap
+from rosmini.navigation.map_server.map_saving import pixels_of
 
 
 def write_map(grid: GridMap, yaml_path: Path) -> list[Path]:
@@ -14,8 +13,7 @@ def write_map(grid: GridMap, yaml_path: Path) -> list[Path]:
     from PIL import Image
 
     image = yaml_path.with_suffix(".png")
-    pixels = np.select([grid.free, grid.occupied], [254, 0], 205).astype(np.uint8)
-    Image.fromarray(pixels[::-1]).save(image, optimize=True)
+    Image.fromarray(pixels_of(grid.occupancy)).save(image, optimize=True)
     origin = ", ".join(f"{round(float(value), 6)}" for value in grid.origin)
     yaml_path.write_text(
         f"image: {image.name}\nresolution: {grid.resolution}\norigin: [{origin}]\n"

@@ -19,7 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini import files, images
-from rosmini.errors import RosminiError, nearest, shown
+from rosmini.errors import nearest, shown
+
+from .grid_map import FREE, OCCUPIED, UNKNOWN, GridMap, MapDataError, MapMetadataError, MapMissing
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -30,8 +32,6 @@ MODES: tuple[Mode, ...] = ("trinary", "scale", "raw")
 REQUIRED = ("image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate")
 OPTIONAL = ("mode",)
 
-FREE, OCCUPIED, UNKNOWN = 0, 100, -1
-
 AT_ONCE = 1_000_000
 """So many pixels are computed with at a time: for each it takes many bytes."""
 
@@ -40,43 +40,6 @@ LARGEST_TEXT = 1_000_000
 
 SMALLEST, LARGEST = 1e-6, 1e9
 """Of a cell and of a whole map [m]: what is beyond is a mistake, and cannot be calculated with."""
-
-
-class MapError(RosminiError, ValueError):
-    """A map cannot be read; the message names the file, its line, and the field at fault."""
-
-
-@dataclass(frozen=True, eq=False)
-class GridMap:
-    """A map of square cells, as nav_msgs/OccupancyGrid has it."""
-
-    occupancy: NDArray[np.int8]
-    """(h, w), row 0 at the bottom: 0 free, 100 occupied, between them the probability [%], -1 unknown.
-
-    In the mode raw it is any byte.
-    """
-    resolution: float
-    """The side of a cell [m]."""
-    origin: tuple[float, float, float]
-    """x [m], y [m] and heading [rad] of the lower left corner of cell (0, 0), in the frame of the map."""
-    path: Path
-    """The YAML file it was read from."""
-
-    def __repr__(self) -> str:
-        height, width = self.occupancy.shape
-        return f"<GridMap {self.path.name}: {width} x {height} cells of {self.resolution:g} m>"
-
-    @property
-    def occupied(self) -> NDArray[np.bool_]:
-        """A mask (h, w) of the cells that are surely occupied, as costmap_2d's static layer takes them: 100 or more."""
-        mask: NDArray[np.bool_] = self.occupancy >= OCCUPIED
-        return mask
-
-    @property
-    def free(self) -> NDArray[np.bool_]:
-        """A mask (h, w) of the cells that are surely free."""
-        mask: NDArray[np.bool_] = self.occupancy == FREE
-        return mask
 
 
 @dataclass(frozen=True)
@@ -90,36 +53,6 @@ class _Fields:
     free_thresh: float
     negate: bool
     mode: Mode
-
-
-def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
-    """The map that a YAML file describes. Its image is looked for beside the YAML file, unless its path is absolute.
-
-    Raises `MapError` if a file is not there, or is no YAML or no image; if a field is missing or has a value of another
-    type; if the resolution is not positive, a number not finite, a threshold not between 0 and 1, or `free_thresh`
-    above `occupied_thresh`; and if the image has no pixels or leaves every cell unknown.
-    """
-    path = Path(yaml_path)
-    document = _document(path)
-    fields = _fields(document)
-    image = path.parent / fields.image
-    occupancy = _occupancy(_channels(image, document.place("image")), fields)
-    side = max(occupancy.shape) * fields.resolution
-    if not SMALLEST <= fields.resolution <= side <= LARGEST:
-        most = max(occupancy.shape)
-        wanted = f"the side of a cell in metres, {SMALLEST:g} or more, and with {most} of them no more than {LARGEST:g}"
-        raise _wrong(document, "resolution", fields.resolution, wanted)
-    if fields.mode != "raw" and (occupancy == UNKNOWN).all():
-        raise MapError(
-            f"{path}: every cell of the map is unknown, for no pixel of {image} is darker than occupied_thresh "
-            f"({fields.occupied_thresh:g}) or lighter than free_thresh ({fields.free_thresh:g}) asks for; change the "
-            "image or these fields"
-        )
-    occupancy.flags.writeable = False
-    return GridMap(occupancy, fields.resolution, fields.origin, path)
-
-
-# ---- the YAML file ----
 
 
 @dataclass(frozen=True)
@@ -136,6 +69,79 @@ class _Document:
         return f"{self.path}:{self.lines[name]}" if name in self.lines else str(self.path)
 
 
+@dataclass(frozen=True)
+class MapFile:
+    """The description of a map, checked; its image is not yet read."""
+
+    document: _Document
+    fields: _Fields
+
+    @property
+    def image(self) -> Path:
+        """The image: beside the YAML file, unless its path is absolute."""
+        return self.document.path.parent / self.fields.image
+
+    def load(self) -> GridMap:
+        """The map. Raises `MapError` as `load_map` does."""
+        document, fields = self.document, self.fields
+        occupancy = _occupancy(_channels(self.image, document.place("image")), fields)
+        most = max(occupancy.shape)
+        if not SMALLEST <= fields.resolution <= most * fields.resolution <= LARGEST:
+            bounds = f"{SMALLEST:g} or more, and with {most} of them no more than {LARGEST:g}"
+            wanted = f"the side of a cell in metres, {bounds}"
+            raise _wrong(document, "resolution", fields.resolution, wanted)
+        if fields.mode != "raw" and (occupancy == UNKNOWN).all():
+            raise MapDataError(
+                f"{document.path}: every cell of the map is unknown, for no pixel of {self.image} is darker than "
+                f"occupied_thresh ({fields.occupied_thresh:g}) or lighter than free_thresh ({fields.free_thresh:g}) "
+                "asks for; change the image or these fields"
+            )
+        occupancy.flags.writeable = False
+        return GridMap(occupancy, fields.resolution, fields.origin, document.path)
+
+
+def map_file(yaml_path: str | os.PathLike[str]) -> MapFile:
+    """What a YAML file says of a map. Raises `MapError` as `load_map` does."""
+    document = _document(Path(yaml_path))
+    return MapFile(document, _fields(document))
+
+
+def image_file(
+    path: str | os.PathLike[str],
+    resolution: float,
+    *,
+    negate: int = 0,
+    occupied_thresh: float = 0.65,
+    free_thresh: float = 0.196,
+) -> MapFile:
+    """An image alone as a map, in the mode trinary and with its origin at (0, 0): what map_server once took.
+
+    Raises `MapMetadataError` for numbers that make no map.
+    """
+    image = Path(path)
+    given = {
+        "image": image.name,
+        "resolution": resolution,
+        "origin": [0.0, 0.0, 0.0],
+        "occupied_thresh": occupied_thresh,
+        "free_thresh": free_thresh,
+        "negate": negate,
+    }
+    document = _Document(image, given, {})
+    return MapFile(document, _fields(document))
+
+
+def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
+    """The map that a YAML file describes. Its image is looked for beside the YAML file, unless its path is absolute.
+
+    Raises `MapError`, as `MapMissing` if there is no such file; as `MapMetadataError` if it is no YAML, a field is
+    missing or has a value of another type, the resolution is not positive, a number not finite, a threshold not
+    between 0 and 1, or `free_thresh` above `occupied_thresh`; as `MapDataError` if the image is not there, is none, has
+    no pixels or leaves every cell unknown.
+    """
+    return map_file(yaml_path).load()
+
+
 def _fields(document: _Document) -> _Fields:
     found = document.fields
     missing = [name for name in REQUIRED if name not in found]
@@ -143,8 +149,9 @@ def _fields(document: _Document) -> _Fields:
         unknown = [str(name) for name in found if name not in (*REQUIRED, *OPTIONAL)]
         hints = [hint for name in unknown if (hint := nearest(name, missing))]
         said = f" (it has {', '.join(unknown)}: {' '.join(hints)})" if hints else ""
-        raise MapError(
-            f"{document.path}: the map has no field {missing[0]!r}{said}; it needs {', '.join(REQUIRED)}"
+        raise MapMetadataError(
+            f"{document.path}: the map has no field {missing[0]!r}{said}; it needs {', '.join(REQUIRED)}",
+            missing[0],
         )
     image = found["image"]
     if not isinstance(image, str) or not image:
@@ -157,9 +164,10 @@ def _fields(document: _Document) -> _Fields:
         if not 0 <= value <= 1:
             raise _wrong(document, name, value, "a probability, from 0 to 1")
     if free > occupied:
-        raise MapError(
+        raise MapMetadataError(
             f"{document.place('free_thresh')}: free_thresh ({free:g}) is above occupied_thresh ({occupied:g}), so "
-            "cells would be both; usual are 0.196 and 0.65"
+            "cells would be both; usual are 0.196 and 0.65",
+            "free_thresh",
         )
     negate = found["negate"]
     if isinstance(negate, bool) or negate not in (0, 1):
@@ -180,21 +188,21 @@ def _document(path: Path) -> _Document:
     try:
         text = files.read(path, LARGEST_TEXT).decode("utf-8")
     except FileNotFoundError as error:
-        raise MapError(f"there is no map {path}: {_nearest_file(path)}".rstrip(": ")) from error
+        raise MapMissing(f"there is no map {path}: {_nearest_file(path)}".rstrip(": ")) from error
     except OSError as error:
-        raise MapError(f"the map {path} cannot be read: {error.strerror}") from error
+        raise MapMissing(f"the map {path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise _no_yaml(f"this is not YAML: {error}", str(path), None) from error
     found, root = next(documents(text, str(path), _no_yaml), (None, None))
     if not isinstance(found, dict) or not isinstance(root, yaml.MappingNode):
-        raise MapError(f"{path} is not a map: it has no fields; it needs {', '.join(REQUIRED)}")
+        raise MapMetadataError(f"{path} is not a map: it has no fields; it needs {', '.join(REQUIRED)}")
     lines = {key.value: key.start_mark.line + 1 for key, _ in root.value if isinstance(key, yaml.ScalarNode)}
     return _Document(path, found, lines)
 
 
-def _no_yaml(message: str, path: str, line: int | None) -> MapError:
+def _no_yaml(message: str, path: str, line: int | None) -> MapMetadataError:
     place = path if line is None else f"{path}:{line}"
-    return MapError(f"{place}: {message}. A map is the YAML file, which names the image")
+    return MapMetadataError(f"{place}: {message}. A map is the YAML file, which names the image")
 
 
 def _origin(document: _Document, value: object) -> tuple[float, float, float]:
@@ -215,8 +223,9 @@ def _number(document: _Document, name: str, value: object) -> float:
     return number
 
 
-def _wrong(document: _Document, name: str, value: object, wanted: str) -> MapError:
-    return MapError(f"{document.place(name)}: the field {name!r} is {shown(value)}; it has to be {wanted}")
+def _wrong(document: _Document, name: str, value: object, wanted: str) -> MapMetadataError:
+    said = f"{document.place(name)}: the field {name!r} is {shown(value)}; it has to be {wanted}"
+    return MapMetadataError(said, name)
 
 
 def _nearest_file(path: Path) -> str:
@@ -235,11 +244,13 @@ def _channels(image: Path, place: str) -> NDArray[np.uint8]:
         with images.opened(image) as opened:
             pixels = _eight_bits(opened)
     except FileNotFoundError as error:
-        raise MapError(f"{place}: the field 'image' names {image}, which is not there") from error
+        raise MapDataError(f"{place}: the field 'image' names {image}, which is not there") from error
     except images.ImageError as error:
-        raise MapError(f"{place}: the field 'image' names {image}, which cannot be read: {error}") from error
+        raise MapDataError(
+            f"{place}: the field 'image' names {image}, which cannot be read: {error}"
+        ) from error
     if not pixels.size:
-        raise MapError(f"{place}: the image {image} has no pixels")
+        raise MapDataError(f"{place}: the image {image} has no pixels")
     return pixels[::-1]
 
 
@@ -259,6 +270,10 @@ def _eight_bits(image: Image) -> NDArray[np.uint8]:
 
 
 def _occupancy(pixels: NDArray[np.uint8], fields: _Fields) -> NDArray[np.int8]:
+    if pixels.shape[2] == 1:  # a grey has one meaning, so it is worked out once
+        table = _cells(np.arange(256, dtype=np.uint8).reshape(1, 256, 1), fields)[0]
+        found: NDArray[np.int8] = table[pixels[..., 0]]
+        return found
     cells: NDArray[np.int8] = np.empty(pixels.shape[:2], dtype=np.int8)
     rows = max(1, AT_ONCE // pixels.shape[1])
     for first in range(0, len(pixels), rows):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import deque
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +52,7 @@ def to_map(world: World, resolution: float = 0.05, *, height: float = 0.15) -> G
     occupancy[grid.reached(world.starts)] = 0
     occupancy[grid.taken] = 100
     occupancy.flags.writeable = False
-    return GridMap(occupancy, resolution, (*grid.corner, 0.0), Path(f"{world.name}.yaml"))
+    return GridMap(occupancy, resolution, (*grid.corner, 0.0))
 
 
 class _Grid:

@@ -1,0 +1,148 @@
+"""`map_server/map_server`: a map of a file, for who asks and for who listens (http://wiki.ros.org/map_server).
+
+    rosrun map_server map_server house.yaml
+    rosrun map_server map_server house.pgm 0.05
+
+The second form is deprecated in ROS, too. The map is latched on `map`, its numbers on `map_metadata`; `static_map`
+returns it, and `change_map` reads another. Facts: map_server's main.cpp of https://github.com/ros-planning/navigation.
+What differs: `change_map` says by its result what was wrong (there it is always 255), and returns the map, too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import RosminiError, UsageError
+from rosmini.files import path_of
+from rosmini.graph.clock import TopicClock
+from rosmini.msgs import message_class, service_class
+from rosmini.packages import PackageIndex
+from rosmini.parameters import Parameters, parameter
+
+from .grid_map import GridMap, MapError, MapMetadataError, MapMissing
+from .map_io import MapFile, image_file, map_file
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+USAGE = """USAGE: map_server <map.yaml>
+  map.yaml: map description file
+DEPRECATED USAGE: map_server <map> <resolution>
+  map: image file to load
+  resolution: map resolution [meters/pixel]"""
+
+
+@dataclass(frozen=True)
+class MapServerParameters(Parameters):
+    """The private parameters of `map_server/map_server`; all but the first are for the deprecated form alone."""
+
+    frame_id: str = parameter("map", "the frame of the published map")
+    negate: int = parameter(0, "1: white is occupied and black is free", minimum=0, maximum=1)
+    occupied_thresh: float = parameter(0.65, "darker pixels are occupied", minimum=0.0, maximum=1.0)
+    free_thresh: float = parameter(0.196, "lighter pixels are free", minimum=0.0, maximum=1.0)
+
+
+class MapServer:
+    """Serves a map, as a node of a graph.
+
+    Args:
+        node: the started node.
+        arguments: a YAML file; or an image and the side of its pixels [m].
+
+    Raises:
+        UsageError: other arguments.
+        MapError: the map cannot be read.
+        ParameterError: a parameter has no such name, a wrong type, or a value out of range.
+
+    """
+
+    def __init__(self, node: Node, *arguments: str) -> None:
+        if len(arguments) not in (1, 2):
+            raise UsageError(f"map_server got {len(arguments)} arguments.\n{USAGE}")
+        self.node = node
+        self.parameters = MapServerParameters.read(node)
+        self._message = message_class("nav_msgs/OccupancyGrid")()
+        node.service("static_map", service_class("nav_msgs/GetMap"), self._static_map)
+        node.service("change_map", service_class("nav_msgs/LoadMap"), self._change_map)
+        self._metadata = node.publisher(
+            "map_metadata", message_class("nav_msgs/MapMetaData"), queue_size=1, latch=True
+        )
+        self._map = node.publisher("map", message_class("nav_msgs/OccupancyGrid"), queue_size=1, latch=True)
+        try:
+            self.grid = self._load(
+                self._deprecated(*arguments) if len(arguments) == 2 else map_file(_path_of(arguments[0]))
+            )
+        except MapError as error:
+            node.logerr(_words_of(error, arguments[0]) or error)
+            raise
+        self._publish()
+
+    def __repr__(self) -> str:
+        return f"<MapServer {self.node.name}: {self.grid!r}>"
+
+    def _load(self, file: MapFile) -> GridMap:
+        self.node.loginfo(f'Loading map from image "{file.image}"')
+        return file.load()
+
+    def _deprecated(self, image: str, resolution: str) -> MapFile:
+        self.node.logwarn("Using deprecated map server interface. Please switch to new interface.")
+        try:
+            side = float(resolution)
+        except ValueError as error:
+            raise UsageError(
+                f"map_server: the resolution is {resolution!r}, which is no number.\n{USAGE}"
+            ) from error
+        own = self.parameters
+        thresholds = {"occupied_thresh": own.occupied_thresh, "free_thresh": own.free_thresh}
+        return image_file(image, side, negate=own.negate, **thresholds)
+
+    def _publish(self) -> None:
+        """Publish the map, once there is a time to stamp it with."""
+        clock = self.node.clock
+        if isinstance(clock, TopicClock) and clock.now_ns() == 0:
+            clock.call_at(1, self._publish)
+            return
+        self._message = self.grid.to_message(self.parameters.frame_id, self.node.now())
+        info = self._message.info
+        self.node.loginfo(f"Read a {info.width} X {info.height} map @ {info.resolution:.3f} m/cell")
+        self._metadata.publish(info)
+        self._map.publish(self._message)
+
+    def _static_map(self, _: Any) -> dict[str, Any]:
+        self.node.loginfo("Sending map")
+        return {"map": self._message}
+
+    def _change_map(self, request: Any) -> dict[str, Any]:
+        try:
+            self.grid = self._load(map_file(_path_of(request.map_url)))
+        except MapError as error:
+            self.node.logerr(f"{_words_of(error, request.map_url)} {error}".lstrip())
+            return {"result": error.result}
+        self._publish()
+        self.node.loginfo(f"Changed map to {request.map_url}")
+        return {"map": self._message, "result": 0}
+
+
+def _path_of(address: str) -> str:
+    """The path that is meant: itself, or where an address `package://...` or `file://...` leads."""
+    if address.startswith("file://"):
+        return path_of(address)
+    if not address.startswith("package://"):
+        return address
+    try:
+        return str(PackageIndex().resolve(address))
+    except RosminiError as error:
+        raise MapMissing(str(error)) from error
+
+
+def _words_of(error: MapError, path: str) -> str:
+    """What map_server says of it, for who searches for these words."""
+    if isinstance(error, MapMissing):
+        return f"Map_server could not open {path}."
+    field = error.field if isinstance(error, MapMetadataError) else ""
+    return (
+        f"The map does not contain a{'n' * (field[:1] in 'aeiou')} {field} tag or it is invalid."
+        if field
+        else ""
+    )

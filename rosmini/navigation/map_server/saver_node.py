@@ -1,0 +1,113 @@
+"""`map_server/map_saver`: a map of a topic, into files (http://wiki.ros.org/map_server#map_saver).
+
+    rosrun map_server map_saver -f house map:=/some/map
+
+It waits for one map, writes `house.pgm` and `house.yaml`, and ends. Facts: map_saver.cpp of
+https://github.com/ros-planning/navigation. What differs: if a file cannot be written the node says so and ends, too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import UsageError
+from rosmini.msgs import message_class
+
+from .grid_map import GridMap, MapError
+from .map_saving import FREE_TO, OCCUPIED_FROM, save_map
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from rosmini.graph import Node
+
+USAGE = """Usage:
+  map_saver -h
+  map_saver [--occ <threshold_occupied>] [--free <threshold_free>] [-f <mapname>] [ROS remapping args]"""
+
+
+@dataclass(frozen=True)
+class SaverOptions:
+    """What a command line asks for."""
+
+    name: str = "map"
+    occupied: int = OCCUPIED_FROM
+    free: int = FREE_TO
+
+    @classmethod
+    def of(cls, arguments: tuple[str, ...]) -> SaverOptions:
+        """Those of a command line. Raises `UsageError`."""
+        found: dict[str, Any] = {}
+        words = iter(arguments)
+        for word in words:
+            option = {"-f": "name", "--occ": "occupied", "--free": "free"}.get(word)
+            value = next(words, None)
+            if option is None or value is None:
+                raise UsageError(USAGE)
+            found[option] = value if option == "name" else _percent(f"threshold_{option}", value)
+        made = cls(**found)
+        if not 1 <= made.occupied <= 100:
+            raise UsageError(f"threshold_occupied must be between 1 and 100, not {made.occupied}")
+        if not 0 <= made.free <= 100:
+            raise UsageError(f"threshold_free must be between 0 and 100, not {made.free}")
+        if made.occupied <= made.free:
+            raise UsageError(
+                f"threshold_free must be smaller than threshold_occupied, and {made.free} is not below {made.occupied}"
+            )
+        return made
+
+
+def _percent(name: str, value: str) -> int:
+    try:
+        return int(value)
+    except ValueError as error:
+        raise UsageError(f"{name} is {value!r}, which is no whole number.\n{USAGE}") from error
+
+
+class MapSaver:
+    """Saves one map, as a node of a graph, which is then shut down.
+
+    Args:
+        node: the started node.
+        arguments: as on the command line.
+
+    Raises:
+        UsageError: other arguments, or thresholds that make no sense.
+
+    """
+
+    def __init__(self, node: Node, *arguments: str) -> None:
+        self.node = node
+        self.exit_status = 0
+        self.paths: tuple[Path, ...] = ()
+        """What was written."""
+        self._ended = False
+        if "-h" in arguments:
+            print(USAGE)
+            self._end()
+            return
+        self.options = SaverOptions.of(arguments)
+        node.loginfo("Waiting for the map")
+        node.subscriber("map", message_class("nav_msgs/OccupancyGrid"), self._take, queue_size=1)
+
+    def _take(self, message: Any) -> None:
+        if self._ended:
+            return
+        say, info, name = self.node.loginfo, message.info, self.options.name
+        say(f"Received a {info.width} X {info.height} map @ {info.resolution:.3f} m/pix")
+        try:
+            grid = GridMap.from_message(message)
+            say(f"Writing map occupancy data to {name}.pgm")
+            self.paths = save_map(grid, name, occupied=self.options.occupied, free=self.options.free)
+        except MapError as error:
+            self.node.logerr(error)
+            self.exit_status = 1
+        else:
+            say(f"Writing map occupancy data to {name}.yaml")
+            say("Done\n")
+        self._end()
+
+    def _end(self) -> None:
+        self._ended = True
+        self.node.scheduler.call_soon(lambda: self.node.shutdown("it is done"))
