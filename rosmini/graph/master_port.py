@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from rosmini.errors import MasterUnreachable, ROSException
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
     from .lanes import Waiter
     from .scheduler import Scheduler
@@ -109,6 +109,14 @@ class MasterProxy:
         self._lock = threading.Lock()
         self._busy = False
         self._queue: deque[Waiter] = deque()
+        self._moved: dict[str, str] = {}
+
+    def moved(self, addresses: Mapping[str, str]) -> None:
+        """Learn new addresses by the old ones: what still waits for the Master is registered under the new ones.
+
+        Else it would look to the Master like another node of the same name, and it would end this one.
+        """
+        self._moved = {old: addresses.get(new, new) for old, new in self._moved.items()} | dict(addresses)
 
     def call(self, method: str, *arguments: Any) -> Triple:
         """Return the Master's answer: [code, status, value]. Raises ``MasterUnreachable``."""
@@ -159,7 +167,7 @@ class MasterProxy:
         with self._turn():
             while True:
                 try:
-                    return self._reach(self._host.master, method, arguments)
+                    return self._reach(self._host.master, method, self._current(arguments))
                 except MasterUnreachable as error:
                     if self._is_over() or not port.keeps_trying:
                         raise
@@ -169,6 +177,9 @@ class MasterProxy:
                     )
                     warn = _silent
                     self._pause()
+
+    def _current(self, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+        return tuple(self._moved.get(each, each) if isinstance(each, str) else each for each in arguments)
 
     def register(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Any:
         """Do as :meth:`ask`, but keep trying as :meth:`insist` does."""

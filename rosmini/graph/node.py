@@ -88,6 +88,8 @@ class Node(ServiceApi):
         self.name = resolve(base, self.namespace)
         self.master = MasterProxy(graph, self.name, self.is_shutdown)
         self.shutdown_reason: str | None = None
+        self.is_registered = False
+        """True once the Master has heard of the node."""
         self.on_exit: Callable[[], object] | None = None
         self.process: Any = None
         """What runs the node and can ``kill()`` it, if anything does."""
@@ -125,6 +127,7 @@ class Node(ServiceApi):
         publication = Publication(self, "/rosout", graph.log_class)
         publication.latch = True  # as rospy's: the last message is for a listener that comes later, too
         self._publish(publication)
+        self.is_registered = True
         for service, service_class, handler in logger_services(self.logger):
             self.service(service, service_class, handler)
         code, _, use_sim_time = self.master.insist("getParam", "/use_sim_time", warn=self.logerr)

@@ -110,7 +110,12 @@ class Watch:
     # -- in the hub's thread -------------------------------------------------------------------------------------
 
     def _nodes(self) -> list[_Seen]:
-        return [_Seen(node, node.uri) for node in self._graph.nodes.values() if node.shutdown_reason is None]
+        """Return the nodes that run and are known; of one that starts, the Master may have a killed one's address."""
+        return [
+            _Seen(node, node.uri)
+            for node in self._graph.nodes.values()
+            if node.shutdown_reason is None and node.is_registered
+        ]
 
     def _say_lost(self, error: Exception) -> None:
         self._say(

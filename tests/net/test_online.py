@@ -241,3 +241,31 @@ def test_topics_outlive_a_master_that_is_served_no_more(
     together(graph, elsewhere, until=lambda: heard == ["still here"])
     graph.offline()
     assert graph.ask_as("/test").find("lookupNode", "/talker") == graph.nodes["/talker"].uri
+
+
+def test_what_waits_for_a_master_that_has_gone_is_registered_at_the_own_one_again(
+    graph: Graph, environ: dict[str, str]
+) -> None:
+    with Graph(simulated=False, transports=[LocalTransport, tcp()]) as home:
+        assert isinstance(home.master, Master)
+        where = addresses(environ)
+        server = MasterServer(network_of(home).io, home.master, where, where.master[1])
+        talker = graph.node("talker")
+        graph.online(environ=environ)
+        server.close()
+        waiting = [
+            in_lane(graph, lambda: talker.publisher("late", String)),
+            in_lane(graph, lambda: talker.subscriber("late", String, print)),
+            in_lane(graph, lambda: talker.service("late", Trigger, lambda _: None)),
+        ]
+        graph.run(0.5)
+        assert waiting == [[], [], []]
+        graph.offline()
+        graph.run(1.0)
+    assert not talker.is_shutdown()
+    assert all(waiting)
+    ask = graph.ask_as("/test").ask
+    assert ask("lookupNode", "/talker") == talker.uri
+    publishers, subscribers, services = ask("getSystemState")
+    assert all(["/late", ["/talker"]] in part for part in (publishers, subscribers, services))
+    assert ask("lookupService", "/late") == graph.transport.service_uri(talker.uri)

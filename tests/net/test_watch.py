@@ -97,6 +97,19 @@ def well_known(master: Master, node: Node) -> bool:
     )
 
 
+def count_calls(master: Master, method: str, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Return a list that gets the caller of each call of a method."""
+    callers: list[str] = []
+    answer = getattr(master, method)
+
+    def counted(caller_id: str) -> Any:
+        callers.append(caller_id)
+        return answer(caller_id)
+
+    monkeypatch.setattr(master, method, counted)
+    return callers
+
+
 def busy(graph: Graph, name: str, changes: list[Any]) -> Node:
     node = graph.node(name)
     node.publisher("news", String)
@@ -155,6 +168,31 @@ def test_a_node_whose_name_another_one_has_ends(
         assert not other.is_shutdown()
         assert "another node registered under its name" in capsys.readouterr().err
         assert master.lookupNode("/test", node.name)[2] == "http://elsewhere:1/"
+        graph.shutdown()
+
+
+def test_a_node_that_starts_is_not_taken_for_one_that_was_replaced(
+    graph: Graph, io: IoThread, port: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The Master still has the address of one that was killed, and answers the first registration slowly."""
+    with served(io, port) as master:
+        looks = count_calls(master, "getPid", monkeypatch)
+        graph.node("other")
+        master.registerPublisher("/node", "/news", "std_msgs/String", "http://elsewhere:1/")
+        ask = graph.master.call
+
+        def slow(method: str, caller_id: str, *arguments: Any) -> Any:
+            begun = len(looks)
+            while caller_id == "/node" and method == "registerPublisher" and len(looks) < begun + 5:
+                graph.scheduler.sleep_until(graph.scheduler.now_ns() + 10_000_000)
+            return ask(method, caller_id, *arguments)
+
+        monkeypatch.setattr(graph.master, "call", slow)
+        node = graph.node("node")
+        begun = len(looks)
+        until(graph, lambda: len(looks) >= begun + 5)
+        assert not node.is_shutdown()
+        assert master.lookupNode("/test", "/node")[2] == node.uri
         graph.shutdown()
 
 
