@@ -219,14 +219,16 @@ class Node(ServiceApi):
         on_disconnect: Callable[[str], object] | None = None,
         receipt: Callable[[Any], Callable[[Any], Any] | None] | None = None,
         tcp_nodelay: bool = False,
+        skip_own_mismatch: bool = False,
     ) -> Subscriber:
         """Call ``callback(message, *arguments)`` for each message on ``topic``.
 
         ``queue_size`` bounds what waits while a callback blocks (None: no bound; the oldest are dropped). ``numpy``
         gives numeric arrays as read-only numpy arrays, else as rospy's tuples. ``receipt`` overrides both: see
-        ``Subscriber.thaw_for``. ``tcp_nodelay`` asks publishers of other processes to send each message at once. All
-        subscribers of this node to one topic get the same object, of the kind that the first asked for. Raises
-        ``TypeMismatch`` for a type with another md5 sum than that of the first.
+        ``Subscriber.thaw_for``. ``tcp_nodelay`` asks publishers of other processes to send each message at once.
+        ``skip_own_mismatch``: that this node itself publishes the topic with another type is meant to be so, as it is
+        for roscpp. All subscribers of this node to one topic get the same object, of the kind that the first asked for.
+        Raises ``TypeMismatch`` for a type with another md5 sum than that of the first.
         """
 
         def make() -> Subscriber:
@@ -241,6 +243,7 @@ class Node(ServiceApi):
                 msg = f"{self.name} already subscribes to {name} as {mine}, not {message_class._type}."
                 raise TypeMismatch(msg)
             subscription.tcp_nodelay |= tcp_nodelay
+            subscription.skips_own_mismatch |= skip_own_mismatch
             handle = Subscriber(
                 subscription,
                 message_class,

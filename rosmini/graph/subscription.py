@@ -37,6 +37,8 @@ class Subscription:
         self.queue_size: int | None = None
         self.tcp_nodelay = False
         """Whether publishers elsewhere are asked to send each message at once."""
+        self.skips_own_mismatch = False
+        """Whether nothing is said if the node itself publishes the topic with another type."""
         self.updates = 0
         """How many times the Master has told who publishes the topic."""
         self._first: Subscriber | None = None
@@ -59,13 +61,20 @@ class Subscription:
         if self._is_closed:
             return
         self.updates += 1
-        self._wanted = wanted = dict.fromkeys(uris)
+        self._wanted = wanted = dict.fromkeys(uri for uri in uris if not self._is_skipped(uri))
         self._attempts = {uri: count for uri, count in self._attempts.items() if uri in wanted}
         for uri, link in self.connections.items():
             link.was_left = link.was_left or (uri not in wanted and not link.is_open)
         for uri in wanted:
             if uri not in self.connections:
                 self.connections[uri] = Connection(self, uri)
+
+    def _is_skipped(self, uri: str) -> bool:
+        """Whether this is the node itself, which publishes another type, and that is meant to be so."""
+        if not self.skips_own_mismatch or uri != self.node.uri:
+            return False
+        own = self.node.publications.get(self.topic)
+        return own is not None and self.disagrees_with(own.message_class)
 
     def publishers_moved(self, uris: Mapping[str, str]) -> None:
         """Take up new addresses of publishers in this process, by the old ones; connections stay as they are."""

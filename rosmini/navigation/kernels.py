@@ -11,7 +11,7 @@ from functools import cache
 from importlib import import_module
 from typing import Any
 
-KERNELS: tuple[str, ...] = ()
+KERNELS: tuple[str, ...] = ("rosmini.navigation.costmap_2d.rays:compiled_clear_rays",)
 """`module:function` of the functions that return a kernel: compiled, or without numba as it is."""
 
 

@@ -160,6 +160,7 @@ class Buffer(BufferCore):
     def __init__(self, node: Node | None, cache_time: float | Duration | None = None) -> None:
         self._node = node
         self._waiting: dict[Waiter, Callable[[], bool]] = {}
+        self._watching: list[Callable[[], object]] = []
         super().__init__(cache_time)
 
     @property
@@ -177,12 +178,20 @@ class Buffer(BufferCore):
 
     def _set(self, message: Any, authority: str, *, static: bool) -> bool:
         taken = super()._set(message, authority, static=static)
-        if taken and self._waiting:
-            for waiter, ready in list(self._waiting.items()):
-                if ready():
-                    self._waiting.pop(waiter, None)
-                    waiter.wake()
-        return taken
+        if not taken:
+            return False
+        for waiter, ready in list(self._waiting.items()):
+            if ready():
+                self._waiting.pop(waiter, None)
+                waiter.wake()
+        for watcher in list(self._watching):
+            watcher()
+        return True
+
+    def watch(self, callback: Callable[[], object]) -> Callable[[], None]:
+        """Call `callback()` whenever a transform was taken; return a function that ends this."""
+        self._watching.append(callback)
+        return lambda: self._watching.remove(callback)
 
     def _wait(self, ready: Callable[[], bool], timeout: float | Duration, what: str) -> bool:
         span = span_ns(timeout)

@@ -82,6 +82,14 @@ class Costmap2D:
         made.costs = array
         return made
 
+    def resize(self, width: int, height: int, resolution: float, origin: tuple[float, float]) -> None:
+        """Give it another size [cells], resolution and origin [m], with all costs at the default.
+
+        Raises as the constructor.
+        """
+        made = Costmap2D(width, height, resolution, origin, self.default)
+        self.costs, self.resolution, self.origin = made.costs, made.resolution, made.origin
+
     def __repr__(self) -> str:
         return f"<Costmap2D: {self.width} x {self.height} cells of {self.resolution:g} m at {self.origin}>"
 

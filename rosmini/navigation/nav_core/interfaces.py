@@ -18,9 +18,8 @@ from typing import TYPE_CHECKING, Any
 from rosmini.plugins import Plugin
 
 if TYPE_CHECKING:
+    from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
     from rosmini.tf import Buffer
-
-Costmap2DROS = Any
 
 
 class BaseGlobalPlanner(Plugin, ABC):

@@ -1,0 +1,441 @@
+"""A costmap of a node: `Costmap2DROS`, as `move_base` has two of (http://wiki.ros.org/costmap_2d).
+
+Its parameters are those of the node under its name, `~global_costmap/...`; its topics are there, too.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rosmini.dynamic_reconfigure import Server
+from rosmini.errors import ParameterError
+from rosmini.geometry.poses import Pose
+from rosmini.msgs import message_class
+from rosmini.navigation.nav_core.failures import TransformMissing
+from rosmini.navigation.nav_core.poses import planar_pose, pose_stamped
+from rosmini.tf import TransformException
+from rosmini.tf.rigid import compose, from_yaw, rpy
+from rosmini.time import Time
+
+from . import footprint as outlines
+from .costmap import Costmap2D
+from .explanation import CellCosts
+from .layer import Layer
+from .layered import LayeredCostmap
+from .migration import inherit, migrate
+from .parameters import CostmapConfig, CostmapParameters, set_above
+from .polygons import fill
+from .publisher import Costmap2DPublisher
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+    from rosmini.tf import Buffer
+
+PATIENCE = 5.0
+"""After so many seconds without the robot's transform it is said what is missing [s]."""
+NAMES = tuple(each.name for each in fields(CostmapConfig))
+"""Of what may change while it runs."""
+BLOCKED = 0.01
+"""How often it is looked whether a first update has been made [s]."""
+
+
+class Costmap2DROS:
+    """A costmap, kept up to date by what its layers hear.
+
+    Blocks until the robot's pose in the global frame is known, and, with a static layer, until there is a map. Raises
+    `ParameterError` for a wrong parameter and `PluginError` for a layer that is not there.
+    """
+
+    def __init__(self, name: str, buffer: Buffer, node: Node) -> None:
+        self.name, self.node, self.buffer = name, node, buffer
+        self.namespace = f"~{name}/"
+        self._read()
+        settings = self._settings
+        self.global_frame = self._frame("global_frame", settings.global_frame)
+        self.base_frame = self._frame("robot_base_frame", settings.robot_base_frame)
+        self._wait_for_robot()
+        self.layered = LayeredCostmap(
+            self.global_frame,
+            rolling_window=settings.rolling_window,
+            track_unknown_space=settings.track_unknown_space,
+            report=self._failed,
+        )
+        self.stopped = False
+        self._paused = False
+        self._initialized = True
+        self._timer: Any = None
+        self._last_publish: int | None = None
+        self._padding = 0.0
+        self._unpadded: NDArray[np.float64] = np.zeros((0, 2))
+        self._old = CostmapConfig()
+        self._tolerance_ns = round(settings.transform_tolerance * 1e9)
+        self._add_layers()
+        self._publish_footprint()
+        self._publisher = Costmap2DPublisher(
+            node,
+            self.grid,
+            self.global_frame,
+            self.namespace + "costmap",
+            always_send_full=settings.always_send_full_costmap,
+        )
+        self._server = Server(node, CostmapConfig, self._reconfigure, namespace=self.namespace)
+
+    def __repr__(self) -> str:
+        names = ", ".join(layer.name for layer in self.layers)
+        return f"<Costmap2DROS {self.name} of {self.node.name}: {self.grid!r}, layers {names}>"
+
+    # -- at the start --------------------------------------------------------------------------------------------
+
+    def _read(self) -> None:
+        """Bring the parameters into their form of today, and read them."""
+        node, namespace = self.node, self.namespace
+        migrate_sizes(node, namespace)
+        tracks_unknown = node.get_param(namespace + "track_unknown_space", False, expect=bool)
+        self._first_footprint = footprint_of_parameters(node, namespace)
+        migrate(node, namespace, self.name)
+        self._settings = CostmapParameters.read(node, namespace, track_unknown_space=tracks_unknown)
+
+    def _frame(self, parameter: str, frame: str) -> str:
+        if frame.startswith("/"):
+            self.node.logwarn(
+                f"parameter {self.node.resolve(self.namespace + parameter)} is '{frame}': frames have no leading slash "
+                f"any more, '{frame.lstrip('/')}' is taken"
+            )
+        return frame.lstrip("/")
+
+    def _wait_for_robot(self) -> None:
+        """Wait until the robot's pose is known."""
+        while not self.buffer.wait_for_transform(self.global_frame, self.base_frame, timeout=PATIENCE):
+            why = self.buffer.tree.why_not(self.global_frame, self.base_frame)
+            self.node.logwarn(
+                f"Timed out waiting for transform from {self.base_frame} to {self.global_frame} to become available "
+                f"before running costmap, tf error: {why}"
+            )
+
+    def _add_layers(self) -> None:
+        for entry in self._settings.plugins:
+            self.node.loginfo(f'{self.name}: Using plugin "{entry.name}"')
+            inherit(self.node, self.namespace, entry.name, entry.type)
+            layer = Layer.create(entry.type)
+            self.layered.add(layer)
+            layer.initialize(
+                self.layered, entry.name, f"{self.namespace}{entry.name}/", self.node, self.buffer
+            )
+
+    def _publish_footprint(self) -> None:
+        """Subscribe to other footprints, publish where the robot's is, and take the one of the parameters."""
+        settings, node = self._settings, self.node
+        node.subscriber(
+            self._private(settings.footprint_topic),
+            message_class("geometry_msgs/Polygon"),
+            lambda polygon: self._take_footprint(outlines.points_of(polygon)),
+            queue_size=1,
+            skip_own_mismatch=True,
+        )
+        self._footprints = node.publisher(
+            self._private(settings.published_footprint_topic),
+            message_class("geometry_msgs/PolygonStamped"),
+            queue_size=1,
+        )
+        self._footprints.expect_nobody()
+        self.set_footprint(self._first_footprint)
+
+    def _private(self, topic: str) -> str:
+        return topic if topic.startswith(("/", "~")) else self.namespace + topic
+
+    def _reconfigure(self, config: Any, _: int) -> Any:
+        """Take parameters that may change at any time."""
+        new = CostmapConfig(**{name: config[name] for name in NAMES})
+        self._tolerance_ns = round(new.transform_tolerance * 1e9)
+        if not self.layered.is_size_locked and new.resolution > 0:
+            # As the original: truncated, and a window of 0.15 m at 0.05 m is three cells.
+            width, height = (int(side / new.resolution + 1e-9) for side in (new.width, new.height))
+            size = (width, height, new.resolution, (new.origin_x, new.origin_y))
+            if self.layered.is_rolling and _geometry(self.grid) == size[:3]:
+                size = (*size[:3], self.grid.origin)
+            if (*_geometry(self.grid), self.grid.origin) != size:
+                self.layered.resize(*size)
+        if new.footprint_padding != self._padding:
+            self._padding = new.footprint_padding
+            self.set_footprint(self._unpadded)
+        self._reconfigure_footprint(new)
+        self._old = new
+        self._restart(new.update_frequency, new.publish_frequency)
+        return config
+
+    def _reconfigure_footprint(self, new: CostmapConfig) -> None:
+        """Take another footprint or radius, if one of them has changed: else one from a topic stays."""
+        if (new.footprint, new.robot_radius) == (self._old.footprint, self._old.robot_radius) and len(
+            self._unpadded
+        ):
+            return
+        name = self.node.resolve(self.namespace + "footprint")
+        if new.footprint in ("", "[]"):
+            self.set_footprint(outlines.footprint_from_radius(new.robot_radius))
+            return
+        try:
+            self.set_footprint(outlines.footprint_from_text(new.footprint, name))
+        except ParameterError as error:
+            self.node.logerr(f"Invalid footprint string from dynamic reconfigure: {error}")
+
+    def _restart(self, update_frequency: float, publish_frequency: float) -> None:
+        """Update and publish at these rates from now on, beginning at once."""
+        if self._timer is not None:
+            self._timer.shutdown()
+            self._timer = None
+        self._publish_ns = round(1e9 / publish_frequency) if publish_frequency > 0 else 0
+        if update_frequency > 0:
+            self._timer = self.node.timer(1 / update_frequency, lambda _: self._turn())
+            self._turn()
+
+    # -- what planners ask ---------------------------------------------------------------------------------------
+
+    @property
+    def grid(self) -> Costmap2D:
+        """The master grid, the same object for life."""
+        return self.layered.grid
+
+    @property
+    def layers(self) -> list[Layer]:
+        """From below."""
+        return self.layered.layers
+
+    @property
+    def footprint(self) -> NDArray[np.float64]:
+        """The vertices (n, 2) [m] in the base frame, padded."""
+        return self.layered.footprint
+
+    @property
+    def unpadded_footprint(self) -> NDArray[np.float64]:
+        """The same without padding."""
+        return self._unpadded
+
+    @property
+    def inscribed_radius(self) -> float:
+        """The distance [m] from the robot's centre to the nearest point of the padded outline."""
+        return self.layered.inscribed_radius
+
+    @property
+    def circumscribed_radius(self) -> float:
+        """The distance [m] to the farthest."""
+        return self.layered.circumscribed_radius
+
+    @property
+    def is_current(self) -> bool:
+        """Whether every layer has heard of the world within the time that it expects."""
+        return self.layered.is_current
+
+    def robot_pose(self) -> Any:
+        """The robot's newest `PoseStamped` in the global frame.
+
+        Raises `TransformMissing` if it is unknown, or older than `transform_tolerance`.
+        """
+        pose, stamp_ns = self._robot()
+        return pose_stamped(self.global_frame, Time.from_nsec(stamp_ns), pose)
+
+    def to_global(self, pose: Any) -> Any:
+        """A `PoseStamped` in the global frame, by the newest transform. Raises `TransformMissing`."""
+        frame = pose.header.frame_id.lstrip("/")
+        if frame == self.global_frame:
+            return pose
+        try:
+            found = self.buffer.tree.lookup(self.global_frame, frame)
+        except TransformException as error:
+            raise TransformMissing(
+                f"a pose in the frame '{frame}' cannot be had in '{self.global_frame}': {error}",
+                frame=frame,
+                global_frame=self.global_frame,
+            ) from error
+        moved = compose(found.transform, from_yaw(*planar_pose(pose)))
+        return pose_stamped(
+            self.global_frame, Time.from_nsec(found.stamp_ns), (moved[0], moved[1], rpy(moved)[2])
+        )
+
+    def explain(self, mx: int, my: int) -> CellCosts:
+        """What each layer gives to a cell: a cost, or None. Its text says it in words. Raises `IndexError` outside."""
+        said = {layer.name: layer.explain(mx, my) for layer in self.layers if layer.is_enabled}
+        return CellCosts(self.grid, mx, my, said)
+
+    # -- what may be done to it ----------------------------------------------------------------------------------
+
+    def set_footprint(self, footprint: ArrayLike) -> None:
+        """Take another footprint (n, 2) [m], without padding."""
+        self._unpadded = np.asarray(footprint, dtype=np.float64).reshape(-1, 2)
+        self.layered.set_footprint(outlines.padded(self._unpadded, self._padding))
+
+    def set_costs(self, polygon: ArrayLike, cost: int) -> bool:
+        """Give a cost to all cells of a convex polygon (n, 2) [m] in the global frame, until the next update of them.
+
+        If a vertex is outside nothing changes, and the answer is False.
+        """
+        return fill(self.grid, polygon, cost)
+
+    def update(self) -> bool:
+        """Make one update now; whether there was one: not while paused, and not without the robot's pose."""
+        if self._paused:
+            return False
+        try:
+            pose, _ = self._robot()
+        except TransformMissing as error:
+            self.node.logwarn(str(error), throttle=1.0)
+            return False
+        self._publisher.changed(self.layered.update_map(pose))
+        self._send_footprint(pose)
+        self._initialized = True
+        return True
+
+    def start(self) -> None:
+        """Go on after `stop` or `pause`; blocks until an update has been made."""
+        if self.stopped:
+            for layer in self.layers:
+                layer.activate()
+            self.stopped = False
+        self.resume()
+
+    def stop(self) -> None:
+        """Make no updates, and leave the topics of the layers."""
+        self.pause()
+        for layer in self.layers:
+            layer.deactivate()
+        self.stopped = True
+
+    def pause(self) -> None:
+        """Make no updates."""
+        self._paused = True
+        self._initialized = False
+
+    def resume(self) -> None:
+        """Make updates again; blocks until one has been made."""
+        self._paused = False
+        if self._timer is not None and not self._initialized:
+            self.update()
+        while self._timer is not None and not self._initialized:
+            self.node.sleep(BLOCKED)
+
+    def reset_layers(self) -> None:
+        """Forget all costs, in the layers too."""
+        self.layered.reset()
+
+    def shutdown(self) -> None:
+        """End the updates."""
+        self.pause()
+        if self._timer is not None:
+            self._timer.shutdown()
+            self._timer = None
+        for layer in self.layers:
+            layer.deactivate()
+
+    # -- by itself -----------------------------------------------------------------------------------------------
+
+    def _turn(self) -> None:
+        self.update()
+        if not self._publish_ns or not self.layered.is_initialized:
+            return
+        now = self.node.clock.now_ns()
+        # In simulated time the moments are exact: at equal rates each update is published, not every other one.
+        if self._last_publish is None or not 0 <= now - self._last_publish < self._publish_ns:
+            self._last_publish = now
+            self._publisher.publish()
+
+    def _robot(self) -> tuple[Pose, int]:
+        """The robot's pose in the global frame, and from when [ns] it is."""
+        now = self.node.clock.now_ns()
+        tree = self.buffer.tree
+        try:
+            found = tree.lookup(self.global_frame, self.base_frame)
+            if found.stamp_ns > now:  # a transform may be dated ahead, the robot may not
+                found = tree.lookup(self.global_frame, self.base_frame, now)
+        except TransformException as error:
+            raise TransformMissing(
+                f"No Transform available Error looking up robot pose: {error}",
+                global_frame=self.global_frame,
+                base_frame=self.base_frame,
+            ) from error
+        if found.stamp_ns and now - found.stamp_ns > self._tolerance_ns:
+            raise TransformMissing(
+                f"Costmap2DROS transform timeout. Current time: {now * 1e-9:.4f}, global_pose stamp: "
+                f"{found.stamp_ns * 1e-9:.4f}, tolerance: {self._tolerance_ns * 1e-9:.4f}",
+                global_frame=self.global_frame,
+                base_frame=self.base_frame,
+                age=(now - found.stamp_ns) * 1e-9,
+            )
+        x, y, *_ = found.transform
+        return (x, y, rpy(found.transform)[2]), found.stamp_ns
+
+    def _send_footprint(self, pose: Pose) -> None:
+        if not self._footprints.num_connections():
+            return
+        message = message_class("geometry_msgs/PolygonStamped")()
+        message.header.frame_id, message.header.stamp = self.global_frame, self.node.now()
+        point = message_class("geometry_msgs/Point32")
+        message.polygon.points = [point(x=x, y=y) for x, y in outlines.placed(self.footprint, pose).tolist()]
+        self._footprints.publish(message)
+
+    def _take_footprint(self, footprint: NDArray[np.float64]) -> None:
+        if len(footprint) < 3 or not np.isfinite(footprint).all():
+            self.node.logerr(
+                f"a footprint of {len(footprint)} points came on a topic: at least three with finite numbers are needed"
+            )
+            return
+        self.set_footprint(footprint)
+
+    def _failed(self, layer: Layer, error: Exception) -> None:
+        self.node.logerr(
+            f"{self.name}: the layer {layer.name} ({type(layer).__name__}) failed, and this update is without it: "
+            f"{type(error).__name__}: {error}",
+            throttle=1.0,
+        )
+
+
+def _geometry(grid: Costmap2D) -> tuple[int, int, float]:
+    return grid.width, grid.height, grid.resolution
+
+
+def migrate_sizes(node: Node, namespace: str) -> None:
+    """Make whole metres of the width and height of a window, as roscpp does of a parameter that has to be an int."""
+    for name in ("width", "height"):
+        value = node.get_param(namespace + name, None)
+        if isinstance(value, float) and math.isfinite(value):
+            whole = math.floor(value + 0.5)
+            if whole != value:
+                node.logwarn(
+                    f"parameter {node.resolve(namespace + name)} is {value:g} m: a costmap's sides are whole metres, "
+                    f"{whole} m is taken"
+                )
+            node.set_param(namespace + name, whole)
+
+
+def footprint_of_parameters(node: Node, namespace: str) -> NDArray[np.float64]:
+    """The footprint that `footprint` or `robot_radius` give, in this namespace or above; none (0, 2) if neither is set.
+
+    What is found is written into the namespace, from where dynamic_reconfigure takes it. Raises `ParameterError`.
+    """
+    found = set_above(node, namespace, "footprint")
+    if found is not None:
+        value = node.get_param(found)
+        if value not in ("", "[]"):
+            made = (
+                outlines.footprint_from_text(value, found)
+                if isinstance(value, str)
+                else outlines.footprint_from_list(value, found)
+            )
+            crossed = outlines.crossing(made)
+            if crossed is not None:
+                node.logwarn(
+                    f"parameter {found}: the outline crosses itself (the edges after points {crossed[0]} and "
+                    f"{crossed[1]}); list its points in order around the robot"
+                )
+            node.set_param(namespace + "footprint", outlines.footprint_text(made))
+            return made
+        node.set_param(namespace + "footprint", value)
+    found = set_above(node, namespace, "robot_radius")
+    if found is None:
+        return np.zeros((0, 2))
+    radius = node.get_param(found, expect=float)
+    node.set_param(namespace + "robot_radius", radius)
+    return outlines.footprint_from_radius(radius)

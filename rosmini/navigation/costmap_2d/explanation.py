@@ -1,0 +1,46 @@
+"""Why a cell costs what it costs, layer by layer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from .costmap import (
+    FREE_SPACE,
+    INSCRIBED_INFLATED_OBSTACLE,
+    LETHAL_OBSTACLE,
+    NO_INFORMATION,
+    Costmap2D,
+)
+
+MEANINGS = {
+    FREE_SPACE: "free",
+    INSCRIBED_INFLATED_OBSTACLE: "in collision whatever the heading",
+    LETHAL_OBSTACLE: "an obstacle",
+    NO_INFORMATION: "unknown",
+}
+
+
+class CellCosts(dict[str, int | None]):
+    """The cost that each layer gives to a cell, by the layer's name, from below; None where it has nothing to say.
+
+    As a text it is a line for the cell and one for each layer.
+    """
+
+    def __init__(self, grid: Costmap2D, mx: int, my: int, said: Mapping[str, tuple[int | None, str]]) -> None:
+        super().__init__({name: cost for name, (cost, _) in said.items()})
+        self.cost = grid.cost(mx, my)
+        """Of the master grid."""
+        self.cell = (mx, my)
+        self.point = grid.map_to_world(mx, my)
+        self._words = {name: words for name, (_, words) in said.items()}
+
+    def __str__(self) -> str:
+        meaning = MEANINGS.get(self.cost, "near something: some headings may collide")
+        lines = [
+            f"cell {self.cell} at ({self.point[0]:.2f}, {self.point[1]:.2f}) m costs {self.cost}: {meaning}"
+        ]
+        for name, cost in self.items():
+            words = self._words[name]
+            shown = "nothing" if cost is None else str(cost)
+            lines.append(f"  {name}: {shown}{f' ({words})' if words else ''}")
+        return "\n".join(lines)

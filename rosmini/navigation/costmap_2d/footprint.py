@@ -1,0 +1,128 @@
+"""Footprints: the outline of a robot seen from above, as vertices (n, 2) [m] in its base frame."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rosmini.errors import ParameterError
+from rosmini.geometry.poses import Pose, transform_points
+
+Footprint = NDArray[np.float64]
+
+CORNERS = 16
+"""Of the polygon that stands for a round robot."""
+
+EXAMPLE = "[[x1, y1], [x2, y2], [x3, y3], ...] in metres, at least three points"
+
+
+def footprint_from_radius(radius: float) -> Footprint:
+    """A regular polygon of 16 vertices on a circle [m]: its inscribed radius is 0.98 of that."""
+    angles = np.arange(CORNERS) * math.tau / CORNERS
+    return np.stack([np.cos(angles) * radius, np.sin(angles) * radius], axis=-1)
+
+
+def footprint_from_list(points: Any, name: str) -> Footprint:
+    """A list of pairs of numbers. `name` is that of the parameter, for errors.
+
+    Raises `ParameterError` for anything else, for fewer than three points and for numbers that are not finite.
+    """
+    if not isinstance(points, (list, tuple)) or len(points) < 3:
+        count = f"a list of {len(points)} points" if isinstance(points, (list, tuple)) else f"{points!r}"
+        raise ParameterError(
+            f"parameter {name} is {count}: You must specify at least three points for the robot footprint, as {EXAMPLE}"
+        )
+    for number, point in enumerate(points):
+        if not isinstance(point, (list, tuple)) or len(point) != 2:
+            raise ParameterError(
+                f"parameter {name}[{number}] is {point!r}: Points in the footprint specification must be pairs of "
+                f"numbers, {EXAMPLE}"
+            )
+        for value in point:
+            if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+                raise ParameterError(
+                    f"parameter {name}[{number}] is {point!r}: Values in the footprint specification must be numbers, "
+                    f"found {value!r}"
+                )
+    return np.array(points, dtype=np.float64)
+
+
+def footprint_from_text(text: str, name: str) -> Footprint:
+    """The text of such a list, `[[0.1, 0.1], [0.1, -0.1], [-0.1, -0.1]]`. Raises `ParameterError`."""
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise ParameterError(
+            f"Error parsing footprint parameter {name}: {error}. The footprint string was {text!r:.200}, and it has to "
+            f"be {EXAMPLE}"
+        ) from error
+    return footprint_from_list(found, name)
+
+
+def footprint_text(footprint: Footprint) -> str:
+    """A footprint as the parameter holds it."""
+    return "[" + ",".join(f"[{x:g},{y:g}]" for x, y in footprint) + "]"
+
+
+def padded(footprint: Footprint, padding: float) -> Footprint:
+    """Every vertex moved away from both axes by `padding` [m], those on an axis along it only."""
+    grown: Footprint = footprint + np.sign(footprint) * padding
+    return grown
+
+
+def radii(footprint: Footprint) -> tuple[float, float]:
+    """The inscribed and the circumscribed radius [m]: how near and how far from the origin the outline is.
+
+    With fewer than three vertices no circle is inscribed: infinity and 0.
+    """
+    if len(footprint) < 3:
+        return math.inf, 0.0
+    ends = np.roll(footprint, -1, axis=0)
+    edges = ends - footprint
+    lengths2 = (edges * edges).sum(axis=1)
+    share = -(footprint * edges).sum(axis=1) / np.where(lengths2 > 0, lengths2, 1)
+    nearest = footprint + np.clip(share, 0, 1)[:, None] * edges
+    return (
+        float(np.hypot(nearest[:, 0], nearest[:, 1]).min()),
+        float(np.hypot(footprint[:, 0], footprint[:, 1]).max()),
+    )
+
+
+def placed(footprint: Footprint, pose: Pose) -> Footprint:
+    """The footprint of a robot at a pose, in the frame of the pose."""
+    return transform_points(pose, footprint)
+
+
+def crossing(footprint: Footprint) -> tuple[int, int] | None:
+    """Two edges that cross each other, by the indices of their first vertices; None if the outline is simple."""
+    count = len(footprint)
+    for i in range(count):
+        for j in range(i + 2, count):
+            if (j + 1) % count != i and _cross(
+                footprint[i], footprint[(i + 1) % count], footprint[j], footprint[(j + 1) % count]
+            ):
+                return i, j
+    return None
+
+
+def _cross(a: Sequence[float], b: Sequence[float], c: Sequence[float], d: Sequence[float]) -> bool:
+    return _side(a, b, c) * _side(a, b, d) < 0 and _side(c, d, a) * _side(c, d, b) < 0
+
+
+def _side(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
+    return float((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]))
+
+
+def points_of(polygon: Any) -> Footprint:
+    """The vertices of a `geometry_msgs/Polygon`."""
+    return np.array([(point.x, point.y) for point in polygon.points], dtype=np.float64).reshape(-1, 2)
+
+
+def checked_polygon(polygon: ArrayLike) -> Footprint:
+    """Vertices (n, 2) as an array of floats."""
+    return np.asarray(polygon, dtype=np.float64).reshape(-1, 2)

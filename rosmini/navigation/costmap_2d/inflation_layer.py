@@ -1,0 +1,96 @@
+"""`costmap_2d::InflationLayer`: costs around obstacles (http://wiki.ros.org/costmap_2d/hydro/inflation)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from rosmini.dynamic_reconfigure import Server
+from rosmini.geometry.poses import Pose
+
+from .costmap import LETHAL_OBSTACLE, Costmap2D
+from .inflation import cell_distance, cost_at, cost_table, inflate
+from .layer import Bounds, Layer, Window
+from .parameters import InflationConfig
+
+
+class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
+    """Makes the cells near obstacles of the layers below dear."""
+
+    def __init__(self) -> None:
+        self.radius = 0.0
+        """The inflation radius [m]."""
+        self.cost_scaling_factor = 0.0
+        self._inflate_unknown = False
+        self._cells = 0
+        self._table = np.zeros(2, dtype=np.uint8)
+        self._again = True
+        self._last = Bounds()
+
+    def on_initialize(self) -> None:
+        """Read the parameters."""
+        InflationConfig.read(self.node, self.namespace)
+        self._server = Server(self.node, InflationConfig, self._reconfigure, namespace=self.namespace)
+
+    def _reconfigure(self, config: Any, _: int) -> Any:
+        self.is_enabled = config["enabled"]
+        self._inflate_unknown = config["inflate_unknown"]
+        self.radius, self.cost_scaling_factor = config["inflation_radius"], config["cost_scaling_factor"]
+        self.on_footprint_changed()
+        return config
+
+    def on_footprint_changed(self) -> None:
+        """Compute the costs by distance."""
+        resolution = self.layered.grid.resolution
+        self._cells = cell_distance(self.radius, resolution)
+        self._table = cost_table(
+            self._cells, resolution, self.layered.inscribed_radius, self.cost_scaling_factor
+        )
+        self._again = True
+
+    def match_size(self) -> None:
+        """Learn the resolution."""
+        self.on_footprint_changed()
+
+    def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
+        """What the layers below change changes costs as far around it as they are inflated, now and next time."""
+        del robot
+        last, self._last = self._last, bounds.copy()
+        if self._again:
+            self._again = False
+            bounds.touch_all()
+            return
+        bounds.min_x, bounds.max_x = min(bounds.min_x, last.min_x), max(bounds.max_x, last.max_x)
+        bounds.min_y, bounds.max_y = min(bounds.min_y, last.min_y), max(bounds.max_y, last.max_y)
+        if not bounds.is_empty:
+            # Half a cell more: a point on the edge between two cells belongs to both.
+            margin = (self._cells + 0.5) * self.layered.grid.resolution
+            bounds.touch(bounds.min_x - margin, bounds.min_y - margin)
+            bounds.touch(bounds.max_x + margin, bounds.max_y + margin)
+
+    def update_costs(self, grid: Costmap2D, window: Window) -> None:
+        """Inflate what the layers below have written."""
+        inflate(grid.costs, window, self._cells, self._table, inflate_unknown=self._inflate_unknown)
+
+    def explain(self, mx: int, my: int) -> tuple[int | None, str]:
+        """The distance to the nearest obstacle of the master grid, and the cost that the formula gives for it."""
+        grid, reach = self.layered.grid, self._cells
+        x0, y0 = max(mx - reach, 0), max(my - reach, 0)
+        rows, columns = np.nonzero(grid.costs[y0 : my + reach + 1, x0 : mx + reach + 1] == LETHAL_OBSTACLE)
+        squared = (rows + y0 - my) ** 2 + (columns + x0 - mx) ** 2
+        if not len(squared) or squared.min() > reach * reach:
+            return None, f"no obstacle within the inflation radius of {self.radius:.2f} m"
+        distance = math.sqrt(squared.min()) * grid.resolution
+        inscribed = self.layered.inscribed_radius
+        cost = cost_at(distance, inscribed, self.cost_scaling_factor)
+        said = f"the nearest obstacle is {distance:.2f} m away"
+        if distance == 0:
+            return cost, "an obstacle"
+        if distance <= inscribed:
+            return cost, f"{said}, within the inscribed radius of {inscribed:.2f} m"
+        return (
+            cost,
+            f"{said}: 252 exp(-{self.cost_scaling_factor:g} ({distance:.2f} - {inscribed:.2f})) = {cost}",
+        )

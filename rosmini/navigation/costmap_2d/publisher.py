@@ -1,0 +1,99 @@
+"""A grid of costs on a topic: all of it, or what has changed (http://wiki.ros.org/costmap_2d#Published_Topics)."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.msgs import message_class
+
+from .costmap import INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
+from .layer import Window
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+
+@cache
+def published_values() -> NDArray[np.int8]:
+    """The value (256) in an `OccupancyGrid` by cost: 0 to 252 become 0 to 98, 253 is 99, 254 is 100, 255 is -1."""
+    costs = np.arange(256)
+    table = 1 + 97 * (costs - 1) // 251
+    table[0] = 0
+    table[INSCRIBED_INFLATED_OBSTACLE], table[LETHAL_OBSTACLE], table[NO_INFORMATION] = 99, 100, -1
+    values = table.astype(np.int8)
+    values.setflags(write=False)
+    return values
+
+
+class Costmap2DPublisher:
+    """Publishes a grid on `topic`, and rectangles of it that have changed on `topic`_updates."""
+
+    def __init__(
+        self, node: Node, grid: Costmap2D, global_frame: str, topic: str, *, always_send_full: bool = False
+    ) -> None:
+        self._node, self._grid, self._frame = node, grid, global_frame
+        self._always_send_full = always_send_full
+        self._sent: tuple[Any, ...] | None = None
+        self._changed: Window | None = None
+        self._whole = node.publisher(
+            topic, message_class("nav_msgs/OccupancyGrid"), queue_size=1, on_connect=self._greet
+        )
+        self._part = node.publisher(
+            topic + "_updates", message_class("map_msgs/OccupancyGridUpdate"), queue_size=1
+        )
+        for publisher in (self._whole, self._part):
+            publisher.expect_nobody()
+
+    def changed(self, window: Window) -> None:
+        """Learn that cells have changed since the last message."""
+        if not window.is_empty:
+            before = self._changed or window
+            self._changed = Window(
+                min(before.x0, window.x0),
+                min(before.y0, window.y0),
+                max(before.xn, window.xn),
+                max(before.yn, window.yn),
+            )
+
+    def publish(self) -> None:
+        """Send what has changed; all of it if the grid has another size or origin than in the last message."""
+        geometry = self._geometry()
+        changed, self._changed = self._changed, None
+        if self._always_send_full or self._sent != geometry:
+            self._sent = geometry
+            self._whole.publish(self._message())
+        elif changed is not None:
+            self._part.publish(self._update(changed))
+
+    def _greet(self, subscriber: str) -> None:
+        """A new subscriber gets all of it at once."""
+        self._whole.publish_to(subscriber, self._message())
+
+    def _geometry(self) -> tuple[Any, ...]:
+        grid = self._grid
+        return grid.width, grid.height, grid.resolution, grid.origin
+
+    def _message(self) -> Any:
+        grid = self._grid
+        message = message_class("nav_msgs/OccupancyGrid")()
+        message.header.frame_id = self._frame
+        message.header.stamp = message.info.map_load_time = self._node.now()
+        message.info.resolution = grid.resolution
+        message.info.width, message.info.height = grid.width, grid.height
+        message.info.origin.position.x, message.info.origin.position.y = grid.origin
+        message.info.origin.orientation.w = 1.0
+        message.data = published_values()[grid.costs].ravel()
+        return message
+
+    def _update(self, window: Window) -> Any:
+        update = message_class("map_msgs/OccupancyGridUpdate")()
+        update.header.frame_id = self._frame
+        update.header.stamp = self._node.now()
+        update.x, update.y = window.x0, window.y0
+        update.width, update.height = window.xn - window.x0, window.yn - window.y0
+        update.data = published_values()[window.of(self._grid.costs)].ravel()
+        return update

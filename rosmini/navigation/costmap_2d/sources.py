@@ -1,0 +1,133 @@
+"""Observation sources: a topic whose messages wait for their transform and become observations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import RosminiError
+from rosmini.msgs import message_class
+from rosmini.tf import TransformException
+from rosmini.tf.message_filter import MessageFilter
+from rosmini.tf.rigid import transform_points
+
+from .observations import Floats, Observation, ObservationBuffer, cloud2_points, cloud_points, scan_cloud
+from .parameters import SourceParameters, found_above
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+    from rosmini.tf import Buffer
+
+QUEUE = 50
+"""Messages that may wait for their transform."""
+TOLERANCE = 0.05
+"""A message waits until its transform is known for this much later, too [s]."""
+PROJECTIONS: dict[str, Callable[[Any], Floats]] = {
+    "LaserScan": scan_cloud,
+    "PointCloud": cloud_points,
+    "PointCloud2": cloud2_points,
+}
+
+
+class ObservationSource:
+    """One source of an obstacle layer: the parameters in `namespace` say what it is."""
+
+    def __init__(self, node: Node, buffer: Buffer, namespace: str, name: str, global_frame: str) -> None:
+        self.node, self.buffer, self.name = node, buffer, name
+        self.global_frame = global_frame
+        settings = self.settings = SourceParameters.read(node, namespace)
+        self.topic = settings.topic or name
+        self.obstacle_range = found_above(node, namespace, "obstacle_range", float, 2.5)
+        self.raytrace_range = found_above(node, namespace, "raytrace_range", float, 3.0)
+        self.observations = ObservationBuffer(
+            persistence_ns=round(settings.observation_persistence * 1e9),
+            expected_ns=round(settings.expected_update_rate * 1e9),
+            min_height=settings.min_obstacle_height,
+            max_height=settings.max_obstacle_height,
+        )
+        self.observations.updated_ns = node.clock.now_ns()
+        if settings.inf_is_valid and settings.data_type != "LaserScan":
+            node.logwarn(
+                f"obstacle_layer: inf_is_valid option is not applicable to {settings.data_type} observations."
+            )
+        self._project = (
+            partial(scan_cloud, inf_is_valid=True)
+            if settings.inf_is_valid and settings.data_type == "LaserScan"
+            else PROJECTIONS[settings.data_type]
+        )
+        self._subscriber: Any = None
+        self._filter: MessageFilter | None = None
+        self.activate()
+
+    def activate(self) -> None:
+        """Subscribe."""
+        if self._subscriber is not None:
+            return
+        sensor = self.settings.sensor_frame.lstrip("/")
+        self._filter = MessageFilter(
+            self.buffer,
+            (self.global_frame, sensor) if sensor else (self.global_frame,),
+            self._take,
+            queue_size=QUEUE,
+            tolerance=TOLERANCE,
+            failed=self._dropped,
+        )
+        self._subscriber = self.node.subscriber(
+            self.topic,
+            message_class(f"sensor_msgs/{self.settings.data_type}"),
+            self._filter.add,
+            queue_size=QUEUE,
+        )
+
+    def deactivate(self) -> None:
+        """Leave the topic."""
+        if self._subscriber is not None and self._filter is not None:
+            self._subscriber.unregister()
+            self._filter.close()
+        self._subscriber = self._filter = None
+
+    def is_current(self) -> bool:
+        """Whether messages come as often as expected; if not, that is said."""
+        late = self.observations.late_by(self.node.clock.now_ns())
+        if late is None:
+            return True
+        self.node.logwarn(
+            f"The {self.topic} observation buffer has not been updated for {late * 1e-9:.2f} seconds, and it should be "
+            f"updated every {self.settings.expected_update_rate:.2f} seconds.",
+            throttle=1.0,
+        )
+        return False
+
+    def _take(self, message: Any) -> None:
+        frame = message.header.frame_id.lstrip("/")
+        stamp = message.header.stamp.to_nsec()
+        try:
+            points = self._project(message)
+            placed = self.buffer.tree.lookup(self.global_frame, frame, stamp).transform
+            sensor = self.settings.sensor_frame.lstrip("/")
+            origin = self.buffer.tree.lookup(self.global_frame, sensor, stamp).transform if sensor else placed
+        except TransformException as error:
+            self.node.logerr(
+                f"TF Exception that should never happen for sensor frame: {self.settings.sensor_frame}, cloud frame: "
+                f"{frame}, {error}"
+            )
+            return
+        except (RosminiError, ValueError) as error:
+            self.node.logwarn(
+                f"a message on {self.topic} is malformed and is not taken: {error}", throttle=1.0
+            )
+            return
+        self.observations.add(
+            Observation(
+                origin[:3], transform_points(placed, points), stamp, self.obstacle_range, self.raytrace_range
+            ),
+            self.node.clock.now_ns(),
+        )
+
+    def _dropped(self, message: Any, reason: str) -> None:
+        self.node.logwarn(
+            f"MessageFilter [target={self.global_frame}]: a message of {self.topic} from "
+            f"{message.header.stamp.to_sec():.3f} s in the frame '{message.header.frame_id}' was dropped: {reason}",
+            throttle=15.0,
+        )

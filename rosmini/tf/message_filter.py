@@ -1,0 +1,102 @@
+"""Messages that wait for their transform (http://wiki.ros.org/tf2/Tutorials/Using%20stamped%20datatypes%20with%20tf2::MessageFilter)."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from .buffer import Buffer
+from .errors import ExtrapolationException, TransformException
+
+NO_FRAME = "it has no frame_id"
+TOO_OLD = "its stamp is earlier than all the data in the transform cache"
+QUEUE_FULL = "the queue of messages that wait for their transform was full"
+
+
+class MessageFilter:
+    """Hands a stamped message on as soon as it can be transformed into each of `target_frames`, at its stamp.
+
+    With a `tolerance` [s] it can then be at its stamp and that much later, too, as `setTolerance` of
+    `tf2_ros::MessageFilter` has it. At most `queue_size` messages wait (0: any number); the oldest go first.
+    `failed(message, reason)` is told of each that will never be handed on.
+    """
+
+    def __init__(
+        self,
+        buffer: Buffer,
+        target_frames: Iterable[str],
+        callback: Callable[[Any], object],
+        *,
+        queue_size: int = 0,
+        tolerance: float = 0.0,
+        failed: Callable[[Any, str], object] | None = None,
+    ) -> None:
+        self.buffer = buffer
+        self.target_frames = tuple(frame.lstrip("/") for frame in target_frames)
+        self._callback = callback
+        self._failed = failed
+        self._queue_size = queue_size
+        self._tolerance_ns = round(tolerance * 1e9)
+        self._waiting: deque[Any] = deque()
+        self._end = buffer.watch(self._look)
+
+    def __len__(self) -> int:
+        """How many messages wait."""
+        return len(self._waiting)
+
+    def add(self, message: Any) -> None:
+        """Take a message with a header."""
+        if not message.header.frame_id.lstrip("/"):
+            self._drop(message, NO_FRAME)
+        elif not self._settle(message):
+            self._waiting.append(message)
+            if 0 < self._queue_size < len(self._waiting):
+                self._drop(self._waiting.popleft(), QUEUE_FULL)
+
+    def clear(self) -> None:
+        """Forget what waits."""
+        self._waiting.clear()
+
+    def close(self) -> None:
+        """Forget what waits, and watch the buffer no more."""
+        self.clear()
+        self._end()
+
+    def _look(self) -> None:
+        """A transform has come."""
+        for _ in range(len(self._waiting)):
+            message = self._waiting.popleft()
+            if not self._settle(message):
+                self._waiting.append(message)
+
+    def _settle(self, message: Any) -> bool:
+        """Hand a message on, or drop it; whether one of the two is done."""
+        source = message.header.frame_id.lstrip("/")
+        stamp = message.header.stamp.to_nsec()
+        stamps = (stamp, stamp + self._tolerance_ns) if self._tolerance_ns else (stamp,)
+        for target in self.target_frames:
+            for each in stamps:
+                missing = self.buffer.tree.why_not(target, source, each)
+                if missing is None:
+                    continue
+                if self._is_too_old(missing, target, source, stamp):
+                    self._drop(message, TOO_OLD)
+                    return True
+                return False
+        self._callback(message)
+        return True
+
+    def _is_too_old(self, missing: TransformException, target: str, source: str, stamp: int) -> bool:
+        """Whether no transform that may still come can help: the newest that is known is from later."""
+        if not isinstance(missing, ExtrapolationException):
+            return False
+        try:
+            newest = self.buffer.tree.latest_common_time(target, source)
+        except TransformException:
+            return False
+        return newest > stamp + self._tolerance_ns
+
+    def _drop(self, message: Any, reason: str) -> None:
+        if self._failed is not None:
+            self._failed(message, reason)
