@@ -121,10 +121,15 @@ def cells_image(figure: Figure, axes: Axes, cells: Cells, scheme: str) -> str:
     pixelated = np.abs(right - origin).max() >= values.shape[1]  # else one left out may be a wall
     a, b, c, d, e, f = (fixed(value, 3) for value in (*(right - origin), *(up - origin), *origin))
     return element(
-        "image", href=f"data:image/gif;base64,{base64.b64encode(data).decode()}", width=1, height=1,
+        "image", href=gif_address(data), width=1, height=1,
         preserveAspectRatio="none", transform=f"matrix({a} {b} {c} {d} {e} {f})",
         style="image-rendering:pixelated" if pixelated else None, opacity=None if opacity == 1 else opacity,
     )  # fmt: skip
+
+
+def gif_address(data: bytes) -> str:
+    """A GIF as an address that holds all of it."""
+    return f"data:image/gif;base64,{base64.b64encode(data).decode()}"
 
 
 def draw_frame(axes: Axes, cells: Cells, scale: float) -> None:

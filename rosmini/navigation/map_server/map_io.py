@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from rosmini import files, images
 from rosmini.errors import nearest, shown
+from rosmini.graph.show import show
 
 from .grid_map import FREE, OCCUPIED, UNKNOWN, GridMap, MapDataError, MapMetadataError, MapMissing
 
@@ -43,7 +44,7 @@ SMALLEST, LARGEST = 1e-6, 1e9
 
 
 @dataclass(frozen=True)
-class _Fields:
+class Fields:
     """What a YAML file says."""
 
     image: str
@@ -74,17 +75,25 @@ class MapFile:
     """The description of a map, checked; its image is not yet read."""
 
     document: _Document
-    fields: _Fields
+    fields: Fields
 
     @property
     def image(self) -> Path:
         """The image: beside the YAML file, unless its path is absolute."""
         return self.document.path.parent / self.fields.image
 
+    def pixels(self) -> NDArray[np.uint8]:
+        """The image's pixels (h, w, channels), row 0 at the bottom. Raises `MapDataError` if it cannot be read."""
+        return _channels(self.image, self.document.place("image"))
+
+    def show(self, **options: Any) -> Any:
+        """The image and the map that it makes, with dials; `options`: see `rosmini.viz.map_dials.map_dials`."""
+        return show("map_file", self, **options)
+
     def load(self) -> GridMap:
         """The map. Raises `MapError` as `load_map` does."""
         document, fields = self.document, self.fields
-        occupancy = _occupancy(_channels(self.image, document.place("image")), fields)
+        occupancy = occupancy_of(self.pixels(), fields)
         most = max(occupancy.shape)
         if not SMALLEST <= fields.resolution <= most * fields.resolution <= LARGEST:
             bounds = f"{SMALLEST:g} or more, and with {most} of them no more than {LARGEST:g}"
@@ -142,7 +151,7 @@ def load_map(yaml_path: str | os.PathLike[str]) -> GridMap:
     return map_file(yaml_path).load()
 
 
-def _fields(document: _Document) -> _Fields:
+def _fields(document: _Document) -> Fields:
     found = document.fields
     missing = [name for name in REQUIRED if name not in found]
     if missing:
@@ -177,7 +186,7 @@ def _fields(document: _Document) -> _Fields:
         hint = nearest(str(mode), MODES)
         raise _wrong(document, "mode", mode, f"one of {', '.join(MODES)}{'; ' + hint if hint else ''}")
     origin = _origin(document, found["origin"])
-    return _Fields(image, resolution, origin, occupied, free, bool(negate), cast("Mode", mode))
+    return Fields(image, resolution, origin, occupied, free, bool(negate), cast("Mode", mode))
 
 
 def _document(path: Path) -> _Document:
@@ -269,7 +278,8 @@ def _eight_bits(image: Image) -> NDArray[np.uint8]:
     return pixels[..., None] if pixels.ndim == 2 else pixels
 
 
-def _occupancy(pixels: NDArray[np.uint8], fields: _Fields) -> NDArray[np.int8]:
+def occupancy_of(pixels: NDArray[np.uint8], fields: Fields) -> NDArray[np.int8]:
+    """What pixels (h, w, channels) mean by the numbers of a YAML file: (h, w), as in `GridMap.occupancy`."""
     if pixels.shape[2] == 1:  # a grey has one meaning, so it is worked out once
         table = _cells(np.arange(256, dtype=np.uint8).reshape(1, 256, 1), fields)[0]
         found: NDArray[np.int8] = table[pixels[..., 0]]
@@ -281,7 +291,7 @@ def _occupancy(pixels: NDArray[np.uint8], fields: _Fields) -> NDArray[np.int8]:
     return cells
 
 
-def _cells(pixels: NDArray[np.uint8], fields: _Fields) -> NDArray[np.int8]:
+def _cells(pixels: NDArray[np.uint8], fields: Fields) -> NDArray[np.int8]:
     channels = pixels.shape[2]
     colours = 3 if channels == 4 and fields.mode != "trinary" else channels
     grey = pixels[..., :colours].sum(axis=2, dtype=np.int64) / colours

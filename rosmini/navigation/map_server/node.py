@@ -5,7 +5,7 @@
 
 The second form is deprecated in ROS, too. The map is latched on `map`, its numbers on `map_metadata`; `static_map`
 returns it, and `change_map` reads another. Facts: map_server's main.cpp of https://github.com/ros-planning/navigation.
-What differs: `change_map` says by its result what was wrong (there it is always 255), and returns the map, too.
+What differs: `change_map` says by its result what was wrong; there it is always 255. As there, its answer has no map.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ class MapServer:
             return {"result": error.result}
         self._publish()
         self.node.loginfo(f"Changed map to {request.map_url}")
-        return {"map": self._message, "result": 0}
+        return {"result": 0}
 
 
 def _path_of(address: str) -> str:

@@ -95,7 +95,7 @@ def test_another_map_takes_its_place(files):
     assert len(bench.heard) == 2
     assert bench.heard[1].info.width == 2
     assert bench.heard[1].header.frame_id == "floor"
-    assert answer.map.info == bench.heard[1].info
+    assert len(answer.map.data) == 0
     assert bench.said[-1] == f"Changed map to {files / 'two.yaml'}"
     assert bench.change((files / "one.yaml").as_uri()).result == 0
     assert bench.change("package://rosmini_sim/maps/house.yaml").result == 0
