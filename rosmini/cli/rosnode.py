@@ -359,7 +359,9 @@ def cleanup(_given: Values, call: Call) -> Cleaned:
         return Cleaned()
     gone = []
     for name in silent:
-        if not nodes.silent(call.peers, [name]):  # it was busy, or has been started again meanwhile
+        uri = nodes.uri_of(call.peers, name)
+        if not nodes.silent(call.peers, [name]) or nodes.uri_of(call.peers, name) != uri:
+            # It was busy, or has been started again meanwhile.
             call.say(f"{name} answers now, and stays")
             continue
         call.say(f"Unregistering {name}")

@@ -233,6 +233,27 @@ def test_cleanup_spares_a_node_that_is_there_again_when_the_answer_comes(graph: 
     assert "/talker" in run(graph, "list").names
 
 
+def test_cleanup_spares_a_node_that_starts_again_while_its_old_address_is_asked(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A host that has gone takes ten seconds not to answer."""
+    crash(graph, "/talker")
+    gone = graph.ask_as("/test").ask("lookupNode", "/talker")
+    ask, asked = graph.transport.call, []
+
+    def slow(uri: str, method: str, *arguments: object) -> object:
+        if uri == gone and method == "getPid":
+            asked.append(uri)
+            if len(asked) == 2:
+                graph.node("talker")
+        return ask(uri, method, *arguments)
+
+    monkeypatch.setattr(graph.transport, "call", slow)
+    assert run(graph, "cleanup").names == ()
+    assert len(asked) == 2
+    assert graph.ask_as("/test").ask("lookupNode", "/talker") == graph.nodes["/talker"].uri
+
+
 def test_cleanup_in_python_does_not_ask(graph: Graph) -> None:
     crash(graph, "/srv_server")
     assert run(graph, "cleanup").names == ("/srv_server",)
