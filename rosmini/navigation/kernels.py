@@ -11,7 +11,12 @@ from functools import cache
 from importlib import import_module
 from typing import Any
 
-KERNELS: tuple[str, ...] = ("rosmini.navigation.costmap_2d.rays:compiled_clear_rays",)
+KERNELS: tuple[str, ...] = (
+    "rosmini.navigation.base_local_planner.map_grid:compiled_wavefront",
+    "rosmini.navigation.base_local_planner.rollout:compiled_footprint_cost",
+    "rosmini.navigation.base_local_planner.rollout:compiled_rollout",
+    "rosmini.navigation.costmap_2d.rays:compiled_clear_rays",
+)
 """`module:function` of the functions that return a kernel: compiled, or without numba as it is."""
 
 

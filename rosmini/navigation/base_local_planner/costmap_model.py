@@ -1,0 +1,80 @@
+"""What a footprint costs where it stands: base_local_planner's `CostmapModel`.
+
+Only the outline is looked up, as there: an obstacle that is wholly inside of it is not seen, but then the robot stands
+on it already.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rosmini.geometry.poses import Pose
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
+from rosmini.navigation.kernels import kernel
+
+from .rollout import HIT, OUTSIDE, UNSEEN
+
+KERNEL = "rosmini.navigation.base_local_planner.rollout:compiled_footprint_cost"
+
+__all__ = ["HIT", "OUTSIDE", "UNSEEN", "footprint_cells", "footprint_cost", "line_cells"]
+
+
+def footprint_cost(grid: Costmap2D, pose: Pose, footprint: ArrayLike) -> int:
+    """The largest cost on the outline of a footprint (n, 2) [m, in the base frame] at `pose` (x [m], y [m], heading).
+
+    Negative where the robot cannot be: `HIT` (-1) on an obstacle, `UNSEEN` (-2) on an unknown cell, `OUTSIDE` (-3) off
+    the costmap. With fewer than three vertices the robot is round, and the cost of its centre's cell decides: then 253
+    is a hit, too.
+    """
+    outline = np.ascontiguousarray(footprint, dtype=np.float64).reshape(-1, 2)
+    costs = np.ascontiguousarray(grid.costs)
+    found = kernel(KERNEL)(costs, *grid.origin, grid.resolution, *map(float, pose), outline, 1.0)
+    return int(found)
+
+
+def line_cells(x: int, y: int, end_x: int, end_y: int) -> list[tuple[int, int]]:
+    """The cells of a line, both ends included, as the kernel visits them."""
+    dx, dy = abs(end_x - x), abs(end_y - y)
+    step_x, step_y = (1 if end_x >= x else -1), (1 if end_y >= y else -1)
+    steps, gain, cells = max(dx, dy), min(dx, dy), []
+    rest = steps // 2
+    for _ in range(steps + 1):
+        cells.append((x, y))
+        rest += gain
+        aside = rest >= steps
+        rest -= steps * aside
+        x += step_x if dx >= dy or aside else 0
+        y += step_y if dx < dy or aside else 0
+    return cells
+
+
+def footprint_cells(
+    grid: Costmap2D, pose: Pose, footprint: ArrayLike, *, fill: bool
+) -> list[tuple[int, int]]:
+    """The cells (mx, my) under the outline of a footprint at `pose`, and those between them if it is to be filled.
+
+    Where the outline leaves the map, it ends, as in base_local_planner's `FootprintHelper`.
+    """
+    x, y, theta = pose
+    cos, sin = np.cos(theta), np.sin(theta)
+    vertices = [
+        (x + px * cos - py * sin, y + px * sin + py * cos)
+        for px, py in np.asarray(footprint, dtype=np.float64).reshape(-1, 2)
+    ]
+    if len(vertices) < 2:
+        centre = grid.world_to_map(x, y)
+        return [centre] if centre else []
+    corners = [grid.world_to_map(*vertex) for vertex in vertices]
+    cells: dict[tuple[int, int], None] = {}
+    for start, end in zip(corners, [*corners[1:], corners[0]], strict=True):
+        if start is None or end is None:
+            return list(cells)
+        cells.update(dict.fromkeys(line_cells(*start, *end)))
+    if fill:
+        columns: dict[int, list[int]] = {}
+        for mx, my in cells:
+            columns.setdefault(mx, []).append(my)
+        for mx, rows in columns.items():
+            cells.update(dict.fromkeys((mx, my) for my in range(min(rows), max(rows) + 1)))
+    return list(cells)

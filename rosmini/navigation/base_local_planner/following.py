@@ -1,0 +1,236 @@
+"""Where a local planner meets the graph: the plan in the costmap's frame, topics, clouds and parameters.
+
+What `LocalPlannerUtil`, `MapGridVisualizer` and `goal_functions` do for both planners in ROS.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.errors import ParameterError
+from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.graph import Node
+from rosmini.msgs import message_class
+from rosmini.navigation.costmap_2d.costmap import INSCRIBED_INFLATED_OBSTACLE
+from rosmini.navigation.nav_core import ControlFailure, NoValidCommand, TransformMissing, pose_stamped
+from rosmini.parameters import Parameters
+from rosmini.tf import Buffer, TransformException
+from rosmini.time import Time
+
+from .goal_functions import behind, part_in_reach
+from .map_grid import MapGrid
+from .trajectory import Samples
+
+Floats = NDArray[np.float64]
+
+
+class Following:
+    """The plan that is followed, and its part that concerns the local costmap."""
+
+    def __init__(self, buffer: Buffer, costmap: Any) -> None:
+        self.buffer, self.costmap = buffer, costmap
+        self.poses: Floats = np.empty((0, 3))
+        """The rest of the plan (n, 3), in `frame`."""
+        self.frame = ""
+
+    def set_plan(self, plan: Sequence[Any]) -> None:
+        """Follow poses (`geometry_msgs/PoseStamped`) that are all in the frame of the first one."""
+        self.frame = plan[0].header.frame_id.lstrip("/") if plan else ""
+        made = np.empty((len(plan), 3))
+        for row, stamped in zip(made, plan, strict=True):
+            p, q = stamped.pose.position, stamped.pose.orientation
+            row[:] = p.x, p.y, np.arctan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
+        self.poses = made
+
+    def goal(self) -> Pose:
+        """The end of the plan in the costmap's frame. Raises `ControlFailure` and `TransformMissing`."""
+        if not len(self.poses):
+            raise ControlFailure("Received plan with zero length: there is no goal to drive to")
+        x, y, theta = compose(self._frame_pose(), self.poses[-1])
+        return float(x), float(y), float(theta)
+
+    def local(self, robot: Pose, *, prune: bool) -> Floats:
+        """The part (n, 3) of the plan in reach of the costmap, in its frame; with `prune`, what is behind is dropped.
+
+        Raises `ControlFailure` if there is none, and `TransformMissing`.
+        """
+        if not len(self.poses):
+            raise ControlFailure("Received plan with zero length: the local planner has nothing to follow")
+        frame = self._frame_pose()
+        here = compose(inverse(frame), robot)
+        part = compose(frame, self.poses[part_in_reach(self.poses, here, self.costmap.grid)])
+        if prune and len(part):
+            passed = behind(part, robot)
+            part, self.poses = part[passed:], self.poses[passed:]
+        if not len(part):
+            size = self.costmap.grid.size_m
+            away = (
+                float(np.hypot(*(self.poses[:, :2] - here[:2]).T).min()) if len(self.poses) else float("nan")
+            )
+            raise ControlFailure(
+                f"Received an empty transformed plan: its nearest pose is {away:.2f} m from the robot, out of "
+                f"reach of the local costmap of {size[0]:.2f} m x {size[1]:.2f} m",
+                distance=away,
+            )
+        return np.asarray(part)
+
+    def _frame_pose(self) -> Pose:
+        """Where the plan's frame is in the costmap's."""
+        if self.frame == self.costmap.global_frame:
+            return 0.0, 0.0, 0.0
+        try:
+            found = self.buffer.lookup_transform(self.costmap.global_frame, self.frame, Time(0))
+        except TransformException as error:
+            raise TransformMissing(
+                f"Could not transform the global plan to the frame of the controller: {error}",
+                frame=self.frame,
+            ) from error
+        t, q = found.transform.translation, found.transform.rotation
+        return t.x, t.y, float(np.arctan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z)))
+
+
+class Publications:
+    """The topics of a local planner, in its namespace; messages are made only if somebody listens."""
+
+    def __init__(self, node: Node, name: str, frame: str) -> None:
+        path, cloud = message_class("nav_msgs/Path"), message_class("sensor_msgs/PointCloud2")
+        self.node, self.frame = node, frame
+        self.global_plan = node.publisher(f"~{name}/global_plan", path, queue_size=1)
+        self.local_plan = node.publisher(f"~{name}/local_plan", path, queue_size=1)
+        self.cost_cloud = node.publisher(f"~{name}/cost_cloud", cloud, queue_size=1)
+
+    def path(self, publisher: Any, poses: Floats) -> None:
+        """Publish poses (n, 3), if there are any: an empty plan is not published, as in ROS."""
+        if not len(poses) or not publisher.num_connections():
+            return
+        now = self.node.now()
+        message = message_class("nav_msgs/Path")()
+        message.header.frame_id, message.header.stamp = self.frame, now
+        message.poses = [pose_stamped(self.frame, now, (float(x), float(y), float(t))) for x, y, t in poses]
+        publisher.publish(message)
+
+    def costs(self, grid: Any, path: MapGrid, goal: MapGrid, scales: tuple[float, float, float]) -> None:
+        """Publish what each cell costs: distances to path and goal, costs, and their sum with these weights.
+
+        Cells in obstacles and without a path are left out.
+        """
+        if not self.cost_cloud.num_connections():
+            return
+        lost = (path.distances >= path.obstacle) | (grid.costs >= INSCRIBED_INFLATED_OBSTACLE)
+        # Column by column, as there.
+        mx, my = np.nonzero(~lost.T)
+        parts = [each[my, mx].astype(np.float32) for each in (path.distances, goal.distances, grid.costs)]
+        x = grid.origin[0] + (mx + 0.5) * grid.resolution
+        y = grid.origin[1] + (my + 0.5) * grid.resolution
+        total = sum(scale * part for scale, part in zip(scales, parts, strict=True))
+        names = ("x", "y", "z", "path_cost", "goal_cost", "occ_cost", "total_cost")
+        self._cloud(self.cost_cloud, names, np.column_stack([x, y, np.zeros(len(x)), *parts, total]))
+
+    def trajectories(self, publisher: Any, samples: Samples) -> None:
+        """Publish the points of all trajectories that were not rejected, with their cost."""
+        if not publisher.num_connections():
+            return
+        rows = [
+            np.column_stack([points[:, :2], np.zeros(len(points)), points[:, 2], np.full(len(points), cost)])
+            for points, cost in (
+                (samples.trajectory(int(n)), samples.totals[n]) for n in np.flatnonzero(samples.accepted)
+            )
+        ]
+        self._cloud(
+            publisher, ("x", "y", "z", "theta", "cost"), np.vstack(rows) if rows else np.empty((0, 5))
+        )
+
+    def _cloud(self, publisher: Any, names: Sequence[str], rows: Floats) -> None:
+        message, field = message_class("sensor_msgs/PointCloud2")(), message_class("sensor_msgs/PointField")
+        message.header.frame_id, message.header.stamp = self.frame, self.node.now()
+        message.fields = [
+            field(name=name, offset=4 * i, datatype=field.FLOAT32, count=1) for i, name in enumerate(names)
+        ]
+        message.height, message.width, message.is_dense = 1, len(rows), True
+        message.point_step, message.row_step = 4 * len(names), 4 * len(names) * len(rows)
+        message.data = np.frombuffer(rows.astype("<f4").tobytes(), dtype=np.uint8)
+        publisher.publish(message)
+
+
+# -- parameters --------------------------------------------------------------------------------------------------------
+
+
+def sim_period(node: Node, label: str) -> float:
+    """The time between two commands [s], from `controller_frequency` in the planner's namespace or above."""
+    for name in (label + "controller_frequency", "~controller_frequency"):
+        if node.has_param(name):
+            break
+    else:
+        name = node.search_param("controller_frequency") or ""
+    frequency = node.get_param(name) if name else 20.0
+    if isinstance(frequency, bool) or not isinstance(frequency, int | float):
+        raise ParameterError(
+            f"parameter {node.resolve_parameter(name)} is {frequency!r}; it has to be a number [Hz]"
+        )
+    if frequency <= 0:
+        node.logwarn(
+            "A controller_frequency less than 0 has been set. Ignoring the parameter, assuming a rate of 20Hz"
+        )
+        frequency = 20.0
+    node.loginfo(f"Sim period is set to {1 / frequency:.2f}")
+    return 1 / frequency
+
+
+def rename(node: Node, label: str, old: str, new: str) -> None:
+    """Take the value of an older name for the newer one, if that has none, with ROS's warning."""
+    if not node.has_param(label + old):
+        return
+    if not node.has_param(label + new):
+        node.logwarn(f"Parameter {old} is deprecated. Please use the name {new} instead.")
+        node.set_param(label + new, node.get_param(label + old))
+
+
+def ignore(node: Node, label: str, names: Iterable[str], whose: str) -> None:
+    """Warn of parameters that this planner does not read, though files for real robots have them."""
+    for name in names:
+        if node.has_param(label + name):
+            node.logwarn(
+                f"parameter {node.resolve_parameter(label + name)} is not read by this planner: {whose}"
+            )
+
+
+def limit(node: Node, label: str, declared: type[Parameters]) -> None:
+    """Bring numbers into their ranges, as dynamic_reconfigure does without a word; here it is said."""
+    for each in fields(declared):
+        low, high = each.metadata["minimum"], each.metadata["maximum"]
+        name = label + each.name
+        if (low is None and high is None) or not node.has_param(name):
+            continue
+        value = node.get_param(name)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            continue
+        limited = value if low is None else max(value, type(value)(low))
+        limited = limited if high is None else min(limited, type(value)(high))
+        if limited != value:
+            node.logwarn(
+                f"parameter {node.resolve_parameter(name)} is {value}: {limited} is used, as its range is "
+                f"{'' if low is None else low} ... {'' if high is None else high}"
+            )
+            node.set_param(name, limited)
+
+
+def no_command(text: str, samples: Samples) -> NoValidCommand:
+    """Why none of the samples is any good, with their number by critic."""
+    counts = samples.counts()
+    listed = ", ".join(f"{name} rejected {count}" for name, count in counts.items() if name != "generator")
+    tried = len(samples) + samples.refused
+    if not len(samples):
+        listed = "all are slower than the slowest that the robot drives and turns, or faster than it may"
+    return NoValidCommand(f"{text}: of {tried} sampled velocities, {listed}", sampled=tried, rejected=counts)
+
+
+def twist(command: Floats) -> Any:
+    """A `geometry_msgs/Twist` of a velocity (3)."""
+    message = message_class("geometry_msgs/Twist")()
+    message.linear.x, message.linear.y, message.angular.z = (float(value) for value in command)
+    return message

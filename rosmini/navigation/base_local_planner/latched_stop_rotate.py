@@ -1,0 +1,101 @@
+"""What to do at the goal: stop, then turn to its heading. `LatchedStopRotateController`, without its node."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.poses import Pose
+from rosmini.navigation.nav_core import ControlFailure
+
+from .goal_functions import distance_to, stands, turn_to
+from .limits import LocalPlannerLimits
+
+Floats = NDArray[np.float64]
+Check = Callable[[Floats], bool]
+"""Whether the robot may drive a velocity (3)."""
+
+
+@dataclass
+class LatchedStopRotate:
+    """Knows whether the goal's position was reached once (`latch`: that is enough), and what to command there."""
+
+    latch: bool = False
+    """`latch_xy_goal_tolerance`."""
+    reached: bool = False
+    rotating: bool = False
+
+    def reset(self) -> None:
+        """Forget that the position was reached: there is a new plan."""
+        self.reached = False
+
+    def is_position_reached(self, pose: Pose, goal: Pose, limits: LocalPlannerLimits) -> bool:
+        """Whether the robot is near enough to the goal, or was, with `latch`."""
+        if (self.latch and self.reached) or distance_to(pose, goal) <= limits.xy_goal_tolerance:
+            self.reached = True
+            return True
+        return False
+
+    def is_goal_reached(self, pose: Pose, velocity: Floats, goal: Pose, limits: LocalPlannerLimits) -> bool:
+        """Whether it is there, turned as it should be, and stands."""
+        if not ((self.latch and self.reached) or distance_to(pose, goal) <= limits.xy_goal_tolerance):
+            return False
+        self.reached = self.reached or self.latch
+        return abs(turn_to(pose, goal)) <= limits.yaw_goal_tolerance and stands(
+            velocity, limits.theta_stopped_vel, limits.trans_stopped_vel
+        )
+
+    def command(
+        self,
+        pose: Pose,
+        velocity: Floats,
+        goal: Pose,
+        limits: LocalPlannerLimits,
+        period: float,
+        is_free: Check,
+    ) -> Floats:
+        """The velocity (3) to command at the goal; `period` [s] is the time between two commands.
+
+        Raises `ControlFailure` if the robot cannot brake or turn there without touching something.
+        """
+        turn = turn_to(pose, goal)
+        if abs(turn) <= limits.yaw_goal_tolerance:
+            self.rotating = False
+            return np.zeros(3)
+        if not self.rotating and not stands(velocity, limits.theta_stopped_vel, limits.trans_stopped_vel):
+            return checked(
+                braked(velocity, limits.accelerations, period), is_free, "Stopping cmd in collision"
+            )
+        self.rotating = True
+        most, least = limits.max_vel_theta, limits.min_vel_theta
+        speed = min(most, max(least, abs(turn)))
+        speed = follow(speed, turn, float(velocity[2]), limits.acc_lim_theta, period)
+        speed = min(most, max(least, speed))
+        return checked(np.array([0.0, 0.0, math.copysign(speed, turn)]), is_free, "Rotation cmd in collision")
+
+
+def braked(velocity: Floats, accelerations: Floats, period: float) -> Floats:
+    """The velocity (3) after a period of braking as hard as the robot can."""
+    return np.sign(velocity) * np.maximum(0.0, np.abs(velocity) - accelerations * period)
+
+
+def follow(speed: float, turn: float, now: float, acceleration: float, period: float) -> float:
+    """A speed of turning that the robot reaches in a period, and from which it can stop at the end of `turn` [rad]."""
+    speed = min(max(abs(speed), abs(now) - acceleration * period), abs(now) + acceleration * period)
+    return min(math.sqrt(2 * acceleration * abs(turn)), abs(speed))
+
+
+def checked(command: Floats, is_free: Check, text: str) -> Floats:
+    """The command, if the robot may drive it. Raises `ControlFailure`, which begins with `text`."""
+    if is_free(command):
+        return command
+    x, y, theta = (round(float(value), 3) + 0.0 for value in command)
+    raise ControlFailure(
+        f"{text}: at the goal the robot would drive {x} m/s ahead, {y} m/s to the left and turn by {theta} rad/s, and "
+        "its footprint meets an obstacle, unknown cells or the edge of the local costmap",
+        command=(x, y, theta),
+    )

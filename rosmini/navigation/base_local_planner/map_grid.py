@@ -1,0 +1,144 @@
+"""How far each cell of a costmap is from the plan, or from where the plan leaves the costmap: `MapGrid`.
+
+A wavefront from the target cells, from cell to cell through shared edges; obstacles stop it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.machine_code import machine_code
+from rosmini.navigation.costmap_2d.costmap import NO_INFORMATION, Costmap2D, Ints
+from rosmini.navigation.kernels import kernel
+
+KERNEL = "rosmini.navigation.base_local_planner.map_grid:compiled_wavefront"
+
+Distances = NDArray[np.int32]
+Floats = NDArray[np.float64]
+
+INSCRIBED = 253
+"""From this cost on a cell stops the wavefront; compiled in."""
+
+
+def wavefront(
+    costs: NDArray[np.uint8],
+    within: NDArray[np.uint8],
+    distances: Distances,
+    queue: NDArray[np.int32],
+    count: int,
+) -> None:
+    """Spread distances (h, w) [cells] from the `count` cells that stand in `queue` (h w), as indices, with distance 0.
+
+    All others begin with the distance h w + 1, and keep it where no path leads; obstacles get h w. Cells marked in
+    `within` (h, w) are never obstacles: there the robot is.
+    """
+    height, width = costs.shape
+    size = height * width
+    head, tail = 0, count
+    while head < tail:
+        cell = queue[head]
+        head += 1
+        my, mx = cell // width, cell % width
+        near = distances[my, mx] + 1
+        for side in range(4):
+            nx = mx + (-1 if side == 0 else 1 if side == 1 else 0)
+            ny = my + (-1 if side == 2 else 1 if side == 3 else 0)
+            if nx < 0 or ny < 0 or nx >= width or ny >= height or distances[ny, nx] <= size:
+                continue
+            if costs[ny, nx] >= INSCRIBED and within[ny, nx] == 0:
+                distances[ny, nx] = size
+                continue
+            distances[ny, nx] = near
+            queue[tail] = ny * width + nx
+            tail += 1
+
+
+def compiled_wavefront() -> Callable[..., None]:
+    """`wavefront` as machine code, or as it is without numba."""
+    try:
+        import numba
+    except ImportError:
+        return wavefront
+    read: Any = numba.types.Array(numba.uint8, 2, "C", readonly=True)
+    signature = numba.void(read, read, numba.int32[:, ::1], numba.int32[::1], numba.int64)
+    return machine_code(wavefront, signature)
+
+
+@dataclass(frozen=True)
+class MapGrid:
+    """Distances [cells] of all cells (h, w), from the cells `targets` (n, 2) as (mx, my)."""
+
+    distances: Distances
+    targets: Ints
+
+    @property
+    def obstacle(self) -> int:
+        """The distance that says "an obstacle"."""
+        return int(self.distances.size)
+
+    @property
+    def unreachable(self) -> int:
+        """The distance that says "no path leads here"."""
+        return int(self.distances.size) + 1
+
+
+def finer(points: Floats, resolution: float) -> Floats:
+    """A plan (n, 2 or more columns) with points put in between, so that none are further apart than `resolution`."""
+    if len(points) < 2:
+        return points
+    steps = np.diff(points, axis=0)
+    squares = steps[:, 0] ** 2 + steps[:, 1] ** 2
+    parts = np.where(squares > resolution * resolution, np.ceil(np.sqrt(squares) / resolution), 1).astype(
+        np.int64
+    )
+    if int(parts.max()) == 1:
+        return points
+    starts = np.repeat(np.arange(len(parts)), parts)
+    within = np.arange(len(starts)) - np.repeat(np.cumsum(parts) - parts, parts)
+    made = points[starts] + within[:, None] * (steps / parts[:, None])[starts]
+    return np.vstack([made, points[-1:]])
+
+
+def plan_cells(grid: Costmap2D, plan: Floats) -> Ints:
+    """The cells (n, 2), as (mx, my), of the first part of a plan (n, 2) that is on the costmap and on known cells."""
+    points = finer(plan[:, :2], grid.resolution)
+    cells = np.floor((points - np.asarray(grid.origin)) / grid.resolution).astype(np.int64)
+    inside = np.all((cells >= 0) & (cells < (grid.width, grid.height)), axis=1)
+    inside[inside] = grid.costs[cells[inside, 1], cells[inside, 0]] != NO_INFORMATION
+    if not inside.any():
+        return np.empty((0, 2), dtype=np.int64)
+    first = int(np.argmax(inside))
+    outside = np.flatnonzero(~inside[first:])
+    return np.asarray(cells[first : first + int(outside[0]) if len(outside) else None])
+
+
+def path_grid(grid: Costmap2D, plan: Floats, within: Ints | None = None) -> MapGrid:
+    """Distances from the plan (n, 2): what `MapGrid::setTargetCells` computes.
+
+    `within` (n, 2) are cells (mx, my) where the robot is, which stop nothing.
+    """
+    return _spread(grid, plan_cells(grid, plan), within)
+
+
+def goal_grid(grid: Costmap2D, plan: Floats) -> MapGrid:
+    """Distances from the last point of the plan (n, 2) before it leaves the costmap: `MapGrid::setLocalGoal`."""
+    return _spread(grid, plan_cells(grid, plan)[-1:], None)
+
+
+def _spread(grid: Costmap2D, targets: Ints, within: Ints | None) -> MapGrid:
+    size = grid.width * grid.height
+    distances: Distances = np.full((grid.height, grid.width), size + 1, dtype=np.int32)
+    inside = np.zeros((grid.height, grid.width), dtype=np.uint8)
+    if within is not None and len(within):
+        inside[within[:, 1], within[:, 0]] = 1
+    queue = np.empty(size, dtype=np.int32)
+    starts = np.unique(targets[:, 1] * grid.width + targets[:, 0])
+    queue[: len(starts)] = starts
+    distances.reshape(-1)[starts] = 0
+    kernel(KERNEL)(np.ascontiguousarray(grid.costs), inside, distances, queue, len(starts))
+    return MapGrid(distances, targets)

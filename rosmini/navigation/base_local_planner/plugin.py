@@ -1,0 +1,226 @@
+"""`base_local_planner/TrajectoryPlannerROS`: parameters, topics and the odometry around `TrajectoryPlanner`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.dynamic_reconfigure import Server
+from rosmini.geometry.poses import Pose
+from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose
+from rosmini.parameters import parameter
+from rosmini.tf import Buffer
+
+from .following import Following, Publications, ignore, limit, no_command, rename, sim_period, twist
+from .goal_functions import distance_to, stands, turn_to
+from .latched_stop_rotate import braked, checked, follow
+from .limits import LocalPlannerLimits
+from .odometry_helper import OdometryHelper
+from .trajectory import Samples
+from .trajectory_planner import TrajectoryPlanner, TrajectoryPlannerParameters
+
+Floats = NDArray[np.float64]
+
+STANDS = 1e-2
+"""Up to this speed [m/s] and turn [rad/s] the robot stands."""
+
+RENAMED = {
+    "acc_lim_th": "acc_lim_theta",
+    "max_rotational_vel": "max_vel_theta",
+    "min_in_place_rotational_vel": "min_in_place_vel_theta",
+    "pdist_scale": "path_distance_bias",
+    "gdist_scale": "goal_distance_bias",
+}
+"""Names of earlier releases, which are still read."""
+
+MISSPELT = {"acc_limit_x": "acc_lim_x", "acc_limit_y": "acc_lim_y", "acc_limit_th": "acc_lim_th"}
+"""What an early documentation had wrong: not read, in ROS as here."""
+
+OTHERS = (
+    *(each.name for each in fields(LocalPlannerLimits)),
+    *(
+        "forward_point_distance",
+        "scaling_speed",
+        "max_scaling_factor",
+        "vy_samples",
+        "vth_samples",
+        "use_dwa",
+    ),
+    *("twirling_scale", "oscillation_reset_angle", "publish_traj_pc", "cheat_factor", "penalize_negative_x"),
+    *("max_trans_vel", "min_trans_vel", "max_rot_vel", "min_rot_vel", "rot_stopped_vel", "acc_limit_trans"),
+)
+
+
+@dataclass(frozen=True)
+class TrajectoryPlannerSettings(TrajectoryPlannerParameters):
+    """All parameters of `base_local_planner/TrajectoryPlannerROS`: those that cannot be changed while it runs, too."""
+
+    controller_frequency: float | None = parameter(
+        None, "how often it is asked for a command; by default move_base's", unit="Hz"
+    )
+    prune_plan: bool = parameter(True, "forget what of the plan lies more than 1 m behind")
+    yaw_goal_tolerance: float = parameter(0.05, "so well turned is turned to the goal", unit="rad")
+    xy_goal_tolerance: float = parameter(0.1, "so near is at the goal", unit="m")
+    latch_xy_goal_tolerance: bool = parameter(False, "having been at the goal's position once is enough")
+    stop_time_buffer: float = parameter(0.2, "not used, as in ROS", unit="s")
+    meter_scoring: bool = parameter(False, "distances are weighed in metres, not in cells")
+    world_model: str = parameter("costmap", "how the world is seen", choices=("costmap",))
+    publish_cost_grid_pc: bool = parameter(False, "publish what each cell costs")
+    global_frame_id: str = parameter("odom", "not used: clouds are in the costmap's frame")
+    odom_topic: str = parameter("odom", "the topic of the odometry")
+    backup_vel: float | None = parameter(None, "the former name of escape_vel", unit="m/s")
+
+    allowed = (*RENAMED, *MISSPELT, *OTHERS, "point_grid")
+
+
+class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/TrajectoryPlannerROS"):
+    """Drives along a plan by rolling trajectories out; `samples` has what the last cycle tried."""
+
+    samples: Samples | None = None
+    """The trajectories of the last cycle, or None before the first."""
+
+    def initialize(self, name: str, buffer: Buffer, costmap: Any) -> None:
+        """Read the parameters, advertise the topics, and listen to the odometry."""
+        super().initialize(name, buffer, costmap)
+        self.node, label = costmap.node, f"~{name}/"
+        self._mend_names(label)
+        limit(self.node, label, TrajectoryPlannerParameters)
+        settings = TrajectoryPlannerSettings.read(self.node, label)
+        self._settings = settings
+        self._say_what_is_odd(settings, label)
+        self.publications = Publications(self.node, name, costmap.global_frame)
+        self.following = Following(buffer, costmap)
+        dynamic = {each.name: getattr(settings, each.name) for each in fields(TrajectoryPlannerParameters)}
+        self.planner = TrajectoryPlanner(
+            TrajectoryPlannerParameters(**dynamic),
+            sim_period(self.node, label),
+            meter_scoring=settings.meter_scoring,
+        )
+        self.odometry = OdometryHelper(self.node, settings.odom_topic)
+        self._latched = self._rotating = self._reached = False
+        self._at_start: dict[str, Any] | None = None
+        self._server = Server(self.node, TrajectoryPlannerParameters, self._reconfigure, namespace=label)
+
+    def _mend_names(self, label: str) -> None:
+        node = self.node
+        for old, new in RENAMED.items():
+            rename(node, label, old, new)
+        for old, new in MISSPELT.items():
+            if node.has_param(label + old):
+                node.logerr(
+                    f"You are using {old} where you should be using {new}. Please change your configuration files "
+                    "appropriately. The documentation used to be wrong on this, sorry for any confusion."
+                )
+        known = {each.name for each in fields(TrajectoryPlannerSettings)}
+        ignore(node, label, [name for name in OTHERS if name not in known], "it is one of DWAPlannerROS")
+        ignore(node, label, ["point_grid"], "it was one of another world_model")
+        velocities = node.get_param(label + "y_vels", "")
+        if isinstance(velocities, list):
+            node.set_param(label + "y_vels", ",".join(map(str, velocities)))
+        backup = node.get_param(label + "backup_vel", None)
+        if backup is not None:
+            node.logwarn(
+                "The backup_vel parameter has been deprecated in favor of the escape_vel parameter. To switch, just "
+                "change the parameter name in your configuration files."
+            )
+            if not node.has_param(label + "escape_vel"):
+                node.set_param(label + "escape_vel", backup)
+
+    def _say_what_is_odd(self, settings: TrajectoryPlannerSettings, label: str) -> None:
+        if settings.escape_vel >= 0:
+            self.node.logwarn(
+                "You've specified a positive escape velocity. This is probably not what you want and will cause the "
+                "robot to move forward instead of backward. You should probably change your escape_vel parameter to be "
+                "negative"
+            )
+        if not settings.meter_scoring:
+            how = "set to false" if self.node.has_param(label + "meter_scoring") else "not set"
+            self.node.logwarn(
+                f"Trajectory Rollout planner initialized with param meter_scoring {how}. Set it to true to make your "
+                "settings robust against changes of costmap resolution."
+            )
+
+    def _reconfigure(self, config: Any, _: int) -> Any:
+        names = [each.name for each in fields(TrajectoryPlannerParameters)]
+        if self._at_start is None:
+            self._at_start = {name: config[name] for name in names}
+        elif config["restore_defaults"]:
+            config.update({**self._at_start, "restore_defaults": False})
+        self.planner.reconfigure(TrajectoryPlannerParameters(**{name: config[name] for name in names}))
+        self._reached = False
+        return config
+
+    @property
+    def parameters(self) -> TrajectoryPlannerParameters:
+        """What holds now."""
+        return self.planner.parameters
+
+    # -- the interface -------------------------------------------------------------------------------------------
+
+    def set_plan(self, plan: Sequence[Any]) -> None:
+        """Follow this plan."""
+        self.following.set_plan(plan)
+        self._latched = self._reached = False
+
+    def is_goal_reached(self) -> bool:
+        """Whether the robot is at the end of the plan, and turned as it says."""
+        return self._reached
+
+    def compute_velocity_commands(self) -> Any:
+        """The next command: along the plan, or at its end to a standstill and to the heading."""
+        pose = planar_pose(self.costmap.robot_pose())
+        plan = self.following.local(pose, prune=self._settings.prune_plan)
+        goal = (float(plan[-1, 0]), float(plan[-1, 1]), float(plan[-1, 2]))
+        if self._latched or distance_to(pose, goal) <= self._settings.xy_goal_tolerance:
+            self._latched = self._latched or self._settings.latch_xy_goal_tolerance
+            command = self._at_goal(pose, goal, plan)
+            self.publications.path(self.publications.global_plan, plan)
+            return twist(command)
+        samples = self._sample(pose, plan)
+        if samples.best is None:
+            self.publications.path(self.publications.global_plan, plan)
+            raise no_command("The rollout planner failed to find a valid plan", samples)
+        self.publications.path(self.publications.global_plan, plan)
+        self.publications.path(self.publications.local_plan, samples.trajectory(samples.best))
+        return twist(samples.commands[samples.best])
+
+    def _sample(self, pose: Pose, plan: Floats) -> Samples:
+        grid = self.costmap.grid
+        if not self.planner.update_plan(grid, pose, plan, self.costmap.footprint):
+            self.node.logerr(
+                "None of the points of the global plan were in the local costmap, global plan points too far from robot"
+            )
+        self.samples = samples = self.planner.find_best(grid, pose, self.odometry.velocity)
+        if self._settings.publish_cost_grid_pc and self.planner.path and self.planner.goal:
+            occupied, path, goal = (float(scale) for scale in samples.scales[:3])
+            self.publications.costs(grid, self.planner.path, self.planner.goal, (path, goal, occupied))
+        return samples
+
+    def _at_goal(self, pose: Pose, goal: Pose, plan: Floats) -> Floats:
+        turn, velocity = turn_to(pose, goal), self.odometry.velocity
+        if abs(turn) <= self._settings.yaw_goal_tolerance:
+            self._rotating = self._latched = False
+            self._reached = True
+            return np.zeros(3)
+        # So that the distances of the check below are those of now.
+        self._sample(pose, plan)
+        if not self._rotating and not stands(velocity, STANDS, STANDS):
+            command = braked(velocity, self.parameters.accelerations, self.planner.sim_period)
+            return checked(command, lambda asked: self._is_free(pose, asked), "Stopping cmd in collision")
+        self._rotating = True
+        p = self.parameters
+        most, least = p.max_vel_theta, p.min_in_place_vel_theta
+        speed = min(most, max(least, abs(turn)))
+        speed = follow(speed, turn, float(velocity[2]), p.acc_lim_theta, self.planner.sim_period)
+        # More important than the acceleration.
+        speed = min(most, max(least, speed))
+        command = np.array([0.0, 0.0, math.copysign(speed, turn)])
+        return checked(command, lambda asked: self._is_free(pose, asked), "Rotation cmd in collision")
+
+    def _is_free(self, pose: Pose, command: Floats) -> bool:
+        return self.planner.score(self.costmap.grid, pose, self.odometry.velocity, command) >= 0

@@ -1,0 +1,302 @@
+"""The kernels of the local planners: a footprint on a costmap, and sampled trajectories, driven and looked up.
+
+The functions are plain Python. `compiled_footprint_cost` and `compiled_rollout` make machine code of them; without
+numba they run as they are. They are in one file, since numba's cache looks at the age of this file only.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.machine_code import machine_code
+
+Costs = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Distances = NDArray[np.int32]
+
+# These are compiled in.
+INSCRIBED = 253
+LETHAL = 254
+UNKNOWN = 255
+
+HIT = -1
+"""The outline of the footprint meets an obstacle."""
+UNSEEN = -2
+"""It meets a cell of which nothing is known."""
+OUTSIDE = -3
+"""It leaves the costmap."""
+
+IN_OBSTACLE = -3.0
+"""What a map grid gives a trajectory that enters an obstacle."""
+UNREACHABLE = -2.0
+"""What it gives one that goes where no path leads."""
+OFF_GRID = -4.0
+"""What it gives one that leaves the costmap."""
+
+
+def footprint_cost(
+    costs: Costs,
+    origin_x: float,
+    origin_y: float,
+    resolution: float,
+    x: float,
+    y: float,
+    theta: float,
+    footprint: Floats,
+    scale: float,
+) -> int:
+    """The largest cost under the outline of a footprint (n, 2) [m], `scale` times as large, that stands at a pose.
+
+    `HIT`, `UNSEEN` or `OUTSIDE` at the first cell that is one, edge by edge. Fewer than three vertices are a round
+    robot: the cell of its centre counts, and `INSCRIBED` is a hit.
+    """
+    return outline_cost(
+        costs,
+        origin_x,
+        origin_y,
+        resolution,
+        x,
+        y,
+        math.cos(theta) * scale,
+        math.sin(theta) * scale,
+        footprint,
+    )
+
+
+def outline_cost(
+    costs: Costs,
+    origin_x: float,
+    origin_y: float,
+    resolution: float,
+    x: float,
+    y: float,
+    cos: float,
+    sin: float,
+    footprint: Floats,
+) -> int:
+    """As `footprint_cost`, of a robot at (x, y) that is turned and made larger by `cos` and `sin`."""
+    height, width = costs.shape
+    if x < origin_x or y < origin_y:
+        return OUTSIDE
+    mx = int((x - origin_x) / resolution)
+    my = int((y - origin_y) / resolution)
+    if mx >= width or my >= height:
+        return OUTSIDE
+    count = footprint.shape[0]
+    if count < 3:
+        cost = int(costs[my, mx])
+        if cost == UNKNOWN:
+            return UNSEEN
+        return HIT if cost >= INSCRIBED else cost
+    largest, last_x, last_y = 0, 0, 0
+    for i in range(count + 1):
+        at = i if i < count else 0
+        px = x + footprint[at, 0] * cos - footprint[at, 1] * sin
+        py = y + footprint[at, 0] * sin + footprint[at, 1] * cos
+        if px < origin_x or py < origin_y:
+            return OUTSIDE
+        mx = int((px - origin_x) / resolution)
+        my = int((py - origin_y) / resolution)
+        if mx >= width or my >= height:
+            return OUTSIDE
+        if i > 0:
+            cost = line_cost(costs, last_x, last_y, mx, my)
+            if cost < 0:
+                return cost
+            largest = max(largest, cost)
+        last_x, last_y = mx, my
+    return largest
+
+
+def line_cost(costs: Costs, x: int, y: int, end_x: int, end_y: int) -> int:
+    """The largest cost of the cells on a line (Bresenham, 1965, both ends included), or `HIT` or `UNSEEN`."""
+    step_x = 1 if end_x >= x else -1
+    step_y = 1 if end_y >= y else -1
+    dx, dy = abs(end_x - x), abs(end_y - y)
+    steps = max(dx, dy)
+    gain = min(dx, dy)
+    rest = steps // 2
+    largest = 0
+    for _ in range(steps + 1):
+        cost = int(costs[y, x])
+        if cost == UNKNOWN:
+            return UNSEEN
+        if cost == LETHAL:
+            return HIT
+        largest = max(largest, cost)
+        rest += gain
+        aside = rest >= steps
+        if aside:
+            rest -= steps
+        if dx >= dy:
+            x += step_x
+            if aside:
+                y += step_y
+        else:
+            y += step_y
+            if aside:
+                x += step_x
+    return largest
+
+
+def rollout(
+    costs: Costs,
+    origin_x: float,
+    origin_y: float,
+    resolution: float,
+    pose: Floats,
+    starts: Floats,
+    targets: Floats,
+    limits: Floats,
+    sim_time: float,
+    steps: Ints,
+    footprint: Floats,
+    scales: Floats,
+    path: Distances,
+    goal: Distances,
+    front: Distances,
+    shift: float,
+    scored: Ints,
+    points: Floats,
+    raw: Floats,
+    where: Ints,
+) -> None:
+    """Drive every sample and ask the critics that look at its points.
+
+    From `pose` (3) each of n samples drives `steps[n]` equal steps in `sim_time` [s]: its velocity begins at
+    `starts[n]` (x, y, theta) and comes nearer to `targets[n]` by `limits` (3) [m/s2, rad/s2] a second. Its points are
+    written into `points` (n, at least as many as steps, 3).
+
+    `raw` (n, 5) gets the largest cost under the footprint, `scales[n]` times as large, or a negative number as
+    `footprint_cost` returns; then the distances [cells] at the last point: in `front` and in `path`, both taken `shift`
+    [m] ahead of the robot, in `path` and in `goal`; negative as the constants above say. `where` (n, 5) gets the first
+    point at which that number became negative, else -1. If `scored[n]` is not negative, the distances are those of
+    that point alone.
+    """
+    height, width = costs.shape
+    for n in range(targets.shape[0]):
+        for critic in range(5):
+            raw[n, critic] = 0.0
+            where[n, critic] = -1
+        dt = sim_time / max(steps[n], 1)
+        x, y, theta = pose[0], pose[1], pose[2]
+        vx, vy, w = starts[n, 0], starts[n, 1], starts[n, 2]
+        for i in range(steps[n]):
+            points[n, i, 0], points[n, i, 1], points[n, i, 2] = x, y, theta
+            cos, sin = math.cos(theta), math.sin(theta)
+            cell = cell_of(x, y, origin_x, origin_y, resolution, width, height)
+            if raw[n, 0] >= 0:
+                cost = outline_cost(
+                    costs,
+                    origin_x,
+                    origin_y,
+                    resolution,
+                    x,
+                    y,
+                    cos * scales[n],
+                    sin * scales[n],
+                    footprint,
+                )
+                if cost < 0:
+                    raw[n, 0], where[n, 0] = cost, i
+                else:
+                    raw[n, 0] = max(raw[n, 0], float(max(cost, int(costs[cell // width, cell % width]))))
+            if scored[n] < 0 or i == scored[n]:
+                nose = cell_of(
+                    x + shift * cos, y + shift * sin, origin_x, origin_y, resolution, width, height
+                )
+                look_up(front, nose, n, 1, i, False, raw, where)
+                look_up(path, nose, n, 2, i, False, raw, where)
+                look_up(path, cell, n, 3, i, True, raw, where)
+                look_up(goal, cell, n, 4, i, True, raw, where)
+            vx = nearer(vx, targets[n, 0], limits[0] * dt)
+            vy = nearer(vy, targets[n, 1], limits[1] * dt)
+            w = nearer(w, targets[n, 2], limits[2] * dt)
+            x, y, theta = x + (vx * cos - vy * sin) * dt, y + (vx * sin + vy * cos) * dt, theta + w * dt
+
+
+def cell_of(
+    x: float, y: float, origin_x: float, origin_y: float, resolution: float, width: int, height: int
+) -> int:
+    """The index of the cell of a point, row by row, or -1 off the costmap."""
+    if x < origin_x or y < origin_y:
+        return -1
+    mx = int((x - origin_x) / resolution)
+    my = int((y - origin_y) / resolution)
+    return my * width + mx if mx < width and my < height else -1
+
+
+def nearer(value: float, target: float, most: float) -> float:
+    """`value` moved towards `target`, by `most` at most."""
+    if value < target:
+        return min(target, value + most)
+    return max(target, value - most)
+
+
+def look_up(
+    distances: Distances, cell: int, n: int, critic: int, i: int, strict: bool, raw: Floats, where: Ints
+) -> None:
+    """Write the distance of a cell into `raw[n, critic]`, unless that is negative already; see `rollout`."""
+    if raw[n, critic] < 0:
+        return
+    height, width = distances.shape
+    value = OFF_GRID
+    if cell >= 0:
+        value = float(distances[cell // width, cell % width])
+        size = width * height
+        if strict and value >= size:
+            value = IN_OBSTACLE if value == size else UNREACHABLE
+    if value < 0:
+        where[n, critic] = i
+    raw[n, critic] = value
+
+
+def compiled_footprint_cost() -> Callable[..., int]:
+    """`footprint_cost` as machine code, or as it is without numba."""
+    try:
+        import numba
+    except ImportError:
+        return footprint_cost
+    number = numba.float64
+    grid: Any = numba.types.Array(numba.uint8, 2, "C", readonly=True)
+    outline: Any = numba.types.Array(number, 2, "C", readonly=True)
+    signature = numba.int64(grid, *(number,) * 6, outline, number)
+    return machine_code(footprint_cost, signature, (outline_cost, line_cost))
+
+
+def compiled_rollout() -> Callable[..., None]:
+    """`rollout` as machine code, or as it is without numba."""
+    try:
+        import numba
+    except ImportError:
+        return rollout
+    number, whole, array = numba.float64, numba.int64, numba.types.Array
+
+    def read(kind: Any, dimensions: int) -> Any:
+        return array(kind, dimensions, "C", readonly=True)
+
+    signature = numba.void(
+        read(numba.uint8, 2),
+        *(number,) * 3,
+        read(number, 1),
+        read(number, 2),
+        read(number, 2),
+        read(number, 1),
+        number,
+        read(whole, 1),
+        read(number, 2),
+        read(number, 1),
+        *(read(numba.int32, 2),) * 3,
+        number,
+        read(whole, 1),
+        number[:, :, ::1],
+        number[:, ::1],
+        whole[:, ::1],
+    )
+    return machine_code(rollout, signature, (outline_cost, line_cost, cell_of, nearer, look_up))

@@ -1,0 +1,160 @@
+"""Sample velocities, drive them in thought, and score them: `SimpleTrajectoryGenerator` and its scored planner."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.errors import ParameterError
+from rosmini.geometry.poses import Pose
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
+from rosmini.navigation.kernels import kernel
+
+from .limits import LocalPlannerLimits
+from .map_grid import MapGrid
+from .velocity_iterator import velocity_samples
+
+KERNEL = "rosmini.navigation.base_local_planner.rollout:compiled_rollout"
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+SLACK = 1e-4
+"""So much a velocity may lie outside of the limits [m/s, rad/s]."""
+
+MOST_POINTS = 20_000_000
+"""Points of all trajectories of a cycle: half a gigabyte."""
+
+
+@dataclass(frozen=True)
+class Rollouts:
+    """What the kernel found: see `rosmini.navigation.base_local_planner.rollout.rollout`."""
+
+    points: Floats
+    lengths: Ints
+    raw: Floats
+    where: Ints
+
+
+def roll_out(
+    grid: Costmap2D,
+    grids: tuple[MapGrid, MapGrid, MapGrid],
+    pose: Pose,
+    motion: tuple[Floats, Floats, Floats],
+    sim_time: float,
+    steps: Ints,
+    footprint: Floats,
+    scales: Floats,
+    shift: float,
+    scored: Ints | None = None,
+) -> Rollouts:
+    """Call the kernel: `grids` of path, goal and front; `motion`: starts (n, 3), targets (n, 3), accelerations (3)."""
+    starts, targets, limits = motion
+    count, most = len(targets), int(steps.max(initial=1))
+    if count * most > MOST_POINTS:
+        raise ParameterError(
+            f"{count} trajectories of up to {most} points are more than the {MOST_POINTS:,} points of a cycle: take a "
+            "larger sim_granularity or angular_sim_granularity, a shorter sim_time or fewer samples"
+        )
+    points = np.zeros((count, most, 3))
+    raw, where = np.zeros((count, 5)), np.zeros((count, 5), dtype=np.int64)
+    kernel(KERNEL)(
+        np.ascontiguousarray(grid.costs),
+        *grid.origin,
+        grid.resolution,
+        np.asarray(pose, dtype=np.float64),
+        np.ascontiguousarray(starts),
+        np.ascontiguousarray(targets),
+        np.asarray(limits, dtype=np.float64),
+        float(sim_time),
+        steps,
+        np.ascontiguousarray(footprint, dtype=np.float64),
+        scales,
+        *(each.distances for each in grids),
+        float(shift),
+        np.full(count, -1) if scored is None else scored,
+        points,
+        raw,
+        where,
+    )
+    return Rollouts(points, steps, raw, where)
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """How velocities are sampled and driven: what `SimpleTrajectoryGenerator` is told.
+
+    Raises `ParameterError` for a granularity of 0.
+    """
+
+    sim_time: float
+    """[s]"""
+    sim_granularity: float
+    """[m]"""
+    angular_sim_granularity: float
+    """[rad]"""
+    use_dwa: bool
+    sim_period: float
+    """Time between two commands [s]."""
+    counts: tuple[int, int, int]
+    """Samples of x, y and theta."""
+
+    def __post_init__(self) -> None:
+        for name in ("sim_granularity", "angular_sim_granularity"):
+            if getattr(self, name) <= 0:
+                raise ParameterError(
+                    f"{name} is {getattr(self, name):g}: trajectories are checked in steps of this size, so it has to "
+                    "be more than 0"
+                )
+
+    def velocities(self, pose: Pose, velocity: Floats, goal: Pose, limits: LocalPlannerLimits) -> Floats:
+        """The velocities (n, 3) to try from `velocity` (3).
+
+        With `use_dwa` what the robot reaches in a period, else what it reaches in `sim_time`, and no faster than to be
+        at the `goal` then.
+        """
+        low = np.array([limits.min_vel_x, limits.min_vel_y, -limits.max_vel_theta])
+        high = np.array([limits.max_vel_x, limits.max_vel_y, limits.max_vel_theta])
+        if not self.use_dwa:
+            enough = math.hypot(goal[0] - pose[0], goal[1] - pose[1]) / self.sim_time
+            high[:2] = np.maximum(np.minimum(high[:2], enough), low[:2])
+        gain = limits.accelerations * (self.sim_period if self.use_dwa else self.sim_time)
+        high, low = np.minimum(high, velocity + gain), np.maximum(low, velocity - gain)
+        axes = [velocity_samples(*three) for three in zip(low, high, self.counts, strict=True)]
+        return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+    def steps(self, velocities: Floats, limits: LocalPlannerLimits) -> Ints:
+        """How many steps each velocity (n, 3) is driven, 0 for one that the robot cannot follow."""
+        speeds, turns = np.hypot(velocities[:, 0], velocities[:, 1]), np.abs(velocities[:, 2])
+        slow = (speeds + SLACK < limits.min_vel_trans) & (turns + SLACK < limits.min_vel_theta)
+        fast = speeds - SLACK > limits.max_vel_trans
+        steps = np.ceil(
+            np.maximum(
+                speeds * self.sim_time / self.sim_granularity,
+                turns * self.sim_time / self.angular_sim_granularity,
+            )
+        )
+        return np.where(slow | fast, 0, steps).astype(np.int64)
+
+    def starts(self, velocities: Floats, velocity: Floats, steps: Ints, limits: LocalPlannerLimits) -> Floats:
+        """The velocities (n, 3) of the first cycle, which are commanded if they are chosen."""
+        if self.use_dwa:
+            return velocities
+        gain = limits.accelerations * (self.sim_time / np.maximum(steps, 1))[:, None]
+        return np.clip(velocities, velocity - gain, velocity + gain)
+
+
+def footprint_scales(
+    velocities: Floats, max_vel_trans: float, max_scaling_factor: float, scaling_speed: float
+) -> Floats:
+    """By how much the footprint grows for each velocity (n, 3): from `scaling_speed` on, up to 1 + the factor."""
+    speeds = np.hypot(velocities[:, 0], velocities[:, 1])
+    fast = speeds > scaling_speed
+    room = max_vel_trans - scaling_speed
+    scales = np.ones(len(velocities))
+    if room:
+        scales[fast] += max_scaling_factor * (speeds[fast] - scaling_speed) / room
+    return scales

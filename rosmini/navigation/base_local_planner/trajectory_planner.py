@@ -1,0 +1,409 @@
+"""The planner of base_local_planner: Trajectory Rollout, and with `dwa` the Dynamic Window Approach in its older form.
+
+Gerkey and Konolige, "Planning and Control in Unstructured Terrain" (2008). It samples velocities ahead, turns on the
+spot and, for a robot that can, steps aside; if nothing is possible, it backs up until it has come free.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.errors import ParameterError
+from rosmini.geometry.angles import shortest_angular_distance
+from rosmini.geometry.poses import Pose
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
+from rosmini.parameters import Parameters, parameter
+
+from .costmap_model import footprint_cells, line_cells
+from .map_grid import MapGrid, goal_grid, path_grid
+from .scored_sampling import SLACK, roll_out
+from .trajectory import Samples, joined
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+CRITICS = ("obstacle", "path", "goal", "heading")
+BLOCKED = -1.0
+"""The cost of a trajectory on which the footprint meets something."""
+IMPOSSIBLE = -2.0
+"""The cost of one from which no way leads to the plan."""
+HEADING_SCALE = 0.3
+STRAFE = 0.1
+"""A holonomic robot also tries this velocity ahead together with this one to either side [m/s]."""
+INSCRIBED = 253
+
+
+@dataclass(frozen=True)
+class TrajectoryPlannerParameters(Parameters):
+    """The parameters of `base_local_planner/TrajectoryPlannerROS` that can be changed while it runs."""
+
+    acc_lim_x: float = parameter(2.5, "acceleration ahead", unit="m/s2", minimum=0.0, maximum=20.0)
+    acc_lim_y: float = parameter(2.5, "acceleration to the side", unit="m/s2", minimum=0.0, maximum=20.0)
+    acc_lim_theta: float = parameter(3.2, "acceleration of turns", unit="rad/s2", minimum=0.0, maximum=20.0)
+    max_vel_x: float = parameter(0.55, "the highest velocity ahead", unit="m/s", minimum=0.0, maximum=20.0)
+    min_vel_x: float = parameter(0.0, "the lowest velocity ahead", unit="m/s", minimum=0.0, maximum=20.0)
+    max_vel_theta: float = parameter(1.0, "the fastest turn", unit="rad/s", minimum=0.0, maximum=20.0)
+    min_vel_theta: float = parameter(
+        -1.0, "the fastest turn to the right", unit="rad/s", minimum=-20.0, maximum=0.0
+    )
+    min_in_place_vel_theta: float = parameter(
+        0.4, "the slowest turn on the spot", unit="rad/s", minimum=0.0, maximum=20.0
+    )
+    sim_time: float = parameter(
+        1.7, "how far trajectories are driven ahead", unit="s", minimum=0.0, maximum=10.0
+    )
+    sim_granularity: float = parameter(
+        0.025, "between two points of a trajectory", unit="m", minimum=0.0, maximum=5.0
+    )
+    angular_sim_granularity: float = parameter(
+        0.025, "between the headings of two points", unit="rad", minimum=0.0, maximum=math.pi / 2
+    )
+    path_distance_bias: float = parameter(0.6, "weight of the distance to the plan", minimum=0.0, maximum=5.0)
+    goal_distance_bias: float = parameter(
+        0.8, "weight of the distance to the local goal", minimum=0.0, maximum=5.0
+    )
+    occdist_scale: float = parameter(
+        0.01, "weight of the costs under the footprint", minimum=0.0, maximum=5.0
+    )
+    oscillation_reset_dist: float = parameter(
+        0.05, "after this distance it may turn back again", unit="m", minimum=0.0, maximum=5.0
+    )
+    escape_reset_dist: float = parameter(
+        0.1, "after this distance it has escaped", unit="m", minimum=0.0, maximum=5.0
+    )
+    escape_reset_theta: float = parameter(
+        math.pi / 4, "after this turn it has escaped", unit="rad", minimum=0.0, maximum=5.0
+    )
+    vx_samples: int = parameter(20, "how many velocities ahead are tried", minimum=1, maximum=300)
+    vtheta_samples: int = parameter(20, "how many turns are tried", minimum=1, maximum=300)
+    heading_lookahead: float = parameter(
+        0.325, "so far ahead a turn on the spot is judged", unit="m", minimum=0.0, maximum=5.0
+    )
+    holonomic_robot: bool = parameter(True, "it can step aside")
+    escape_vel: float = parameter(-0.1, "how it backs up", unit="m/s", minimum=-2.0, maximum=2.0)
+    dwa: bool = parameter(False, "try only what is reached in one cycle, not in sim_time")
+    heading_scoring: bool = parameter(False, "score the heading, and the distances at one point only")
+    heading_scoring_timestep: float = parameter(
+        0.1, "at the point at this time", unit="s", minimum=0.0, maximum=1.0
+    )
+    simple_attractor: bool = parameter(False, "straight to the end of the plan, without distances")
+    y_vels: str = parameter("-0.3,-0.1,0.1,-0.3", "velocities to the side, if nothing else is possible")
+    restore_defaults: bool = parameter(False, "set all parameters to what they were at the start")
+
+    @property
+    def accelerations(self) -> Floats:
+        """Of x, y and theta (3) [m/s2, m/s2, rad/s2]."""
+        return np.array([self.acc_lim_x, self.acc_lim_y, self.acc_lim_theta])
+
+    def sideways(self) -> list[float]:
+        """`y_vels` as numbers [m/s]. Raises `ParameterError` for a text that is no list of numbers."""
+        try:
+            return [float(word) for word in self.y_vels.replace(",", " ").strip(" []").split()]
+        except ValueError:
+            raise ParameterError(
+                f"y_vels is {self.y_vels!r}: it has to be numbers [m/s] with commas between them, such as -0.3,0.3"
+            ) from None
+
+
+@dataclass
+class Turning:
+    """Which ways the robot has turned or stepped on the spot since it last drove on.
+
+    Whoever has turned right twice in a row may not turn left before it has driven on, and the other way round.
+    """
+
+    right: bool = False
+    left: bool = False
+    stuck_right: bool = False
+    stuck_left: bool = False
+
+    def note(self, velocity: float) -> None:
+        """Remember a velocity to the left (positive) or to the right."""
+        if velocity < 0:
+            self.right, self.stuck_right = True, self.stuck_right or self.right
+        elif velocity > 0:
+            self.left, self.stuck_left = True, self.stuck_left or self.left
+
+
+class TrajectoryPlanner:
+    """Chooses velocities; `parameters` may be exchanged at any time between two cycles."""
+
+    def __init__(
+        self,
+        parameters: TrajectoryPlannerParameters,
+        sim_period: float = 0.05,
+        *,
+        meter_scoring: bool = False,
+    ) -> None:
+        self.sim_period = sim_period
+        self.meter_scoring = meter_scoring
+        self.plan: Floats = np.empty((0, 3))
+        self.footprint: Floats = np.empty((0, 2))
+        self.path: MapGrid | None = None
+        self.goal: MapGrid | None = None
+        self.turning, self.strafing = Turning(), Turning()
+        self.escaping = False
+        self._stood_at = (0.0, 0.0)
+        self._escaped_from: Pose = (0.0, 0.0, 0.0)
+        self.reconfigure(parameters)
+
+    def reconfigure(self, parameters: TrajectoryPlannerParameters) -> None:
+        """Use these from now on. Raises `ParameterError` for numbers that make no trajectories."""
+        for name in ("sim_granularity", "angular_sim_granularity", "sim_time"):
+            if getattr(parameters, name) <= 0:
+                raise ParameterError(
+                    f"{name} is {getattr(parameters, name):g}: trajectories of no length, or of infinitely many "
+                    "points, cannot be scored, so it has to be more than 0"
+                )
+        self.sideways = parameters.sideways()
+        self.parameters = parameters
+
+    def update_plan(self, grid: Costmap2D, pose: Pose, plan: Floats, footprint: Floats) -> bool:
+        """Follow this plan (n, 3), in the costmap's frame, with a footprint (n, 2) in the base frame.
+
+        Returns whether any of it is on known cells of the costmap.
+        """
+        self.plan, self.footprint = plan, footprint
+        here = footprint_cells(grid, pose, footprint, fill=True)
+        self.path = path_grid(grid, plan, np.array(here, dtype=np.int64).reshape(-1, 2))
+        self.goal = goal_grid(grid, plan)
+        return len(self.path.targets) > 0
+
+    # -- one cycle -----------------------------------------------------------------------------------------------
+
+    def find_best(self, grid: Costmap2D, pose: Pose, velocity: Floats) -> Samples:
+        """Sample around `velocity` (3), score, choose, and remember how it turned: `createTrajectories`.
+
+        `best` is None only if backing up is impossible, too, since no way leads to the plan.
+        """
+        low, high = self.window(pose, velocity)
+        turns = evenly(low[1], high[1], self.parameters.vtheta_samples)
+        speeds = evenly(low[0], high[0], self.parameters.vx_samples)
+        ahead = np.empty((0, 3)) if self.escaping else self._ahead(speeds, turns)
+        least = self.parameters.min_in_place_vel_theta
+        spot = np.zeros((len(turns), 3))
+        spot[:, 2] = np.where(turns > 0, np.maximum(turns, least), np.minimum(turns, -least))
+        samples = self._scored(grid, pose, velocity, np.vstack([ahead, spot]))
+        step = float(turns[1] - turns[0]) if len(turns) > 1 else math.inf
+        best, open_space = self._best_of(grid, samples, len(ahead), turns, step)
+        if best is None and self.parameters.holonomic_robot:
+            aside = np.zeros((len(self.sideways), 3))
+            aside[:, 1] = self.sideways
+            more = self._scored(grid, pose, velocity, aside)
+            best = self._best_aside(grid, samples, more, open_space)
+            samples = joined(samples, more)
+        if best is None:
+            back = np.array([[self.parameters.escape_vel, 0.0, 0.0]])
+            return self._escape(pose, samples, self._scored(grid, pose, velocity, back))
+        command = samples.commands[best]
+        if not command[0] > 0:
+            if command[2] != 0:
+                self.turning.note(command[2])
+            else:
+                self.strafing.note(-command[1])
+            self._stood_at = pose[:2]
+        self._forget(pose)
+        return replace(samples, best=best)
+
+    def score(self, grid: Costmap2D, pose: Pose, velocity: Floats, command: Floats) -> float:
+        """The cost of driving one command (3), negative if it is impossible: `scoreTrajectory`."""
+        return float(self._scored(grid, pose, velocity, command[None, :]).totals[0])
+
+    def window(self, pose: Pose, velocity: Floats) -> tuple[tuple[float, float], tuple[float, float]]:
+        """The lowest and the highest velocities to try, each as (ahead [m/s], turn [rad/s])."""
+        p = self.parameters
+        span = self.sim_period if p.dwa else p.sim_time
+        fastest = p.max_vel_x
+        if len(self.plan):
+            fastest = min(fastest, math.dist(self.plan[-1, :2], pose[:2]) / p.sim_time)
+        high = max(min(fastest, velocity[0] + p.acc_lim_x * span), p.min_vel_x)
+        low = max(p.min_vel_x, velocity[0] - p.acc_lim_x * span)
+        left = min(p.max_vel_theta, velocity[2] + p.acc_lim_theta * span)
+        right = max(p.min_vel_theta, velocity[2] - p.acc_lim_theta * span)
+        return (low, right), (high, left)
+
+    def _ahead(self, speeds: Floats, turns: Floats) -> Floats:
+        """Straight on and all turns but the last, for each speed; for a holonomic robot two steps aside."""
+        angles = np.concatenate([[0.0], turns[:-1]])
+        grid = np.stack(np.meshgrid(speeds, [0.0], angles, indexing="ij"), axis=-1).reshape(-1, 3)
+        if not self.parameters.holonomic_robot:
+            return grid
+        return np.vstack([grid, [[STRAFE, STRAFE, 0.0], [STRAFE, -STRAFE, 0.0]]])
+
+    def _best_of(
+        self, grid: Costmap2D, samples: Samples, ahead: int, turns: Floats, step: float
+    ) -> tuple[int | None, float]:
+        """The best of those that drive on, or of the turns on the spot, which are preferred towards open space."""
+        best = _cheapest(samples, ahead)
+        nearest = math.inf
+        for i, turn in enumerate(turns, start=ahead):
+            if not samples.accepted[i] or -step <= turn <= step:
+                continue
+            if (
+                best is not None
+                and samples.totals[i] > samples.totals[best]
+                and samples.commands[best, 1] == 0
+            ):
+                continue
+            distance = self._distance_ahead(grid, samples.trajectory(i)[-1])
+            allowed = not (self.turning.stuck_left if turn < 0 else self.turning.stuck_right)
+            if distance < nearest and allowed:
+                best, nearest = i, distance
+        return best, nearest
+
+    def _best_aside(self, grid: Costmap2D, first: Samples, more: Samples, nearest: float) -> int | None:
+        best = None
+        for i, speed in enumerate(self.sideways):
+            if not more.accepted[i] or (best is not None and more.totals[i] > more.totals[best]):
+                continue
+            distance = self._distance_ahead(grid, more.trajectory(i)[-1])
+            allowed = not (self.strafing.stuck_left if speed > 0 else self.strafing.stuck_right)
+            if distance < nearest and allowed and speed != 0:
+                best, nearest = i, distance
+        return None if best is None else len(first) + best
+
+    def _distance_ahead(self, grid: Costmap2D, end: Floats) -> float:
+        """How far the cell that the robot would look at is from the goal; infinite off the costmap."""
+        reach = self.parameters.heading_lookahead
+        cell = grid.world_to_map(end[0] + reach * math.cos(end[2]), end[1] + reach * math.sin(end[2]))
+        return math.inf if cell is None or self.goal is None else float(self.goal.distances[cell[1], cell[0]])
+
+    def _escape(self, pose: Pose, samples: Samples, back: Samples) -> Samples:
+        """Back up, even where an obstacle is; not where no way leads to the plan."""
+        cost = float(back.totals[0])
+        self._forget_turns(pose)
+        if not self.escaping and cost > IMPOSSIBLE:
+            self._escaped_from, self.escaping = pose, True
+        self._forget_escape(pose)
+        if cost == BLOCKED:
+            back = replace(back, totals=np.ones(1), rejected_by=np.full(1, -1))
+        return joined(samples, back, best=len(samples) if back.totals[0] >= 0 else None)
+
+    def _forget(self, pose: Pose) -> None:
+        self._forget_turns(pose)
+        self._forget_escape(pose)
+
+    def _forget_turns(self, pose: Pose) -> None:
+        if math.dist(pose[:2], self._stood_at) > self.parameters.oscillation_reset_dist:
+            self.turning, self.strafing = Turning(), Turning()
+
+    def _forget_escape(self, pose: Pose) -> None:
+        far = math.dist(pose[:2], self._escaped_from[:2]) > self.parameters.escape_reset_dist
+        turn = abs(shortest_angular_distance(self._escaped_from[2], pose[2]))
+        if far or turn > self.parameters.escape_reset_theta:
+            self.escaping = False
+
+    # -- scoring -------------------------------------------------------------------------------------------------
+
+    def _steps(self, velocities: Floats) -> Ints:
+        p = self.parameters
+        if p.heading_scoring:
+            return np.full(len(velocities), max(1, int(p.sim_time / p.sim_granularity + 0.5)))
+        speeds, turns = np.hypot(velocities[:, 0], velocities[:, 1]), np.abs(velocities[:, 2])
+        # A turn is not multiplied by the time, as in ROS.
+        steps = np.maximum(speeds * p.sim_time / p.sim_granularity, turns / p.angular_sim_granularity) + 0.5
+        return np.maximum(1, steps.astype(np.int64))
+
+    def _scored(self, grid: Costmap2D, pose: Pose, velocity: Floats, velocities: Floats) -> Samples:
+        if self.path is None or self.goal is None:
+            raise RuntimeError("a plan comes before its trajectories: call update_plan")
+        p, count = self.parameters, len(velocities)
+        steps = self._steps(velocities)
+        scored = self._scored_points(steps)
+        motion = (np.tile(velocity, (count, 1)), velocities, p.accelerations)
+        grids = (self.path, self.goal, self.goal)
+        found = roll_out(
+            grid, grids, pose, motion, p.sim_time, steps, self.footprint, np.ones(count), 0.0, scored
+        )
+        raw, where = np.zeros((count, 4)), np.full((count, 4), -1)
+        raw[:, :3], where[:, :3] = found.raw[:, [0, 3, 4]], found.where[:, [0, 3, 4]]
+        if p.simple_attractor:
+            self._attract(found.points, steps, raw, where)
+        elif p.heading_scoring:
+            raw[:, 3] = self._headings(grid, found.points, steps, scored)
+        bias = grid.resolution if self.meter_scoring else 1.0
+        heading = HEADING_SCALE if p.heading_scoring else 0.0
+        scales = np.array(
+            [p.occdist_scale, p.path_distance_bias * bias, p.goal_distance_bias * bias, heading]
+        )
+        totals, rejected_by = _judged(raw, where, scales)
+        return Samples(
+            CRITICS,
+            scales,
+            velocities,
+            velocities,
+            found.points,
+            steps,
+            raw,
+            where,
+            totals,
+            rejected_by,
+            pose=pose,
+        )
+
+    def _scored_points(self, steps: Ints) -> Ints:
+        """At which point distances are taken: -1 for the last, after all others."""
+        p = self.parameters
+        if not p.heading_scoring:
+            return np.full(len(steps), -1)
+        dt = p.sim_time / steps
+        return np.ceil(p.heading_scoring_timestep / dt - SLACK).astype(np.int64)
+
+    def _attract(self, points: Floats, steps: Ints, raw: Floats, where: Ints) -> None:
+        ends = points[np.arange(len(steps)), steps - 1, :2]
+        raw[:, 1], raw[:, 2] = 0.0, ((ends - self.plan[-1, :2]) ** 2).sum(axis=1)
+        where[:, 1:3] = -1
+
+    def _headings(self, grid: Costmap2D, points: Floats, steps: Ints, scored: Ints) -> Floats:
+        """How much each would have to turn to the last point of the plan that it can see [rad]: `headingDiff`."""
+        seen: dict[tuple[int, int], tuple[float, float] | None] = {}
+        found = np.zeros(len(steps))
+        for n in np.flatnonzero(scored < steps):
+            x, y, theta = points[n, scored[n]]
+            cell = grid.world_to_map(x, y)
+            if cell is None:
+                continue
+            if cell not in seen:
+                seen[cell] = self._seen_from(grid, cell)
+            target = seen[cell]
+            if target is None:
+                found[n] = np.finfo(np.float64).max
+                continue
+            found[n] = abs(shortest_angular_distance(theta, math.atan2(target[1] - y, target[0] - x)))
+        return found
+
+    def _seen_from(self, grid: Costmap2D, cell: tuple[int, int]) -> tuple[float, float] | None:
+        for x, y in self.plan[::-1, :2]:
+            other = grid.world_to_map(x, y)
+            if other is not None and all(
+                grid.costs[my, mx] < INSCRIBED for mx, my in line_cells(*cell, *other)
+            ):
+                return grid.map_to_world(*other)
+        return None
+
+
+def evenly(low: float, high: float, count: int) -> Floats:
+    """`count` values from `low` to `high`; one alone is `low`."""
+    if count == 1:
+        return np.array([low])
+    return np.asarray(low + (high - low) / (count - 1) * np.arange(count))
+
+
+def _cheapest(samples: Samples, count: int) -> int | None:
+    if not samples.accepted[:count].any():
+        return None
+    return int(np.argmin(np.where(samples.accepted[:count], samples.totals[:count], np.inf)))
+
+
+def _judged(raw: Floats, where: Ints, scales: Floats) -> tuple[Floats, Ints]:
+    """Costs and the critics that rejected: whichever did so at the earlier point, of two at one point the obstacle."""
+    first = np.where(raw < 0, where, np.iinfo(np.int64).max)
+    critic = np.argmin(first, axis=1)
+    rejected = (raw < 0).any(axis=1)
+    codes = np.where(critic == 0, BLOCKED, IMPOSSIBLE)
+    totals: Floats = np.where(rejected, codes, raw @ scales)
+    return totals, np.where(rejected, critic, -1)

@@ -1,0 +1,183 @@
+"""The planner of dwa_local_planner: samples, critics and what is remembered from cycle to cycle."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.poses import Pose
+from rosmini.navigation.base_local_planner.critics import Oscillation, together, twirling
+from rosmini.navigation.base_local_planner.limits import LocalPlannerLimits
+from rosmini.navigation.base_local_planner.map_grid import MapGrid, goal_grid, path_grid
+from rosmini.navigation.base_local_planner.scored_sampling import Sampling, footprint_scales, roll_out
+from rosmini.navigation.base_local_planner.trajectory import Samples
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
+from rosmini.parameters import parameter
+
+Floats = NDArray[np.float64]
+
+CRITICS = ("oscillation", "obstacle", "goal_front", "alignment", "path", "goal", "twirling")
+"""In the order in which `DWAPlanner` asks them."""
+
+
+@dataclass(frozen=True)
+class DWAPlannerParameters(LocalPlannerLimits):
+    """The parameters of `dwa_local_planner/DWAPlannerROS` that can be changed while it runs."""
+
+    sim_time: float = parameter(1.7, "how far trajectories are driven ahead", unit="s", minimum=0.0)
+    sim_granularity: float = parameter(0.025, "between two points of a trajectory", unit="m", minimum=0.0)
+    angular_sim_granularity: float = parameter(
+        0.1, "between the headings of two points of a trajectory", unit="rad", minimum=0.0
+    )
+    path_distance_bias: float = parameter(32.0, "weight of the distance to the plan", minimum=0.0)
+    goal_distance_bias: float = parameter(24.0, "weight of the distance to the local goal", minimum=0.0)
+    occdist_scale: float = parameter(0.01, "weight of the costs under the footprint", minimum=0.0)
+    twirling_scale: float = parameter(0.0, "weight of turning", minimum=0.0)
+    stop_time_buffer: float = parameter(0.2, "not used, as in ROS", unit="s", minimum=0.0)
+    oscillation_reset_dist: float = parameter(
+        0.05, "after this distance it may go back again", unit="m", minimum=0.0
+    )
+    oscillation_reset_angle: float = parameter(
+        0.2, "after this turn it may turn back again", unit="rad", minimum=0.0
+    )
+    forward_point_distance: float = parameter(
+        0.325, "so far ahead of the centre is the nose, which is to be on the plan", unit="m"
+    )
+    scaling_speed: float = parameter(0.25, "from this speed on the footprint grows", unit="m/s", minimum=0.0)
+    max_scaling_factor: float = parameter(0.2, "by so much of itself at most", minimum=0.0)
+    vx_samples: int = parameter(3, "how many velocities ahead are tried", minimum=1)
+    vy_samples: int = parameter(10, "how many velocities to the side are tried", minimum=1)
+    vth_samples: int = parameter(20, "how many turns are tried", minimum=1)
+    use_dwa: bool = parameter(True, "try only what is reached in one cycle, not in sim_time")
+    restore_defaults: bool = parameter(False, "set all parameters to what they were at the start")
+
+    def sampling(self, sim_period: float) -> Sampling:
+        """How velocities are sampled; `sim_period` [s] is the time between two commands."""
+        return Sampling(
+            self.sim_time,
+            self.sim_granularity,
+            self.angular_sim_granularity,
+            self.use_dwa,
+            sim_period,
+            (self.vx_samples, self.vy_samples, self.vth_samples),
+        )
+
+
+class DWAPlanner:
+    """Chooses velocities. `parameters` may be exchanged at any time between two cycles."""
+
+    def __init__(
+        self, parameters: DWAPlannerParameters, sim_period: float = 0.05, cheat_factor: float = 1.0
+    ) -> None:
+        self.sim_period = sim_period
+        self.cheat_factor = cheat_factor
+        self.oscillation = Oscillation()
+        self.plan: Floats = np.empty((0, 3))
+        self.footprint: Floats = np.empty((0, 2))
+        self.grids: tuple[MapGrid, MapGrid, MapGrid] | None = None
+        self._nose = True
+        self.reconfigure(parameters)
+
+    def reconfigure(self, parameters: DWAPlannerParameters) -> None:
+        """Use these from now on. Raises `ParameterError` for numbers that make no trajectories."""
+        self.sampling = parameters.sampling(self.sim_period)
+        self.parameters = parameters
+        self.oscillation.reset_distance = parameters.oscillation_reset_dist
+        self.oscillation.reset_angle = parameters.oscillation_reset_angle
+
+    def update_plan(self, grid: Costmap2D, pose: Pose, plan: Floats, footprint: Floats) -> bool:
+        """Follow this plan (n, 3), in the costmap's frame, with a footprint (n, 2) in the base frame.
+
+        Returns whether any of it is on known cells of the costmap.
+        """
+        shift = self.parameters.forward_point_distance
+        self.plan, self.footprint = plan, footprint
+        x, y = plan[-1, 0] - pose[0], plan[-1, 1] - pose[1]
+        ahead = plan.copy()
+        # The nose is drawn beyond the end, or a robot that has to turn round there would not keep still.
+        towards = math.atan2(y, x)
+        ahead[-1, :2] += shift * math.cos(towards), shift * math.sin(towards)
+        # Near the goal the nose has no business on the plan any more.
+        self._nose = x * x + y * y > shift * shift * self.cheat_factor
+        self.grids = (path_grid(grid, plan), goal_grid(grid, plan), goal_grid(grid, ahead))
+        return len(self.grids[0].targets) > 0
+
+    def scales(self, resolution: float) -> Floats:
+        """The weights of the critics (k): distances are counted in cells, and weighed in metres."""
+        p = self.parameters
+        path, goal = resolution * p.path_distance_bias, resolution * p.goal_distance_bias
+        return np.array(
+            [1.0, p.occdist_scale, goal, path if self._nose else 0.0, path, goal, p.twirling_scale]
+        )
+
+    def find_best(self, grid: Costmap2D, pose: Pose, velocity: Floats) -> Samples:
+        """Sample around `velocity` (3), score, choose the cheapest, and note it for the oscillation critic."""
+        p = self.parameters
+        goal = (float(self.plan[-1, 0]), float(self.plan[-1, 1]), float(self.plan[-1, 2]))
+        velocities = self.sampling.velocities(pose, velocity, goal, p)
+        steps = self.sampling.steps(velocities, p)
+        driven = steps > 0
+        samples = self._scored(grid, pose, velocity, velocities[driven], steps[driven], int((~driven).sum()))
+        if samples.best is not None:
+            self.oscillation.update(pose, samples.commands[samples.best], p.min_vel_trans)
+        return samples
+
+    def is_free(self, grid: Costmap2D, pose: Pose, velocity: Floats, command: Floats) -> bool:
+        """Whether no critic rejects one command (3): `checkTrajectory`, which allows going back, too."""
+        self.oscillation.reset()
+        one = command[None, :]
+        return bool(
+            self._scored(grid, pose, velocity, one, self.sampling.steps(one, self.parameters), 0).accepted[0]
+        )
+
+    def _scored(
+        self,
+        grid: Costmap2D,
+        pose: Pose,
+        velocity: Floats,
+        velocities: Floats,
+        steps: NDArray[np.int64],
+        refused: int,
+    ) -> Samples:
+        if self.grids is None:
+            raise RuntimeError("a plan comes before its trajectories: call update_plan")
+        p = self.parameters
+        commands = self.sampling.starts(velocities, velocity, steps, p)
+        sizes = footprint_scales(commands, p.max_vel_trans, p.max_scaling_factor, p.scaling_speed)
+        found = roll_out(
+            grid,
+            self.grids,
+            pose,
+            (commands, velocities, p.accelerations),
+            self.sampling.sim_time,
+            steps,
+            self.footprint,
+            sizes,
+            p.forward_point_distance,
+        )
+        count = len(velocities)
+        raw = np.column_stack([self.oscillation.score(commands), found.raw, twirling(commands)])
+        nowhere = np.full((count, 1), -1)
+        scales = self.scales(grid.resolution)
+        totals, rejected_by = together(raw, scales)
+        best = None
+        if (rejected_by < 0).any():
+            best = int(np.argmin(np.where(rejected_by < 0, totals, np.inf)))
+        return Samples(
+            CRITICS,
+            scales,
+            velocities,
+            commands,
+            found.points,
+            found.lengths,
+            raw,
+            np.hstack([nowhere, found.where, nowhere]),
+            totals,
+            rejected_by,
+            best,
+            refused,
+            pose,
+        )

@@ -1,0 +1,193 @@
+"""`dwa_local_planner/DWAPlannerROS`: parameters, topics and the odometry around `DWAPlanner`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.dynamic_reconfigure import Server
+from rosmini.geometry.poses import Pose
+from rosmini.msgs import message_class
+from rosmini.navigation.base_local_planner.following import (
+    Following,
+    Publications,
+    ignore,
+    limit,
+    no_command,
+    sim_period,
+    twist,
+)
+from rosmini.navigation.base_local_planner.latched_stop_rotate import LatchedStopRotate
+from rosmini.navigation.base_local_planner.odometry_helper import OdometryHelper
+from rosmini.navigation.base_local_planner.trajectory import Samples
+from rosmini.navigation.base_local_planner.trajectory_planner import TrajectoryPlannerParameters
+from rosmini.navigation.nav_core import BaseLocalPlanner, planar_pose
+from rosmini.parameters import parameter
+from rosmini.tf import Buffer
+
+from .dwa_planner import DWAPlanner, DWAPlannerParameters
+
+Floats = NDArray[np.float64]
+
+RENAMED = {
+    "max_trans_vel": "max_vel_trans",
+    "min_trans_vel": "min_vel_trans",
+    "max_rot_vel": "max_vel_theta",
+    "min_rot_vel": "min_vel_theta",
+    "acc_limit_trans": "acc_lim_trans",
+    "rot_stopped_vel": "theta_stopped_vel",
+}
+"""Names of releases before Melodic: a warning, and no more, in ROS as here."""
+
+FORMER = ("penalize_negative_x", "acc_limit_x", "acc_limit_y", "acc_limit_th", "acc_lim_th", "sim_period")
+"""What files for real robots still have."""
+
+
+@dataclass(frozen=True)
+class DWAPlannerSettings(DWAPlannerParameters):
+    """All parameters of `dwa_local_planner/DWAPlannerROS`: those that cannot be changed while it runs, too."""
+
+    controller_frequency: float | None = parameter(
+        None, "how often it is asked for a command; by default move_base's", unit="Hz"
+    )
+    latch_xy_goal_tolerance: bool = parameter(False, "having been at the goal's position once is enough")
+    odom_topic: str = parameter("odom", "the topic of the odometry")
+    publish_traj_pc: bool = parameter(False, "publish the trajectories")
+    publish_cost_grid_pc: bool = parameter(False, "publish what each cell costs")
+    cheat_factor: float = parameter(
+        1.0,
+        "how near the goal the nose leaves the plan: this times forward_point_distance squared",
+        minimum=0.0,
+    )
+    global_frame_id: str = parameter("odom", "not used: clouds are in the costmap's frame")
+
+    allowed = (
+        *RENAMED,
+        *FORMER,
+        *(each.name for each in fields(TrajectoryPlannerParameters)),
+        "meter_scoring",
+    )
+
+
+class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
+    """Drives along a plan by the Dynamic Window Approach; `samples` has what the last cycle tried."""
+
+    samples: Samples | None = None
+    """The trajectories of the last cycle, or None before the first."""
+
+    def initialize(self, name: str, buffer: Buffer, costmap: Any) -> None:
+        """Read the parameters, advertise the topics, and listen to the odometry."""
+        super().initialize(name, buffer, costmap)
+        self.node, label = costmap.node, f"~{name}/"
+        self._warn_of_names(label)
+        limit(self.node, label, DWAPlannerParameters)
+        settings = DWAPlannerSettings.read(self.node, label)
+        self._settings = settings
+        self.publications = Publications(self.node, name, costmap.global_frame)
+        self._cloud = self.node.publisher(
+            f"{label}trajectory_cloud", message_class("sensor_msgs/PointCloud2"), queue_size=1
+        )
+        self.following = Following(buffer, costmap)
+        self.planner = DWAPlanner(_dynamic(settings), sim_period(self.node, label), settings.cheat_factor)
+        # In ROS the controller has no name there, and reads the parameter from the node's own namespace.
+        latch = (
+            bool(self.node.get_param("~latch_xy_goal_tolerance", False)) or settings.latch_xy_goal_tolerance
+        )
+        self.latch = LatchedStopRotate(latch)
+        self.odometry = OdometryHelper(self.node, settings.odom_topic)
+        self._at_start: dict[str, Any] | None = None
+        self._server = Server(self.node, DWAPlannerParameters, self._reconfigure, namespace=label)
+
+    def _warn_of_names(self, label: str) -> None:
+        for old, new in RENAMED.items():
+            if self.node.has_param(label + old):
+                self.node.logwarn(
+                    f"Parameter {old} is deprecated (and will not load properly). Use {new} instead."
+                )
+        known = {each.name for each in fields(DWAPlannerSettings)}
+        others = [each.name for each in fields(TrajectoryPlannerParameters) if each.name not in known]
+        ignore(self.node, label, [*others, "meter_scoring"], "it is one of TrajectoryPlannerROS")
+        ignore(self.node, label, FORMER, "it was one of an earlier release")
+
+    def _reconfigure(self, config: Any, _: int) -> Any:
+        names = [each.name for each in fields(DWAPlannerParameters)]
+        if self._at_start is None:
+            self._at_start = {name: config[name] for name in names}
+        elif config["restore_defaults"]:
+            config.update({**self._at_start, "restore_defaults": False})
+        self.planner.reconfigure(DWAPlannerParameters(**{name: config[name] for name in names}))
+        return config
+
+    @property
+    def parameters(self) -> DWAPlannerParameters:
+        """What holds now."""
+        return self.planner.parameters
+
+    # -- the interface -------------------------------------------------------------------------------------------
+
+    def set_plan(self, plan: Sequence[Any]) -> None:
+        """Follow this plan."""
+        self.latch.reset()
+        self.node.loginfo("Got new plan")
+        self.planner.oscillation.reset()
+        self.following.set_plan(plan)
+
+    def is_goal_reached(self) -> bool:
+        """Whether the robot is at the end of the plan, turned as it says, and stands."""
+        pose = planar_pose(self.costmap.robot_pose())
+        if not self.latch.is_goal_reached(
+            pose, self.odometry.velocity, self.following.goal(), self.parameters
+        ):
+            return False
+        self.node.loginfo("Goal reached")
+        return True
+
+    def compute_velocity_commands(self) -> Any:
+        """The next command: along the plan, or at its end to a standstill and to the heading."""
+        pose = planar_pose(self.costmap.robot_pose())
+        plan = self.following.local(pose, prune=self.parameters.prune_plan)
+        # The map grids are made at the goal, too: a turn is checked with them.
+        if not self.planner.update_plan(self.costmap.grid, pose, plan, self.costmap.footprint):
+            self.node.logerr(
+                "None of the points of the global plan were in the local costmap, global plan points too far from robot"
+            )
+        if self.latch.is_position_reached(pose, self.following.goal(), self.parameters):
+            return twist(self._at_goal(pose))
+        return twist(self._drive(pose, plan))
+
+    def _at_goal(self, pose: Pose) -> Floats:
+        return self.latch.command(
+            pose,
+            self.odometry.velocity,
+            self.following.goal(),
+            self.parameters,
+            self.planner.sim_period,
+            lambda asked: self.planner.is_free(self.costmap.grid, pose, self.odometry.velocity, asked),
+        )
+
+    def _drive(self, pose: Pose, plan: Floats) -> Floats:
+        samples = self.planner.find_best(self.costmap.grid, pose, self.odometry.velocity)
+        self.samples = samples
+        if self._settings.publish_traj_pc:
+            self.publications.trajectories(self._cloud, samples)
+        if self._settings.publish_cost_grid_pc and self.planner.grids is not None:
+            path, goal, _ = self.planner.grids
+            scales = self.planner.scales(self.costmap.grid.resolution)
+            self.publications.costs(self.costmap.grid, path, goal, (scales[4], scales[5], scales[1]))
+        if samples.best is None:
+            self.node.logwarn("DWA planner failed to produce path.")
+            raise no_command("DWA planner failed to produce path", samples)
+        self.publications.path(self.publications.local_plan, samples.trajectory(samples.best))
+        self.publications.path(self.publications.global_plan, plan)
+        command: Floats = samples.commands[samples.best]
+        return command
+
+
+def _dynamic(settings: DWAPlannerSettings) -> DWAPlannerParameters:
+    return DWAPlannerParameters(
+        **{each.name: getattr(settings, each.name) for each in fields(DWAPlannerParameters)}
+    )
