@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from rosmini.navigation.base_local_planner.costmap_model import footprint_cost
-
 from rosmini.msgs import message_class
+from rosmini.navigation.base_local_planner.costmap_model import footprint_cost
 from rosmini.navigation.nav_core import RecoveryBehavior, TransformMissing, planar_pose
 from rosmini.parameters import Parameters, parameter
 
