@@ -1,0 +1,7 @@
+"""carrot_planner: as near to the goal as a straight line allows (http://wiki.ros.org/carrot_planner)."""
+
+from __future__ import annotations
+
+from .carrot import carrot
+
+__all__ = ["carrot"]

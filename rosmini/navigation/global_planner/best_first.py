@@ -1,0 +1,123 @@
+"""A* over a grid of costs, as global_planner has it: a heap of cells, ranked by potential and distance to the goal.
+
+A cell gets its potential when the first of its neighbours is taken from the heap, and keeps it: that is quick, and the
+path is not always the cheapest (http://wiki.ros.org/global_planner). One defect of the original is not copied. There a
+cell's cost and `neutral_cost` are added in 8 bits, so that costs from 206 on wrap around to cheap ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.machine_code import machine_code
+from rosmini.navigation.navfn.wave import HIGH, interpolated
+
+
+def push(heap: NDArray[np.int32], ranks: NDArray[np.float32], size: int, cell: int, rank: float) -> None:
+    """Put a cell into a heap of `size` cells whose least one is first."""
+    at = size
+    while at > 0:
+        above = (at - 1) // 2
+        if ranks[above] <= rank:
+            break
+        heap[at], ranks[at] = heap[above], ranks[above]
+        at = above
+    heap[at], ranks[at] = cell, rank
+
+
+def sift(heap: NDArray[np.int32], ranks: NDArray[np.float32], size: int) -> None:
+    """Make a heap of `size` cells again of one whose first cell has been taken: the last one takes its place."""
+    cell, rank = heap[size], ranks[size]
+    at = 0
+    while 2 * at + 1 < size:
+        below = 2 * at + 1
+        if below + 1 < size and ranks[below + 1] < ranks[below]:
+            below += 1
+        if ranks[below] >= rank:
+            break
+        heap[at], ranks[at] = heap[below], ranks[below]
+        at = below
+    heap[at], ranks[at] = cell, rank
+
+
+def best_first(
+    costs: NDArray[np.uint8],
+    table: NDArray[np.float32],
+    potential: NDArray[np.float32],
+    heap: NDArray[np.int32],
+    ranks: NDArray[np.float32],
+    state: NDArray[np.int64],
+    width: int,
+    quadratic: int,
+    stop: int,
+    heuristic: float,
+    count: int,
+) -> int:
+    """Take at most `count` cells from the heap; the arrays hold everything, so that the next call goes on.
+
+    Args:
+        costs: of all cells, row after row; the outermost are lethal.
+        table: what it costs to enter a cell of each cost [256]; infinite where no way leads.
+        potential: of the cells, changed in place.
+        heap: the cells that wait, the least rank first.
+        ranks: their ranks.
+        state: how many wait, how many have been taken [2].
+        width: cells in a row.
+        quadratic: whether potentials are interpolated between two neighbours, or come from the cell before.
+        stop: the goal.
+        heuristic: what a cell of distance (along rows and columns) to the goal adds to a rank.
+        count: so many cells.
+
+    Returns:
+        0 if there is more to do, 1 if `stop` was taken, 2 if no cell is left.
+
+    """
+    size, taken, result = state[0], 0, 0
+    stop_x, stop_y = stop % width, stop // width
+    while taken < count:
+        if size == 0:
+            result = 2
+            break
+        n = heap[0]
+        size -= 1
+        sift(heap, ranks, size)
+        taken += 1
+        if n == stop:
+            result = 1
+            break
+        for m in (n + 1, n - 1, n + width, n - width):
+            cost = table[costs[m]]
+            if potential[m] < HIGH or not cost < HIGH:
+                continue
+            if quadratic:
+                a = min(potential[m - 1], potential[m + 1])
+                b = min(potential[m - width], potential[m + width])
+                pot = np.float32(interpolated(a, b, cost))
+            else:
+                pot = np.float32(potential[n] + cost)
+            potential[m] = pot
+            ahead = abs(stop_x - m % width) + abs(stop_y - m // width)
+            push(heap, ranks, size, m, float(pot) + heuristic * ahead)
+            size += 1
+    state[0] = size
+    state[1] += taken
+    return result
+
+
+@cache
+def compiled_best_first() -> Callable[..., int]:
+    """`best_first` as machine code, or as it is without numba."""
+    try:
+        import numba
+    except ImportError:
+        return best_first
+    types: Any = numba.types
+    number, floats = types.int64, types.float32[::1]
+    arrays = (types.uint8[::1], floats, floats, types.int32[::1], floats, types.int64[::1])
+    signature = number(*arrays, number, number, number, types.float64, number)
+    return machine_code(best_first, signature, (interpolated, push, sift))

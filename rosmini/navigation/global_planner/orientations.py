@@ -1,0 +1,62 @@
+"""Headings for the points of a plan (http://wiki.ros.org/global_planner, `orientation_mode`)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.angles import normalize_angle
+
+NONE, FORWARD, INTERPOLATE, FORWARD_THEN_INTERPOLATE, BACKWARD, LEFTWARD, RIGHTWARD = range(7)
+
+TURNED = {FORWARD: 0.0, BACKWARD: math.pi, LEFTWARD: -math.pi / 2, RIGHTWARD: math.pi / 2}
+"""By how much a heading differs from that of the path."""
+
+Poses = NDArray[np.float64]
+
+
+def orient(poses: Poses, mode: int, start_yaw: float, window: int = 1) -> Poses:
+    """The poses (n, 3) with other headings; the last one, the goal's, stays.
+
+    `mode` is one of the constants above; `window` is how many points before and behind give the path's direction.
+    `INTERPOLATE` blends from `start_yaw` to the goal's heading, and `FORWARD_THEN_INTERPOLATE` does so on the last
+    stretch that is straight. (There the original counts from the plan's first point, so that headings jump.)
+    """
+    made = np.array(poses, dtype=np.float64)
+    last = len(made) - 1
+    if last < 1 or mode == NONE:
+        return made
+    if mode in TURNED:
+        made[:-1, 2] = normalize_angle(_along(made, window)[:-1] + TURNED[mode])
+        return made
+    begin = 0
+    if mode == FORWARD_THEN_INTERPOLATE:
+        made[:-1, 2] = _along(made, window)[:-1]
+        begin = _straight_from(made)
+    made[0, 2] = start_yaw
+    total = normalize_angle(made[last, 2] - made[begin, 2])
+    shares = np.arange(last - begin) / (last - begin)
+    made[begin:-1, 2] = normalize_angle(made[begin, 2] + total * shares)
+    return made
+
+
+def _along(poses: Poses, window: int) -> NDArray[np.float64]:
+    """The direction of the path at each point, from the point `window` before to the one `window` behind."""
+    index = np.arange(len(poses))
+    before = np.maximum(0, index - window)
+    behind = np.minimum(len(poses) - 1, index + window)
+    steps = poses[behind, :2] - poses[before, :2]
+    return np.asarray(np.arctan2(steps[:, 1], steps[:, 0]))
+
+
+def _straight_from(poses: Poses) -> int:
+    """The first point of the last stretch on which the direction changes by no more than 0.35 rad."""
+    index = len(poses) - 3
+    if index <= 0:
+        return 0
+    last = poses[index, 2]
+    while index > 0 and abs(normalize_angle(float(poses[index - 1, 2] - last))) <= 0.35:
+        index -= 1
+    return index

@@ -1,0 +1,179 @@
+"""The searches of global_planner: Dijkstra by navfn's wave, and A* (http://wiki.ros.org/global_planner).
+
+Points may lie between the middles of cells (`precise`): then Dijkstra begins in the four cells around the start, each
+with the cost of the way to its middle. (The original weighs them so that two neighbours of a start in the middle of a
+cell cost nothing, and begins in obstacles too.) A cell of cost 252 is passable here, though the original takes it as
+lethal: `lethal_cost` is the first cost that is.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.navigation.costmap_2d.costmap import NO_INFORMATION
+from rosmini.navigation.kernels import kernel
+from rosmini.navigation.navfn.search import Point, Search, WaveSearch, cell_of, outlined
+from rosmini.navigation.navfn.wave import HIGH, interpolated
+
+LETHAL_COST = 253
+NEUTRAL_COST = 50
+COST_FACTOR = 3.0
+
+NEAR_GOAL = 2
+"""So many cells around the goal are given a potential when it has been reached, for the gradient."""
+
+
+def dijkstra_table(
+    allow_unknown: bool,
+    lethal_cost: int = LETHAL_COST,
+    neutral_cost: int = NEUTRAL_COST,
+    cost_factor: float = COST_FACTOR,
+) -> NDArray[np.float32]:
+    """What Dijkstra pays for entering a cell of each cost [256]: neutral + factor * cost, and less than lethal."""
+    costs = np.arange(256, dtype=np.float32)
+    table = np.minimum(costs * np.float32(cost_factor) + neutral_cost, lethal_cost - 1)
+    table[~_passable(allow_unknown, lethal_cost)] = np.inf
+    return np.asarray(np.maximum(table, 1), dtype=np.float32)
+
+
+def a_star_table(
+    allow_unknown: bool, lethal_cost: int = LETHAL_COST, neutral_cost: int = NEUTRAL_COST
+) -> NDArray[np.float32]:
+    """What A* pays for entering a cell of each cost [256]: cost + neutral; `cost_factor` has no effect, as in ROS."""
+    table = np.arange(256, dtype=np.float32) + neutral_cost
+    table[~_passable(allow_unknown, lethal_cost)] = np.inf
+    return table
+
+
+def _passable(allow_unknown: bool, lethal_cost: int) -> NDArray[np.bool_]:
+    passable = np.asarray(np.arange(256) < lethal_cost)
+    passable[NO_INFORMATION] = allow_unknown
+    return passable
+
+
+def _fill_around(search: Search, goal: tuple[int, int]) -> None:
+    """Give the cells around a goal that has been reached a potential, as far as ways lead there."""
+    flat, table, row = search.potential_with_rim, search.table, search.row
+    costs = search.costs.ravel()
+    for y in range(max(0, goal[1] - NEAR_GOAL), min(search.height, goal[1] + NEAR_GOAL + 1)):
+        for x in range(max(0, goal[0] - NEAR_GOAL), min(search.width, goal[0] + NEAR_GOAL + 1)):
+            n = (y + 1) * row + x + 1
+            a, b = min(flat[n - 1], flat[n + 1]), min(flat[n - row], flat[n + row])
+            cost = float(table[costs[n]])
+            if flat[n] >= HIGH and cost < HIGH and min(a, b) < HIGH:
+                flat[n] = interpolated(float(a), float(b), cost) if search.quadratic else min(a, b) + cost
+
+
+class GlobalDijkstra(WaveSearch):
+    """Dijkstra of global_planner: the wave runs from the start."""
+
+    def __init__(
+        self,
+        costs: NDArray[np.uint8],
+        start: Point,
+        goal: Point,
+        *,
+        allow_unknown: bool = True,
+        quadratic: bool = True,
+        grid_path: bool = False,
+        precise: bool = True,
+        outline: bool = True,
+        full: bool = False,
+        lethal_cost: int = LETHAL_COST,
+        neutral_cost: int = NEUTRAL_COST,
+        cost_factor: float = COST_FACTOR,
+    ) -> None:
+        """Prepare it. Raises `OutsideMap` if start or goal is not on the grid."""
+        self.precise, self.neutral_cost = precise, neutral_cost
+        super().__init__(
+            outlined(costs) if outline else costs,
+            dijkstra_table(allow_unknown, lethal_cost, neutral_cost, cost_factor),
+            start,
+            goal,
+            threshold=lethal_cost,
+            rise=2 * neutral_cost,
+            full=full,
+            quadratic=quadratic,
+            grid_path=grid_path,
+        )
+
+    def _seeds(self) -> dict[int, float]:
+        x, y = self.start
+        if not self.precise:
+            return super()._seeds()
+        cells = {
+            self._index((column, row)): self.neutral_cost * math.hypot(column - x, row - y)
+            for row in {math.floor(y), math.ceil(y)}
+            for column in {math.floor(x), math.ceil(x)}
+        }
+        own = self._index(cell_of(self.start))
+        flat = self.costs.ravel()
+        return {n: cost for n, cost in cells.items() if n == own or self.table[flat[n]] < HIGH}
+
+    def _expand(self, count: int) -> int:
+        result = super()._expand(count)
+        if result == 1 and self.precise:
+            _fill_around(self, cell_of(self.goal))
+        return result
+
+
+class GlobalAStar(Search):
+    """A* of global_planner."""
+
+    def __init__(
+        self,
+        costs: NDArray[np.uint8],
+        start: Point,
+        goal: Point,
+        *,
+        allow_unknown: bool = True,
+        quadratic: bool = True,
+        grid_path: bool = False,
+        precise: bool = True,
+        outline: bool = True,
+        lethal_cost: int = LETHAL_COST,
+        neutral_cost: int = NEUTRAL_COST,
+    ) -> None:
+        """Prepare it. Raises `OutsideMap` if start or goal is not on the grid."""
+        self.precise, self.neutral_cost = precise, neutral_cost
+        table = a_star_table(allow_unknown, lethal_cost, neutral_cost)
+        costs = outlined(costs) if outline else costs
+        super().__init__(costs, table, start, goal, quadratic=quadratic, grid_path=grid_path)
+        self._heap = np.empty(self.costs.size, dtype=np.int32)
+        self._ranks = np.empty(self.costs.size, dtype=np.float32)
+        self._heap[0] = self._index(cell_of(start))
+        self._ranks[0] = 0
+        self.potential_with_rim[self._heap[0]] = 0
+        self._state = np.array([1, 0], dtype=np.int64)
+
+    @property
+    def expanded(self) -> int:
+        """How many cells have been taken from the heap."""
+        return int(self._state[1])
+
+    def _expand(self, count: int) -> int:
+        run = kernel("rosmini.navigation.global_planner.best_first:compiled_best_first")
+        result = int(
+            run(
+                self.costs.ravel(),
+                self.table,
+                self.potential_with_rim,
+                self._heap,
+                self._ranks,
+                self._state,
+                self.row,
+                int(self.quadratic),
+                self._stop,
+                self.neutral_cost,
+                count,
+            )
+        )
+        if result == 1 and self.precise:
+            _fill_around(self, cell_of(self.goal))
+        return result
+
+    def _waiting(self) -> NDArray[np.int32]:
+        return self._heap[: int(self._state[0])]

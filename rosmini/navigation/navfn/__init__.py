@@ -1,0 +1,8 @@
+"""navfn: a potential over the costmap, and the path down its gradient (http://wiki.ros.org/navfn)."""
+
+from __future__ import annotations
+
+from .search import NavfnSearch, Search
+from .wave import HIGH
+
+__all__ = ["HIGH", "NavfnSearch", "Search"]

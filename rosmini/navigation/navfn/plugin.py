@@ -1,0 +1,115 @@
+"""`navfn/NavfnROS`, the global planner that `move_base` takes by default (http://wiki.ros.org/navfn)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rosmini.msgs import message_class
+from rosmini.navigation.nav_core import OutsideMap
+from rosmini.parameters import Parameters, parameter
+
+from .planning import GridPlanner, Poses
+from .search import NavfnSearch, cell_of
+from .wave import HIGH
+
+OFF_MAP_START = (
+    "The robot's start position is off the global costmap. Planning will always fail, are you sure the robot has been "
+    "properly localized?"
+)
+OFF_MAP_GOAL = (
+    "The goal sent to the navfn planner is off the global costmap. Planning will always fail to this goal."
+)
+
+
+@dataclass(frozen=True)
+class NavfnParameters(Parameters):
+    """The parameters of `navfn/NavfnROS`, in `~NavfnROS/`."""
+
+    tolerant = True
+
+    allow_unknown: bool = parameter(True, "whether plans may lead through unknown cells")
+    planner_window_x: float = parameter(0.0, "has no effect, as in ROS", unit="m")
+    planner_window_y: float = parameter(0.0, "has no effect, as in ROS", unit="m")
+    default_tolerance: float = parameter(
+        0.0, "so far from the goal, along each axis, a plan may end", unit="m", minimum=0.0
+    )
+    visualize_potential: bool = parameter(False, "whether to publish the potential as a cloud of points")
+
+
+class NavfnROS(GridPlanner, plugin="navfn/NavfnROS"):
+    """Dijkstra over an interpolated potential, and the path down its gradient.
+
+    Topics: `~NAME/plan` (nav_msgs/Path), `~NAME/potential` (sensor_msgs/PointCloud2) with `visualize_potential`.
+    Service: `~NAME/make_plan` (nav_msgs/GetPlan). Two things differ from the original on purpose: points of the plan
+    are at the middles of cells, where there they are half a cell towards the lower left; and the goal is tried itself
+    before others within the tolerance.
+    """
+
+    def _read_parameters(self) -> None:
+        own = NavfnParameters.read(self.node, f"~{self.name}")
+        self.parameters = own
+        self.default_tolerance = own.default_tolerance
+        self._cloud = message_class("sensor_msgs/PointCloud2")
+        self._potentials = (
+            self.node.publisher(f"~{self.name}/potential", self._cloud, queue_size=1)
+            if own.visualize_potential
+            else None
+        )
+
+    def _plan(self, start: Any, goal: Any, tolerance: float) -> Poses:
+        begin = cell_of(self.point(start, OFF_MAP_START, 0.5))
+        try:
+            end = cell_of(self.point(goal, OFF_MAP_GOAL, 0.5))
+        except OutsideMap:
+            if tolerance <= 0:
+                raise
+            end = cell_of(self.grid.world_to_map_clamped(goal.pose.position.x, goal.pose.position.y))
+        self.search = search = NavfnSearch(
+            self.grid.costs, begin, end, allow_unknown=self.parameters.allow_unknown
+        )
+        search.expand()
+        x, y = self._reachable(search, goal.pose.position.x, goal.pose.position.y, tolerance)
+        cell = self.grid.world_to_map_clamped(x, y)
+        self._publish_potential(search, cell)
+        return [*self.poses(search.path_to(cell), 0.5), self.pose_like(goal, x, y)]
+
+    def _reachable(self, search: NavfnSearch, x: float, y: float, tolerance: float) -> tuple[float, float]:
+        """The goal, or else the reachable point next to it on a lattice of one cell's side within the tolerance."""
+        offsets = np.arange(-tolerance, tolerance + 1e-9, self.grid.resolution)
+        offsets = np.concatenate([[0.0], offsets])
+        points = [(x + dx, y + dy) for dy in offsets for dx in offsets]
+        points.sort(key=lambda point: math.hypot(point[0] - x, point[1] - y))
+        for point in points:
+            cell = self.grid.world_to_map(*point)
+            if cell is not None and search.potential_at(cell) < HIGH:
+                return point
+        self._publish_potential(search, None)
+        raise search.failure(self.grid)
+
+    def _publish_potential(self, search: NavfnSearch, goal: tuple[int, int] | None) -> None:
+        """Publish the cells that were reached: x, y, height (20 at the goal) and potential."""
+        if self._potentials is None:
+            return
+        rows, columns = np.nonzero(search.reached)
+        potential = search.potential[rows, columns]
+        at_goal = max(1.0, float(potential.max()) if goal is None else search.potential_at(goal))
+        points = np.empty((len(rows), 4), dtype="<f4")
+        points[:, 0] = self.grid.origin[0] + (columns + 0.5) * self.grid.resolution
+        points[:, 1] = self.grid.origin[1] + (rows + 0.5) * self.grid.resolution
+        points[:, 2] = potential / at_goal * 20
+        points[:, 3] = potential
+        field = message_class("sensor_msgs/PointField")
+        cloud = self._cloud()
+        cloud.header.stamp, cloud.header.frame_id = self.now(), self.costmap.global_frame
+        cloud.height, cloud.width = 1, len(points)
+        cloud.fields = [
+            field(name=name, offset=4 * i, datatype=field.FLOAT32, count=1)
+            for i, name in enumerate(("x", "y", "z", "pot"))
+        ]
+        cloud.point_step, cloud.row_step, cloud.is_dense = 16, 16 * len(points), True
+        cloud.data = points.tobytes()
+        self._potentials.publish(cloud)

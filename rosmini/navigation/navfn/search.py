@@ -1,0 +1,312 @@
+"""Searches on grids of costs that can be stepped: potential, frontier and path are there to be looked at in between.
+
+A search is given costs (h, w) as `Costmap2D` has them, and start and goal as cells (column, row); whole numbers are the
+middles of cells. It works on a copy with a lethal rim, in which the start's cell is free, since the robot stands there.
+(The originals write both into the costmap itself, where the next update has to mend it.)
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.graph.show import show
+from rosmini.navigation.costmap_2d.costmap import LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
+from rosmini.navigation.kernels import kernel
+from rosmini.navigation.nav_core.failures import OutsideMap, PlanningFailure
+
+from .descent import FULL
+from .reasons import failure
+from .wave import ARRIVED, EXPANDED, HIGH
+
+Point = tuple[float, float]
+Points = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+ALL = 1 << 62
+"""More cells than there are."""
+
+
+class Search(ABC):
+    """A search from a start to a goal over a grid of costs; what differs between planners is in the classes below."""
+
+    def __init__(
+        self,
+        costs: NDArray[np.uint8],
+        table: NDArray[np.float32],
+        start: Point,
+        goal: Point,
+        *,
+        quadratic: bool = True,
+        grid_path: bool = False,
+    ) -> None:
+        """Prepare it. `table` is what it costs to enter a cell of each cost, infinite where no way leads.
+
+        Raises `OutsideMap` if start or goal is not on the grid.
+        """
+        self.height: int = costs.shape[0]
+        self.width: int = costs.shape[1]
+        self.start, self.goal = start, goal
+        for what, point in (("start", start), ("goal", goal)):
+            if not self._inside(point):
+                raise OutsideMap(
+                    f"the {what} {_shown(point)} is outside the map of {self.width} x {self.height} cells",
+                    point=point,
+                    size=(self.width, self.height),
+                )
+        self.table = table
+        self.quadratic, self.grid_path = quadratic, grid_path
+        self.arrived = self.finished = False
+        self.row: int = self.width + 2
+        """Cells in a row, the rim included."""
+        self.entering_goal = float(table[costs[cell_of(goal)[1], cell_of(goal)[0]]])
+        self.goal_cost = int(costs[cell_of(goal)[1], cell_of(goal)[0]])
+        self.costs = np.full((self.height + 2, self.row), LETHAL_OBSTACLE, dtype=np.uint8)
+        self.costs[1:-1, 1:-1] = costs
+        self.costs.ravel()[self._index(cell_of(start))] = 0
+        self.potential_with_rim = np.full(self.costs.size, HIGH, dtype=np.float32)
+        """Of all cells, row after row, the rim included."""
+        self._stop = self._index(cell_of(goal))
+
+    def _inside(self, point: Point) -> bool:
+        column, row = cell_of(point)
+        return 0 <= column < self.width and 0 <= row < self.height
+
+    def _index(self, cell: tuple[int, int]) -> int:
+        return (cell[1] + 1) * self.row + cell[0] + 1
+
+    @property
+    def potential(self) -> NDArray[np.float32]:
+        """What it costs to get to each cell (h, w); `HIGH` where the search has not been. Not a copy."""
+        return self.potential_with_rim.reshape(self.costs.shape)[1:-1, 1:-1]
+
+    @property
+    def reached(self) -> NDArray[np.bool_]:
+        """Which cells (h, w) have a potential."""
+        return np.asarray(self.potential < HIGH)
+
+    @property
+    @abstractmethod
+    def expanded(self) -> int:
+        """How many cells have been taken up, those twice that were so twice."""
+
+    @property
+    def frontier(self) -> Ints:
+        """The cells (n, 2) that wait, as columns and rows."""
+        waiting = np.unique(self._waiting()).astype(np.int64)
+        return np.stack([waiting % self.row - 1, waiting // self.row - 1], axis=-1)
+
+    @property
+    def parents(self) -> Ints:
+        """For each cell (h, w, 2) the column and row of the lowest of its four neighbours; -1 where it has none."""
+        whole = self.potential_with_rim.reshape(self.costs.shape)
+        around = np.stack([whole[1:-1, :-2], whole[1:-1, 2:], whole[:-2, 1:-1], whole[2:, 1:-1]])
+        best = around.argmin(axis=0)
+        rows, columns = np.indices(best.shape)
+        cells = np.stack(
+            [
+                columns + np.array([-1, 1, 0, 0])[best],
+                rows + np.array([0, 0, -1, 1])[best],
+            ],
+            axis=-1,
+        )
+        cells[~((around.min(axis=0) < self.potential) & self.reached)] = -1
+        return cells
+
+    def expand(self, count: int = ALL) -> bool:
+        """Take up at most `count` cells; whether the search is at its end then."""
+        if not self.finished and count > 0:
+            result = self._expand(count)
+            self.finished, self.arrived = result != 0, result == ARRIVED
+        return self.finished
+
+    def path(self) -> Points:
+        """The path from start to goal (n, 2), in columns and rows.
+
+        Raises a `PlanningFailure` that says why there is none.
+        """
+        self.expand()
+        return self.path_to(self.goal)
+
+    def path_to(self, goal: Point) -> Points:
+        """The path to another point that has been reached. Raises a `PlanningFailure` if it has not been."""
+        if not self._inside(goal) or self.potential_with_rim[self._index(cell_of(goal))] >= HIGH:
+            raise self.failure()
+        walk = kernel("rosmini.navigation.navfn.descent:compiled_descend")
+        begin, end = (goal[0] + 1, goal[1] + 1), (self.start[0] + 1, self.start[1] + 1)
+        room = 8 * (self.width + self.height) + 64
+        while True:
+            points = np.empty(2 * room)
+            found = walk(self.potential_with_rim, self.row, *begin, *end, int(not self.grid_path), points)
+            if found != FULL:
+                break
+            room *= 4
+        if found < 0:
+            raise PlanningFailure(
+                f"a potential was found at the goal {_shown(goal)}, and it leads to no path from the start "
+                f"{_shown(self.start)}. This shouldn't happen.",
+                goal=goal,
+                start=self.start,
+            )
+        return np.asarray(points[: 2 * found].reshape(-1, 2)[::-1] - 1)
+
+    def potential_at(self, cell: tuple[int, int]) -> float:
+        """The potential of a cell; `HIGH` outside."""
+        return float(self.potential_with_rim[self._index(cell)]) if self._inside(cell) else HIGH
+
+    def failure(self, grid: Costmap2D | None = None) -> PlanningFailure:
+        """Why there is no path, with numbers; in metres if a grid is given."""
+        return failure(self, grid)
+
+    def show(self, **options: Any) -> Any:
+        """A picture: costs, potential, frontier, and the path if the goal was reached."""
+        return show("search", self, **options)
+
+    @abstractmethod
+    def _expand(self, count: int) -> int: ...
+
+    @abstractmethod
+    def _waiting(self) -> NDArray[np.int32]: ...
+
+
+class WaveSearch(Search):
+    """A search by `wave`, which navfn and the Dijkstra of global_planner share."""
+
+    def __init__(
+        self,
+        costs: NDArray[np.uint8],
+        table: NDArray[np.float32],
+        start: Point,
+        goal: Point,
+        *,
+        threshold: float,
+        rise: float,
+        heuristic: float = 0.0,
+        full: bool = False,
+        quadratic: bool = True,
+        grid_path: bool = False,
+    ) -> None:
+        """Prepare it. `threshold` and `rise` are those of `wave`; with `full` it goes on when it has arrived."""
+        super().__init__(costs, table, start, goal, quadratic=quadratic, grid_path=grid_path)
+        self._blocks = np.empty(3 * self.costs.size, dtype=np.int32)
+        self._pending = np.zeros(self.costs.size, dtype=np.uint8)
+        self._heuristic, self._full = heuristic, full
+        distance = math.hypot(goal[0] - start[0], goal[1] - start[1])
+        self._levels = np.array([threshold + heuristic * distance, rise], dtype=np.float64)
+        seeds = self._seeds()
+        for cell, potential in seeds.items():
+            self.potential_with_rim[cell] = potential
+        around = [n for cell in seeds for n in (cell + 1, cell - 1, cell - self.row, cell + self.row)]
+        flat = self.costs.ravel()
+        # Seeds may gain by each other; one alone cannot.
+        wait = [
+            n for n in dict.fromkeys(around) if table[flat[n]] < HIGH and (n not in seeds or len(seeds) > 1)
+        ]
+        self._blocks[: len(wait)] = wait
+        self._pending[wait] = 1
+        self._state = np.array([0, 1, 0, len(wait), 0, 0, 0], dtype=np.int64)
+
+    def _seeds(self) -> dict[int, float]:
+        """Where it begins, with what potential."""
+        return {self._index(cell_of(self.start)): 0.0}
+
+    @property
+    def expanded(self) -> int:
+        """How many cells have been taken up, those twice that were so twice."""
+        return int(self._state[EXPANDED])
+
+    def _expand(self, count: int) -> int:
+        run = kernel("rosmini.navigation.navfn.wave:compiled_wave")
+        return int(
+            run(
+                self.costs.ravel(),
+                self.table,
+                self.potential_with_rim,
+                self._pending,
+                self._blocks,
+                self._state,
+                self._levels,
+                self.row,
+                int(self.quadratic),
+                -1 if self._full else self._stop,
+                self._heuristic,
+                count,
+            )
+        )
+
+    def _waiting(self) -> NDArray[np.int32]:
+        current, following, at, here, after, over, _ = (int(each) for each in self._state)
+        room = self.costs.size
+        parts = ((current, at, here), (following, 0, after), (3 - current - following, 0, over))
+        return np.concatenate(
+            [self._blocks[block * room + first : block * room + last] for block, first, last in parts]
+        )
+
+
+class NavfnSearch(WaveSearch):
+    """navfn: `potential` is what it costs to get from the start to a cell, interpolated between its neighbours."""
+
+    def __init__(
+        self,
+        costs: NDArray[np.uint8],
+        start: Point,
+        goal: Point,
+        *,
+        allow_unknown: bool = True,
+        a_star: bool = False,
+        full: bool = False,
+        outline: bool = True,
+    ) -> None:
+        """Prepare it, by Dijkstra or A*.
+
+        With `full` it goes on after reaching the goal. `outline` makes the outermost cells lethal, as in the original.
+
+        Raises `OutsideMap` if start or goal is not on the grid.
+        """
+        super().__init__(
+            outlined(costs) if outline else costs,
+            navfn_table(allow_unknown),
+            start,
+            goal,
+            threshold=COST_OBS,
+            rise=2 * COST_NEUTRAL,
+            heuristic=COST_NEUTRAL if a_star else 0.0,
+            full=full,
+        )
+
+
+COST_NEUTRAL = 50
+"""navfn: what it costs to enter a free cell."""
+COST_FACTOR = 0.8
+"""navfn: what is added for each unit of a cell's cost."""
+COST_OBS = 254
+"""navfn: from here on a cell is an obstacle."""
+
+
+def navfn_table(allow_unknown: bool) -> NDArray[np.float32]:
+    """What it costs to enter a cell of each cost [256]: 50 + 0.8 cost, 253 if unknown, infinite from 253 on."""
+    table = np.full(256, np.inf, dtype=np.float32)
+    table[:253] = np.minimum(np.floor(COST_NEUTRAL + COST_FACTOR * np.arange(253)), COST_OBS - 1)
+    if allow_unknown:
+        table[NO_INFORMATION] = COST_OBS - 1
+    return table
+
+
+def outlined(costs: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """A copy whose outermost cells are lethal."""
+    made = np.array(costs, dtype=np.uint8, order="C")
+    made[[0, -1], :] = made[:, [0, -1]] = LETHAL_OBSTACLE
+    return made
+
+
+def cell_of(point: Point) -> tuple[int, int]:
+    """The cell in which a point (column, row) lies."""
+    return math.floor(point[0] + 0.5), math.floor(point[1] + 0.5)
+
+
+def _shown(point: Point) -> str:
+    return f"({point[0]:g}, {point[1]:g})"

@@ -1,0 +1,153 @@
+"""A wave that runs over a grid of costs and leaves in each cell what it costs to get there: the loop of navfn.
+
+Cells wait in three blocks: those of the current round, those of the next, and those beyond the threshold, for which
+it is too early. When a block and its followers are done, the threshold rises. A cell is taken up again when a
+neighbour became cheaper, so the order is nearly that of Dijkstra, without a heap
+(http://wiki.ros.org/navfn; Brock and Khatib, High-speed navigation using the global dynamic window approach, 1999).
+
+Three defects of the original are not copied. Its blocks hold 10,000 cells and drop what is too much; here a block holds
+all cells there are. It gives up after a number of rounds, of which a maze may need more. And it takes a cell up again
+only if a neighbour became cheaper by 0.7 of the cell's cost, so that its potentials depend on the order and lie some
+percent above the fixed point of their own formula; here (but for A*) they are the fixed point.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.machine_code import machine_code
+
+HIGH = 1e10
+"""The potential of a cell that the wave has not reached."""
+
+EXPANDED = 6
+"""Where in a wave's state the number of cells that have been taken up is."""
+
+GOING, ARRIVED, EXHAUSTED = range(3)
+"""What `wave` returns."""
+
+
+def interpolated(a: float, b: float, cost: float) -> float:
+    """The potential of a cell from its lower neighbours in a row, `a`, and in a column, `b`: navfn's planar wave."""
+    low = min(a, b)
+    apart = abs(a - b)
+    if apart >= cost:
+        return low + cost
+    share = apart / cost
+    return low + cost * (-0.2301 * share * share + 0.5307 * share + 0.7040)
+
+
+def wave(
+    costs: NDArray[np.uint8],
+    table: NDArray[np.float32],
+    potential: NDArray[np.float32],
+    pending: NDArray[np.uint8],
+    blocks: NDArray[np.int32],
+    state: NDArray[np.int64],
+    levels: NDArray[np.float64],
+    width: int,
+    quadratic: int,
+    stop: int,
+    heuristic: float,
+    count: int,
+) -> int:
+    """Take up at most `count` cells; the arrays hold everything, so that the next call goes on.
+
+    Args:
+        costs: of all cells, row after row; the outermost are lethal.
+        table: what it costs to enter a cell of each cost [256]; infinite where no way leads.
+        potential: of the cells, changed in place.
+        pending: 1 for cells that wait in a block.
+        blocks: three blocks of cells, one after another, each with room for all.
+        state: which block is current and which is next; the next cell of the current one; how many cells are in the
+            current, in the next and beyond the threshold; how many have been taken up [7].
+        levels: the threshold and by how much it rises.
+        width: cells in a row.
+        quadratic: whether potentials are interpolated between two neighbours, or come from the lowest one alone.
+        stop: the cell that ends it when it is reached, at the end of a round; -1 for none.
+        heuristic: for A*, what a cell of distance to `stop` adds to a cell's rank; 0 for Dijkstra. As in the original
+            that counts when a cell is taken up again, too, so A* finds a path and not always the cheapest.
+        count: so many cells.
+
+    Returns:
+        `GOING`, `ARRIVED` at `stop`, or `EXHAUSTED` if no cell is left.
+
+    """
+    room = costs.shape[0]
+    current, following, at, here, after, over = state[0], state[1], state[2], state[3], state[4], state[5]
+    threshold = levels[0]
+    stop_x, stop_y = stop % width, stop // width
+    # A cell whose potential is no more than this share of its cost above a neighbour's cannot gain by it: with
+    # interpolation v(1) - 1 is 0.0046.
+    margin = 0.707106781 if heuristic > 0 else (0.004 if quadratic else 1.0)
+    result, left = 0, count
+    while left > 0:
+        if here == 0:
+            result = 2
+            break
+        base = current * room
+        if at == 0:
+            for i in range(base, base + here):
+                pending[blocks[i]] = 0
+        end = min(here, at + left)
+        next_base, over_base = following * room, (3 - current - following) * room
+        for i in range(base + at, base + end):
+            n = blocks[i]
+            a = min(potential[n - 1], potential[n + 1])
+            b = min(potential[n - width], potential[n + width])
+            cost = table[costs[n]]
+            pot = np.float32(interpolated(a, b, cost) if quadratic else min(a, b) + cost)
+            if not pot < potential[n]:
+                continue
+            potential[n] = pot
+            rank = float(pot)
+            if heuristic > 0:
+                dx, dy = n % width - stop_x, n // width - stop_y
+                rank += heuristic * math.sqrt(dx * dx + dy * dy)
+            early = rank < threshold
+            for m in (n - 1, n + 1, n - width, n + width):
+                if pending[m] == 0 and potential[m] > rank + margin * table[costs[m]]:
+                    pending[m] = 1
+                    if early:
+                        blocks[next_base + after] = m
+                        after += 1
+                    else:
+                        blocks[over_base + over] = m
+                        over += 1
+        left -= end - at
+        state[6] += end - at
+        at = end
+        if at < here:
+            break
+        at, here, after = 0, after, 0
+        current, following = following, current
+        if here == 0:
+            current, here, over = 3 - current - following, over, 0
+            threshold += levels[1]
+        if stop >= 0 and potential[stop] < HIGH:
+            result = 1
+            break
+    state[0], state[1], state[2], state[3], state[4], state[5] = current, following, at, here, after, over
+    levels[0] = threshold
+    return result
+
+
+@cache
+def compiled_wave() -> Callable[..., int]:
+    """`wave` as machine code, or as it is without numba."""
+    try:
+        import numba
+    except ImportError:
+        return wave
+    types: Any = numba.types
+    number, real = types.int64, types.float64
+    bytes_, floats = types.uint8[::1], types.float32[::1]
+    arrays = (bytes_, floats, floats, bytes_, types.int32[::1], types.int64[::1], types.float64[::1])
+    signature = number(*arrays, number, number, number, real, number)
+    return machine_code(wave, signature, (interpolated,))
