@@ -44,7 +44,7 @@ def planner(cls, costs, name=None, **parameters):
         watcher.subscriber(
             f"/move_base/{name}/{topic}", message_class(kind), heard.setdefault(topic, []).append
         )
-    graph.run_for(0.1)
+    graph.run(0.1)
     return made, graph, heard
 
 

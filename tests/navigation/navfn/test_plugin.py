@@ -27,7 +27,7 @@ def test_it_is_found_by_its_name():
 def test_a_plan_begins_at_the_robot_ends_at_the_goal_and_is_published():
     made, graph, heard = planner(NavfnROS, room())
     plan = made.make_plan(pose(0.03, -1.02), pose(2.5, -1.5, 1.0))
-    graph.run_for(0.1)
+    graph.run(0.1)
     found = points(plan)
     assert found[0] == pytest.approx([0.05, -1.05])
     assert found[-1] == pytest.approx([2.5, -1.5])
@@ -43,22 +43,22 @@ def test_a_plan_begins_at_the_robot_ends_at_the_goal_and_is_published():
 
 def test_a_goal_in_a_wall_needs_a_tolerance():
     made, graph, heard = planner(NavfnROS, room())
-    goal = pose(0.95, -1.0)
+    goal = pose(0.82, -1.0)
     with pytest.raises(
-        GoalBlocked, match=r"\(0\.95, -1\.0.\) is blocked: its cell has the cost 254"
+        GoalBlocked, match=r"\(0\.85, -0\.95\) is blocked: its cell has the cost 254"
     ) as caught:
         made.make_plan(pose(0.0, -1.0), goal)
-    assert caught.value.numbers["distance"] == pytest.approx(0.2, abs=0.06)
-    graph.run_for(0.1)
+    assert caught.value.numbers["distance"] == pytest.approx(0.1)
+    graph.run(0.1)
     assert heard["plan"][-1].poses == []
     found = points(made.make_plan(pose(0.0, -1.0), goal, 0.3))
-    assert np.abs(found[-1] - [0.95, -1.0]).max() <= 0.3
-    assert found[-1][0] == pytest.approx(0.75, abs=0.051)
+    assert np.abs(found[-1] - [0.82, -1.0]).max() <= 0.3
+    assert found[-1][0] == pytest.approx(0.72)
 
 
 def test_the_default_tolerance_is_a_parameter():
     made, _, _ = planner(NavfnROS, room(), default_tolerance=0.3)
-    assert points(made.make_plan(pose(0.0, -1.0), pose(0.95, -1.0)))[-1][0] < 0.85
+    assert points(made.make_plan(pose(0.0, -1.0), pose(0.82, -1.0)))[-1][0] < 0.8
 
 
 def test_unknown_cells_may_be_forbidden():
@@ -91,7 +91,7 @@ def test_the_service_plans_and_answers_an_empty_plan_if_there_is_none():
 def test_the_potential_is_published_as_a_cloud():
     made, graph, heard = planner(NavfnROS, room(), visualize_potential=True)
     made.make_plan(pose(0.0, -1.0), pose(2.5, -1.0))
-    graph.run_for(0.1)
+    graph.run(0.1)
     cloud = heard["potential"][-1]
     assert [field.name for field in cloud.fields] == ["x", "y", "z", "pot"]
     values = np.frombuffer(bytes(cloud.data), "<f4").reshape(-1, 4)
