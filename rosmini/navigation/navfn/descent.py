@@ -1,7 +1,7 @@
 """From a cell down a potential to where it began: the path, by its gradient or from cell to cell.
 
 The walk is navfn's, which global_planner's gradient path shares: half a cell at a time against the gradient, which is
-interpolated between four cells; and where one of the eight cells around was not reached, or the walk goes to and fro,
+interpolated between four cells; and where one of the eight cells around was not reached, or the walk goes back,
 one cell on to the lowest of the eight (http://wiki.ros.org/navfn).
 
 Three defects of the originals are not copied. No step crosses a cell that was not reached, or passes between two such
