@@ -6,8 +6,6 @@ ever does no harm; what scripts print is kept, and what ends one is part of the 
 
 from __future__ import annotations
 
-import io
-from contextlib import redirect_stdout
 from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.graph import Graph
@@ -120,19 +118,12 @@ class TurtleTrial(Trial):
 
     def open(self, *parameters: str) -> None:
         """Start a turtlesim with these words, and let it begin."""
-        with redirect_stdout(io.StringIO()):  # its log, which is not the reader's
-            rosrun("turtlesim", "turtlesim_node", *parameters, graph=self.graph)
+        rosrun("turtlesim", "turtlesim_node", *parameters, graph=self.graph, capture_output=True)
         self.run(0.1)
-
-    def run(self, seconds: float) -> None:
-        """Let graph time pass. Raises `Wrong` if a script has failed by then."""
-        with redirect_stdout(io.StringIO()):
-            super().run(seconds)
 
     def spawn(self, name: str, x: float, y: float, theta: float = 0.0) -> None:
         """Put another turtle into the window."""
-        with redirect_stdout(io.StringIO()):
-            self.sim.spawn(x, y, theta, name)
+        self.sim.spawn(x, y, theta, name)
 
     @property
     def sim(self) -> TurtleSim:

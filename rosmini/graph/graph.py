@@ -102,7 +102,7 @@ class Graph(GraphCore):
 
     def start_rosout(self) -> None:
         """Start the node ``/rosout``."""
-        node = Node("rosout", self)
+        node = Node("rosout", self, has_rosout=False)  # it would hear itself
         aggregate = node.publisher("/rosout_agg", self.log_class, queue_size=None)
 
         def pass_on(message: Any) -> None:

@@ -57,6 +57,7 @@ class Node(ServiceApi):
         namespace: where relative names of this node start (``__ns:=``).
         remappings: ``{"chatter": "/robot1/chatter"}``, or a :class:`~rosmini.names.Remappings`.
         anonymous: append a number that makes the name unique.
+        has_rosout: publish its log on ``/rosout``.
 
     A node of the same name that already runs is shut down, as in ROS. Raises ``IllegalName``.
 
@@ -74,6 +75,7 @@ class Node(ServiceApi):
         remappings: dict[str, str] | Remappings | None = None,
         anonymous: bool = False,
         context: LaneContext | None = None,
+        has_rosout: bool = True,
     ) -> None:
         self.graph = graph = self.default_graph() if graph is None else graph
         self.scheduler = graph.scheduler
@@ -112,10 +114,10 @@ class Node(ServiceApi):
         self.logger = Logger(self)
         self.slave = SlaveApi(self)
         self.uri = ""
-        self.scheduler.on_hub(self._start)
+        self.scheduler.on_hub(lambda: self._start(has_rosout=has_rosout))
 
-    def _start(self) -> None:
-        """Register: the Master hears of the node by its first registration, that of ``/rosout``."""
+    def _start(self, *, has_rosout: bool) -> None:
+        """Register: the Master hears of the node by its first registration, that of ``/rosout`` if it has that."""
         graph = self.graph
         self.uri = graph.transport.attach(self)
         log_file = graph.add_node(self)
@@ -124,9 +126,10 @@ class Node(ServiceApi):
         for key, value in self.remappings.private_parameters.items():
             name = resolve("~" + key, self.namespace, self.name)
             self.master.insist("setParam", name, value, warn=self.logerr)
-        publication = Publication(self, "/rosout", graph.log_class)
-        publication.latch = True  # as rospy's: the last message is for a listener that comes later, too
-        self._publish(publication)
+        if has_rosout:
+            publication = Publication(self, "/rosout", graph.log_class)
+            publication.latch = True  # as rospy's: the last message is for a listener that comes later, too
+            self._publish(publication)
         self.is_registered = True
         for service, service_class, handler in logger_services(self.logger):
             self.service(service, service_class, handler)

@@ -94,10 +94,10 @@ class Runs:
     ) -> Run:
         """Start what ``make`` makes, up to where it blocks; no time passes. The earlier run of this key ends first.
 
-        Raises what ``make`` raises.
+        Raises what ``make`` raises; then nothing was ended.
         """
-        self._end(key)
         handle = make()
+        self._end(key)
         run = Run(title, handle, speaks)
         handle.on_end = lambda status: self._ended(run, status)
         handle.start()

@@ -31,7 +31,7 @@ _ATTRIBUTE = "_rospy_session"
 class UnnamedNode(Node):
     """Asks the Master for things in the name of a script without a node: parameters, services. Nobody else sees it."""
 
-    def _start(self) -> None:
+    def _start(self, *, has_rosout: bool) -> None:
         """Register nothing: only ``init_node`` does."""
 
     def shutdown(self, reason: str = "", *, hooks: bool = True) -> None:

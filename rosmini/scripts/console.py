@@ -41,6 +41,8 @@ class Console:
         sink: OutputSink | None = None,
     ) -> None:
         self._captured = io.StringIO() if capture_output else None
+        self.is_apart = capture_output or stdout is not None or stderr is not None
+        """Whether it writes somewhere else than the host does."""
         self.sink = sink or OutputSink(
             self._captured or stdout or sys.stdout, self._captured or stderr or sys.stderr, prefix=prefix
         )

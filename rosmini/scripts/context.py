@@ -34,7 +34,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import RosminiError
 from rosmini.graph.lanes import LaneExit
 from rosmini.graph.workers import running_scheduler
 from rosmini.packages import package_around
@@ -461,8 +460,4 @@ def _no_fork_hook(**_hooks: object) -> None:
 def current_script(scheduler: Scheduler) -> ScriptContext | None:
     """Return the script that the caller's lane or thread belongs to, or None."""
     context = scheduler.current().context
-    if context is None or isinstance(context, ScriptContext):
-        return context
-    raise RosminiError(
-        f"the lane {scheduler.current().name} belongs to a {type(context).__name__}, not to a script"
-    )
+    return context if isinstance(context, ScriptContext) else None

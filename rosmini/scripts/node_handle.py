@@ -17,6 +17,7 @@ from rosmini.graph import Graph, LaneExit, Node
 from rosmini.names import Remappings
 
 from .handle import LaneHandle
+from .streams import OwnStreams
 
 if TYPE_CHECKING:
     import signal
@@ -61,6 +62,7 @@ class NodeHandle(LaneHandle):
         self._is_set_up = False
         self._awaited = False
         self._forced: int | None = None
+        self._streams: OwnStreams | None = None
 
     @property
     def name(self) -> str:
@@ -91,12 +93,16 @@ class NodeHandle(LaneHandle):
         # gzserver is called gazebo, as ROS's is
         name = getattr(self._entry, "node_name", self.executable.name)
         namespace = os.environ.get("ROS_NAMESPACE", "")
-        node = self.node = Node(name, self.graph, namespace=namespace, remappings=self._remappings)
+        label = self._remappings.node_name or name
+        streams = self._streams = OwnStreams(self.console.sink, label) if self.console.is_apart else None
+        node = self.node = Node(
+            name, self.graph, namespace=namespace, remappings=self._remappings, context=streams
+        )
         node.on_exit = lambda: self._ended(node)
         node.process = self
         ready = self._ready = self.scheduler.waiter(f"the node {node.name} to be set up")
         self._set_up_lane = self.scheduler.spawn(
-            f"{node.name} set-up", lambda: self._set_up(node, ready), node=node
+            f"{node.name} set-up", lambda: self._set_up(node, ready), node=node, context=streams
         )
 
     def _set_up(self, node: Node, ready: Waiter) -> None:
@@ -122,6 +128,8 @@ class NodeHandle(LaneHandle):
     def _ended(self, node: Node) -> None:
         if node is not self.node or not self._running:
             return
+        if self._streams is not None:
+            self._streams.finish()
         status = 1 if self._problem is not None else getattr(self._instance, "exit_status", 0)
         self._has_ended(status if self._forced is None else self._forced)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import sys
 import threading
 from typing import TYPE_CHECKING, TextIO
 
@@ -139,3 +140,38 @@ class _OutputBuffer(io.RawIOBase):
     def flush(self) -> None:
         if not self.closed:
             self._text.flush()
+
+
+class OwnStreams:
+    """The context of a built-in node's lanes, where its output does not go where the host's goes.
+
+    ``label`` is what stands before its lines, where the sink wants that.
+    """
+
+    def __init__(self, sink: OutputSink, label: str) -> None:
+        self._own = {
+            "stdout": ScriptOutput(sink, lambda: label),
+            "stderr": ScriptOutput(sink, lambda: label, is_error=True),
+        }
+        self._host = (sys.stdout, sys.stderr)
+
+    def enter(self) -> None:
+        """Make these streams ``sys.stdout`` and ``sys.stderr``."""
+        self._host = (sys.stdout, sys.stderr)
+        sys.stdout, sys.stderr = self._own["stdout"], self._own["stderr"]
+
+    def leave(self) -> None:
+        """Restore the host's."""
+        sys.stdout, sys.stderr = self._host
+
+    def cut_short(self) -> None:
+        """Nothing: a built-in node has no exit status to change."""
+
+    def get_own(self, name: str) -> ScriptOutput:
+        """Return the node's ``stdout`` or ``stderr``, from any thread."""
+        return self._own[name]
+
+    def finish(self) -> None:
+        """End unfinished lines: the node has ended."""
+        for stream in self._own.values():
+            stream.finish()

@@ -56,7 +56,7 @@ def test_it_prints_what_roscore_prints_and_ends_in_order(
     with roscore(port, output=output) as process:
         wait_until(lambda: "started core service" in output.read_text(encoding="utf-8"), "/rosout", process)
         run_id = ask(port, "getParam", "/run_id")[2]
-        assert ask(port, "getSystemState")[2][0] == [["/rosout", ["/rosout"]], ["/rosout_agg", ["/rosout"]]]
+        assert ask(port, "getSystemState")[2][0] == [["/rosout_agg", ["/rosout"]]]
         assert ask(port, "getUri")[2] == f"http://localhost:{port}/"
         process.send_signal(ending)
         assert process.wait(PATIENCE) == 0

@@ -122,3 +122,10 @@ def test_last_words_before_the_end_of_a_graph_are_no_error(capfd: pytest.Capture
     shown = capfd.readouterr()
     assert "goodbye" in shown.out
     assert shown.err == ""
+
+
+def test_the_collector_of_the_log_does_not_publish_on_what_it_collects(graph: Graph) -> None:
+    published, subscribed, _ = graph.ask_as("/check").find("getSystemState")
+    assert published == [["/rosout_agg", ["/rosout"]]]  # ROS's node has no log of its own on /rosout
+    assert subscribed == [["/rosout", ["/rosout"]]]
+    graph.nodes["/rosout"].logwarn("a word of its own")  # to the console, and it does not fail

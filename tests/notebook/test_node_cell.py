@@ -247,3 +247,9 @@ def test_a_loop_without_a_pause_does_not_drown_the_notebook(notebook: Notebook) 
     assert written.count("x\n") == 2000
     assert "Does flood print in a loop without a rospy.sleep()" in written
     assert notebook.ok("rosmini.wait(0.001)").startswith("x\n")
+
+
+def test_a_line_that_is_refused_ends_nothing(notebook: Notebook) -> None:
+    notebook.ok("%rosrun turtlesim turtlesim_node")
+    assert "does not take the arguments ['wrong']" in notebook.fails("%rosrun turtlesim turtlesim_node wrong")
+    assert "/turtlesim" in notebook.session.graph.nodes

@@ -32,6 +32,11 @@ def patient(node):
     return node.wait_for_message("count", Int32).data
 
 
+def chatty(node):
+    print("I can print")
+    node.timer(1.0, lambda _: print("and I go on") or node.logwarn("and I warn"))
+
+
 def broken(node):
     node.publisher("count", Int32)
     raise ValueError("no such thing")
@@ -53,7 +58,7 @@ def workspace(tmp_path, monkeypatch):
     info = site / "counting-1.0.dist-info"
     info.mkdir(parents=True)
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: counting\nVersion: 1.0\n", encoding="utf-8")
-    names = {"counter": "Counter", "patient": "patient", "broken": "broken"}
+    names = {"counter": "Counter", "patient": "patient", "broken": "broken", "chatty": "chatty"}
     lines = [f"counting/{name} = counting_nodes:{target}" for name, target in names.items()]
     (info / "entry_points.txt").write_text("\n".join(["[rosmini.nodes]", *lines]) + "\n", encoding="utf-8")
     (site / "counting_nodes.py").write_text(NODES, encoding="utf-8")
@@ -174,6 +179,20 @@ def test_a_script_can_start_a_node():
     result = run_scripts([ScriptSpec("both", source=source)], stdout=out)
     assert result.status == 0
     assert out.getvalue().splitlines() == ["[both] 4", *(f"[listener] got {n}" for n in (5, 6, 7))]
+
+
+@pytest.mark.usefixtures("workspace")
+def test_what_a_built_in_node_says_goes_where_its_starter_wants_it(graph, capfd):
+    handle = rosrun("counting", "chatty", graph=graph, capture_output=True, prefix=False)
+    given, warned = io.StringIO(), io.StringIO()
+    rosrun("counting", "chatty", "__name:=other", graph=graph, stdout=given, stderr=warned)
+    graph.run(1.5)
+    lines = handle.output.splitlines()
+    assert lines[:2] == ["I can print", "and I go on"]
+    assert lines[2].endswith("]: and I warn")
+    assert given.getvalue() == "[other] I can print\n[other] and I go on\n"
+    assert warned.getvalue().startswith("[other] [WARN]")
+    assert capfd.readouterr() == ("", "")
 
 
 @pytest.mark.usefixtures("workspace")

@@ -54,6 +54,11 @@ def properties(answer: Any) -> Any:
             tuple(laser["Color"]) == RED, "The colour is not red.", "Color: red, green and blue, up to 255"
         )
         expect(
+            laser["Style"] != "Points",
+            "In the style Points a point has a size in pixels, whatever Size (m) is.",
+            "leave the Style as it is",
+        )
+        expect(
             math.isclose(laser["Size (m)"], 0.05),
             f"A point has {laser['Size (m)']:g} m, not 5 cm.",
             "Size (m)",
@@ -86,6 +91,8 @@ def mend(answer: Any) -> Any:
         expect(list(found) == names, "Displays have come or gone.", "change those that are there")
         for status in scene.global_status:
             expect(status.level is Level.OK, f"Global Status says: {status}", "scene.fixed_frame")
+        frame = scene.fixed_frame
+        expect(frame == "odom", f"{frame} moves with the robot, so nothing stands still.", "odom")
         for name, display in found.items():
             expect(display.enabled, f"{name} is still off.", "enabled")
             bad = [str(each) for each in display.statuses if each.level is not Level.OK]

@@ -19,7 +19,12 @@ START = ["rosrun", "turtlesim", "turtlesim_node"]
 def frog(answer: Any) -> Any:
     """A command starts turtlesim as /pond/frog, on a background without red."""
     expect_type(answer, str, "The command is", "a text")
-    words = shlex.split(answer.strip().removeprefix("%"))
+    line = answer.replace("\\\n", " ").strip().removeprefix("%").removeprefix("$").removesuffix("&")
+    try:
+        words = shlex.split(line)
+    except ValueError as error:
+        raise Wrong(f"A shell cannot read it: {error}.", "quotes come in pairs") from error
+    words = words[words[:1] == ["rosmini"] :]  # the same command, in a terminal of rosmini
     expect(words[:3] == START, f"The command begins with {' '.join(START)}.", "then come the words with :=")
     with TurtleTrial(None) as trial:
         try:
@@ -62,7 +67,7 @@ def census(answer: Script) -> Any:
             said = "\n".join(" ".join(line.split()) for line in trial.output.splitlines() if line.strip())
             expect(
                 said == lines.strip(),
-                f"Of {len(wanted)} nodes it printed:\n{said or 'nothing'}\nnot:\n{lines.strip()}",
+                f"It printed:\n{said or 'nothing'}\nand should have printed:\n{lines.strip()}",
                 "count each node of each topic in a dictionary, then go through sorted(count)",
             )
     return None
@@ -93,11 +98,12 @@ def guard(answer: Script) -> Any:
                 f"The turtle is at {place}, and /guard is still there.",
                 "rospy.signal_shutdown(reason), for x and for y, on both sides",
             )
-            count = trial.output.count("the turtle has left")
+            count = sum(line.endswith("]: the turtle has left") for line in trial.output.splitlines())
             expect(
                 count == 1,
-                f"It said 'the turtle has left' {count} times, not once.",
-                "poses that were under way still arrive: ask rospy.is_shutdown() first",
+                f"It logged 'the turtle has left' {count} times, not once.",
+                'rospy.loginfo("the turtle has left"); and poses that were under way still arrive: '
+                "ask rospy.is_shutdown() first",
             )
             if place == (5.5, 2.0):
                 return trial.view()

@@ -24,7 +24,7 @@ EDGE = 499 / 45
 def corner(answer: Any) -> Any:
     """Six keys at most bring the turtle to the upper left corner, and it meets no wall."""
     expect_type(answer, str, "The keys are", "a text")
-    keys = answer.strip().upper()
+    keys = "".join(answer.split()).upper()
     wrong = sorted(set(keys) - set(KEYS))
     expect(not wrong, f"{' and '.join(wrong)} is no key here.", "A up, B down, C right, D left")
     expect(len(keys) <= MOST_KEYS, f"These are {len(keys)} keys; six are enough.")
@@ -117,7 +117,7 @@ def mirror(answer: Script) -> Any:
             expect(moved > 0.5, f"{second} did not move.", "publish a Twist for each pose")
             off = math.hypot(other.x - one.x, (other.y - 5.544445) + (one.y - 5.544445))
             expect(
-                off < 0.3 and math.remainder(one.theta + other.theta, math.tau) < 0.2,
+                off < 0.3 and abs(math.remainder(one.theta + other.theta, math.tau)) < 0.2,
                 f"{first} is at ({one.x:.1f}, {one.y:.1f}), {second} at ({other.x:.1f}, {other.y:.1f}): "
                 "that is no mirror image.",
                 "the same speed ahead, and the turn with a minus",

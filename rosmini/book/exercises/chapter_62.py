@@ -7,12 +7,19 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.book.checks import Script, exercise, expect
 from rosmini.book.trials import TurtleTrial
+from rosmini.msgs.geometry_msgs.msg import Twist
 
 if TYPE_CHECKING:
     from rosmini.turtlesim import Turtle
 
 CORNERS = ((8.0, 2.0), (8.0, 8.0), (2.0, 8.0))
-STEP_S = 0.1
+EDGE = 499 / 45
+"""The largest x and y of a turtle [m]."""
+SLANTING = (5.5, 5.5, 0.5)
+"""A start from where it meets the wall at a slant, and slides along it into the corner: x, y, heading."""
+STEP_S = 0.02
+MOST_COMMANDS = 1000
+"""More than this, in a turn that takes three seconds, come out of a loop that does not sleep."""
 
 
 def _turtle(trial: TurtleTrial) -> Turtle:
@@ -56,6 +63,8 @@ def turn(answer: Script) -> Any:
         with TurtleTrial() as trial:
             turtle = _turtle(trial)
             turtle.teleport_absolute(5.5, 5.5, heading)
+            heard: list[Twist] = []
+            trial.graph.node("ear").subscriber("/turtle1/cmd_vel", Twist, heard.append)
             _run_to_the_end(trial, answer, 8.0)
             angle = math.remainder(turtle.theta - heading, 2 * math.pi)
             expect(
@@ -65,6 +74,11 @@ def turn(answer: Script) -> Any:
             )
             away = math.hypot(turtle.x - 5.5, turtle.y - 5.5)
             expect(away < 0.01, f"It left its place by {away:.2f} m.", "linear.x stays 0")
+            expect(
+                len(heard) < MOST_COMMANDS,
+                f"It sent {len(heard)} commands, as fast as the computer can.",
+                "rate.sleep() in the loop",
+            )
             view = trial.view()
     return view
 
@@ -75,23 +89,26 @@ def turn(answer: Script) -> Any:
 @exercise("62.2", praise="The turtle feels the wall, though it has no sensor for that: the pose was enough.")
 def wall(answer: Script) -> Any:
     """It reaches the wall in any direction, does not stop before, says so once, and ends."""
-    for start in ((5.5, 5.5, 0.0), (3.0, 3.0, -math.pi / 2), (2.5, 7.0, math.pi), (5.0, 5.0, math.pi / 2)):
+    for start in (SLANTING, (3.0, 3.0, -math.pi / 2), (2.5, 7.0, math.pi), (5.0, 5.0, math.pi / 2)):
         with TurtleTrial() as trial:
             turtle = _turtle(trial)
             turtle.teleport_absolute(*start)
             _run_to_the_end(trial, answer, 10.0)
-            ahead = turtle.x, turtle.y
-            left = min(abs(place - edge) for place in ahead for edge in (0.0, 11.088889))
+            left = sorted(min(place, EDGE - place) for place in (turtle.x, turtle.y))
             expect(
-                left < 0.05,
-                f"It stopped {left:.2f} m before the wall.",
+                left[0] < 0.05,
+                f"It stopped {left[0]:.2f} m before the wall.",
                 "it gets on as long as there is no wall",
             )
-            said = [line.rpartition("]: ")[2].strip() for line in trial.output.splitlines()]
-            count = said.count("wall")  # turtlesim itself warns about the wall in other words
+            expect(
+                start != SLANTING or left[1] < 0.05,
+                f"It met the wall at a slant, and stopped {left[1]:.2f} m before the corner, while it still got on.",
+                "compare how far it came in a round, in x and y together, with nearly nothing",
+            )
+            count = sum(line.endswith("]: wall") for line in trial.output.splitlines())
             expect(
                 count == 1,
-                f"It said 'wall' {count} times, not once.",
+                f"It logged 'wall' {count} times, not once.",
                 'rospy.loginfo("wall"), after the loop',
             )
             view = trial.view()

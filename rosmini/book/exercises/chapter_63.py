@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import shlex
-from typing import Any
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
 from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
@@ -12,6 +13,9 @@ from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.scripts import rosrun
 from rosmini.turtlesim import window
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
 MASTER, PORT, TABLET = "192.168.1.10", 11311, "192.168.1.42"
 
 # ---- 63.1: a third computer ----
@@ -19,22 +23,37 @@ MASTER, PORT, TABLET = "192.168.1.10", 11311, "192.168.1.42"
 
 def _exported(text: str) -> dict[str, str]:
     """Return what the lines of a ~/.bashrc export."""
-    found = {}
-    for line in text.splitlines():
-        try:
-            words = shlex.split(line, comments=True)
-        except ValueError as error:
-            raise Wrong(f"bash cannot read {line.strip()!r}: {error}.", "quotes come in pairs") from error
-        if not words:
+    found: dict[str, str] = {}
+    exported: set[str] = set()
+    for line, words in _commands(text):
+        if words[0] in ("source", "."):  # such as that of a workspace
             continue
-        expect(words[0] == "export", f"{line.strip()!r} does not export anything.", "export NAME=VALUE")
-        for word in words[1:]:
+        exports = words[0] == "export"
+        expect(exports or "=" in words[0][1:], f"{line!r} does not export anything.", "export NAME=VALUE")
+        for word in words[exports:]:
             name, sign, value = word.partition("=")
-            expect(
-                name and sign and value, f"{line.strip()!r} gives {word!r} no value.", "no spaces around ="
-            )
+            exported |= {name} if exports else set()
+            if exports and not sign and name in found:
+                continue
+            expect(name and sign and value, f"{line!r} gives {word!r} no value.", "no spaces around =")
             found[name] = value
+    kept = ", ".join(sorted(set(found) - exported))
+    expect(not kept, f"{kept} is set and not exported: programs do not see it.", "export NAME=VALUE")
     return found
+
+
+def _commands(text: str) -> Iterator[tuple[str, list[str]]]:
+    """The commands of a bash file: each with the line that it is on, as words."""
+    for line in map(str.strip, text.splitlines()):
+        reader = shlex.shlex(line, posix=True, punctuation_chars=";&")
+        reader.whitespace_split = True
+        try:
+            tokens = list(reader)
+        except ValueError as error:
+            raise Wrong(f"bash cannot read {line!r}: {error}.", "quotes come in pairs") from error
+        for is_end, group in groupby(tokens, lambda token: set(token) <= {";", "&"}):
+            if not is_end:
+                yield line, list(group)
 
 
 @exercise("63.1", praise="The Master's address, and the tablet's own.")

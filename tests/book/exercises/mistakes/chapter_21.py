@@ -82,11 +82,13 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _laser(Color=(0, 0, 255)),
         _laser(Color_Transformer="Red"),
         _laser(Decay_Time=1.0),
+        _laser(Style="Points"),
         *(_without(name) for name in LASER),
     ],
     "21.2": [
         lambda: print,
         _mend(frame="odon"),
+        _mend(frame="base_footprint"),
         _mend(laser="/scans"),
         _mend(laser="/odom"),
         _mend(way="/imu"),

@@ -61,12 +61,16 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _command("_background_r:=0", "background_r:=0"),
         _command("frog", "/pond/frog"),
         _command("rosrun", "roslaunch"),
+        _command("_background_r:=0", "_background_r:= 0"),
+        _command("__name:=frog", "__name:='frog"),
+        _command("__ns", "_ns"),
         lambda: 60,
     ],
     "60.2": [
         _script(CENSUS, "sorted(count)", "count"),
         _script(CENSUS, 'if name != "/rosout":', "if True:"),
         _script(CENSUS, "in publishers", "in subscribers"),
+        _script(CENSUS, "for name in nodes:", "for name in nodes * (_topic != '/rosout'):"),
         _script(CENSUS, "count.get(name, 0) + 1", "1"),
     ],
     "60.3": [
@@ -75,6 +79,9 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _script(GUARD, 'rospy.signal_shutdown("there is nothing left to guard")', "pass"),
         _script(GUARD, 'rospy.loginfo("the turtle has left")', "pass"),
         _script(GUARD, "> 2 or", "> 1 or"),
+        _script(GUARD, "rospy.loginfo(", "print("),
+        _script(GUARD, " or ", " and "),
+        _script(GUARD, 'rospy.signal_shutdown("there is nothing left to guard")', "raise SystemExit"),
         _script(GUARD, '"guard"', '"guardian"'),
     ],
 }

@@ -64,6 +64,8 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _script(TRIANGLE, "pen(255, 0, 0, 5, 0)", "pen(255, 0, 0, 3, 0)"),
         _script(TRIANGLE, "pen(255, 0, 0, 5, 0)", "pen(0, 255, 0, 5, 0)"),
         _script(TRIANGLE, ", (2, 2):", ":"),
+        _script(TRIANGLE, "jump(x, y, 0)", "jump(x, y)"),
+        _script(TRIANGLE, "pen(255, 0, 0, 5, 0)", "pen(256, 0, 0, 5, 0)"),
         _script(TRIANGLE, "(5.5, 8)", "(5, 8)"),
         _script(TRIANGLE, "pen(255, 0, 0, 5, 0)\n", ""),
     ],
@@ -71,6 +73,8 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _script(MIRROR, "-pose.angular_velocity", "pose.angular_velocity"),
         _script(MIRROR, "= pose.linear_velocity", "= -pose.linear_velocity"),
         _script(MIRROR, '"cmd_vel"', '"turtle2/cmd_vel"'),
+        _script(MIRROR, "-pose.angular_velocity", "-2 * pose.angular_velocity"),
+        _script(MIRROR, "-pose.angular_velocity", "-pose.theta"),
         _script(MIRROR, "    commands.publish(twist)\n", ""),
     ],
 }

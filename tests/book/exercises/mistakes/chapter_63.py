@@ -54,6 +54,8 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         _lines("export ROS_IP", "ROS_IP"),
         _lines("IP=192", "IP = 192"),
         _lines("ROS_IP=192.168.1.42", "ROS_IP=192.168.1.10"),
+        _lines("export ROS_MASTER", "echo export ROS_MASTER"),
+        lambda: f"{BASHRC}export ROS_HOSTNAME=tablet",
         _lines("export ROS_IP=192.168.1.42", ""),
         _lines("192.168.1.42", '"192.168.1.42'),
         lambda: ["ROS_IP"],

@@ -78,7 +78,7 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
             "right 90 forward :size left 90\nforward :size",
         ),
         lambda: (
-            "to stairs :count :size\nrepeat :count [forward :size right 90 forward :size left 90 "
+            "; stairs by stairs\nto stairs :count :size\nrepeat :count [forward :size right 90 forward :size left 90 "
             'make "size :size * 0.75]\nend'
         ),
     ],
