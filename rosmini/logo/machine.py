@@ -38,6 +38,9 @@ class Limits:
     depth: int = 10_000
     """So many procedures that wait for one another."""
 
+    lines: int = 2_000
+    """So many lines printed: as many as a cell shows of what nodes print."""
+
 
 FRAMES_A_CALL = 10
 """So many lists may be open for each procedure that may."""
@@ -129,7 +132,7 @@ class Machine:
         self.random = np.random.default_rng(seed)
         self.frames: list[Frame] = []
         self.stack: list[Value | None] = []
-        self.steps = self.moves = self.depth = 0
+        self.steps = self.moves = self.depth = self.lines = 0
         self.line = 0
         self.typed = ""
         """What `type` has begun to write: the start of the next line."""
@@ -148,7 +151,7 @@ class Machine:
     def start(self, body: tuple[LogoList, ...]) -> None:
         """Prepare to run lines, all of which must be understood. Raises ``LogoError``."""
         self.halt()
-        self.steps = self.moves = 0
+        self.steps = self.moves = self.lines = 0
         self.frames.append(Frame(compile_body(body, self.words)))
 
     def advance(self, steps: int) -> bool:
@@ -360,7 +363,10 @@ class Machine:
         return LogoError(f"{name} has no value{guess.replace('did you mean ', 'did you mean :')}")
 
     def write(self, text: str) -> None:
-        """Print a line."""
+        """Print a line. Raises ``LogoStopped`` for too many."""
+        self.lines += 1
+        if self.lines > self.limits.lines:
+            raise LogoStopped(f"stopped after {self.limits.lines} lines: is there a loop that never ends?")
         self.say(self.typed + text)
         self.typed = ""
 

@@ -15,7 +15,7 @@ from rosmini.logo.primitives import PRIMITIVES
 from rosmini.logo.reader import read_list
 from rosmini.logo.values import LogoList, show
 
-SMALL = Limits(steps=2000, moves=200, depth=50)
+SMALL = Limits(steps=2000, moves=200, depth=50, lines=100)
 
 
 def printed(program: str, limits: Limits | None = None) -> list[str]:
@@ -312,6 +312,7 @@ def test_what_is_not_understood_moves_nothing():
         ('while ["true] []', "stopped after 2000 steps"),
         ("forever []", "stopped after 2000 steps"),
         ("forever [fd 1]", "stopped after 200 movements"),
+        ("forever [print 1]", "stopped after 100 lines"),
         ("to f\nf\nend\nf", "stopped after 2000 steps"),
         ("to f\nf print 1\nend\nf", "line 2, in f: stopped: 50 procedures wait for one another"),
         ('make "l [run :l print 1] run :l', "more than 500 lists run"),

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 TOOLS = ("/roswtf", "/rostopic", "/rqt_", "/rosbag_record")
 """How the names of nodes begin that only look on: what they hear says nothing about a graph."""
 
+UNPUBLISHED = ("/clock", "/rosout")
+"""Topics that have subscribers before anybody needs to publish: in wall time, and in a graph of the Master alone."""
+
 
 def silent_nodes(graph: Survey) -> Iterator[Finding]:
     """Find nodes that the Master lists and that do not answer."""
@@ -74,7 +77,7 @@ def unheard_topics(graph: Survey) -> Iterator[Finding]:
     found: list[str] = []
     for topic, names in sorted(graph.subscribers.items()):
         heard = [name for name in names if not name.startswith(TOOLS)]
-        if heard and not graph.publishers.get(topic) and topic != "/clock":
+        if heard and not graph.publishers.get(topic) and topic not in UNPUBLISHED:
             found.append(f"{topic}, to which {_listed(heard)} subscribe{'s' if len(heard) == 1 else ''}")
             found += [f" {hint}" for hint in _meant(graph, topic)]
     if found:

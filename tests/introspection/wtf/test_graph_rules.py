@@ -96,6 +96,10 @@ def test_a_topic_of_another_type_was_not_meant() -> None:
     assert found(graph) == {"no_publisher": ("/chater, to which /a and /b subscribe",)}
 
 
+def test_a_master_alone_is_in_order() -> None:
+    assert found(survey(node("/rosout", {"/rosout_agg": TEXT}, {"/rosout": TEXT}))) == {}
+
+
 def test_what_tools_listen_to_is_no_matter() -> None:
     assert found(survey(node("/rostopic_1_2", {}, {"/nothing": TEXT}))) == {}
 
