@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rosmini.time import Time
 
     from .graph_core import GraphCore
-    from .lanes import Lane, LaneContext, Waiter
+    from .lanes import Lane, Waiter
     from .master_port import MasterProxy
     from .scheduler import Scheduler
 
@@ -33,7 +33,6 @@ class NodePort(Protocol):
     uri: str
     graph: GraphCore
     scheduler: Scheduler
-    context: LaneContext | None
     master: MasterProxy
     shutdown_reason: str | None
     publications: dict[str, Any]

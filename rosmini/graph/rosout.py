@@ -101,6 +101,8 @@ class Logger:
         self._node = node
         self.tree = LoggerTree()
         self.gates = LogGates()
+        self.streams: Any = None
+        """What has the standard output and error of a built-in node, if they are its own."""
         self._file: LogFile | None = None
 
     def is_enabled(self, level: int, logger: str = "rosout") -> bool:
@@ -157,9 +159,8 @@ class Logger:
         """Write a line: from WARN on to standard error, as rospy does; in a notebook all to standard output."""
         name = "stdout" if level <= LEVELS["INFO"] or self._node.graph.notebook else "stderr"
         # A script's real thread does not see the script's streams in `sys`, which belong to whoever the graph is
-        # running; nor does a simulator's step, which is in no lane.
-        context = self._node.context or self._node.scheduler.current().context
-        own = getattr(context, "get_own", None)
+        # running; nor does a simulator's step, which is in no lane, see those of a built-in node.
+        own = getattr(self.streams or self._node.scheduler.current().context, "get_own", None)
         stream: TextIO = getattr(sys, name) if own is None else own(name)
         stream.write(line + "\n")
 

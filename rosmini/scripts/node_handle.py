@@ -98,6 +98,7 @@ class NodeHandle(LaneHandle):
         node = self.node = Node(
             name, self.graph, namespace=namespace, remappings=self._remappings, context=streams
         )
+        node.logger.streams = streams
         node.on_exit = lambda: self._ended(node)
         node.process = self
         ready = self._ready = self.scheduler.waiter(f"the node {node.name} to be set up")

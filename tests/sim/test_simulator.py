@@ -350,7 +350,10 @@ def test_what_cannot_be_started_says_why_and_leaves_nothing(graph, parameters, e
     with pytest.raises(error, match=message):
         start(graph, parameters=parameters)
     topics = [name for name, _ in graph.master.getSystemState("/test")[2][0]]
-    assert set(topics) <= {"/rosout", *(name for name, _ in before)}  # that of the node, which was there before
+    assert set(topics) <= {
+        "/rosout",
+        *(name for name, _ in before),
+    }  # that of the node, which was there before
     graph.run(1.0)
 
 

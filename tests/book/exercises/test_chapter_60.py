@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from book.tools import notebooks
+from rosmini.book.checks import Script, Status, find
 
 from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, printed
 
@@ -34,3 +35,29 @@ def test_a_namespace_keeps_the_windows_apart(cells):
     assert "/left/draw_square\n/left/turtlesim\n/right/turtlesim\n" in printed(cells, "__ns:=/right")
     assert "/draw_circle" in printed(cells, "rosnode ping -c 1 /draw_circle")
     assert "/draw_circle" not in printed(cells, "%rosnode cleanup").rpartition("\n/left")[2]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "%rosrun turtlesim turtlesim_node __ns:=pond __name:=frog _background_r:=0",
+        "$ rosmini rosrun turtlesim turtlesim_node \\\n    __name:='frog' __ns:=/pond _background_r:=0 &",
+    ],
+)
+def test_a_command_is_right_as_it_is_copied(line):
+    assert find("60.1").grade(line).status is Status.RIGHT
+
+
+def test_a_guard_may_look_in_a_loop_of_its_own():
+    loop = """
+import rospy
+from turtlesim.msg import Pose
+
+rospy.init_node("guard")
+while True:
+    pose = rospy.wait_for_message("turtle1/pose", Pose)
+    if abs(pose.x - 5.5) > 2 or abs(pose.y - 5.5) > 2:
+        break
+rospy.loginfo("the turtle has left")
+"""
+    assert find("60.3").grade(Script("guard.py", loop)).status is Status.RIGHT

@@ -5,8 +5,10 @@ from __future__ import annotations
 import pytest
 
 from book.tools import notebooks
+from rosmini.book.checks import Script, Status, find
 
 from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, printed
+from .mistakes.chapter_61 import TRIANGLE
 
 CHAPTER = NOTEBOOKS / "61_turtlesim_topics.ipynb"
 
@@ -35,3 +37,15 @@ def test_services_say_what_they_cannot_do(cells):
     said = printed(cells, "/kill turtle7")
     assert said.count("ERROR") >= 2
     assert "11.08" in said
+
+
+def test_keys_may_be_apart_and_small():
+    assert find("61.1").grade("c c a a a").status is Status.RIGHT
+
+
+def test_what_was_drawn_before_may_be_wiped():
+    wiped = TRIANGLE.replace("pen(255, 0, 0, 5, 1)\njump(2, 2, 0)\n", "jump(2, 2, 0)\nclear()\n").replace(
+        "pen = ", 'clear = rospy.ServiceProxy("clear", Empty)\npen = '
+    )
+    answer = Script("triangle.py", f"from std_srvs.srv import Empty\n{wiped}")
+    assert find("61.2").grade(answer).status is Status.RIGHT

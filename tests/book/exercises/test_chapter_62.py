@@ -7,8 +7,10 @@ import re
 import pytest
 
 from book.tools import notebooks
+from rosmini.book.checks import Script, Status, find
 
 from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, printed
+from .mistakes.chapter_62 import CORNERS, TURN
 
 CHAPTER = NOTEBOOKS / "62_motion_node.ipynb"
 
@@ -42,3 +44,15 @@ def test_the_controller_errs_least_and_the_wall_is_told_by_those_that_look(cells
         errors = [abs(float(gone) - float(asked)) for gone in (straight, measured, goal)]
         assert errors[2] == min(errors)
     assert rows[3].count("no") == 2  # only the script that does not look believes that it is through
+
+
+def test_a_turn_may_count_its_rounds():
+    counted = TURN.replace(
+        "while 0.5 * (rospy.Time.now() - start).to_sec() < math.pi / 2:", "for _ in range(62):"
+    )
+    assert find("62.1").grade(Script("turn.py", counted)).status is Status.RIGHT
+
+
+def test_a_turtle_that_stops_at_the_edge_of_a_goal_has_been_there():
+    late = CORNERS.replace("> 0.05", "> 0.095").replace("min(1.5, 2 * far)", "2.0")
+    assert find("62.3").grade(Script("corners.py", late)).status is Status.RIGHT

@@ -18,7 +18,7 @@ def cells():
 
 
 def test_it_is_as_short_as_a_chapter_has_to_be(cells):
-    assert_short(cells, words=2300)  # 200 of them in the listings of true runs
+    assert_short(cells)
 
 
 def test_its_figures_are_numbered():
@@ -43,3 +43,19 @@ def test_the_mistakes_have_their_messages(cells):
 def test_a_name_in_the_place_of_a_number_is_right_where_it_is_the_number():
     lines = "export ROS_MASTER_URI='http://192.168.1.10:11311/' ROS_HOSTNAME=192.168.1.42  # the tablet"
     assert find("63.1").grade(lines).status is Status.RIGHT
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "source /opt/ros/noetic/setup.bash\nexport ROS_MASTER_URI=http://192.168.1.10:11311 ROS_IP=192.168.1.42",
+        "export ROS_MASTER_URI=http://192.168.1.10:11311; ROS_IP=192.168.1.42; export ROS_IP",
+    ],
+)
+def test_other_ways_of_bash_are_right(lines):
+    assert find("63.1").grade(lines).status is Status.RIGHT
+
+
+def test_what_is_set_and_not_exported_is_named():
+    lines = "export ROS_MASTER_URI=http://192.168.1.10:11311\nROS_IP=192.168.1.42"
+    assert "ROS_IP is set and not exported" in find("63.1").grade(lines).text
