@@ -130,9 +130,9 @@ class Node(ServiceApi):
             publication = Publication(self, "/rosout", graph.log_class)
             publication.latch = True  # as rospy's: the last message is for a listener that comes later, too
             self._publish(publication)
-        self.is_registered = True
         for service, service_class, handler in logger_services(self.logger):
             self.service(service, service_class, handler)
+        self.is_registered = True
         code, _, use_sim_time = self.master.insist("getParam", "/use_sim_time", warn=self.logerr)
         if code == 1 and use_sim_time is True and not graph.keeps_time:
             self._follow_clock_topic()
