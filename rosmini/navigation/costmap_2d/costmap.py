@@ -14,6 +14,7 @@ The values are those of http://wiki.ros.org/costmap_2d#Inflation.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -158,3 +159,34 @@ class Costmap2D:
         self.costs = moved
         self.origin = (self.origin[0] + dx * self.resolution, self.origin[1] + dy * self.resolution)
         return dx, dy
+
+    def show(self, **options: Any) -> Any:
+        """A picture of the costs from above.
+
+        Options, with what they are unless given:
+            robot=None: its pose x [m], y [m], heading [rad]
+            footprint=None: the robot's outline (n, 2) [m] in its base frame
+            plan=None: a path (n, 2) [m]
+            goal=None: a point or pose [m]
+            window=None: only these cells are shown: first column, first row, and those behind the last
+            scheme="costmap": or "safe", in colours that the colour-blind can tell
+            name="costmap": of what it is, for the text form
+            title=None: a caption under the picture, and the first words of its text form
+        """
+        from rosmini.graph.show import show
+
+        return show("costmap", self, **options)
+
+    def show_inflation(self, **options: Any) -> Any:
+        """A picture of the obstacles and of inflation around them, with dials for its numbers in the page.
+
+        Options, with what they are unless given:
+            inscribed_radius=0.105: of the robot [m]
+            inflation_radius=0.55: up to which distance there are costs [m]
+            cost_scaling_factor=10.0: how steeply they fall [1/m]
+            window=None: only these cells are shown: first column, first row, and those behind the last
+            title=None: a caption, and the first words of its text form
+        """
+        from rosmini.graph.show import show
+
+        return show("inflation", self, **options)

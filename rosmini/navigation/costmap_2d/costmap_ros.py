@@ -6,6 +6,7 @@ Its parameters are those of the node under its name, `~global_costmap/...`; its 
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
@@ -260,6 +261,14 @@ class Costmap2DROS:
         """What each layer gives to a cell: a cost, or None. Its text says it in words. Raises `IndexError` outside."""
         said = {layer.name: layer.explain(mx, my) for layer in self.layers if layer.is_enabled}
         return CellCosts(self.grid, mx, my, said)
+
+    def show(self, **options: Any) -> Any:
+        """A picture of the costs with the robot on it: see `Costmap2D.show` for the options."""
+        with suppress(TransformMissing):
+            options.setdefault("robot", self._robot()[0])
+        options.setdefault("footprint", self.footprint)
+        options.setdefault("name", self.name)
+        return self.grid.show(**options)
 
     # -- what may be done to it ----------------------------------------------------------------------------------
 
