@@ -31,8 +31,8 @@ FULL, STUCK = -1, -2
 """What `descend` returns when the path has no more room, and when no cell around is lower."""
 
 
-PLAIN, TIGHT, LAST, NONE_LOWER = range(4)
-"""Steps of the walk: one past a cell that was not reached is tight."""
+PLAIN, LAST, NONE_LOWER = range(3)
+"""Steps of the walk."""
 
 
 def slope(before: float, here: float, after: float, width: float) -> float:
@@ -128,9 +128,7 @@ def hop(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float
     m = lowest_around(potential, n, width)
     if m == n and centred:
         return NONE_LOWER, n
-    if walls_beside(potential, n, m, width) == 0:
-        return PLAIN, m
-    return TIGHT, m if centred else n
+    return PLAIN, m if centred or walls_beside(potential, n, m, width) == 0 else n
 
 
 def descend(
@@ -161,15 +159,19 @@ def descend(
     """
     n = math.floor(begin_y + 0.5) * width + math.floor(begin_x + 0.5)
     dx, dy = begin_x - n % width, begin_y - n // width
-    end_column, end_row = math.floor(end_x + 0.5), math.floor(end_y + 0.5)
+    end = math.floor(end_y + 0.5) * width + math.floor(end_x + 0.5)
+    # An end between cells may be as far as this from two of them.
+    reach = 0.5 if end % width == end_x and end // width == end_y else 0.5 + 1e-6
     least, since = HIGH, 0
     kind = PLAIN
     for k in range(path.shape[0] // 2 - 1):
         x, y = n % width + dx, n // width + dy
         path[2 * k], path[2 * k + 1] = x, y
-        if kind == LAST or (math.floor(x + 0.5) == end_column and math.floor(y + 0.5) == end_row):
-            # The last point takes the place of this one, unless the way to it would cross a cell beside this one.
-            keep = kind == TIGHT or (k == 0 and (x != end_x or y != end_y))
+        near = math.floor(y + 0.5) * width + math.floor(x + 0.5)
+        close = abs(x - end_x) < reach and abs(y - end_y) < reach
+        if kind == LAST or (close and walls_beside(potential, near, end, width) == 0):
+            # The last point takes the place of this one, unless the way to it might cross a cell that was not reached.
+            keep = (x != end_x or y != end_y) and (k == 0 or not surrounded(potential, near, width))
             last = k + 1 if keep else k
             path[2 * last], path[2 * last + 1] = end_x, end_y
             return last + 1
