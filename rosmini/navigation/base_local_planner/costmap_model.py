@@ -28,8 +28,9 @@ def footprint_cost(grid: Costmap2D, pose: Pose, footprint: ArrayLike) -> int:
     is a hit, too.
     """
     outline = np.ascontiguousarray(footprint, dtype=np.float64).reshape(-1, 2)
-    costs = np.ascontiguousarray(grid.costs)
-    found = kernel(KERNEL)(costs, *grid.origin, grid.resolution, *map(float, pose), outline, 1.0)
+    costs = np.ascontiguousarray(grid.costs).reshape(-1)
+    size = grid.width, grid.height
+    found = kernel(KERNEL)(costs, *size, *grid.origin, grid.resolution, *map(float, pose), outline, 1.0)
     return int(found)
 
 

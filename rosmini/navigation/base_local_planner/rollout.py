@@ -42,6 +42,8 @@ OFF_GRID = -4.0
 
 def footprint_cost(
     costs: Costs,
+    width: int,
+    height: int,
     origin_x: float,
     origin_y: float,
     resolution: float,
@@ -53,11 +55,14 @@ def footprint_cost(
 ) -> int:
     """The largest cost under the outline of a footprint (n, 2) [m], `scale` times as large, that stands at a pose.
 
+    `costs` (height width) are those of the costmap, row by row.
     `HIT`, `UNSEEN` or `OUTSIDE` at the first cell that is one, edge by edge. Fewer than three vertices are a round
     robot: the cell of its centre counts, and `INSCRIBED` is a hit.
     """
     return outline_cost(
         costs,
+        width,
+        height,
         origin_x,
         origin_y,
         resolution,
@@ -71,6 +76,8 @@ def footprint_cost(
 
 def outline_cost(
     costs: Costs,
+    width: int,
+    height: int,
     origin_x: float,
     origin_y: float,
     resolution: float,
@@ -81,7 +88,6 @@ def outline_cost(
     footprint: Floats,
 ) -> int:
     """As `footprint_cost`, of a robot at (x, y) that is turned and made larger by `cos` and `sin`."""
-    height, width = costs.shape
     if x < origin_x or y < origin_y:
         return OUTSIDE
     mx = int((x - origin_x) / resolution)
@@ -90,7 +96,7 @@ def outline_cost(
         return OUTSIDE
     count = footprint.shape[0]
     if count < 3:
-        cost = int(costs[my, mx])
+        cost = int(costs[my * width + mx])
         if cost == UNKNOWN:
             return UNSEEN
         return HIT if cost >= INSCRIBED else cost
@@ -106,7 +112,7 @@ def outline_cost(
         if mx >= width or my >= height:
             return OUTSIDE
         if i > 0:
-            cost = line_cost(costs, last_x, last_y, mx, my)
+            cost = line_cost(costs, width, last_x, last_y, mx, my)
             if cost < 0:
                 return cost
             largest = max(largest, cost)
@@ -114,39 +120,32 @@ def outline_cost(
     return largest
 
 
-def line_cost(costs: Costs, x: int, y: int, end_x: int, end_y: int) -> int:
+def line_cost(costs: Costs, width: int, x: int, y: int, end_x: int, end_y: int) -> int:
     """The largest cost of the cells on a line (Bresenham, 1965, both ends included), or `HIT` or `UNSEEN`."""
     step_x = 1 if end_x >= x else -1
-    step_y = 1 if end_y >= y else -1
+    step_y = width if end_y >= y else -width
     dx, dy = abs(end_x - x), abs(end_y - y)
-    steps = max(dx, dy)
-    gain = min(dx, dy)
-    rest = steps // 2
-    largest = 0
+    steps, gain, along, across = dx, dy, step_x, step_y
+    if dy > dx:
+        steps, gain, along, across = dy, dx, step_y, step_x
+    cell, rest, largest = y * width + x, steps // 2, 0
     for _ in range(steps + 1):
-        cost = int(costs[y, x])
-        if cost == UNKNOWN:
-            return UNSEEN
-        if cost == LETHAL:
-            return HIT
+        cost = int(costs[cell])
+        if cost >= LETHAL:
+            return UNSEEN if cost == UNKNOWN else HIT
         largest = max(largest, cost)
         rest += gain
-        aside = rest >= steps
-        if aside:
+        if rest >= steps:
             rest -= steps
-        if dx >= dy:
-            x += step_x
-            if aside:
-                y += step_y
-        else:
-            y += step_y
-            if aside:
-                x += step_x
+            cell += across
+        cell += along
     return largest
 
 
 def rollout(
     costs: Costs,
+    width: int,
+    height: int,
     origin_x: float,
     origin_y: float,
     resolution: float,
@@ -167,7 +166,7 @@ def rollout(
     raw: Floats,
     where: Ints,
 ) -> None:
-    """Drive every sample and ask the critics that look at its points.
+    """Drive every sample and ask the critics that look at its points; all grids (height width) are flat, row by row.
 
     From `pose` (3) each of n samples drives `steps[n]` equal steps in `sim_time` [s]: its velocity begins at
     `starts[n]` (x, y, theta) and comes nearer to `targets[n]` by `limits` (3) [m/s2, rad/s2] a second. Its points are
@@ -179,7 +178,6 @@ def rollout(
     point at which that number became negative, else -1. If `scored[n]` is not negative, the distances are those of
     that point alone.
     """
-    height, width = costs.shape
     for n in range(targets.shape[0]):
         for critic in range(5):
             raw[n, critic] = 0.0
@@ -194,6 +192,8 @@ def rollout(
             if raw[n, 0] >= 0:
                 cost = outline_cost(
                     costs,
+                    width,
+                    height,
                     origin_x,
                     origin_y,
                     resolution,
@@ -206,7 +206,7 @@ def rollout(
                 if cost < 0:
                     raw[n, 0], where[n, 0] = cost, i
                 else:
-                    raw[n, 0] = max(raw[n, 0], float(max(cost, int(costs[cell // width, cell % width]))))
+                    raw[n, 0] = max(raw[n, 0], float(max(cost, int(costs[cell]))))
             if scored[n] < 0 or i == scored[n]:
                 nose = cell_of(
                     x + shift * cos, y + shift * sin, origin_x, origin_y, resolution, width, height
@@ -245,11 +245,10 @@ def look_up(
     """Write the distance of a cell into `raw[n, critic]`, unless that is negative already; see `rollout`."""
     if raw[n, critic] < 0:
         return
-    height, width = distances.shape
     value = OFF_GRID
     if cell >= 0:
-        value = float(distances[cell // width, cell % width])
-        size = width * height
+        value = float(distances[cell])
+        size = distances.shape[0]
         if strict and value >= size:
             value = IN_OBSTACLE if value == size else UNREACHABLE
     if value < 0:
@@ -264,9 +263,9 @@ def compiled_footprint_cost() -> Callable[..., int]:
     except ImportError:
         return footprint_cost
     number = numba.float64
-    grid: Any = numba.types.Array(numba.uint8, 2, "C", readonly=True)
+    cells: Any = numba.types.Array(numba.uint8, 1, "C", readonly=True)
     outline: Any = numba.types.Array(number, 2, "C", readonly=True)
-    signature = numba.int64(grid, *(number,) * 6, outline, number)
+    signature = numba.int64(cells, numba.int64, numba.int64, *(number,) * 6, outline, number)
     return machine_code(footprint_cost, signature, (outline_cost, line_cost))
 
 
@@ -282,7 +281,9 @@ def compiled_rollout() -> Callable[..., None]:
         return array(kind, dimensions, "C", readonly=True)
 
     signature = numba.void(
-        read(numba.uint8, 2),
+        read(numba.uint8, 1),
+        whole,
+        whole,
         *(number,) * 3,
         read(number, 1),
         read(number, 2),
@@ -292,7 +293,7 @@ def compiled_rollout() -> Callable[..., None]:
         read(whole, 1),
         read(number, 2),
         read(number, 1),
-        *(read(numba.int32, 2),) * 3,
+        *(read(numba.int32, 1),) * 3,
         number,
         read(whole, 1),
         number[:, :, ::1],

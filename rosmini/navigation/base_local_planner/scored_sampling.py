@@ -62,7 +62,9 @@ def roll_out(
     points = np.zeros((count, most, 3))
     raw, where = np.zeros((count, 5)), np.zeros((count, 5), dtype=np.int64)
     kernel(KERNEL)(
-        np.ascontiguousarray(grid.costs),
+        np.ascontiguousarray(grid.costs).reshape(-1),
+        grid.width,
+        grid.height,
         *grid.origin,
         grid.resolution,
         np.asarray(pose, dtype=np.float64),
@@ -73,7 +75,7 @@ def roll_out(
         steps,
         np.ascontiguousarray(footprint, dtype=np.float64),
         scales,
-        *(each.distances for each in grids),
+        *(each.distances.reshape(-1) for each in grids),
         float(shift),
         np.full(count, -1) if scored is None else scored,
         points,

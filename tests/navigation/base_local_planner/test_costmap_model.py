@@ -83,7 +83,7 @@ def test_the_kernel_visits_these_cells_and_no_others(seed):
         costs[my, mx] = random.integers(1, 253)
     expected = int(costs.max())
     costs[costs == 0] = 254
-    assert rollout.line_cost(costs, x, y, end_x, end_y) == expected
+    assert rollout.line_cost(costs.reshape(-1), 12, x, y, end_x, end_y) == expected
 
 
 def test_the_cells_under_a_footprint():
