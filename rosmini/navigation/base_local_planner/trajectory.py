@@ -96,7 +96,7 @@ class Samples:
         return int(np.argmin(np.abs(self.velocities - (x, y, theta)).sum(axis=1)))
 
     def show(self, **options: Any) -> Any:
-        """A picture of them: see `rosmini.viz.trajectory_pictures`."""
+        """A picture of them: see `rosmini.viz.trajectory_window`."""
         return show("trajectories", self, **options)
 
 
