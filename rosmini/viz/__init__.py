@@ -13,6 +13,7 @@ from rosmini.viz.view import Picture, View, ViewError, matplotlib_picture
 
 if TYPE_CHECKING:
     from rosmini.viz.byte_maps import byte_map
+    from rosmini.viz.galleries import grid
     from rosmini.viz.image_pictures import image_picture
     from rosmini.viz.launch_trees import launch_tree
     from rosmini.viz.parameter_trees import parameter_tree
@@ -37,6 +38,7 @@ __all__ = [
     "ViewError",
     "action_states",
     "byte_map",
+    "grid",
     "image_picture",
     "launch_tree",
     "matplotlib_picture",
@@ -68,6 +70,7 @@ _LATER = {
     "rqt_plot": "rosmini.viz.rqt.plot",
     "action_states": "rosmini.viz.state_machine",
     "byte_map": "rosmini.viz.byte_maps",
+    "grid": "rosmini.viz.galleries",
     "image_picture": "rosmini.viz.image_pictures",
     "launch_tree": "rosmini.viz.launch_trees",
     "parameter_tree": "rosmini.viz.parameter_trees",

@@ -94,8 +94,17 @@ def blank_figure(width: float, height: float) -> Figure:
 
 
 def place(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:
-    """Axes in a figure, by their left upper corner and their size [CSS px]."""
+    """Axes in a figure, by their left upper corner and their size [CSS px].
+
+    Raises:
+        ViewError: the figure is so small that nothing is left for them.
+
+    """
     full_width, full_height = figure.get_size_inches() * 72
+    if width <= 0 or height <= 0:
+        raise ViewError(
+            f"a picture of {full_width:.0f} by {full_height:.0f} pixels has no room for what is in it: make it wider"
+        )
     axes = figure.add_axes(
         (left / full_width, 1 - (top + height) / full_height, width / full_width, height / full_height)
     )

@@ -65,6 +65,18 @@ DARK: Mapping[str, str] = MappingProxyType(
         "sky": "#8fd0f5",
     }
 )
+PRINT: Mapping[str, str] = MappingProxyType(
+    {
+        "blue": "#00263c",
+        "vermilion": "#5f2a00",
+        "green": "#005b41",
+        "purple": "#9f457b",
+        "orange": "#b56a00",
+        "sky": "#399ad9",
+    }
+)
+"""On paper the colours of lines have the same hues, but steps of lightness (9 of CIE L*, 14 to 61): so they are
+distinguished without any colour, too. The others are those of a light page."""
 DARK_PAGES = (
     'html[data-theme="dark"]',  # the book (pydata and sphinx-book themes)
     'body[data-jp-theme-light="false"]',  # JupyterLab

@@ -2,11 +2,12 @@
 
 - Colours of the light palette become custom properties, so the picture turns dark with its page; black is ink and white
   is the page. Other colours may become custom properties of their own, lighter on dark pages. Each stays as an
-  attribute too, for programs that know no custom properties.
+  attribute too, for programs that know no custom properties. Matplotlib's own cycle of colours becomes the palette's.
 - Numbers keep a hundredth of a pixel. Matplotlib writes six decimals, of which the last may depend on the machine; they
   are rounded as decimal text, so what it wrote alike stays alike.
 - Unused ids go. The others (of clip paths and markers) are made from what they name, so two pictures on a page share an
   id only if it means the same in both.
+- Many markers that look alike say so once.
 - Text stays text, in the faces of the house; the style sheet of matplotlib, which would hold for the whole page, goes.
 """
 
@@ -21,6 +22,7 @@ from typing import TYPE_CHECKING
 from defusedxml.ElementTree import fromstring
 
 from rosmini.viz import style
+from rosmini.viz.dressing import CYCLE
 from rosmini.viz.svg import document, element, escape
 
 if TYPE_CHECKING:
@@ -43,7 +45,9 @@ _DEFAULTS = {
     "stroke-dashoffset": "0", "stroke-linecap": "butt", "stroke-linejoin": "round", "text-anchor": "start",
     "stroke-width": "1", "opacity": "1", "fill-opacity": "1", "stroke-opacity": "1",
 }  # fmt: skip
-_OURS = {"#000000": style.LIGHT["ink"], "#ffffff": style.LIGHT["page"]}
+_OURS = {"#000000": style.LIGHT["ink"], "#ffffff": style.LIGHT["page"], **CYCLE}
+_MANY = 8
+"""So many uses of one marker share what they say of its look."""
 
 
 def themed_svg(
@@ -93,7 +97,7 @@ def _written(node: Element, names: dict[str, str], parent: str = "") -> str:
     if tag in ("metadata", "style"):
         return ""
     inner = escape(node.text or "") if tag in ("text", "tspan") else ""
-    inner += "".join(
+    inner += _markers(node, names) or "".join(
         _written(child, names, tag) + (escape(child.tail or "") if inner else "") for child in node
     )
     attributes = dict(_attributes(node, tag, names))
@@ -106,6 +110,18 @@ def _written(node: Element, names: dict[str, str], parent: str = "") -> str:
     if tag == "g" and not attributes:
         return inner
     return element(tag, inner, **attributes)
+
+
+def _markers(node: Element, names: dict[str, str]) -> str:
+    """What is in a group of nothing but many markers that look alike: their look is said once. Empty for others."""
+    uses = [dict(_attributes(child, "use", names)) for child in node if child.tag.rpartition("}")[2] == "use"]
+    looks = {
+        tuple((name, value) for name, value in use.items() if name not in ("href", "x", "y")) for use in uses
+    }
+    if len(uses) < _MANY or len(uses) < len(node) or len(looks) > 1:
+        return ""
+    places = (element("use", href=use["href"], x=use.get("x", "0"), y=use.get("y", "0")) for use in uses)
+    return element("g", "".join(places), **dict(looks.pop()))
 
 
 def _attributes(node: Element, tag: str, names: dict[str, str]) -> Iterator[tuple[str, str]]:

@@ -191,7 +191,7 @@ def matplotlib_picture(
     under: str = "",
     steady: Collection[str] = (),
 ) -> Picture:
-    """A picture of a matplotlib figure, with no date and no random ids in it.
+    """A picture of a matplotlib figure in the house style (`rosmini.viz.dressing`), with no date and no random ids.
 
     As SVG it follows the theme of its page where it uses the colours of `rosmini.viz.style.LIGHT`, black or white
     (see `rosmini.viz.themed`), and with `adapt` also where it uses others; text is for DejaVu Sans. `under` are
@@ -207,8 +207,10 @@ def matplotlib_picture(
 
     import matplotlib as mpl
 
+    from rosmini.viz.dressing import dress
     from rosmini.viz.themed import themed_svg
 
+    dress(figure)
     file = BytesIO()
     with mpl.rc_context({"svg.hashsalt": "rosmini", "svg.fonttype": "none"}):
         metadata = {"Date": None} if form == "svg" else {"Software": None}

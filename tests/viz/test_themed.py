@@ -102,6 +102,21 @@ def test_a_marker_has_no_colour_of_its_own_for_no_rule_reaches_it():
     assert f'stroke="{style.LIGHT["ink"]}"' in use
 
 
+def test_many_markers_say_once_how_they_look():
+    def svg(count: int) -> str:
+        with house_style():
+            figure = blank_figure(200, 100)
+            axes = place(figure, 10, 10, 180, 80)
+            axes.plot(np.arange(count), np.arange(count) % 7, ".", color="#0072b2")
+            return body(matplotlib_picture(figure, text="t", alt="a", form="svg").svg)
+
+    few, many = (svg(count).split("</defs>", 1)[1] for count in (3, 300))
+    assert len(re.findall(r'<use [^>]*fill="#0072b2"', few)) == 3
+    assert len(re.findall(r"<use ", many)) == 300
+    assert len(re.findall(r'<g [^>]*fill="#0072b2"', many)) == 1
+    assert not re.findall(r"<use [^>]*(?:fill|stroke)", many)
+
+
 def test_a_coordinate_that_matplotlib_writes_alike_stays_alike():
     def svg(x: float) -> str:
         with house_style():
@@ -159,6 +174,11 @@ def test_without_matplotlib_the_error_says_what_to_install(monkeypatch):
 def test_a_picture_of_no_size_is_refused(size):
     with pytest.raises(ViewError, match="100 to 4000 pixels"):
         blank_figure(*size)
+
+
+def test_a_picture_with_no_room_for_its_axes_is_refused():
+    with house_style(), pytest.raises(ViewError, match=r"200 by 100 pixels has no room .* wider"):
+        place(blank_figure(200, 100), 210, 10, -40, 50)
 
 
 def test_steps_and_ticks_are_round_numbers():

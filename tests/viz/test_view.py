@@ -7,9 +7,11 @@ import re
 import sys
 import tomllib
 import xml.etree.ElementTree as ET
+from colorsys import rgb_to_hls
 from importlib.metadata import EntryPoint, EntryPoints
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rosmini.graph import show as show_module
@@ -149,11 +151,25 @@ def test_text_and_lines_stand_out(palette):
         assert contrast(palette[line], palette["page"]) >= 3.0, line
 
 
+def test_on_paper_lines_differ_without_their_colours():
+    """Steps of CIE L*: what is 5 apart is seen as another grey when it lies beside the first."""
+    on_page = [contrast(colour, "#ffffff") for colour in style.PRINT.values()]
+    lightness = sorted(116 * (1.05 / each - 0.05) ** (1 / 3) - 16 for each in on_page)
+    assert min(np.diff(lightness)) > 8
+    assert min(on_page) >= 3.0
+    for name, colour in style.PRINT.items():
+        hues = [
+            rgb_to_hls(*(int(c[i : i + 2], 16) / 255 for i in (1, 3, 5)))[0]
+            for c in (colour, style.LIGHT[name])
+        ]
+        assert abs(hues[0] - hues[1]) < 0.02, name
+
+
 def test_both_palettes_name_the_same_colours_and_the_style_sheet_has_them():
     assert list(style.LIGHT) == list(style.DARK)
     sheet = (ROOT / "rosmini/viz/static/rosmini.css").read_text(encoding="utf-8")
-    light, dark = sheet.split("@media not print")
-    for rules, palette in ((light, style.LIGHT), (dark, style.DARK)):
+    light, dark, paper = re.split("@media (?:not )?print", sheet)
+    for rules, palette in ((light, style.LIGHT), (dark, style.DARK), (paper, style.PRINT)):
         assert dict(re.findall(r"--rosmini-([a-z-]+): (#[0-9a-f]{6});", rules)) == palette
     assert f"--rosmini-font: {style.FONT};" in light
     assert all(page in dark.partition("{")[2].partition("{")[0] for page in style.DARK_PAGES)
