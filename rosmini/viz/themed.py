@@ -46,7 +46,7 @@ _DEFAULTS = {
     "stroke-width": "1", "opacity": "1", "fill-opacity": "1", "stroke-opacity": "1",
 }  # fmt: skip
 _OURS = {"#000000": style.LIGHT["ink"], "#ffffff": style.LIGHT["page"], **CYCLE}
-_MANY = 8
+_MANY = 100
 """So many uses of one marker share what they say of its look."""
 
 
