@@ -16,6 +16,7 @@ KERNELS: tuple[str, ...] = (
     "rosmini.navigation.base_local_planner.rollout:compiled_footprint_cost",
     "rosmini.navigation.base_local_planner.rollout:compiled_rollout",
     "rosmini.navigation.costmap_2d.rays:compiled_clear_rays",
+    "rosmini.navigation.costmap_2d.voxels:compiled_clear_voxels",
     "rosmini.navigation.global_planner.best_first:compiled_best_first",
     "rosmini.navigation.navfn.descent:compiled_descend",
     "rosmini.navigation.navfn.wave:compiled_wave",

@@ -37,6 +37,17 @@ class CostmapError(RosminiError, ValueError):
     """A costmap cannot be made as asked for; the message names the number or the parameter at fault."""
 
 
+def shifted(cells: NDArray[Any], dx: int, dy: int, default: int) -> NDArray[Any]:
+    """Cells (h, w) seen through a window that has moved by whole cells; what comes into it is `default`."""
+    moved = np.full_like(cells, default)
+    height, width = cells.shape
+    if abs(dx) < width and abs(dy) < height:
+        moved[max(0, -dy) : height - max(0, dy), max(0, -dx) : width - max(0, dx)] = cells[
+            max(0, dy) : height - max(0, -dy), max(0, dx) : width - max(0, -dx)
+        ]
+    return moved
+
+
 class Costmap2D:
     """Costs (h, w) of square cells; row 0 is at the bottom, column 0 at the left.
 
@@ -150,13 +161,7 @@ class Costmap2D:
         dy = math.floor((y - self.origin[1]) / self.resolution)
         if (dx, dy) == (0, 0):
             return 0, 0
-        moved = np.full_like(self.costs, self.default)
-        height, width = self.costs.shape
-        if abs(dx) < width and abs(dy) < height:
-            moved[max(0, -dy) : height - max(0, dy), max(0, -dx) : width - max(0, dx)] = self.costs[
-                max(0, dy) : height - max(0, -dy), max(0, dx) : width - max(0, -dx)
-            ]
-        self.costs = moved
+        self.costs = shifted(self.costs, dx, dy, self.default)
         self.origin = (self.origin[0] + dx * self.resolution, self.origin[1] + dy * self.resolution)
         return dx, dy
 

@@ -38,7 +38,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
 
     def on_initialize(self) -> None:
         """Read the parameters and subscribe to the sources."""
-        settings = self.settings_class.read(self.node, self.namespace)
+        settings = self.settings = self.settings_class.read(self.node, self.namespace)
         tracks = settings.track_unknown_space
         tracks = self.layered.is_tracking_unknown if tracks is None else tracks
         self.grid.default = NO_INFORMATION if tracks else FREE_SPACE
@@ -80,8 +80,7 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
         """Take in what the sources have seen."""
         if self.layered.is_rolling:
-            width, height = self.grid.size_m
-            self.grid.move_origin(robot[0] - width / 2, robot[1] - height / 2)
+            self.roll(robot)
         self.use_extra_bounds(bounds)
         late = [source for source in self.sources if not source.is_current()]
         self.is_current = not late
@@ -98,6 +97,11 @@ class ObstacleLayer(CostmapLayer, plugin="costmap_2d::ObstacleLayer"):
             self._footprint = placed(self.layered.footprint, robot)
             for x, y in self._footprint.tolist():
                 bounds.touch(x, y)
+
+    def roll(self, robot: Pose) -> tuple[int, int]:
+        """Move its costs with the robot; returns by how many cells."""
+        width, height = self.grid.size_m
+        return self.grid.move_origin(robot[0] - width / 2, robot[1] - height / 2)
 
     def clear(self, observation: Observation, bounds: Bounds) -> None:
         """Let the cells between the sensor and what it saw be free."""

@@ -154,6 +154,26 @@ class ObstacleParameters(ObstacleStatics, ObstacleConfig):
 
 
 @dataclass(frozen=True)
+class VoxelConfig(ObstacleConfig):
+    """Of `costmap_2d::VoxelLayer`, and changed while it runs."""
+
+    origin_z: float = parameter(0.0, "the floor of the voxels", unit="m", minimum=0.0)
+    z_resolution: float = parameter(0.2, "the height of a voxel", unit="m", minimum=0.0, maximum=50.0)
+    z_voxels: int = parameter(10, "voxels of a column", minimum=0, maximum=16)
+    unknown_threshold: int = parameter(
+        15, "up to so many unknown voxels a column is known", minimum=0, maximum=16
+    )
+    mark_threshold: int = parameter(0, "up to so many marked voxels a column is free", minimum=0, maximum=16)
+
+
+@dataclass(frozen=True)
+class VoxelParameters(ObstacleParameters, VoxelConfig):
+    """Of `costmap_2d::VoxelLayer`."""
+
+    publish_voxel_map: bool = parameter(False, "publish the voxels on voxel_grid")
+
+
+@dataclass(frozen=True)
 class SourceParameters(Parameters):
     """Of one observation source of an obstacle layer, `~global_costmap/obstacle_layer/scan/`."""
 

@@ -1,0 +1,174 @@
+"""Columns of voxels under each cell: which are marked, which are unknown, and what a ray clears (voxel_grid).
+
+A column is a number: bit z says that voxel z is not known to be free, bit 16 + z that it is marked. So a voxel is
+unknown with the first alone, marked with both, and free with neither.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.machine_code import machine_code
+
+Columns = NDArray[np.int64]
+
+BITS = 16
+"""Voxels of a column, at most."""
+UNKNOWN = (1 << BITS) - 1
+"""A column of which nothing is known."""
+
+
+@cache
+def _counts() -> NDArray[np.uint8]:
+    """How many bits a number of 16 bits has."""
+    return np.array([number.bit_count() for number in range(1 << BITS)], dtype=np.uint8)
+
+
+def marked_count(columns: Columns) -> NDArray[np.uint8]:
+    """How many voxels of columns (...) are marked."""
+    counts: NDArray[np.uint8] = _counts()[columns >> BITS]
+    return counts
+
+
+def mark_voxels(columns: Columns, mx: Any, my: Any, mz: Any) -> None:
+    """Mark voxels (n), in place."""
+    np.bitwise_or.at(columns, (my, mx), (1 << mz) | (1 << (mz + BITS)))
+
+
+def heights_of(column: int, size_z: int) -> list[int]:
+    """The voxels of a column that are marked, from below."""
+    return [z for z in range(size_z) if column >> (BITS + z) & 1]
+
+
+def bits_of(number: int) -> int:
+    """How many bits a number has."""
+    count = 0
+    while number:
+        number &= number - 1
+        count += 1
+    return count
+
+
+def share_of_ray(value: float, start: float, low: float, high: float, share: float) -> float:
+    """How much of a ray that goes from `start` to `value` on one axis is between `low` and `high`; `share` at most."""
+    if value < low:
+        return min(share, (low - start) / (value - start))
+    if value > high:
+        return min(share, (high - start) / (value - start))
+    return share
+
+
+def clear_voxels(
+    columns: Any,
+    costs: Any,
+    frame: Any,
+    sensor: Any,
+    points: Any,
+    size_z: int,
+    reach: int,
+    mark_threshold: int,
+    unknown_threshold: int,
+) -> tuple[int, int, int, int]:
+    """Clear the voxels between a sensor and two cells before each point that it saw, and the costs of their columns.
+
+    Args:
+        columns: of voxels (h, w), changed in place.
+        costs: likewise: 0 where so few voxels are marked and unknown, 255 where too many are unknown.
+        frame: the grid's left and lower edge and its floor [m], the side of a cell and the height of a voxel [m], and
+            the greatest height of obstacles [m].
+        sensor: x, y, z [m], in the grid.
+        points: what it saw (n, 3) [m].
+        size_z: voxels of a column.
+        reach: how far a ray clears [cells].
+        mark_threshold: so many marked voxels a free column may have.
+        unknown_threshold: so many unknown ones, those above `size_z` included.
+
+    Returns:
+        The first column and row that were passed, and the last.
+
+    """
+    height, width = costs.shape
+    x0, y0, z0, side, tall, top = frame[0], frame[1], frame[2], frame[3], frame[4], frame[5]
+    ox, oy, oz = sensor[0], sensor[1], sensor[2]
+    start_x, start_y, start_z = (
+        math.floor((ox - x0) / side),
+        math.floor((oy - y0) / side),
+        math.floor((oz - z0) / tall),
+    )
+    low_x, high_x, low_y, high_y = start_x, start_x, start_y, start_y
+    for n in range(points.shape[0]):
+        a, b, c = points[n, 0] - ox, points[n, 1] - oy, points[n, 2] - oz
+        away = math.sqrt(a * a + b * b + c * c)
+        if not math.isfinite(away) or away <= 0:
+            continue
+        short = max(min(1.0, (away - 2 * side) / away), 0.0)
+        a, b, c = a * short, b * short, c * short
+        share = 1.0
+        if oz + c > top:
+            share = max(0.0, min(share, (top - 0.01 - oz) / c))
+        elif oz + c < z0:
+            share = min(share, (z0 - oz) / c)
+        share = share_of_ray(ox + a, ox, x0, x0 + width * side, share)
+        share = share_of_ray(oy + b, oy, y0, y0 + height * side, share)
+        x1 = math.floor((ox + a * share - x0) / side)
+        y1 = math.floor((oy + b * share - y0) / side)
+        z1 = math.floor((oz + c * share - z0) / tall)
+        if x1 < 0 or y1 < 0 or z1 < 0 or x1 >= width or y1 >= height or z1 >= size_z:
+            continue
+        dx, dy, dz = abs(x1 - start_x), abs(y1 - start_y), abs(z1 - start_z)
+        step_x, step_y, step_z = (
+            1 if x1 >= start_x else -1,
+            1 if y1 >= start_y else -1,
+            1 if z1 >= start_z else -1,
+        )
+        longest = max(dx, dy, dz)
+        length = math.sqrt(float(dx * dx + dy * dy + dz * dz))
+        last = longest if length <= reach else int(reach / length * longest)
+        error_x = error_y = error_z = longest // 2
+        x, y, z = start_x, start_y, start_z
+        for step in range(last + 1):
+            if step:
+                error_x, error_y, error_z = error_x + dx, error_y + dy, error_z + dz
+                if error_x >= longest:
+                    error_x, x = error_x - longest, x + step_x
+                if error_y >= longest:
+                    error_y, y = error_y - longest, y + step_y
+                if error_z >= longest:
+                    error_z, z = error_z - longest, z + step_z
+            column = columns[y, x] & ~((1 << z) | (1 << (z + 16)))
+            columns[y, x] = column
+            marked = column >> 16
+            if bits_of(marked) <= mark_threshold:
+                costs[y, x] = 0 if bits_of(marked ^ (column & 65535)) <= unknown_threshold else 255
+        low_x, high_x = min(low_x, x), max(high_x, x)
+        low_y, high_y = min(low_y, y), max(high_y, y)
+    return low_x, low_y, high_x, high_y
+
+
+@cache
+def compiled_clear_voxels() -> Callable[..., tuple[int, int, int, int]]:
+    """`clear_voxels` as machine code, or without numba as it is."""
+    try:
+        import numba
+    except ImportError:
+        return clear_voxels
+    types: Any = numba.types
+    number, line = types.int64, types.float64[::1]
+    signature = types.UniTuple(number, 4)(
+        types.int64[:, ::1],
+        types.uint8[:, ::1],
+        line,
+        line,
+        types.float64[:, ::1],
+        number,
+        number,
+        number,
+        number,
+    )
+    return machine_code(clear_voxels, signature, (bits_of, share_of_ray))

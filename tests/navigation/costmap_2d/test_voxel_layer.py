@@ -1,0 +1,80 @@
+"""The voxel layer on a graph: heights, what it publishes, and that it rolls."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from rosmini.msgs import message_class
+
+from .conftest import SOURCE, layers
+
+VOXELS = {
+    "observation_sources": "scan cloud",
+    "scan": SOURCE,
+    "cloud": {"data_type": "PointCloud", "topic": "cloud", "marking": True, "clearing": False},
+    "origin_z": 0.0,
+    "z_resolution": 0.25,
+    "z_voxels": 8,
+    "publish_voxel_map": True,
+}
+ROLLING = {"global_frame": "odom", "rolling_window": True, "width": 4, "height": 4, "resolution": 0.1}
+
+
+def put(stage, *points):
+    """Publish a cloud in odom, and let it be taken."""
+    kind, point = message_class("sensor_msgs/PointCloud"), message_class("geometry_msgs/Point32")
+    publisher = stage.robot.publisher("cloud", kind)
+    stage.graph.run(0.05)
+    message = kind()
+    message.header.frame_id, message.header.stamp = "odom", stage.robot.now()
+    message.points = [point(x=x, y=y, z=z) for x, y, z in points]
+    publisher.publish(message)
+    stage.graph.run(0.3)
+
+
+@pytest.fixture
+def costmap(stage):
+    stage.pose = (0.02, 0.03, 0.0)
+    return stage.costmap(plugins=layers("voxels"), voxels=VOXELS, **ROLLING)
+
+
+def test_a_ray_below_a_table_does_not_clear_the_table(stage, costmap):
+    put(stage, (1.03, 0.03, 0.8))
+    cell = costmap.grid.world_to_map(1.03, 0.03)
+    assert costmap.grid.cost(*cell) == 254
+    stage.scan([2.0, math.inf, math.inf, math.inf])
+    assert costmap.grid.cost(*cell) == 254
+    assert costmap.explain(*cell) == {"voxels": 254}
+    assert "1 of 8 voxels marked, from 0.75 m to 1.00 m" in str(costmap.explain(*cell))
+
+
+def test_the_columns_roll_with_the_window(stage, costmap):
+    put(stage, (1.03, 0.03, 0.8))
+    stage.pose = (0.52, -0.37, 0.0)
+    stage.graph.run(0.5)
+    grid = costmap.grid
+    assert [(mx, my) for my, mx in np.argwhere(grid.costs == 254)] == [grid.world_to_map(1.03, 0.03)]
+    columns = costmap.layers[0].columns
+    assert [(mx, my) for my, mx in np.argwhere(columns >> 16)] == [grid.world_to_map(1.03, 0.03)]
+
+
+def test_the_voxels_are_published(stage, costmap):
+    grids = []
+    stage.graph.node("listener").subscriber(
+        "move_base/costmap/voxels/voxel_grid", message_class("costmap_2d/VoxelGrid"), grids.append
+    )
+    put(stage, (1.03, 0.03, 0.8))
+    message = grids[-1]
+    assert (message.size_x, message.size_y, message.size_z) == (40, 40, 8)
+    assert message.resolutions.z == 0.25
+    assert (np.array(message.data) >> 16 != 0).sum() == 1
+    del costmap
+
+
+def test_a_reset_forgets_the_voxels(stage, costmap):
+    put(stage, (1.03, 0.03, 0.8))
+    costmap.reset_layers()
+    assert not (costmap.layers[0].columns >> 16).any()
