@@ -72,6 +72,9 @@ class Parameters:
     tolerant: ClassVar[bool] = False
     """Whether an unknown name is only warned of, as it suits files written for several releases of a real package."""
 
+    shared: ClassVar[bool] = False
+    """Whether every namespace in this one may belong to somebody else, such as a plugin."""
+
     def others(self) -> Iterable[str]:
         """Further such names, where they depend on the values of parameters: those of plugins, for example."""
         return ()
@@ -124,7 +127,7 @@ def _read(cls: type[Parameters], tree: Any, place: Place) -> dict[str, Any]:
     unknown = [name for name in tree if name not in declared and name not in cls.allowed]
     others = set(cls(**values).others()) if unknown else ()
     for name in unknown:
-        if name in others:
+        if name in others or (cls.shared and isinstance(tree[name], dict)):
             continue
         problem = _unknown(name, list(declared), place)
         if not cls.tolerant or place.warn is None:

@@ -29,9 +29,7 @@ def main(checkout: Path = CHECKOUT) -> None:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8", newline="\n")
         print(file)
-    maps = checkout / "assets/ros/rosmini_sim/maps"
-    maps.mkdir(parents=True, exist_ok=True)
-    for file in (*worlds.write_maps(maps), *stubs.write_stubs(checkout / "rosmini/msgs")):
+    for file in (*worlds.write_maps(checkout / "assets/ros"), *stubs.write_stubs(checkout / "rosmini/msgs")):
         print(file)
 
 

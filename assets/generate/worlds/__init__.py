@@ -15,8 +15,14 @@ from .office import office
 from .pillars import pillars
 from .sdf_writer import to_sdf
 
-MAPPED = ("house", "office")
-"""The worlds that also have a map."""
+MAPPED = {
+    "rosmini_sim/maps/house": "house",
+    "rosmini_sim/maps/maze": "maze",
+    "rosmini_sim/maps/office": "office",
+    "rosmini_sim/maps/room": "room",
+    "turtlebot3_navigation/maps/map": "pillars",
+}
+"""The worlds that also have a map, by its path below `assets/ros`."""
 
 
 def sdf_texts() -> dict[str, str]:
@@ -31,8 +37,14 @@ def sdf_texts() -> dict[str, str]:
 
 
 def write_maps(folder: Path) -> list[Path]:
-    """Write the maps into a folder; returns the files written. The worlds are read from their files."""
-    written = write_map(draw(), folder / "floor.yaml")
-    for name in MAPPED:
-        written += write_map(to_map(world(name)), folder / f"{name}.yaml")
+    """Write the maps into a folder of packages; returns the files written. The worlds are read from their files."""
+    written = write_map(draw(), _in(folder, "rosmini_sim/maps/floor"))
+    for path, name in MAPPED.items():
+        written += write_map(to_map(world(name)), _in(folder, path))
     return written
+
+
+def _in(folder: Path, path: str) -> Path:
+    file = folder / f"{path}.yaml"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    return file

@@ -1,0 +1,64 @@
+"""What is wrong with a set-up before the robot moves: said once, when `move_base` starts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import nearest
+from rosmini.navigation.nav_core.plugin_files import short_name
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+SLACK = 0.01
+"""By so much [m] the footprint may be narrower than it is long before it counts as not round."""
+
+
+def check_setup(move_base: Any) -> None:
+    """Warn of parameters that are legal and let a robot get stuck, and of namespaces that nobody reads."""
+    node = move_base.node
+    for costmap in (move_base.global_costmap, move_base.local_costmap):
+        for text in inflation_warnings(costmap):
+            node.logwarn(text)
+    known = ["global_costmap", "local_costmap", *(each.name for each in move_base.recovery_behaviors)]
+    known += [short_name(name) for name in move_base.planners.names.values()]
+    for text in unread_namespaces(node, known):
+        node.logwarn(text)
+
+
+def inflation_warnings(costmap: Any) -> list[str]:
+    """What the inflation of a costmap leaves open between planner and controller."""
+    layers = [layer for layer in costmap.layers if hasattr(layer, "inflation_radius")]
+    inscribed, circumscribed = costmap.inscribed_radius, costmap.circumscribed_radius
+    if not layers:
+        return [
+            f"{costmap.name} has no inflation layer: plans lead along walls as if the robot were a point. Add "
+            '{name: inflation_layer, type: "costmap_2d::InflationLayer"} to its plugins'
+        ]
+    radius = max(layer.inflation_radius for layer in layers)
+    found = []
+    if radius < inscribed:
+        found.append(
+            f"{costmap.name}: inflation_radius is {radius:g} m, and the inscribed radius of the footprint "
+            f"{inscribed:.3f} m: cells in which the robot certainly collides look free. Set it to more than "
+            f"{circumscribed:.2f} m"
+        )
+    if costmap.name == "global_costmap" and circumscribed - inscribed > SLACK:
+        found.append(
+            f"the footprint's inscribed radius is {inscribed * 100:.1f} cm, its circumscribed radius "
+            f"{circumscribed * 100:.1f} cm: the global planner may lead through gaps of {2 * inscribed * 100:.0f} cm, "
+            f"and the controller, which checks the whole footprint, may refuse those under "
+            f"{2 * circumscribed * 100:.0f} cm"
+        )
+    return found
+
+
+def unread_namespaces(node: Node, known: list[str]) -> list[str]:
+    """Namespaces of the node that nobody reads, and whose names look like one that somebody does."""
+    tree = node.get_param("~", {})
+    unread = [name for name, value in tree.items() if isinstance(value, dict) and name not in known]
+    return [
+        f"nobody reads the parameters in {node.name}/{name}; {hint}"
+        for name in unread
+        if (hint := nearest(name, known))
+    ]

@@ -1,0 +1,473 @@
+"""`move_base/move_base`: brings a robot to a goal (http://wiki.ros.org/move_base).
+
+It offers the action `move_base`, takes goals on `move_base_simple/goal` too, and commands the base on `cmd_vel`. The
+services `~make_plan` and `~clear_costmaps`, all topics, parameters and texts are ROS's. Planning has a lane of its own;
+the cycle of control runs at `controller_frequency` of the graph's time.
+
+From the original differ: a goal in another frame is transformed by the newest transform, whatever its stamp; a robot
+that oscillates is stopped in that cycle, and not commanded once more; and whatever a plugin raises counts as failure of
+what it was asked for, with a line in the log that says where.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from rosmini.actionlib import SimpleActionServer
+from rosmini.dynamic_reconfigure import Server
+from rosmini.errors import ROSInterruptException, RosminiError
+from rosmini.msgs import message_class, service_class
+from rosmini.navigation.costmap_2d import FREE_SPACE
+from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
+from rosmini.navigation.nav_core import BadGoal, NavigationFailure, TransformMissing, planar_pose
+from rosmini.navigation.nav_core.poses import checked_goal
+from rosmini.tf import TransformListener
+
+from .checks import check_setup
+from .parameters import MoveBaseConfig, MoveBaseParameters
+from .planning import PlannerLane, offsets_within
+from .plugin_calls import call
+from .plugins import GLOBAL, LOCAL, Planners
+from .recoveries import Recoveries
+from .state_machine import Abort, Follow, Limits, Plan, Recover, State, StateMachine
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+BAD_QUATERNION = "Aborting on goal because it was sent with an invalid quaternion"
+RECOVERY_BUDGET = 120.0
+"""How long a recovery behaviour that is not rosmini's may take [s]."""
+WARN_PERIOD = 1.0
+"""How often the same warning is repeated [s]."""
+
+
+class MoveBase:
+    """The node. `explain()` says why the robot does what it does."""
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+        self.parameters = own = MoveBaseParameters.read(node)
+        self.config: MoveBaseConfig = own
+        self.buffer = TransformListener(node).buffer
+        self._advertise()
+        self.global_costmap = Costmap2DROS("global_costmap", self.buffer, node)
+        self.global_costmap.pause()
+        self.planners = Planners(node, self.buffer, self.global_costmap)
+        self.planners.load(GLOBAL, own.base_global_planner)
+        self.local_costmap = Costmap2DROS("local_costmap", self.buffer, node)
+        self.local_costmap.pause()
+        self.planners.local_costmap = self.local_costmap
+        self.planners.load(LOCAL, own.base_local_planner)
+        self.global_costmap.start()
+        self.local_costmap.start()
+        radius = float(node.get_param("~local_costmap/circumscribed_radius", 0.46))
+        self._clearing_radius = radius if own.clearing_radius is None else own.clearing_radius
+        self._offer_services()
+        if own.shutdown_costmaps:
+            self._stop_costmaps()
+        self.recovery_behaviors = Recoveries(node, self.buffer, self.global_costmap, self.local_costmap).load(
+            rotate=own.clearing_rotation_allowed,
+            reset_distance=own.conservative_reset_dist,
+            circumscribed_radius=radius,
+        )
+        self.machine = StateMachine(limits(own), len(self.recovery_behaviors))
+        self.goal: Any = None
+        """The goal in the global frame (`PoseStamped`), while there is one."""
+        self.plan: Sequence[Any] = ()
+        """The plan that the local planner follows."""
+        self.why = ""
+        """Why there was no plan or no command, the last time."""
+        self.lane = PlannerLane(node, self.machine, self._make_plan, self._stop_base)
+        check_setup(self)
+        self.action.start()
+        self._defaults = self._last = None
+        self._reconfigure_server = Server(node, MoveBaseConfig, self._reconfigure)
+
+    def _advertise(self) -> None:
+        node = self.node
+        self._twist = message_class("geometry_msgs/Twist")
+        stamped = message_class("geometry_msgs/PoseStamped")
+        self._action_goal = message_class("move_base_msgs/MoveBaseActionGoal")
+        self._feedback = message_class("move_base_msgs/MoveBaseFeedback")()
+        self._recovery = message_class("move_base_msgs/RecoveryStatus")
+        self.action = SimpleActionServer(
+            node,
+            "move_base",
+            message_class("move_base_msgs/MoveBaseAction"),
+            execute_cb=self._execute,
+            auto_start=False,
+        )
+        self._commands = node.publisher("cmd_vel", self._twist, queue_size=1)
+        self._current_goal = node.publisher("~current_goal", stamped, queue_size=10)
+        self._goals = node.publisher("move_base/goal", self._action_goal, queue_size=1)
+        self._recoveries = node.publisher("move_base/recovery_status", self._recovery, queue_size=1)
+        node.subscriber("move_base_simple/goal", stamped, self._simple_goal, queue_size=1)
+        node.on_shutdown(self._killed)
+
+    def _offer_services(self) -> None:
+        self.node.service("~make_plan", service_class("nav_msgs/GetPlan"), self._make_plan_service)
+        self.node.service("~clear_costmaps", service_class("std_srvs/Empty"), self._clear_costmaps)
+
+    def __repr__(self) -> str:
+        return f"<MoveBase {self.node.name}: {self.state.value}{'' if self.goal is None else ', with a goal'}>"
+
+    # -- what others look at -------------------------------------------------------------------------------------
+
+    @property
+    def state(self) -> State:
+        """PLANNING, CONTROLLING or CLEARING."""
+        return self.machine.state
+
+    @property
+    def planner(self) -> Any:
+        """The global planner."""
+        return self.planners.of[GLOBAL]
+
+    @property
+    def controller(self) -> Any:
+        """The local planner."""
+        return self.planners.of[LOCAL]
+
+    def _now(self) -> float:
+        return self.node.clock.now_ns() * 1e-9
+
+    # -- goals ---------------------------------------------------------------------------------------------------
+
+    def _simple_goal(self, pose: Any) -> None:
+        """Send a goal of `move_base_simple/goal` to the action server."""
+        goal = self._action_goal()
+        goal.header.stamp = self.node.now()
+        goal.goal.target_pose = pose
+        self._goals.publish(goal)
+
+    def _accept(self, message: Any) -> bool:
+        """Take a goal, or abort it if it is no pose in the plane."""
+        try:
+            checked_goal(message.target_pose)
+        except BadGoal as error:
+            self.node.logerr(str(error))
+            self.action.set_aborted(None, BAD_QUATERNION)
+            return False
+        self._begin(message.target_pose)
+        return True
+
+    def _begin(self, target: Any) -> None:
+        """Set out for a pose in any frame."""
+        try:
+            self.goal = self.global_costmap.to_global(target)
+        except TransformMissing as error:
+            self.node.logwarn(
+                f"Failed to transform the goal pose from {target.header.frame_id} into the "
+                f"{self.global_costmap.global_frame} frame: {error}"
+            )
+            self.goal = target
+        self.why = ""
+        self.lane.goal = self.goal
+        self.machine.begin(self._now())
+        self.lane.wake()
+        self._current_goal.publish(self.goal)
+
+    def _execute(self, message: Any) -> None:
+        """Work on a goal until it is over."""
+        self._stop_base()
+        if not self._accept(message):
+            return
+        if self.config.shutdown_costmaps:
+            self.global_costmap.start()
+            self.local_costmap.start()
+        frequency = self.config.controller_frequency
+        rate = self.node.rate(frequency)
+        while not self.node.is_shutdown():
+            if self.config.controller_frequency != frequency:
+                frequency = self.config.controller_frequency
+                self.node.loginfo(f"Setting controller frequency to {frequency:.2f}")
+                rate = self.node.rate(frequency)
+            if self.action.is_preempt_requested() and not self._preempt():
+                return
+            began = self.node.clock.now_ns()
+            if self._cycle():
+                return
+            took = (self.node.clock.now_ns() - began) * 1e-9
+            rate.sleep()
+            if took > 1 / frequency and self.state is State.CONTROLLING:
+                self.node.logwarn(
+                    f"Control loop missed its desired rate of {frequency:.4f}Hz... the loop actually took "
+                    f"{took:.4f} seconds"
+                )
+
+    def _preempt(self) -> bool:
+        """Take the goal that waits, or end; whether there is a goal to go on with."""
+        if self.action.is_new_goal_available():
+            return self._accept(self.action.accept_new_goal())
+        self._end()
+        self.action.set_preempted()
+        return False
+
+    def _end(self) -> None:
+        """Be without a goal."""
+        self.machine.end(self._now())
+        self.goal = None
+        self._stop_base()
+        if self.config.shutdown_costmaps:
+            self._stop_costmaps()
+
+    def _stop_base(self) -> None:
+        self._commands.publish(self._twist())
+
+    def _stop_costmaps(self) -> None:
+        self.global_costmap.stop()
+        self.local_costmap.stop()
+
+    def _killed(self) -> None:
+        self._stop_base()
+        if self.action.is_active():
+            self.action.set_aborted(None, "Aborting on the goal because the node has been killed")
+
+    # -- one cycle of control ------------------------------------------------------------------------------------
+
+    def _cycle(self) -> bool:
+        """Do what is due now; whether the goal is over."""
+        with suppress(TransformMissing):
+            self._tell_position()
+        if not self.local_costmap.is_current:
+            self.node.logwarn(
+                f"[{self.node.name}]:Sensor data is out of date, we're not going to allow commanding of the base for "
+                "safety",
+                throttle=WARN_PERIOD,
+            )
+            self._stop_base()
+            return False
+        plan = self.lane.take()
+        if plan is not None and not self._hand_over(plan):
+            return True
+        decision = self.machine.step()
+        if isinstance(decision, Plan):
+            self.lane.wake()
+        elif isinstance(decision, Follow):
+            return self._follow()
+        elif isinstance(decision, Recover):
+            self._recover(decision.number)
+        else:
+            self._give_up(decision)
+            return True
+        return False
+
+    def _tell_position(self) -> None:
+        pose = self.global_costmap.robot_pose()
+        self._feedback.base_position = pose
+        self.action.publish_feedback(self._feedback)
+        x, y, _ = planar_pose(pose)
+        self.machine.at(self._now(), x, y)
+
+    def _hand_over(self, plan: Sequence[Any]) -> bool:
+        """Give the local planner a new plan; without its consent the goal is aborted."""
+        self.plan = plan
+        try:
+            self._ask(LOCAL, "set_plan", plan)
+        except NavigationFailure as error:
+            self.node.logerr(f"Failed to pass global plan to the controller, aborting. {error}")
+            self.why = str(error)
+            self._end()
+            self.action.set_aborted(None, "Failed to pass global plan to the controller.")
+            return False
+        self.machine.plan_taken()
+        return True
+
+    def _ask(self, which: str, method: str, *arguments: Any) -> Any:
+        """Call a method of one of the planners."""
+        planner = self.planners.of[which]
+        patience = self.config.planner_patience if which == GLOBAL else self.config.controller_patience
+        what = f"{method}() of the {which} planner {self.planners.names[which]}"
+        return call(self.node, what, getattr(planner, method), *arguments, budget=max(patience, 1.0))
+
+    def _follow(self) -> bool:
+        """Command the base along the plan; whether the goal is reached."""
+        now = self._now()
+        if self._is_reached():
+            self._end()
+            self.action.set_succeeded(None, "Goal reached.")
+            return True
+        if self.machine.oscillates(now):
+            self.why = (
+                f"for {self.config.oscillation_timeout:g} s the robot has been within "
+                f"{self.config.oscillation_distance:g} m"
+            )
+            self._stop_base()
+            return False
+        try:
+            command = self._ask(LOCAL, "compute_velocity_commands")
+        except NavigationFailure as error:
+            self._no_command(error)
+            return False
+        self.machine.command_found(self._now())
+        self._commands.publish(command)
+        return False
+
+    def _is_reached(self) -> bool:
+        try:
+            return bool(self._ask(LOCAL, "is_goal_reached"))
+        except NavigationFailure as error:
+            self.node.logwarn(f"Whether the goal is reached is unknown: {error}", throttle=WARN_PERIOD)
+            return False
+
+    def _no_command(self, error: NavigationFailure) -> None:
+        self.why = str(error)
+        self.node.logwarn(f"No valid command: {error}", throttle=WARN_PERIOD)
+        self.machine.command_failed(self._now())
+        self._stop_base()
+        self.lane.wake()
+
+    def _recover(self, number: int) -> None:
+        """Run a recovery behaviour; the robot's lane waits for it."""
+        name, behavior = self.recovery_behaviors[number]
+        status = self._recovery(
+            current_recovery_number=number,
+            total_number_of_recoveries=len(self.recovery_behaviors),
+            recovery_behavior_name=name,
+        )
+        with suppress(TransformMissing):
+            status.pose_stamped = self.global_costmap.robot_pose()
+        self._recoveries.publish(status)
+        try:
+            call(
+                self.node,
+                f"the recovery behavior {name}",
+                behavior.run_behavior,
+                budget=RECOVERY_BUDGET,
+            )
+        except NavigationFailure as error:
+            self.node.logerr(str(error))
+        self.machine.recovered(self._now())
+
+    def _give_up(self, decision: Abort) -> None:
+        self.node.logerr(f"{decision.log}. {self.why}" if self.why else decision.log)
+        self.action.set_aborted(None, decision.text)
+        self._end()
+
+    # -- plans ---------------------------------------------------------------------------------------------------
+
+    def _make_plan(self, goal: Any) -> Sequence[Any]:
+        """Plan from where the robot is; nothing if there is no plan."""
+        try:
+            start = self.global_costmap.robot_pose()
+        except TransformMissing as error:
+            self.why = f"Unable to get starting pose of robot, unable to create global plan: {error}"
+            self.node.logwarn(self.why, throttle=WARN_PERIOD)
+            return ()
+        return self._planned(start, goal)
+
+    def _planned(self, start: Any, goal: Any) -> Sequence[Any]:
+        try:
+            plan: Sequence[Any] = self._ask(GLOBAL, "make_plan", start, goal)
+        except NavigationFailure as error:
+            self.why = str(error)
+            self.node.logwarn(f"Failed to find a plan: {error}", throttle=WARN_PERIOD)
+            return ()
+        if plan is None or not len(plan):
+            self.why = f"the global planner {self.planners.names[GLOBAL]} returned no poses"
+            return ()
+        return plan
+
+    def _make_plan_service(self, request: Any) -> Any:
+        """Answer `~make_plan`: a plan to the goal, or to one within the tolerance; empty if there is none."""
+        if self.action.is_active():
+            raise self._refused("move_base must be in an inactive state to make a plan for an external user")
+        start = request.start
+        if not start.header.frame_id:
+            try:
+                start = self.global_costmap.robot_pose()
+            except TransformMissing as error:
+                raise self._refused(
+                    "move_base cannot make a plan for you because it could not get the start pose of the robot: "
+                    f"{error}"
+                ) from error
+        if self.config.make_plan_clear_costmap:
+            self._clear_windows(2 * self._clearing_radius)
+        answer = message_class("nav_msgs/Path")()
+        answer.poses = list(self._plan_near(start, request.goal, request.tolerance))
+        if answer.poses:
+            answer.header = answer.poses[0].header
+        return {"plan": answer}
+
+    def _refused(self, text: str) -> RosminiError:
+        self.node.logerr(text)
+        return RosminiError(text)
+
+    def _plan_near(self, start: Any, goal: Any, tolerance: float) -> Sequence[Any]:
+        plan = self._planned(start, goal)
+        if plan:
+            return plan
+        stamped, place = type(goal), goal.pose.position
+        for dx, dy in offsets_within(tolerance, self.global_costmap.grid.resolution):
+            near = stamped(header=goal.header)
+            near.pose.orientation = goal.pose.orientation
+            near.pose.position.x, near.pose.position.y = place.x + dx, place.y + dy
+            plan = self._planned(start, near)
+            if plan:
+                return [*plan, goal] if self.config.make_plan_add_unreachable_goal else plan
+        return ()
+
+    # -- costmaps ------------------------------------------------------------------------------------------------
+
+    def _clear_windows(self, side: float) -> None:
+        """Clear a square around the robot in both costmaps."""
+        for costmap in (self.global_costmap, self.local_costmap):
+            with suppress(TransformMissing):
+                x, y, _ = planar_pose(costmap.robot_pose())
+                half = side / 2
+                square = [(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)]
+                costmap.set_costs(square, FREE_SPACE)
+
+    def _clear_costmaps(self, _: Any) -> dict[str, Any]:
+        self.local_costmap.reset_layers()
+        self.global_costmap.reset_layers()
+        return {}
+
+    # -- parameters ----------------------------------------------------------------------------------------------
+
+    def _reconfigure(self, config: Any, _: int) -> Any:
+        """Take changed parameters; the first call only tells what they were."""
+        if self._defaults is None:
+            self._defaults = dict(config)
+            return config
+        if config["restore_defaults"]:
+            config.update({**self._defaults, "restore_defaults": False})
+        for which in (GLOBAL, LOCAL):
+            self._change_planner(which, config)
+        self.config = MoveBaseConfig(**{name: value for name, value in config.items() if name != "groups"})
+        self.machine.limits = limits(self.config)
+        return config
+
+    def _change_planner(self, which: str, config: Any) -> None:
+        """Let another planner take over, if the parameter has changed; one that cannot be had changes nothing."""
+        parameter = f"base_{which}_planner"
+        if config[parameter] == self.planners.names[which]:
+            return
+        self.node.loginfo(f"Loading {which} planner {config[parameter]}")
+        try:
+            self.planners.load(which, config[parameter])
+        except RosminiError as error:
+            if isinstance(error, ROSInterruptException):
+                raise
+            self.node.logfatal(str(error))
+            config[parameter] = self.planners.names[which]
+            return
+        self.lane.latest, self.plan = None, ()
+        self._stop_base()
+        if self.goal is not None:
+            self.machine.begin(self._now())
+
+
+def limits(config: MoveBaseConfig) -> Limits:
+    """The part of the parameters by which the state machine decides."""
+    return Limits(
+        config.planner_frequency,
+        config.planner_patience,
+        config.controller_patience,
+        config.max_planning_retries,
+        config.oscillation_timeout,
+        config.oscillation_distance,
+        config.recovery_behavior_enabled,
+    )

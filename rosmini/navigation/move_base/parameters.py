@@ -1,0 +1,89 @@
+"""The parameters of `move_base/move_base` (http://wiki.ros.org/move_base#Parameters).
+
+Ranges are those of its dynamic_reconfigure. There the original states 5.0 s for `controller_patience` and uses 15.0;
+here it is 15.0 in both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rosmini.parameters import Parameters, parameter
+
+
+@dataclass(frozen=True)
+class MoveBaseConfig(Parameters):
+    """What can be changed while it runs."""
+
+    base_global_planner: str = parameter("navfn/NavfnROS", "the plugin that plans through the whole map")
+    base_local_planner: str = parameter(
+        "base_local_planner/TrajectoryPlannerROS", "the plugin that follows the plan"
+    )
+    planner_frequency: float = parameter(
+        0.0,
+        "how often to plan; 0: for a new goal, and when the robot is stuck",
+        unit="Hz",
+        minimum=0.0,
+        maximum=100.0,
+    )
+    controller_frequency: float = parameter(
+        20.0, "how often to command the base", unit="Hz", minimum=0.0, maximum=100.0
+    )
+    planner_patience: float = parameter(
+        5.0, "how long to try to plan before recovering", unit="s", minimum=0.0, maximum=100.0
+    )
+    controller_patience: float = parameter(
+        15.0, "how long to go without a command before recovering", unit="s", minimum=0.0, maximum=100.0
+    )
+    max_planning_retries: int = parameter(
+        -1, "how often to try to plan again before recovering; -1: any number", minimum=-1, maximum=1000
+    )
+    conservative_reset_dist: float = parameter(
+        3.0,
+        "the default recoveries clear what is farther from the robot than half of this",
+        unit="m",
+        minimum=0.0,
+        maximum=50.0,
+    )
+    recovery_behavior_enabled: bool = parameter(True, "try to free a robot that is stuck")
+    clearing_rotation_allowed: bool = parameter(True, "the default recoveries turn the robot once around")
+    shutdown_costmaps: bool = parameter(False, "stop the costmaps while there is no goal")
+    oscillation_timeout: float = parameter(
+        0.0,
+        "how long the robot may stay within oscillation_distance; 0: for ever",
+        unit="s",
+        minimum=0.0,
+        maximum=60.0,
+    )
+    oscillation_distance: float = parameter(
+        0.5, "after this distance the robot counts as getting on", unit="m", minimum=0.0, maximum=10.0
+    )
+    make_plan_clear_costmap: bool = parameter(True, "clear the costmaps around the robot before make_plan")
+    make_plan_add_unreachable_goal: bool = parameter(
+        True, "end the plans of make_plan at the goal, where they only come near it"
+    )
+    restore_defaults: bool = parameter(False, "go back to what held at the start")
+
+
+@dataclass(frozen=True)
+class Behavior(Parameters):
+    """One element of `recovery_behaviors`."""
+
+    name: str = parameter("", "its namespace: its parameters are in ~NAME/")
+    type: str = parameter("", "its plugin, package/Class")
+
+
+@dataclass(frozen=True)
+class MoveBaseParameters(MoveBaseConfig):
+    """All of its own parameters; beside them are those of costmaps, planners and recoveries, in their namespaces."""
+
+    tolerant = True
+    shared = True
+    allowed = ("recovery_behaviors", "global_frame", "robot_base_frame")
+
+    clearing_radius: float | None = parameter(
+        None,
+        "make_plan clears a square of twice this around the robot; by default ~local_costmap/circumscribed_radius",
+        unit="m",
+        minimum=0.0,
+    )

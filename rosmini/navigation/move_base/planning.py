@@ -1,0 +1,91 @@
+"""When the global planner runs: a lane that plans when it is asked to, and goals around one that cannot be reached."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+from .state_machine import StateMachine
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node, Waiter
+
+STEP_CELLS = 3.0
+"""How many cells the goals lie apart that `make_plan` tries instead of its own."""
+
+
+def offsets_within(tolerance: float, resolution: float) -> Iterator[tuple[float, float]]:
+    """Offsets (dx, dy) [m] around a goal, on squares that grow from the nearest to `tolerance` [m], as in `make_plan`."""
+    step = resolution * STEP_CELLS
+    if 0 < tolerance < step:
+        step = tolerance
+    ring = 1
+    while ring * step <= tolerance + 1e-9:
+        for down, right in product(range(ring + 1), repeat=2):
+            if max(down, right) < ring:
+                continue
+            for up, along in product((-1, 1) if down else (1,), (-1, 1) if right else (1,)):
+                yield along * right * step, up * down * step
+        ring += 1
+
+
+class PlannerLane:
+    """Plans for `goal` while the state machine wants a plan: once, or `planner_frequency` times a second.
+
+    `plan(goal)` returns the poses, or nothing. `stop()` is called when patience is at an end.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        machine: StateMachine,
+        plan: Callable[[Any], Sequence[Any]],
+        stop: Callable[[], object],
+    ) -> None:
+        self.node, self.machine = node, machine
+        self._plan, self._stop = plan, stop
+        self.goal: Any = None
+        self.latest: Sequence[Any] | None = None
+        """A plan that nobody has taken yet."""
+        self._waiter: Waiter | None = None
+        node.spawn(f"{node.name} planner", self._run)
+
+    def wake(self) -> None:
+        """Plan now, if a plan is wanted."""
+        waiter, self._waiter = self._waiter, None
+        if waiter is not None:
+            waiter.wake()
+
+    def take(self) -> Sequence[Any] | None:
+        """The newest plan, once."""
+        plan, self.latest = self.latest, None
+        return plan
+
+    def _sleep(self, timeout_ns: int | None) -> None:
+        self._waiter = self.node.waiter("a goal to plan for")
+        self.node.wait(self._waiter, timeout_ns=timeout_ns)
+
+    def _run(self) -> None:
+        pause: int | None = None
+        while not self.node.is_shutdown():
+            self._sleep(pause)
+            pause = None
+            if self.machine.wants_plan:
+                pause = self._once()
+
+    def _once(self) -> int | None:
+        """Plan; return after what time [ns] to do so again, if nobody wakes the lane before."""
+        clock = self.node.clock
+        start, goal = clock.now_ns(), self.goal
+        plan = self._plan(goal)
+        if goal is not self.goal:
+            return 0  # it preempted the one that was planned for
+        now = clock.now_ns()
+        if plan:
+            self.latest = plan
+            self.machine.plan_found(now * 1e-9)
+        elif self.machine.plan_failed(now * 1e-9):
+            self._stop()
+        frequency = self.machine.limits.planner_frequency
+        return max(0, start + round(1e9 / frequency) - now) if frequency > 0 else None

@@ -1,0 +1,136 @@
+"""Calls of planners and recovery behaviours that somebody else wrote: they may raise, block for ever, or never return.
+
+A plugin of rosmini is called as it is. Another one runs in a lane of its own, with a budget: what it may block is
+seconds of the graph's time, what it may compute is turns of its loops, of which 1,000 count as a millisecond, as in a
+script's loops. Wall time decides nothing, so the answer is the same on every machine.
+"""
+
+from __future__ import annotations
+
+import sys
+import sysconfig
+import traceback
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import ROSInterruptException
+from rosmini.navigation.nav_core import NavigationFailure
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+TURNS_PER_SECOND = 1_000_000
+"""The number of turns of loops that count as a second."""
+
+_ROSMINI = str(Path(__file__).resolve().parents[2])
+_OURS = (_ROSMINI, *{sysconfig.get_path(kind) for kind in ("stdlib", "purelib", "platlib")}, "<frozen")
+
+
+class PluginFault(NavigationFailure):
+    """A plugin raised something that is no failure of navigation, or did not return within its budget."""
+
+
+def call(node: Node, what: str, function: Callable[..., Any], *arguments: Any, budget: float) -> Any:
+    """Call a plugin's method; `what` says in an error whose it is, `budget` is in seconds.
+
+    Raises what the method raises if that is a `NavigationFailure`, else `PluginFault`.
+    """
+    owner = getattr(function, "__self__", function)
+    is_ours = type(owner).__module__.startswith("rosmini.")
+    try:
+        if is_ours:
+            return function(*arguments)
+        return _in_lane(node, what, partial(function, *arguments), budget)
+    except (NavigationFailure, ROSInterruptException):
+        raise
+    except Exception as error:
+        raise PluginFault(f"{what} raised {type(error).__name__}: {error} ({_where(error)})") from error
+
+
+def _where(error: Exception) -> str:
+    """File and line of the plugin's own frame, the innermost that is not ours."""
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if not frame.filename.startswith(_OURS)] or list(frames)
+    return f"{Path(own[-1].filename).name}, line {own[-1].lineno}" if own else "nowhere"
+
+
+def _in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) -> Any:
+    waiter = node.waiter(f"{what} to return")
+
+    def run() -> None:
+        watch = LoopWatch(what, int(budget * TURNS_PER_SECOND))
+        watch.start()
+        try:
+            outcome = (task(), None)
+        except Exception as error:
+            outcome = (None, error)
+        finally:
+            watch.stop()
+        waiter.wake(outcome)
+
+    lane = node.spawn(f"{node.name} {what}", run)
+    if not node.wait(waiter, budget):
+        why = lane.waiting_for
+        lane.kill()
+        raise PluginFault(
+            f"{what} has not returned for {budget:g} s{f': it was waiting for {why}' if why else ''}. It was ended"
+        )
+    result, error = waiter.value
+    if error is not None:
+        raise error
+    return result
+
+
+class LoopWatch:
+    """Counts the turns of loops in code that is neither rosmini's nor Python's own, and raises `PluginFault` after `most`.
+
+    It counts by Python's trace function, so it stands back where a debugger or a measurement of coverage has that.
+    """
+
+    def __init__(self, what: str, most: int) -> None:
+        self.what, self.most, self.turns = what, most, 0
+        self._foreign: dict[str, bool] = {}
+
+    def start(self) -> None:
+        """Count from now on."""
+        if sys.gettrace() is None:
+            sys.settrace(self)
+
+    def stop(self) -> None:
+        """Count no more."""
+        if isinstance(sys.gettrace(), LoopWatch):
+            sys.settrace(None)
+
+    def __call__(self, frame: FrameType, event: str, _: Any) -> Callable[..., Any] | None:
+        """A frame begins (the signature is that of a trace function)."""
+        file = frame.f_code.co_filename
+        foreign = self._foreign.get(file)
+        if foreign is None:
+            foreign = self._foreign[file] = not file.startswith(_OURS)
+        if not foreign or event != "call":
+            return None
+        return self._lines_of(frame.f_lineno)
+
+    def _lines_of(self, line: int) -> Callable[..., Any]:
+        last = line
+
+        def trace(frame: FrameType, event: str, _: Any) -> Callable[..., Any]:
+            nonlocal last
+            if event == "line":
+                if frame.f_lineno <= last:
+                    self._turn(frame)
+                last = frame.f_lineno
+            return trace
+
+        return trace
+
+    def _turn(self, frame: FrameType) -> None:
+        self.turns += 1
+        if self.turns > self.most:
+            raise PluginFault(
+                f"{self.what} has not returned after {self.most:,} turns of its loops: does the one in line "
+                f"{frame.f_lineno} of {Path(frame.f_code.co_filename).name} end?"
+            )

@@ -1,0 +1,91 @@
+"""The two planners of `move_base`, which may be changed while it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from rosmini.errors import ROSInterruptException
+from rosmini.navigation.nav_core import BaseGlobalPlanner, BaseLocalPlanner
+from rosmini.navigation.nav_core.plugin_files import create, short_name
+from rosmini.plugins import PluginError
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+    from rosmini.tf import Buffer
+
+GLOBAL, LOCAL = "global", "local"
+
+
+class Planners:
+    """Loads planners by their names; `of` has the planners, `names` their names, by `GLOBAL` and `LOCAL`."""
+
+    def __init__(self, node: Node, buffer: Buffer, global_costmap: Any) -> None:
+        self._node, self._buffer = node, buffer
+        self._global_costmap = global_costmap
+        self.local_costmap: Any = None
+        self.of: dict[str, Any] = {}
+        self.names: dict[str, str] = {}
+        self._made: dict[str, list[Any]] = {}
+
+    def load(self, which: str, name: str) -> None:
+        """Make a planner and let it take over. Raises `PluginError`, and then the one that was there stays."""
+        made, before = self._created(which, name), self.names.get(which)
+        self._withdraw(which)
+        try:
+            self._bring(which, name, made)
+        except PluginError:
+            if before is not None:
+                self._withdraw(which)
+                self._bring(which, before, self._created(which, before))
+            raise
+        if which == LOCAL:
+            self._node.loginfo(f"Created local_planner {name}")
+
+    def _created(self, which: str, name: str) -> Any:
+        interface: Any = BaseGlobalPlanner if which == GLOBAL else BaseLocalPlanner
+        try:
+            return create(interface, name)
+        except PluginError as error:
+            raise PluginError(
+                f"Failed to create the {name} planner, are you sure it is properly registered and that the containing "
+                f"library is built? Exception: {error}"
+            ) from error
+
+    def _bring(self, which: str, name: str, made: Any) -> None:
+        """Let it begin, and keep in mind what it advertised."""
+        before = set(_handles(self._node))
+        try:
+            self._initialize(which, made, name)
+        finally:
+            self._made[which] = [each for each in _handles(self._node) if each not in before]
+        self.of[which], self.names[which] = made, name
+
+    def _initialize(self, which: str, made: Any, name: str) -> None:
+        try:
+            if which == GLOBAL:
+                made.initialize(short_name(name), self._global_costmap)
+            else:
+                made.initialize(short_name(name), self._buffer, self.local_costmap)
+        except ROSInterruptException:
+            raise
+        except Exception as error:
+            if (type(made).__module__ or "").startswith("rosmini."):
+                raise
+            raise PluginError(
+                f"initialize() of the {which} planner {name} raised {type(error).__name__}: {error}"
+            ) from error
+
+    def _withdraw(self, which: str) -> None:
+        """Withdraw what the planner advertised, so that the next one can have the same names."""
+        for handle in self._made.pop(which, ()):
+            getattr(handle, "unregister", getattr(handle, "shutdown", None))()
+
+
+def _handles(node: Node) -> Iterator[Any]:
+    """Every publisher, subscriber, service and timer of a node."""
+    for topics in (node.publications, node.subscriptions):
+        for topic in topics.values():
+            yield from topic.handles
+    yield from node.services.values()
+    yield from node.timers

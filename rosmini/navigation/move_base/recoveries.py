@@ -1,0 +1,102 @@
+"""The list of recovery behaviours: what `recovery_behaviors` says, or the default (http://wiki.ros.org/move_base)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from rosmini.navigation.nav_core import RecoveryBehavior
+from rosmini.navigation.nav_core.plugin_files import create, short_name
+from rosmini.plugins import PluginError
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+    from rosmini.tf import Buffer
+
+CLEAR, ROTATE = "clear_costmap_recovery/ClearCostmapRecovery", "rotate_recovery/RotateRecovery"
+
+
+class Named(NamedTuple):
+    """A behaviour under its name in the list."""
+
+    name: str
+    behavior: RecoveryBehavior
+
+
+class BadList(Exception):
+    """The list cannot be taken; the text says why, for the log."""
+
+
+def checked(entries: Any) -> list[tuple[str, str]]:
+    """Name and type of each behaviour of the parameter `recovery_behaviors`. Raises `BadList` with ROS's texts."""
+    if not isinstance(entries, list):
+        raise BadList(
+            "The recovery behavior specification must be a list, but is of the type "
+            f"{type(entries).__name__}. We'll use the default recovery behaviors instead."
+        )
+    found: dict[str, str] = {}
+    for entry in entries:
+        if not isinstance(entry, dict):
+            raise BadList(
+                "Recovery behaviors must be specified as maps, but they are of the type "
+                f"{type(entry).__name__}. We'll use the default recovery behaviors instead."
+            )
+        if "name" not in entry or "type" not in entry:
+            raise BadList(
+                "Recovery behaviors must have a name and a type and this does not. Using the default recovery "
+                f"behaviors instead. It has {', '.join(map(str, entry)) or 'nothing'}."
+            )
+        name = str(entry["name"])
+        if name in found:
+            raise BadList(
+                f"A recovery behavior with the name {name} already exists, this is not allowed. Using the default "
+                "recovery behaviors instead."
+            )
+        found[name] = str(entry["type"])
+    return list(found.items())
+
+
+class Recoveries:
+    """Makes the behaviours of a node."""
+
+    def __init__(self, node: Node, buffer: Buffer, global_costmap: Any, local_costmap: Any) -> None:
+        self._node = node
+        self._world = (buffer, global_costmap, local_costmap)
+
+    def load(self, *, rotate: bool, reset_distance: float, circumscribed_radius: float) -> list[Named]:
+        """Those that the parameter lists; without it, or where something is wrong with it, the default ones."""
+        if self._node.has_param("~recovery_behaviors"):
+            try:
+                listed = checked(self._node.get_param("~recovery_behaviors"))
+                return [Named(name, self._made(name, self._full_name(kind))) for name, kind in listed]
+            except BadList as error:
+                self._node.logerr(str(error))
+            except PluginError as error:
+                self._node.logerr(f"Failed to load a plugin. Using default recovery behaviors. Error: {error}")
+        return self._default(rotate, reset_distance, circumscribed_radius)
+
+    def _default(self, rotate: bool, reset_distance: float, circumscribed_radius: float) -> list[Named]:
+        """Clear far away, turn, clear nearer, turn again."""
+        self._node.set_param("~conservative_reset/reset_distance", reset_distance)
+        self._node.set_param("~aggressive_reset/reset_distance", circumscribed_radius * 4)
+        conservative = Named("conservative_reset", self._made("conservative_reset", CLEAR))
+        turn = [Named("rotate_recovery", self._made("rotate_recovery", ROTATE))] if rotate else []
+        aggressive = Named("aggressive_reset", self._made("aggressive_reset", CLEAR))
+        return [conservative, *turn, aggressive, *turn]
+
+    def _made(self, name: str, kind: str) -> RecoveryBehavior:
+        made = create(RecoveryBehavior, kind)
+        made.initialize(name, *self._world)
+        return made
+
+    def _full_name(self, kind: str) -> str:
+        """A class without its package, as files for old releases have it, under its whole name."""
+        if "/" in kind or ":" in kind:
+            return kind
+        for name in RecoveryBehavior.names():
+            if short_name(name) == kind:
+                self._node.logwarn(
+                    "Recovery behavior specifications should now include the package name. You are using a deprecated "
+                    f"API. Please switch from {kind} to {name} in your yaml file."
+                )
+                return name
+        return kind

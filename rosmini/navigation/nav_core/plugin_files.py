@@ -1,0 +1,173 @@
+"""Plugins of packages, found by their plugin XML, as pluginlib finds them (http://wiki.ros.org/pluginlib).
+
+A package in a workspace names the file in its manifest:
+
+    <export>
+      <nav_core plugin="${prefix}/planner_plugin.xml"/>
+    </export>
+
+and the file names the classes. Where there is the path of a library in C++, here there is a Python module of the package
+(in its folder `src/`, or beside its manifest):
+
+    <library path="my_pkg.planner">
+      <class name="my_pkg/MyPlanner" type="MyPlanner" base_class_type="nav_core::BaseGlobalPlanner"/>
+    </library>
+
+The module is loaded afresh each time that somebody asks for one of its plugins, so that what was edited takes effect.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+from rosmini.errors import RosminiError
+from rosmini.markup import Element, parse_file
+from rosmini.packages import Package, PackageIndex
+from rosmini.plugins import Plugin, PluginError
+from rosmini.rospy import importer
+
+T = TypeVar("T", bound=Plugin)
+
+EXPORT = "nav_core"
+
+
+class Declared(NamedTuple):
+    """A class that a plugin XML names."""
+
+    name: str
+    module: str
+    type: str
+    folder: Path
+    file: Path
+
+
+def create(interface: type[T], name: str) -> T:
+    """A new object of the plugin with this name: of one that is registered, or else of one in a plugin XML.
+
+    Raises `PluginError`, with similar names, if there is none, and for one that cannot be loaded.
+    """
+    wanted = name.replace("::", "/")
+    declared = next((each for each in declared_plugins(wanted) if each.name == wanted), None)
+    found = _load(interface, declared) if declared is not None else interface.named(name)
+    try:
+        return found()
+    except Exception as error:
+        raise PluginError(
+            f"the plugin {name} cannot be made: {type(error).__name__}: {error}; a plugin is made without arguments, "
+            "and learns the rest in initialize()"
+        ) from error
+
+
+def short_name(name: str) -> str:
+    """What is left of a plugin's name without its package: the namespace of its parameters.
+
+    >>> short_name("dwa_local_planner/DWAPlannerROS"), short_name("my_pkg::MyPlanner")
+    ('DWAPlannerROS', 'MyPlanner')
+    """
+    return name.replace(":", "/").rpartition("/")[2]
+
+
+def declared_plugins(name: str) -> Iterator[Declared]:
+    """What the packages of a workspace declare: first the one that the name begins with, then all others."""
+    index = PackageIndex()
+    first = name.partition("/")[0]
+    for package in sorted(index.names(), key=lambda each: (each != first, each)):
+        if package in index and (package == first or not _is_ours(index.path(package))):
+            yield from _declared(index.find(package))
+
+
+def _is_ours(folder: Path) -> bool:
+    """Whether a package is one that rosmini brings: its plugins are registered."""
+    from rosmini.packages import assets_dir
+
+    return folder.is_relative_to(assets_dir())
+
+
+def _declared(package: Package) -> Iterator[Declared]:
+    for export in package.exports:
+        path = export.get("plugin")
+        if export.tag != EXPORT or not path or _is_ours(package.path):
+            continue
+        file = Path(path.replace("${prefix}", str(package.path)))
+        if not file.is_file():
+            raise PluginError(
+                f"the manifest of {package.name} exports the plugin description {file}, and there is no such file: "
+                f"write it, or mend the line <{EXPORT} plugin=.../> of {package.manifest}"
+            )
+        root = parse_file(file)
+        libraries = [root] if root.tag == "library" else root.all("library")
+        for library in libraries:
+            for each in library.all("class"):
+                yield _class(each, library, package, file)
+
+
+def _class(element: Element, library: Element, package: Package, file: Path) -> Declared:
+    kind = element.attribute("type")
+    name = element.attributes.get("name") or kind
+    return Declared(
+        name.replace("::", "/"), library.attribute("path"), short_name(kind.replace(".", "/")), package.path, file
+    )
+
+
+def _load(interface: type[T], declared: Declared) -> type[T]:
+    module = _module(declared)
+    found = getattr(module, declared.type, None)
+    if found is None:
+        raise PluginError(
+            f"{declared.file} says that {declared.name} is the class {declared.type} of {declared.module}, and that "
+            f"module has none of this name"
+        )
+    if not (isinstance(found, type) and issubclass(found, interface)):
+        raise PluginError(
+            f"{declared.name} ({declared.module}.{declared.type}) does not derive from {interface.__name__}: "
+            f"class {declared.type}({interface.__name__})"
+        )
+    return found
+
+
+def _module(declared: Declared) -> Any:
+    folder, name = declared.folder, declared.module
+    if "/" in name or name.endswith(".so"):
+        raise PluginError(
+            f"{declared.file} names the library {name!r}: a library in C++ cannot be loaded here. Write the plugin in "
+            'Python, and name its module: <library path="my_pkg.planner">'
+        )
+    roots = [each for each in (folder / "src", folder) if (each / name.partition(".")[0]).exists()]
+    roots += [each for each in (folder / "src", folder) if (each / f"{name}.py").is_file()]
+    if not roots:
+        raise PluginError(
+            f"{declared.file} names the module {name}, and there is none in {folder / 'src'} or {folder}"
+        )
+    with _importing_from(roots[0]):
+        try:
+            return import_module(name)
+        except RosminiError:
+            raise
+        except Exception as error:
+            raise PluginError(
+                f"the module {name} of the plugin {declared.name} cannot be loaded: {type(error).__name__}: {error}"
+            ) from error
+
+
+@contextmanager
+def _importing_from(root: Path) -> Iterator[None]:
+    """Let modules be found in a folder, all of them anew, and ROS's by their names."""
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None)
+        if file and Path(file).is_relative_to(root):
+            del sys.modules[name]
+    is_mine = not importer.installed()
+    if is_mine:
+        importer.install()
+    sys.path.insert(0, str(root))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(root))
+        if is_mine:
+            importer.uninstall()
