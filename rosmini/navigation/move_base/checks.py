@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import nearest
+from rosmini.navigation.costmap_2d.inflation_layer import InflationLayer
 from rosmini.navigation.nav_core.plugin_files import short_name
+from rosmini.plugins import GROUP
 
 if TYPE_CHECKING:
     from rosmini.graph import Node
@@ -28,14 +31,14 @@ def check_setup(move_base: Any) -> None:
 
 def inflation_warnings(costmap: Any) -> list[str]:
     """What the inflation of a costmap leaves open between planner and controller."""
-    layers = [layer for layer in costmap.layers if hasattr(layer, "inflation_radius")]
+    layers = [layer for layer in costmap.layers if isinstance(layer, InflationLayer)]
     inscribed, circumscribed = costmap.inscribed_radius, costmap.circumscribed_radius
     if not layers:
         return [
             f"{costmap.name} has no inflation layer: plans lead along walls as if the robot were a point. Add "
             '{name: inflation_layer, type: "costmap_2d::InflationLayer"} to its plugins'
         ]
-    radius = max(layer.inflation_radius for layer in layers)
+    radius = max(layer.radius for layer in layers)
     found = []
     if radius < inscribed:
         found.append(
@@ -56,7 +59,8 @@ def inflation_warnings(costmap: Any) -> list[str]:
 def unread_namespaces(node: Node, known: list[str]) -> list[str]:
     """Namespaces of the node that nobody reads, and whose names look like one that somebody does."""
     tree = node.get_param("~", {})
-    unread = [name for name, value in tree.items() if isinstance(value, dict) and name not in known]
+    plugins = {short_name(entry.name) for entry in entry_points(group=GROUP)}  # a file may serve several planners
+    unread = [name for name, value in tree.items() if isinstance(value, dict) and name not in {*known, *plugins}]
     return [
         f"nobody reads the parameters in {node.name}/{name}; {hint}"
         for name in unread
