@@ -20,14 +20,12 @@ def offsets_within(tolerance: float, resolution: float) -> Iterator[tuple[float,
     step = resolution * STEP_CELLS
     if 0 < tolerance < step:
         step = tolerance
-    ring = 1
-    while ring * step <= tolerance + 1e-9:
+    for ring in range(1, int(tolerance / step + 1e-9) + 1):
         for down, right in product(range(ring + 1), repeat=2):
             if max(down, right) < ring:
                 continue
             for up, along in product((-1, 1) if down else (1,), (-1, 1) if right else (1,)):
                 yield along * right * step, up * down * step
-        ring += 1
 
 
 class PlannerLane:

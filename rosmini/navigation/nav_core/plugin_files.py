@@ -143,7 +143,7 @@ def _module(declared: Declared) -> Any:
         raise PluginError(
             f"{declared.file} names the module {name}, and there is none in {folder / 'src'} or {folder}"
         )
-    with _importing_from(roots[0]):
+    with _importing_from(roots[0], name.partition(".")[0]):
         try:
             return import_module(name)
         except RosminiError:
@@ -155,11 +155,11 @@ def _module(declared: Declared) -> Any:
 
 
 @contextmanager
-def _importing_from(root: Path) -> Iterator[None]:
-    """Let modules be found in a folder, all of them anew, and ROS's by their names."""
+def _importing_from(root: Path, top: str) -> Iterator[None]:
+    """Let modules be found in a folder, all of them and those of the package `top` anew, and ROS's by their names."""
     for name, module in list(sys.modules.items()):
         file = getattr(module, "__file__", None)
-        if file and Path(file).is_relative_to(root):
+        if name.partition(".")[0] == top or (file and Path(file).is_relative_to(root)):
             del sys.modules[name]
     is_mine = not importer.installed()
     if is_mine:
