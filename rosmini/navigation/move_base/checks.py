@@ -34,10 +34,11 @@ def inflation_warnings(costmap: Any) -> list[str]:
     layers = [layer for layer in costmap.layers if isinstance(layer, InflationLayer)]
     inscribed, circumscribed = costmap.inscribed_radius, costmap.circumscribed_radius
     if not layers:
-        return [
+        text = (
             f"{costmap.name} has no inflation layer: plans lead along walls as if the robot were a point. Add "
             '{name: inflation_layer, type: "costmap_2d::InflationLayer"} to its plugins'
-        ]
+        )
+        return [text]
     radius = max(layer.radius for layer in layers)
     found = []
     if radius < inscribed:
@@ -59,8 +60,12 @@ def inflation_warnings(costmap: Any) -> list[str]:
 def unread_namespaces(node: Node, known: list[str]) -> list[str]:
     """Namespaces of the node that nobody reads, and whose names look like one that somebody does."""
     tree = node.get_param("~", {})
-    plugins = {short_name(entry.name) for entry in entry_points(group=GROUP)}  # a file may serve several planners
-    unread = [name for name, value in tree.items() if isinstance(value, dict) and name not in {*known, *plugins}]
+    plugins = {
+        short_name(entry.name) for entry in entry_points(group=GROUP)
+    }  # a file may serve several planners
+    unread = [
+        name for name, value in tree.items() if isinstance(value, dict) and name not in {*known, *plugins}
+    ]
     return [
         f"nobody reads the parameters in {node.name}/{name}; {hint}"
         for name in unread

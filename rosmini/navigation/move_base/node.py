@@ -82,7 +82,7 @@ class MoveBase:
         self.lane = PlannerLane(node, self.machine, self._make_plan, self._stop_base)
         check_setup(self)
         self.action.start()
-        self._defaults = self._last = None
+        self._defaults: dict[str, Any] | None = None
         self._reconfigure_server = Server(node, MoveBaseConfig, self._reconfigure)
 
     def _advertise(self) -> None:
@@ -111,7 +111,9 @@ class MoveBase:
         self.node.service("~clear_costmaps", service_class("std_srvs/Empty"), self._clear_costmaps)
 
     def __repr__(self) -> str:
-        return f"<MoveBase {self.node.name}: {self.state.value}{'' if self.goal is None else ', with a goal'}>"
+        return (
+            f"<MoveBase {self.node.name}: {self.state.value}{'' if self.goal is None else ', with a goal'}>"
+        )
 
     # -- what others look at -------------------------------------------------------------------------------------
 
@@ -417,7 +419,12 @@ class MoveBase:
             with suppress(TransformMissing):
                 x, y, _ = planar_pose(costmap.robot_pose())
                 half = side / 2
-                square = [(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)]
+                square = [
+                    (x - half, y - half),
+                    (x + half, y - half),
+                    (x + half, y + half),
+                    (x - half, y + half),
+                ]
                 costmap.set_costs(square, FREE_SPACE)
 
     def _clear_costmaps(self, _: Any) -> dict[str, Any]:

@@ -16,7 +16,7 @@ STEP_CELLS = 3.0
 
 
 def offsets_within(tolerance: float, resolution: float) -> Iterator[tuple[float, float]]:
-    """Offsets (dx, dy) [m] around a goal, on squares that grow from the nearest to `tolerance` [m], as in `make_plan`."""
+    """Offsets (dx, dy) [m] around a goal, on squares that grow to `tolerance` [m], as in `make_plan`."""
     step = resolution * STEP_CELLS
     if 0 < tolerance < step:
         step = tolerance

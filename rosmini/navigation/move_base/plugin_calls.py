@@ -63,6 +63,7 @@ def _in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) -> A
     def run() -> None:
         watch = LoopWatch(what, int(budget * TURNS_PER_SECOND))
         watch.start()
+        outcome: tuple[Any, Exception | None]
         try:
             outcome = (task(), None)
         except Exception as error:
@@ -85,7 +86,7 @@ def _in_lane(node: Node, what: str, task: Callable[[], Any], budget: float) -> A
 
 
 class LoopWatch:
-    """Counts the turns of loops in code that is neither rosmini's nor Python's own, and raises `PluginFault` after `most`.
+    """Counts the turns of loops in code that is neither rosmini's nor Python's, and raises `PluginFault` after `most`.
 
     It counts by Python's trace function, so it stands back where a debugger or a measurement of coverage has that.
     """

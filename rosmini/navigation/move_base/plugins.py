@@ -79,7 +79,8 @@ class Planners:
     def _withdraw(self, which: str) -> None:
         """Withdraw what the planner advertised, so that the next one can have the same names."""
         for handle in self._made.pop(which, ()):
-            getattr(handle, "unregister", getattr(handle, "shutdown", None))()
+            end = handle.unregister if hasattr(handle, "unregister") else handle.shutdown
+            end()
 
 
 def _handles(node: Node) -> Iterator[Any]:

@@ -71,7 +71,9 @@ class Recoveries:
             except BadList as error:
                 self._node.logerr(str(error))
             except PluginError as error:
-                self._node.logerr(f"Failed to load a plugin. Using default recovery behaviors. Error: {error}")
+                self._node.logerr(
+                    f"Failed to load a plugin. Using default recovery behaviors. Error: {error}"
+                )
         return self._default(rotate, reset_distance, circumscribed_radius)
 
     def _default(self, rotate: bool, reset_distance: float, circumscribed_radius: float) -> list[Named]:
@@ -84,7 +86,8 @@ class Recoveries:
         return [conservative, *turn, aggressive, *turn]
 
     def _made(self, name: str, kind: str) -> RecoveryBehavior:
-        made = create(RecoveryBehavior, kind)
+        interface: Any = RecoveryBehavior
+        made: RecoveryBehavior = create(interface, kind)
         made.initialize(name, *self._world)
         return made
 

@@ -6,8 +6,8 @@ A package in a workspace names the file in its manifest:
       <nav_core plugin="${prefix}/planner_plugin.xml"/>
     </export>
 
-and the file names the classes. Where there is the path of a library in C++, here there is a Python module of the package
-(in its folder `src/`, or beside its manifest):
+and the file names the classes. Where there is the path of a library in C++, here there is a Python module of the
+package (in its folder `src/`, or beside its manifest):
 
     <library path="my_pkg.planner">
       <class name="my_pkg/MyPlanner" type="MyPlanner" base_class_type="nav_core::BaseGlobalPlanner"/>
@@ -110,7 +110,11 @@ def _class(element: Element, library: Element, package: Package, file: Path) -> 
     kind = element.attribute("type")
     name = element.attributes.get("name") or kind
     return Declared(
-        name.replace("::", "/"), library.attribute("path"), short_name(kind.replace(".", "/")), package.path, file
+        name.replace("::", "/"),
+        library.attribute("path"),
+        short_name(kind.replace(".", "/")),
+        package.path,
+        file,
     )
 
 

@@ -50,7 +50,9 @@ class RotateRecovery(RecoveryBehavior, plugin="rotate_recovery/RotateRecovery"):
         super().initialize(name, buffer, global_costmap, local_costmap)
         self.node = local_costmap.node
         self.parameters = RotateParameters.read(self.node, f"~{name}")
-        self.acceleration, self.fastest, self.slowest, self.tolerance = (self._limit(*each) for each in LIMITS)
+        self.acceleration, self.fastest, self.slowest, self.tolerance = (
+            self._limit(*each) for each in LIMITS
+        )
         self._twist = message_class("geometry_msgs/Twist")
         self._commands = self.node.publisher("cmd_vel", self._twist, queue_size=10)
 

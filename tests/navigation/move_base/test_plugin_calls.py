@@ -27,7 +27,7 @@ class Mine:
         raise NoPath("a wall")
 
     def raises(self):
-        return [][1]
+        return list("ab")[2]
 
     def spins(self):
         while True:
@@ -76,7 +76,10 @@ def test_its_own_failures_come_through(node):
 def test_what_it_raises_is_said_with_its_place(node):
     error = asked(node, Mine(node).raises)
     assert isinstance(error, PluginFault)
-    assert "the planner mine/Mine raised IndexError: list index out of range (test_plugin_calls.py, line" in str(error)
+    assert (
+        "the planner mine/Mine raised IndexError: list index out of range (test_plugin_calls.py, line"
+        in str(error)
+    )
 
 
 @traced
