@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .search import NavfnSearch, Search
+from .search import NavfnSearch, Search, show_steps
 from .wave import HIGH
 
-__all__ = ["HIGH", "NavfnSearch", "Search"]
+__all__ = ["HIGH", "NavfnSearch", "Search", "show_steps"]

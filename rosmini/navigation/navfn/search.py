@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -171,6 +172,11 @@ class Search(ABC):
 
     @abstractmethod
     def _waiting(self) -> NDArray[np.int32]: ...
+
+
+def show_steps(searches: Mapping[str, Search], **options: Any) -> Any:
+    """Searches that have not begun, by name, beside each other: in a page one steps them with a slider."""
+    return show("search_steps", searches, **options)
 
 
 class WaveSearch(Search):

@@ -1,0 +1,162 @@
+"""A search on a grid of costs from above: what it reached and at what cost, what waits, parents, and the path."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.navigation.nav_core import PlanningFailure
+from rosmini.navigation.navfn import Search
+from rosmini.viz.figures import WIDTH
+from rosmini.viz.map_pictures import gif_address
+from rosmini.viz.rounding import fixed
+from rosmini.viz.rviz.gifs import gif
+from rosmini.viz.svg import document, element
+from rosmini.viz.view import Picture, ViewError
+
+Bytes = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+
+NEAR, FAR = (214, 234, 248), (0, 84, 148)
+"""Colours of cells that were reached, from the start to the farthest one."""
+WAITING = (230, 159, 0)
+BLOCKED, UNKNOWN = 60, 170
+"""Greys of cells that no way leads through, and of unknown ones that one may."""
+SHADES = 200
+MANY = 2_500
+"""With more cells, parents are not drawn: one could not see them."""
+HEIGHT = 460.0
+
+
+def search_picture(
+    search: Search, *, parents: bool = False, title: str | None = None, width: float = WIDTH
+) -> Picture:
+    """Draw a search as it is now, to scale, row 0 at the bottom.
+
+    Args:
+        search: what was searched, to its end or not.
+        parents: whether to draw a line from each cell to the one its potential comes from.
+        title: a caption, and the first words of the text form.
+        width: at most [CSS px].
+
+    Raises:
+        ViewError: it is no search, or it has too many cells for their parents to be seen.
+
+    """
+    if not isinstance(search, Search):
+        raise ViewError(f"a search is a NavfnSearch or the like, not a {type(search).__name__}")
+    cells = search.width * search.height
+    if parents and cells > MANY:
+        raise ViewError(
+            f"parents of {cells} cells cannot be seen: take a grid of {MANY} at most, or parents=False"
+        )
+    scale = min(width / search.width, HEIGHT / search.height)
+    w, h = search.width * scale, search.height * scale
+    data, _ = gif(_painted(search)[::-1])
+    still: dict[str, Any] = {"preserveAspectRatio": "none", "style": "image-rendering:pixelated"}
+    parts = [element("image", href=gif_address(data), x=0, y=0, width=w, height=h, **still)]
+    if parents:
+        parts.append(_line(_parent_lines(search, scale), "rm-parents"))
+    path = path_of(search)
+    if path is not None:
+        parts.append(_line(_polyline(path, search.height, scale), "rm-path"))
+    for point, kind in ((search.start, "rm-start"), (search.goal, "rm-goal")):
+        x, y = _placed(np.array([point]), search.height, scale)[0]
+        parts.append(element("circle", cx=fixed(x, 1), cy=fixed(y, 1), r=max(4.0, scale / 3), class_=kind))
+    said = said_of(search)
+    svg = document(
+        "".join(parts), width=w, height=h, title=title or "search", alt=f"A search from above. {said}.",
+        css=STYLE, colours=["page", "vermilion", "green", "ink"],
+    )  # fmt: skip
+    return Picture(
+        svg,
+        text=f"{title or 'search'}: {said}",
+        alt=f"A search on a grid, from above. {said}.",
+        caption=title,
+    )
+
+
+STYLE = (
+    ".rosmini-svg .rm-path{fill:none;stroke:#d55e00;stroke-width:2.5}"
+    ".rosmini-svg .rm-parents{fill:none;stroke:#333;stroke-width:1}"
+    ".rosmini-svg .rm-start{fill:#009e73;stroke:#fefefe;stroke-width:1.5}"
+    ".rosmini-svg .rm-goal{fill:#d55e00;stroke:#fefefe;stroke-width:1.5}"
+)
+
+
+def path_of(search: Search) -> Floats | None:
+    """The path, if the search has arrived."""
+    if not search.arrived:
+        return None
+    try:
+        return search.path()
+    except PlanningFailure:
+        return None
+
+
+def said_of(search: Search) -> str:
+    """A search in words."""
+    said = f"{search.expanded} cells taken up, {int(search.reached.sum())} of {search.width * search.height} reached"
+    path = path_of(search)
+    if path is not None:
+        length = float(np.hypot(*np.diff(path, axis=0).T).sum())
+        column, row = np.floor(np.array(search.goal) + 0.5).astype(int)
+        cost = search.potential_at((int(column), int(row)))
+        return f"{said}, path of {fixed(length, 1)} cells, potential {fixed(cost, 0)} at the goal"
+    if search.finished and not search.arrived:
+        return f"{said}, the goal not among them"
+    return said if search.arrived else f"{said}, {len(search.frontier)} waiting"
+
+
+def greys_of(search: Search) -> Bytes:
+    """The ground (h, w) in grey: the higher the cost the darker, and nearly black where no way leads."""
+    costs = search.costs[1:-1, 1:-1]
+    greys = (255 - 0.35 * np.minimum(costs, 252)).astype(np.uint8)
+    greys[costs == 255] = UNKNOWN
+    greys[~np.isfinite(search.table[costs])] = BLOCKED
+    return greys
+
+
+def shades() -> Bytes:
+    """The colours (SHADES, 3) of cells that were reached."""
+    share = np.linspace(0, 1, SHADES)[:, None]
+    return np.rint((1 - share) * NEAR + share * FAR).astype(np.uint8)
+
+
+def _painted(search: Search) -> Bytes:
+    pixels = np.full((search.height, search.width, 4), 255, dtype=np.uint8)
+    pixels[..., :3] = greys_of(search)[..., None]
+    reached = search.reached
+    highest = max(1.0, float(np.max(search.potential, where=reached, initial=0.0)))
+    rank = np.floor(search.potential[reached] / highest * (SHADES - 1) + 1e-6).astype(int)
+    pixels[reached, :3] = shades()[rank]
+    if not search.finished:
+        columns, rows = search.frontier.T
+        pixels[rows, columns, :3] = WAITING
+    return pixels
+
+
+def _placed(points: Floats, rows: int, scale: float) -> Floats:
+    return np.stack([(points[:, 0] + 0.5) * scale, (rows - points[:, 1] - 0.5) * scale], axis=-1)
+
+
+def _polyline(points: Floats, rows: int, scale: float) -> str:
+    return "M" + "L".join(f"{fixed(x, 1)} {fixed(y, 1)}" for x, y in _placed(points, rows, scale))
+
+
+def _parent_lines(search: Search, scale: float) -> str:
+    parents = search.parents
+    rows, columns = np.nonzero(parents[..., 0] >= 0)
+    begin = _placed(np.stack([columns, rows], axis=-1).astype(float), search.height, scale)
+    end = _placed(parents[rows, columns].astype(float), search.height, scale)
+    end = begin + 0.75 * (end - begin)
+    return "".join(
+        f"M{fixed(a, 1)} {fixed(b, 1)}L{fixed(c, 1)} {fixed(d, 1)}"
+        for (a, b), (c, d) in zip(begin.tolist(), end.tolist(), strict=True)
+    )
+
+
+def _line(path: str, kind: str) -> str:
+    return element("path", d=path or "M0 0", class_=kind)
