@@ -74,7 +74,7 @@ class MapServer:
                 self._deprecated(*arguments) if len(arguments) == 2 else map_file(_path_of(arguments[0]))
             )
         except MapError as error:
-            node.logerr(_words_of(error, arguments[0]) or error)
+            node.logerr(_words_of(error, arguments[0]))
             raise
         self._publish()
 
@@ -117,7 +117,7 @@ class MapServer:
         try:
             self.grid = self._load(map_file(_path_of(request.map_url)))
         except MapError as error:
-            self.node.logerr(f"{_words_of(error, request.map_url)} {error}".lstrip())
+            self.node.logerr(_words_of(error, request.map_url))
             return {"result": error.result}
         self._publish()
         self.node.loginfo(f"Changed map to {request.map_url}")
@@ -137,12 +137,11 @@ def _path_of(address: str) -> str:
 
 
 def _words_of(error: MapError, path: str) -> str:
-    """What map_server says of it, for who searches for these words."""
+    """What map_server says of it, for who searches for these words, and then what we know."""
+    said = str(error)
     if isinstance(error, MapMissing):
-        return f"Map_server could not open {path}."
+        return f"Map_server could not open {path}. {said[:1].upper()}{said[1:]}"
     field = error.field if isinstance(error, MapMetadataError) else ""
-    return (
-        f"The map does not contain a{'n' * (field[:1] in 'aeiou')} {field} tag or it is invalid."
-        if field
-        else ""
-    )
+    if not field:
+        return said
+    return f"The map does not contain a{'n' * (field[:1] in 'aeiou')} {field} tag or it is invalid. {said}"
