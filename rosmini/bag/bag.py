@@ -24,7 +24,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Self
 from rosmini.errors import DeserializationError, shown
 from rosmini.files import check
 from rosmini.graph import running_graph
-from rosmini.graph.show import show
 from rosmini.time import Time
 
 from .errors import (
@@ -402,29 +401,6 @@ class Bag(Summaries):
 
     def _get_yaml_info(self, key: str | None = None) -> str | None:
         return info_yaml(self, key)
-
-    def show(self, **options: Any) -> Any:
-        """Return a picture of what is in the bag over time, as the tool ``rqt_bag`` draws it.
-
-        Options, with what they are unless given:
-            topics=None: only these topics; None: all
-            gap=3.0: a pause is a gap if it is this many times the usual one, and a hundredth of the bag
-            title=None: a caption under the picture, and the first words of its text form
-            width=660.0: of the picture [CSS px]
-        """
-        return show("bag", self, **options)
-
-    def replay(self, **options: Any) -> Any:
-        """Return a player of what is in the bag, from above: robots, maps, plans, particles, scans, markers.
-
-        Options, with what they are unless given:
-            title=None: a caption under the player, and the first words of its text form
-            names=None: a list with the run's name
-            topics=None: only these topics; None: all that can be shown
-            frame=None: what everything is drawn in; None: map, odom or world, whichever there is first
-            robot=None: what robots look like from above: a model or its name; None: an arrow head
-        """
-        return show("replay", self, **options)
 
     # -- writing -----------------------------------------------------------------------------------------------------
 

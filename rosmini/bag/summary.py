@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from rosmini.errors import nearest
+from rosmini.graph.show import show
 from rosmini.names import canonicalize
 from rosmini.time import Time
 
@@ -65,7 +66,7 @@ class TypesAndTopicsTuple(NamedTuple):
 
 
 class Summaries(Protocol):
-    """The methods of a bag that only look at its index, and what they need of it."""
+    """The methods of a bag that only look into it or show it, and what they need of it."""
 
     _types: Types
 
@@ -187,6 +188,29 @@ class Summaries(Protocol):
                 here[0].type, count, len(here), _frequency(reader, here) if freq else None
             )
         return topics
+
+    def show(self, **options: Any) -> Any:
+        """Return a picture of what is in the bag over time, as the tool ``rqt_bag`` draws it.
+
+        Options, with what they are unless given:
+            topics=None: only these topics; None: all
+            gap=3.0: a pause is a gap if it is this many times the usual one, and a hundredth of the bag
+            title=None: a caption under the picture, and the first words of its text form
+            width=660.0: of the picture [CSS px]
+        """
+        return show("bag", self, **options)
+
+    def replay(self, **options: Any) -> Any:
+        """Return a player of what is in the bag, from above: robots, maps, plans, particles, scans, markers.
+
+        Options, with what they are unless given:
+            title=None: a caption under the player, and the first words of its text form
+            names=None: a list with the run's name
+            topics=None: only these topics; None: all that can be shown
+            frame=None: what everything is drawn in; None: map, odom or world, whichever there is first
+            robot=None: what robots look like from above: a model or its name; None: an arrow head
+        """
+        return show("replay", self, **options)
 
 
 def _frequency(reader: Reader, connections: Iterable[Connection]) -> float | None:
