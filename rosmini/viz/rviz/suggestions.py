@@ -20,6 +20,10 @@ SPECIAL = {"tf2_msgs/TFMessage": "rviz/TF"}
 ASKED_FOR = ("rviz/Camera", "rviz/DepthCloud", "rviz/Effort")
 """What is shown only if it is asked for: other displays show these messages plainly, or they mean it for few robots."""
 INTERACTIVE = "visualization_msgs/InteractiveMarkerUpdate"
+TRUTH = "base_pose_ground_truth"
+"""A simulator's word on where a robot is, in a frame `map` that nobody publishes where nobody localises a robot."""
+TF_SCALE = 0.35
+"""Of the axes of frames: at RViz's own they are as long as a TurtleBot3, and hide it."""
 SMALL = {"Shaft Length": 0.25, "Shaft Radius": 0.02, "Head Length": 0.1, "Head Radius": 0.05}
 """An arrow for robots of the size of a TurtleBot3: RViz's own is longer than a metre [m]."""
 
@@ -53,7 +57,7 @@ def suggested(graph: Graph, fixed_frame: str | None = None) -> Config:
         elif kind == INTERACTIVE:
             displays.append({"Class": "rviz/InteractiveMarkers", "Name": topic, "Update Topic": topic})
         elif kind in SPECIAL and topic == "/tf":
-            displays.append({"Class": SPECIAL[kind], "Name": "TF"})
+            displays.append({"Class": SPECIAL[kind], "Name": "TF", "Marker Scale": TF_SCALE})
     if "rviz/RobotModel" in Display.names() and _has_robot(graph):
         displays.insert(1, {"Class": "rviz/RobotModel", "Name": "RobotModel"})
     displays.sort(key=lambda each: each["Class"] not in ("rviz/Grid", "rviz/Map"))
@@ -61,6 +65,8 @@ def suggested(graph: Graph, fixed_frame: str | None = None) -> Config:
     options = config.options()
     has_map = any(each["Class"] == "rviz/Map" for each in displays)
     options["Fixed Frame"] = fixed_frame or ("map" if has_map else "odom")
+    if options["Fixed Frame"] != "map":
+        displays = [each for each in displays if not each["Name"].endswith(TRUTH)]
     return config.with_parts(displays, options, None)
 
 
