@@ -153,8 +153,12 @@ def _live(script_names: Sequence[str], assets: Sequence[str]) -> str:
     )
     if "</script" in scripts.lower():
         raise ViewError(f"one of the scripts {', '.join(script_names)} holds the end of a script element")
-    packed = json.dumps({name: _packed(name) for name in assets})
-    return _ALONE % {"scripts": scripts, "packed": packed}
+    return _ALONE % {"scripts": scripts, "unpacking": unpacking(assets)}
+
+
+def unpacking(assets: Sequence[str]) -> str:
+    """A script with files in it that defines `asset(name)`, a promise of a file's address."""
+    return _UNPACKING % json.dumps({name: _packed(name) for name in assets})
 
 
 @cache
@@ -181,9 +185,8 @@ const load = (name) => loaded[name] ??= asset(name).then((address) => new Promis
 }));
 const ready = %s.reduce((before, name) => before.then(() => load(name)), Promise.resolve());
 """
-_ALONE = """
-%(scripts)s
-const book = false, packed = %(packed)s;
+_UNPACKING = """
+const packed = %s;
 const unpack = async (name) => {
   const bytes = Uint8Array.from(atob(packed[name]), (character) => character.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -192,6 +195,11 @@ const unpack = async (name) => {
 };
 const addresses = globalThis.rosminiAddresses ??= {};
 const asset = (name) => addresses[name] ??= unpack(name);
+"""
+_ALONE = """
+%(scripts)s
+const book = false;
+%(unpacking)s
 const ready = Promise.resolve();
 """
 _MOUNT = """

@@ -154,11 +154,14 @@ class Chosen:
         ]
         return [*engine.obstacles(), *others]
 
+    def fixed(self) -> list[Obstacle]:
+        """All that stays where it is."""
+        return [obstacle for obstacle in self.world.obstacles if obstacle.fixed]
+
     def scene(self) -> dict[str, Any]:
         """The world as it is now, with the robot, for the scripts of a page; what can be pushed comes last."""
         world, height = self.world, self.model.laser.mount[2]
-        fixed = [obstacle for obstacle in world.obstacles if obstacle.fixed]
-        obstacles = (*fixed, *self.moving())
+        obstacles = (*self.fixed(), *self.moving())
         scene = scene_data(replace(world, obstacles=obstacles), self.model)
         scene["shapes"] = [
             self._flagged(obstacle, shape) for obstacle in obstacles for shape in shapes_of(obstacle)

@@ -76,6 +76,8 @@ class TeleopPad(View):
             turtles, or `teleop_twist_keyboard`. (The last sends each message
             once; the pad sends it ten times a second, as with `_repeat_rate:=10` there.)
         hold: whether a key has to be held, as a dead man's switch has: the robot stops when it is released.
+        solid: whether the robot is shown in three dimensions, from behind, in the place of the map; where a browser
+            cannot, the map stays.
         title: a caption under the pad, and the first line of its text form.
 
     Raises:
@@ -93,6 +95,7 @@ class TeleopPad(View):
         limits: Limits | None = None,
         keys: str = "",
         hold: bool = False,
+        solid: bool = False,
         title: str | None = None,
     ) -> None:
         self.sight: Chosen | None = None
@@ -100,6 +103,7 @@ class TeleopPad(View):
         self.chosen = ""
         """Which of the `choices` is driven."""
         self.hold = hold
+        self.solid = solid
         self._driven, self._limits = driven, limits
         namespace = "/"
         if isinstance(driven, Graph):

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, Any, Protocol
 
-from rosmini.viz.embed import asset_path, embed
+from rosmini.viz.embed import MESHCAT, asset_path, embed, unpacking
 from rosmini.viz.svg import element, escape
 
 from .key_maps import NAMES, key_map
@@ -33,12 +34,16 @@ SCRIPTS = (
     "rosmini-pad-keys.js",
     "rosmini-pad.js",
 )
+SOLID = "rosmini-meshcat.js"
+"""What shows a robot in three dimensions."""
 HEIGHT = 420
 
 
 def scripts_of(pad: Pad) -> tuple[str, ...]:
     """The scripts of a pad's page, in the order in which they are run."""
-    return SCRIPTS if pad.turtle is None else (*SCRIPTS, "rosmini-turtle.js")
+    if pad.turtle is not None:
+        return (*SCRIPTS, "rosmini-turtle.js")
+    return (*SCRIPTS, SOLID) if pad.solid else SCRIPTS
 
 
 class Pad(Protocol):
@@ -49,6 +54,7 @@ class Pad(Protocol):
     teleop: Teleop
     sent: int
     hold: bool
+    solid: bool
     chosen: str
 
     @property
@@ -120,7 +126,19 @@ def pad_data(pad: Pad) -> dict[str, Any]:
         x, y, theta = pad.sight.look()
         pose = [round(x + 1e-8, 3) + 0.0, round(y + 1e-8, 3) + 0.0, round(theta + 1e-8, 4) + 0.0]
         data |= {"scene": pad.sight.scene(), "pose": pose, "scan_rate": pad.sight.model.laser.rate}
+        if pad.solid:
+            data["solid"] = _solid(pad.sight)
     return data
+
+
+def _solid(sight: Chosen) -> dict[str, Any]:
+    """The world and the robot in three dimensions, as the viewer's script takes them."""
+    from rosmini.viz.meshcat.view import robot_3d
+
+    view = robot_3d(
+        replace(sight.world, obstacles=(*sight.fixed(), *sight.moving())), sight.model, sight.look()
+    )
+    return view.data()
 
 
 def _maps(pad: Pad) -> list[str]:
@@ -159,6 +177,7 @@ def static_html(pad: Pad, *, caption: str | None = None) -> str:
         height=HEIGHT,
         fallback_html=_still(pad),
         caption=caption,
+        assets=[MESHCAT] if pad.solid else [],
     )
 
 
@@ -166,6 +185,8 @@ def static_html(pad: Pad, *, caption: str | None = None) -> str:
 def module(names: Sequence[str], driver: str) -> str:
     """Scripts as one module for anywidget, in which `driver` talks to the kernel."""
     texts = [asset_path(name).read_text(encoding="utf-8") for name in names]
+    if SOLID in names:
+        texts.insert(0, f"globalThis.rosminiAsset = (() => {{{unpacking([MESHCAT])} return asset; }})();")
     return "\n".join([*texts, f"export default {{ render: globalThis.{driver}.render }};\n"])
 
 

@@ -92,8 +92,9 @@ class MeshcatView(View):
         """The viewer with all that it needs, for a file of its own."""
         return self._html(book=False)
 
-    def _html(self, book: bool | None) -> str:
-        data = {
+    def data(self) -> dict[str, Any]:
+        """What the script of the viewer takes."""
+        return {
             "commands": self.scene.commands,
             "themes": self.scene.themes,
             "duration": self.scene.duration,
@@ -102,8 +103,10 @@ class MeshcatView(View):
             **({"copies": self.scene.copies} if self.scene.copies else {}),
             **self.extra,
         }
+
+    def _html(self, book: bool | None) -> str:
         return embed(
-            ["rosmini-meshcat.js"], "rosminiMeshcat.mount", data, title=self.label, alt=self.alt,
+            ["rosmini-meshcat.js"], "rosminiMeshcat.mount", self.data(), title=self.label, alt=self.alt,
             height=self._height, fallback_html=self.svg, caption=self.title, assets=[MESHCAT], book=book,
         )  # fmt: skip
 

@@ -5,6 +5,8 @@
    animation or 0, `follow` (the path of what the camera follows, or null), `legend` (names and colours of lines), and
    `scan` with a recorded laser (or absent), `copies` with pairs of paths: at the second is once more what is at the first (or absent),
    `background` with the scene's own colour (or absent: that of the page), `labels` with words at points (or absent).
+   With `options.driven` the robot is under somebody's keys: that function is called with `put(pose)`, which moves it and
+   the camera behind it, and neither mouse nor keys turn the scene.
 
    The viewer runs in a frame, so its styles and its globals stay there. It is made when the reader comes near it, and
    again if the page takes the frame out and puts it back. Outside a click it leaves the wheel to the page. */
@@ -23,6 +25,7 @@
   const JUMP = 0.2; // seconds
   const EARLY = 1; // seconds: a scan that comes so soon after the start is there from the start
   const SAMPLES = 240; // of the way that a robot has come
+  const [BEHIND, ABOVE, AHEAD] = [0.75, 0.55, 0.2]; // metres: where the camera is from a robot that is driven, and where it looks
   const ROBOT = "/meshcat/robots/robot";
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
@@ -80,6 +83,7 @@
     const bar = data.duration > 0 ? playerBar(state, data, options) : null;
     host.append(frame, ...(bar ? [bar.element] : []));
     onTheme(() => state.viewer && paint(state.viewer, data));
+    if (options.driven) frame.style.pointerEvents = "none"; // a click is for the keys around it
     frame.addEventListener("load", () => {
       if (frame.contentDocument.getElementById("pane")) start(frame, address, data, options, state, bar);
     });
@@ -107,7 +111,8 @@
       viewer.controls.minDistance = 0.15;
       viewer.controls.maxDistance = 60;
       viewer.controls.maxPolarAngle = Math.PI / 2 - 0.02; // not below the ground
-      hands(frame, viewer, options, bar);
+      if (options.driven) options.driven((pose) => put(viewer, pose));
+      else hands(frame, viewer, options, bar);
       paint(viewer, data);
       if (bar) {
         viewer.animator.play(); // so that the actions count; this script moves their time
@@ -225,6 +230,18 @@
     now.set(...target);
     const at = viewer.camera.position;
     at.set(at.x + delta[0], at.y, at.z + delta[2]);
+  }
+
+  /* The robot at a pose (x, y [m], heading [rad]), and the camera behind and above it. */
+  function put(viewer, [x, y, heading]) {
+    const robot = find(viewer, ROBOT);
+    robot.position.set(x, y, robot.position.z);
+    robot.rotation.set(0, 0, heading);
+    const root = find(viewer, "/meshcat").position; // z is up in it, y in the camera's frame
+    const [ahead, aside] = [Math.cos(heading), Math.sin(heading)];
+    viewer.controls.target.set(x + root.x + AHEAD * ahead, 0.1, -(y + root.y + AHEAD * aside));
+    viewer.camera.position.set(x + root.x - BEHIND * ahead, ABOVE, -(y + root.y - BEHIND * aside));
+    viewer.set_dirty();
   }
 
   function find(viewer, path) {

@@ -190,7 +190,7 @@
       page?.close();
       const kernel = new Kernel(model, data);
       kernel.opened = open;
-      page = new Page(el, data, kernel);
+      page = new Page(el, data, kernel, globalThis.rosminiAsset);
       page.section.kernel = kernel; // for those who measure
       if (data !== model.get("data")) page.stage.focus({ preventScroll: true });
     };
