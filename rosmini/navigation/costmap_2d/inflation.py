@@ -23,6 +23,9 @@ from numpy.typing import NDArray
 from .costmap import INSCRIBED_INFLATED_OBSTACLE, LETHAL_OBSTACLE, NO_INFORMATION, Costs
 from .layer import Window
 
+AT_ONCE = 300_000
+"""So many cells are computed with at a time."""
+
 
 def cell_distance(distance: float, resolution: float) -> int:
     """A distance [m] in cells, rounded up."""
@@ -84,15 +87,25 @@ def inflate(
     Lethal cells up to `radius` cells outside the window count, too. A cell keeps its cost if that is greater; an
     unknown one is overwritten by 253 and 254 only, or with `inflate_unknown` by anything above 0.
     """
+    if radius <= 0 or window.is_empty:
+        return
+    rows = max(4 * radius, AT_ONCE // (window.xn - window.x0))
+    for first in range(window.y0, window.yn, rows):
+        band = Window(window.x0, first, window.xn, min(first + rows, window.yn))
+        _inflate_band(costs, band, radius, table, inflate_unknown)
+
+
+def _inflate_band(costs: Costs, window: Window, radius: int, table: Costs, inflate_unknown: bool) -> None:
+    """The same for a few rows, which fit into a cache. It makes no cell lethal, so one band can follow another."""
     height, width = costs.shape
     x0, y0 = max(window.x0 - radius, 0), max(window.y0 - radius, 0)
     lethal = (
         costs[y0 : min(window.yn + radius, height), x0 : min(window.xn + radius, width)] == LETHAL_OBSTACLE
     )
-    if radius <= 0 or window.is_empty or not lethal.any():
+    if not lethal.any():
         return
     inner = np.s_[window.y0 - y0 : window.yn - y0, window.x0 - x0 : window.xn - x0]
-    added = table[squared_distances(lethal, radius)[inner]]
+    added = np.take(table, squared_distances(lethal, radius)[inner])
     old = window.of(costs)
     least = 1 if inflate_unknown else INSCRIBED_INFLATED_OBSTACLE
     learnt = (old == NO_INFORMATION) & (added >= least)

@@ -80,3 +80,12 @@ def test_the_numbers_of_a_burger():
 @pytest.mark.parametrize(("distance", "cells"), [(0.55, 11), (0.56, 12), (0.0, 0), (-1.0, 0), (0.01, 1)])
 def test_a_radius_is_rounded_up_to_cells(distance, cells):
     assert cell_distance(distance, 0.05) == cells
+
+
+def test_a_grid_that_is_computed_in_bands_is_the_same():
+    rng = np.random.default_rng(3)
+    costs = np.where(rng.random((700, 900)) < 0.002, 254, 0).astype(np.uint8)
+    found = costs.copy()
+    inflate(found, Window(0, 0, 900, 700), 11, cost_table(11, 0.05, 0.1, 10.0))
+    squared = squared_distances(costs == 254, 11)
+    assert (found == cost_table(11, 0.05, 0.1, 10.0)[squared]).all()
