@@ -28,6 +28,8 @@ class OutputSink:
     def emit(self, owner: ScriptOutput, text: str, *, complete: bool) -> None:
         """Write ``text``, a line or the next part of one, for ``owner``."""
         target = self.stderr if owner.is_error else self.stdout
+        if getattr(target, "closed", False) or getattr(self.stdout, "closed", False):
+            return
         if owner.is_error and self.stdout is not self.stderr:
             self.stdout.flush()  # what was printed before an error stands before it, also in a pipe
         if self._open is not owner:
@@ -49,9 +51,10 @@ class OutputSink:
         return f"[{owner.label()}] " if self.prefix else ""
 
     def flush(self) -> None:
-        """Flush both streams."""
-        self.stdout.flush()
-        self.stderr.flush()
+        """Flush both streams, as far as they are open: a node may outlive the streams of who started it."""
+        for stream in (self.stdout, self.stderr):
+            if not getattr(stream, "closed", False):
+                stream.flush()
 
 
 class ScriptOutput(io.TextIOBase):

@@ -225,3 +225,13 @@ def test_unknown_names_on_the_command_line(capsys):
     assert "did you mean beginner_tutorials" in capsys.readouterr().err
     assert main(["run", "nowhere/at_all.py"]) == 1
     assert "at_all.py" in capsys.readouterr().err
+
+
+def test_a_node_that_outlives_the_stream_of_who_started_it_ends_in_peace():
+    graph, stream = Graph(), io.StringIO()
+    words = ["1", "2", "0", "0", "0", "0", "a", "b"]
+    handle = rosrun("tf2_ros", "static_transform_publisher", *words, graph=graph, stdout=stream)
+    handle.instance()
+    stream.close()
+    graph.shutdown()
+    assert handle.poll() == 0
