@@ -7,7 +7,6 @@ from collections import deque
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ParameterNotSet
 from rosmini.msgs import message_class, service_class
 
 from .description import Description, cast_value
@@ -131,10 +130,9 @@ class Server:
         values = {}
         for parameter in self.description.parameters:
             name = self.node.resolve_parameter(self.ns + parameter.name)
+            found = self.node.get_param(name, None)
             try:
-                value = cast_value(name, parameter.type, self.node.get_param(name))
-            except ParameterNotSet:
-                value = parameter.default
+                value = parameter.default if found is None else cast_value(name, parameter.type, found)
             except DynamicReconfigureParameterException as error:
                 raise DynamicReconfigureParameterException(
                     f"{error} on the Parameter Server: set it again, or delete it"

@@ -213,7 +213,7 @@ class Buffer(BufferCore):
         """Block until a lookup would answer (True), or for `timeout` seconds (False)."""
         stamp = time.to_nsec()
         return self._wait(
-            lambda: self.tree.why_not(target_frame, source_frame, stamp) is None,
+            lambda: self.tree.knows(target_frame, source_frame, stamp),
             timeout,
             f"the transform from {source_frame} to {target_frame}",
         )

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from .buffer import Buffer
-from .errors import ExtrapolationException, TransformException
+from .errors import TransformException
 
 NO_FRAME = "it has no frame_id"
 TOO_OLD = "its stamp is earlier than all the data in the transform cache"
@@ -77,20 +77,17 @@ class MessageFilter:
         stamps = (stamp, stamp + self._tolerance_ns) if self._tolerance_ns else (stamp,)
         for target in self.target_frames:
             for each in stamps:
-                missing = self.buffer.tree.why_not(target, source, each)
-                if missing is None:
+                if self.buffer.tree.knows(target, source, each):
                     continue
-                if self._is_too_old(missing, target, source, stamp):
+                if self._is_too_old(target, source, stamp):
                     self._drop(message, TOO_OLD)
                     return True
                 return False
         self._callback(message)
         return True
 
-    def _is_too_old(self, missing: TransformException, target: str, source: str, stamp: int) -> bool:
+    def _is_too_old(self, target: str, source: str, stamp: int) -> bool:
         """Whether no transform that may still come can help: the newest that is known is from later."""
-        if not isinstance(missing, ExtrapolationException):
-            return False
         try:
             newest = self.buffer.tree.latest_common_time(target, source)
         except TransformException:

@@ -221,6 +221,13 @@ def test_why_not(tree):
     assert isinstance(tree.why_not("map", "y", 1), ConnectivityException)
 
 
+@pytest.mark.parametrize("target", ["map", "laser", "y", "nowhere", "", "/map"])
+@pytest.mark.parametrize("stamp", [0, 1, 2 * S])
+def test_what_is_known_is_what_a_lookup_answers(tree, target, stamp):
+    for pair in ((target, "laser"), ("laser", target)):
+        assert tree.knows(*pair, stamp) == (tree.why_not(*pair, stamp) is None)
+
+
 # ---- what is refused ----
 
 

@@ -81,7 +81,7 @@ class FakeLocalization:
         for index in reversed(range(len(self._waiting))):
             message = self._waiting[index]
             stamp = message.header.stamp.to_nsec()
-            if self.buffer.tree.why_not(self.odom_frame, self.base_frame, stamp) is None:
+            if self.buffer.tree.knows(self.odom_frame, self.base_frame, stamp):
                 for _ in range(index + 1):
                     self._waiting.popleft()
                 self._localize(message, stamp)
