@@ -1,0 +1,156 @@
+"""How well the stack navigates: many goals in several worlds, and a table of what came of them.
+
+Success is SUCCEEDED and the true pose within the tolerances; contacts are counted by the engine. Rows are kept as
+data, with the seed and the commit, and the book's tables are printed from them.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import os
+import statistics
+import subprocess
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from . import nav_trial
+from .nav_goals import errands, wilson
+from .nav_trial import FIELD, Outcome, Setup
+
+XY, YAW = 0.05 + 0.02, 0.17 + 0.05
+"""The tolerances [m, rad] of the parameter file, and what a pose may be off between the decision and standing still."""
+
+WORLDS = ("house", "maze", "office")
+GAPS = (1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0)
+TRAJECTORY = (("base_local_planner", "base_local_planner/TrajectoryPlannerROS"),)
+PLANNERS = tuple(
+    (("base_global_planner", name),) for name in ("global_planner/GlobalPlanner", "navfn/NavfnROS")
+)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the table."""
+
+    what: str
+    count: int
+    reached: int
+    low: float
+    high: float
+    """The 95 % interval of the share (Wilson)."""
+    contacts: int
+    """Goals on whose way the robot drove into something."""
+    bumped: int
+    """Goals on whose way something walked into the robot."""
+    stretch: float
+    stretch95: float
+    """Median and 95th percentile of the driven length over the shortest at a clearance of 0.15 m."""
+    slowness: float
+    """Median of the time over that of the shortest path at full speed, turns included."""
+    faster: float
+    """Seconds of the graph a second of the processor."""
+    failures: dict[str, int]
+
+
+def setups(seed: int, *, quick: bool) -> Iterator[tuple[Setup, int]]:
+    """What is tried, and with how many goals."""
+    many, some, few = (12, 6, 4) if quick else (200, 100, 50)
+    for world in WORLDS:
+        yield Setup(world, seed=seed), many
+    for world in WORLDS:
+        yield Setup(world, sweep=False, seed=seed), some
+        yield Setup(world, model="waffle", seed=seed), some
+    for overrides in (TRAJECTORY, *PLANNERS[:1]):
+        yield Setup("house", overrides=overrides, seed=seed), some
+    for gap in GAPS:
+        yield Setup(FIELD, gap=gap, seed=seed), few
+
+
+def outcomes(setup: Setup, count: int, pool: ProcessPoolExecutor) -> list[Outcome]:
+    """Send a robot to so many goals."""
+    grid, _, inside = nav_trial.place(setup.world)
+    wanted = (
+        nav_trial.across(count, setup.seed)
+        if setup.gap is not None
+        else errands(grid, inside, count, setup.seed)
+    )
+    return list(pool.map(nav_trial.run, itertools.repeat(setup), list(wanted)))
+
+
+def row(setup: Setup, found: list[Outcome], xy: float = XY, yaw: float = YAW) -> Row:
+    """Sum up."""
+    good = [one for one in found if one.reached(xy, yaw)]
+    low, high = wilson(len(good), len(found))
+    stretches = sorted(one.stretch for one in good) or [float("nan")]
+    top = setup_speed(setup)
+    times = [one.seconds / (one.errand.shortest / top[0] + one.errand.turning / top[1]) for one in good]
+    why = Counter(reason(one, xy, yaw) for one in found if one not in good)
+    return Row(
+        setup.words,
+        len(found),
+        len(good),
+        low,
+        high,
+        sum(bool(one.contacts) for one in found),
+        sum(bool(one.bumps) for one in found),
+        statistics.median(stretches),
+        stretches[min(len(stretches) - 1, int(0.95 * len(stretches)))],
+        statistics.median(times) if times else float("nan"),
+        sum(one.seconds for one in found) / max(sum(one.cpu for one in found), 1e-9),
+        dict(why.most_common()),
+    )
+
+
+def setup_speed(setup: Setup) -> tuple[float, float]:
+    """The highest speeds [m/s, rad/s] of a robot."""
+    model = nav_trial.model_called(setup.model)
+    return model.max_linear, model.max_angular
+
+
+def reason(one: Outcome, xy: float, yaw: float) -> str:
+    """Why a goal does not count as reached."""
+    if one.status != "SUCCEEDED":
+        return f"{one.status}: {one.text}"
+    return f"{one.off:.2f} m off" if one.off > xy else f"{one.turned_off:.2f} rad off"
+
+
+def rows(seed: int, *, quick: bool, tell: Callable[[str], object]) -> Iterator[Row]:
+    """Try everything, one row after another."""
+    with ProcessPoolExecutor(min(os.cpu_count() or 1, 8)) as pool:
+        for setup, count in setups(seed, quick=quick):
+            made = row(setup, outcomes(setup, count, pool))
+            tell(line(made))
+            yield made
+
+
+HEAD = (
+    f"{'':<44} {'reached':>9} {'95 %':>13} {'contacts':>8} {'bumped':>6} "
+    f"{'length':>6} {'95th':>5} {'time':>5} {'x real':>6}"
+)
+
+
+def line(one: Row) -> str:
+    """One row as text."""
+    text = (
+        f"{one.what:<44} {one.reached:>4}/{one.count:<4} {one.low:6.1%}-{one.high:6.1%} {one.contacts:>8} "
+        f"{one.bumped:>6} {one.stretch:6.2f} {one.stretch95:5.2f} {one.slowness:5.2f} {one.faster:6.1f}"
+    )
+    return text + "".join(f"\n    {count} x {why}" for why, count in one.failures.items())
+
+
+def write(found: Iterable[Row], file: Path, seed: int) -> None:
+    """Keep rows as data, with what is needed to make them again."""
+    commit = subprocess.run(
+        ["git", "rev-parse", "--short", "HEAD"],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=Path(__file__).parent,
+    ).stdout.strip()
+    data: dict[str, Any] = {"seed": seed, "commit": commit, "rows": [asdict(one) for one in found]}
+    file.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
