@@ -155,9 +155,7 @@ def errands(grid: GridMap, inside: tuple[float, float], count: int, seed: int) -
         if path is None:
             failed += 1
             if failed == 1000:
-                raise RosminiError(
-                    f"the map {grid.path.name} has no two places {APART} m apart: take a larger one"
-                )
+                raise RosminiError(f"{grid!r} has no two places {APART} m apart: take a larger one")
             continue
         failed = 0
         start, goal = (ax, ay, float(headings[0])), (bx, by, float(headings[1]))

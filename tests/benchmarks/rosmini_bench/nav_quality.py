@@ -18,6 +18,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from rosmini.sim.models import model as model_called
+
 from . import nav_trial
 from .nav_goals import errands, wilson
 from .nav_trial import FIELD, Outcome, Setup
@@ -108,7 +110,7 @@ def row(setup: Setup, found: list[Outcome], xy: float = XY, yaw: float = YAW) ->
 
 def setup_speed(setup: Setup) -> tuple[float, float]:
     """The highest speeds [m/s, rad/s] of a robot."""
-    model = nav_trial.model_called(setup.model)
+    model = model_called(setup.model)
     return model.max_linear, model.max_angular
 
 
