@@ -5,18 +5,31 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .costmap import Costmap2D, Ints
-from .rays import line_cells
+from .costmap import Costmap2D
+
+Cell = tuple[int, int]
 
 
-def outline_cells(cells: list[tuple[int, int]]) -> tuple[Ints, Ints]:
-    """The columns and rows of the cells on the outline of a polygon whose vertices are in these cells, (mx, my)."""
-    columns, rows = [], []
+def outline_spans(cells: list[Cell]) -> dict[int, Cell]:
+    """The lowest and the highest row, by column, of the outline of a polygon with its vertices in these cells (mx, my).
+
+    Its edges are Bresenham's lines, as in `rosmini.navigation.costmap_2d.rays`. Few cells: Python's own numbers are
+    faster than arrays.
+    """
+    spans: dict[int, Cell] = {}
     for (x0, y0), (x1, y1) in zip(cells, [*cells[1:], *cells[:1]], strict=True):
-        xs, ys = line_cells(x0, y0, x1, y1)
-        columns.append(xs)
-        rows.append(ys)
-    return np.concatenate(columns), np.concatenate(rows)
+        dx, dy = abs(x1 - x0), abs(y1 - y0)
+        step_x, step_y = (1 if x1 >= x0 else -1), (1 if y1 >= y0 else -1)
+        longer, shorter = max(dx, dy), min(dx, dy)
+        aside = longer // 2
+        for step in range(longer + 1):
+            off = aside // longer if longer else 0
+            x, y = (step, off) if dx >= dy else (off, step)
+            x, y = x0 + step_x * x, y0 + step_y * y
+            low, high = spans.get(x, (y, y))
+            spans[x] = min(low, y), max(high, y)
+            aside += shorter
+    return spans
 
 
 def fill(grid: Costmap2D, polygon: ArrayLike, cost: int) -> bool:
@@ -24,17 +37,10 @@ def fill(grid: Costmap2D, polygon: ArrayLike, cost: int) -> bool:
 
     If a vertex is outside of the grid nothing changes, and the answer is False.
     """
-    cells = [grid.world_to_map(float(x), float(y)) for x, y in np.asarray(polygon)]
+    cells = [grid.world_to_map(x, y) for x, y in np.asarray(polygon, dtype=np.float64).tolist()]
     inside = [cell for cell in cells if cell is not None]
     if not cells or len(inside) < len(cells):
         return False
-    columns, rows = outline_cells(inside)
-    first = int(columns.min())
-    low = np.full(int(columns.max()) - first + 1, grid.height, dtype=np.int64)
-    high = np.full(len(low), -1, dtype=np.int64)
-    np.minimum.at(low, columns - first, rows)
-    np.maximum.at(high, columns - first, rows)
-    bottom, top = int(rows.min()), int(rows.max())
-    lines = np.arange(bottom, top + 1)[:, None]
-    grid.costs[bottom : top + 1, first : first + len(low)][(lines >= low) & (lines <= high)] = cost
+    for column, (low, high) in outline_spans(inside).items():
+        grid.costs[low : high + 1, column] = cost
     return True

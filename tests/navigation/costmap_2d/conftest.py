@@ -26,10 +26,10 @@ class Stage:
         TransformListener(self.node, self.buffer)
         self.fixed = StaticTransformBroadcaster(self.robot)
         self.fixed.send("map", "odom", (0.0, 0.0, 0.0))
-        self._moving = TransformBroadcaster(self.robot)
+        self.moving = TransformBroadcaster(self.robot)
         self.scans = self.robot.publisher("scan", message_class("sensor_msgs/LaserScan"))
         self.tells = self.robot.timer(
-            0.02, lambda _: self._moving.send_rigid("odom", "base_link", from_yaw(*self.pose))
+            0.02, lambda _: self.moving.send_rigid("odom", "base_link", from_yaw(*self.pose))
         )
 
     def publish_map(self, occupancy, resolution=0.1, origin=(0.0, 0.0)):

@@ -13,6 +13,8 @@ from rosmini.navigation.costmap_2d.layer import Layer
 from rosmini.navigation.nav_core import TransformMissing, pose_stamped
 from rosmini.plugins import PluginError
 from rosmini.rospy.aliases.point_cloud2 import create_cloud_xyz32
+from rosmini.tf.rigid import from_yaw
+from rosmini.time import Time
 
 from .conftest import SOURCE, layers
 
@@ -434,3 +436,30 @@ def test_a_polygon_gets_a_cost(stage):
     assert costmap.set_costs(square, 200)
     assert (costmap.grid.costs == 200).sum() == 16
     assert not costmap.set_costs([(0, 0), (99, 0), (0, 1)], 1)
+
+
+def test_an_outline_that_crosses_itself_is_warned_of(stage, capfd):
+    stage.costmap(
+        plugins=layers("obstacles"),
+        footprint=[[0.1, 0.1], [-0.1, -0.1], [-0.1, 0.1], [0.1, -0.1]],
+        global_frame="odom",
+        rolling_window=True,
+    )
+    assert "the outline crosses itself" in log(capfd)
+
+
+def test_it_survives_a_gap_of_tf_and_a_scan_from_the_past(stage):
+    costmap = stage.costmap(plugins=layers("obstacles"), obstacles=BOTH, **ROLLING)
+    stage.tells.shutdown()
+    stage.scan([1.0] * 4, seconds=3.0)
+    assert not (costmap.grid.costs == 254).any()
+    timer = stage.robot.timer(
+        0.02, lambda _: stage.moving.send_rigid("odom", "base_link", from_yaw(*stage.pose))
+    )
+    stage.graph.run(0.5)
+    stage.scan([1.0] * 4)
+    assert (costmap.grid.costs == 254).sum() == 4
+    old = Time.from_sec(stage.robot.now().to_sec() - 60)
+    stage.scan([1.5] * 4, header=message_class("std_msgs/Header")(stamp=old, frame_id="base_link"))
+    assert (costmap.grid.costs == 254).sum() == 4
+    assert timer.is_alive()
