@@ -52,11 +52,10 @@ def slope(before: float, here: float, after: float, width: float) -> float:
 def lowest_around(potential: NDArray[np.float32], n: int, width: int) -> int:
     """The lowest of a cell and the eight around it, without passing between two cells that were not reached."""
     best = n
-    for row in (-width, 0, width):
-        for column in (-1, 0, 1):
-            m = n + row + column
-            if potential[m] < potential[best] and walls_beside(potential, n, m, width) < 2:
-                best = m
+    for i in range(9):
+        m = n + (i // 3 - 1) * width + i % 3 - 1
+        if potential[m] < potential[best] and walls_beside(potential, n, m, width) < 2:
+            best = m
     return best
 
 
@@ -75,11 +74,10 @@ def walls_beside(potential: NDArray[np.float32], n: int, m: int, width: int) -> 
 
 def surrounded(potential: NDArray[np.float32], n: int, width: int) -> bool:
     """Whether a cell and the eight around it were all reached."""
-    for row in (-width, 0, width):
-        for column in (-1, 0, 1):
-            if potential[n + row + column] >= HIGH:
-                return False
-    return True
+    highest = potential[n]
+    for i in range(9):
+        highest = max(highest, potential[n + (i // 3 - 1) * width + i % 3 - 1])
+    return bool(highest < HIGH)
 
 
 def down(potential: NDArray[np.float32], n: int, width: int, dx: float, dy: float) -> tuple[float, float]:

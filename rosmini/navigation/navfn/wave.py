@@ -36,11 +36,18 @@ GOING, ARRIVED, EXHAUSTED = range(3)
 def interpolated(a: float, b: float, cost: float) -> float:
     """The potential of a cell from its lower neighbours in a row, `a`, and in a column, `b`: navfn's planar wave."""
     low = min(a, b)
-    apart = abs(a - b)
+    apart = max(a, b) - low
     if apart >= cost:
         return low + cost
     share = apart / cost
     return low + cost * (-0.2301 * share * share + 0.5307 * share + 0.7040)
+
+
+def wait(cell: int, at: int, blocks: NDArray[np.int32], pending: NDArray[np.uint8]) -> int:
+    """Let a cell wait at this place of the blocks; returns the next place."""
+    pending[cell] = 1
+    blocks[at] = cell
+    return at + 1
 
 
 def wave(
@@ -82,45 +89,53 @@ def wave(
     room = costs.shape[0]
     current, following, at, here, after, over = state[0], state[1], state[2], state[3], state[4], state[5]
     threshold = levels[0]
+    # Without a sign: numba need not ask whether a place is counted from the end.
+    one, row = np.uint64(1), np.uint64(width)
     stop_x, stop_y = stop % width, stop // width
     # A cell whose potential is no more than this share of its cost above a neighbour's cannot gain by it: with
     # interpolation v(1) - 1 is 0.0046.
     margin = 0.707106781 if heuristic > 0 else (0.004 if quadratic else 1.0)
-    result, left = 0, count
-    while left > 0:
+    result, budget = 0, count
+    while budget > 0:
         if here == 0:
             result = 2
             break
         base = current * room
-        if at == 0:
-            for i in range(base, base + here):
-                pending[blocks[i]] = 0
-        end = min(here, at + left)
+        end = min(here, at + budget)
         next_base, over_base = following * room, (3 - current - following) * room
         for i in range(base + at, base + end):
-            n = blocks[i]
-            a = min(potential[n - 1], potential[n + 1])
-            b = min(potential[n - width], potential[n + width])
+            n = np.uint64(blocks[i])
+            pending[n] = 0
+            nl, nr, nd, nu = n - one, n + one, n - row, n + row
+            left, right, below, above = potential[nl], potential[nr], potential[nd], potential[nu]
             cost = table[costs[n]]
-            pot = np.float32(interpolated(a, b, cost) if quadratic else min(a, b) + cost)
+            pot = np.float32(
+                interpolated(min(left, right), min(below, above), cost)
+                if quadratic
+                else min(left, right, below, above) + cost
+            )
             if not pot < potential[n]:
                 continue
             potential[n] = pot
             rank = float(pot)
             if heuristic > 0:
-                dx, dy = n % width - stop_x, n // width - stop_y
+                dx, dy = np.int64(n) % width - stop_x, np.int64(n) // width - stop_y
                 rank += heuristic * math.sqrt(dx * dx + dy * dy)
-            early = rank < threshold
-            for m in (n - 1, n + 1, n - width, n + width):
-                if pending[m] == 0 and potential[m] > rank + margin * table[costs[m]]:
-                    pending[m] = 1
-                    if early:
-                        blocks[next_base + after] = m
-                        after += 1
-                    else:
-                        blocks[over_base + over] = m
-                        over += 1
-        left -= end - at
+            first = next_base + after if rank < threshold else over_base + over
+            put = first
+            if left > rank and pending[nl] == 0 and left > rank + margin * table[costs[nl]]:
+                put = wait(nl, put, blocks, pending)
+            if right > rank and pending[nr] == 0 and right > rank + margin * table[costs[nr]]:
+                put = wait(nr, put, blocks, pending)
+            if below > rank and pending[nd] == 0 and below > rank + margin * table[costs[nd]]:
+                put = wait(nd, put, blocks, pending)
+            if above > rank and pending[nu] == 0 and above > rank + margin * table[costs[nu]]:
+                put = wait(nu, put, blocks, pending)
+            if rank < threshold:
+                after += put - first
+            else:
+                over += put - first
+        budget -= end - at
         state[6] += end - at
         at = end
         if at < here:
@@ -150,4 +165,4 @@ def compiled_wave() -> Callable[..., int]:
     bytes_, floats = types.uint8[::1], types.float32[::1]
     arrays = (bytes_, floats, floats, bytes_, types.int32[::1], types.int64[::1], types.float64[::1])
     signature = number(*arrays, number, number, number, real, number)
-    return machine_code(wave, signature, (interpolated,))
+    return machine_code(wave, signature, (interpolated, wait))
