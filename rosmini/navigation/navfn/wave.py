@@ -43,7 +43,7 @@ def interpolated(a: float, b: float, cost: float) -> float:
     return low + cost * (-0.2301 * share * share + 0.5307 * share + 0.7040)
 
 
-def wait(cell: int, at: int, blocks: NDArray[np.int32], pending: NDArray[np.uint8]) -> int:
+def wait(cell: np.uint64, at: int, blocks: NDArray[np.int32], pending: NDArray[np.uint8]) -> int:
     """Let a cell wait at this place of the blocks; returns the next place."""
     pending[cell] = 1
     blocks[at] = cell
