@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 SIDE = 440.0
 """The longer side of the picture [CSS px]."""
 LINE = 24.0
-CONTROLS = 330
+CONTROLS = 300
 """The height of the sliders and the table, about [px]."""
 MARGIN = 0.15
 """What is shown around the trajectories [m], without a costmap."""
@@ -99,17 +99,22 @@ class TrajectoryWindow(View):
         self._order = np.lexsort((np.arange(len(totals)), np.where(samples.accepted, totals, 0.0), rank))
         best = samples.best if samples.best is not None else int(self._order[0])
         self._chosen = best if chosen is None else chosen
+        self._costs: NDArray[np.uint8] = np.empty((0, 0), dtype=np.uint8)
         self._area = self._seen()
 
     def _seen(self) -> tuple[float, float, float, float]:
-        """What is shown: x and y of two corners [m]."""
-        if self._costmap is not None:
-            (x, y), (width, height) = self._costmap.origin, self._costmap.size_m
-            return x, y, x + width, y + height
+        """What is shown: x and y of two corners [m], where there is a costmap those of cells."""
         points = np.vstack([self._samples.trajectory(n)[:, :2] for n in range(len(self._samples))])
-        reach = MARGIN if self._footprint is None else float(np.hypot(*self._footprint.T).max()) + 0.02
+        reach = MARGIN if self._footprint is None else MARGIN + float(np.hypot(*self._footprint.T).max())
         low, high = snap(points.min(axis=0) - reach), snap(points.max(axis=0) + reach)
-        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+        if self._costmap is None:
+            return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+        grid = self._costmap
+        x0, y0 = grid.world_to_map_clamped(*low)
+        x1, y1 = grid.world_to_map_clamped(*high)
+        self._costs = _published(grid.costs[y0 : y1 + 1, x0 : x1 + 1])[::-1]
+        size, (left, bottom) = grid.resolution, grid.origin
+        return left + x0 * size, bottom + y0 * size, left + (x1 + 1) * size, bottom + (y1 + 1) * size
 
     # -- words ---------------------------------------------------------------------------------------------------
 
@@ -172,7 +177,7 @@ class TrajectoryWindow(View):
         width, height = (x1 - x0) * self._scale, (y1 - y0) * self._scale
         parts = [self._words()]
         if self._costmap is not None:
-            data, _ = gif(painted(_published(self._costmap)[::-1], "costmap"))
+            data, _ = gif(painted(self._costs, "costmap"))
             parts.append(
                 element("image", href=gif_address(data), x=0.0, y=LINE, width=width, height=height,
                         preserveAspectRatio="none", style="image-rendering:pixelated", opacity="0.6")
@@ -238,7 +243,7 @@ class TrajectoryWindow(View):
 
     def _html(self, book: bool | None) -> str:
         return embed(
-            ("rosmini-trajectories.js",),
+            ("rosmini-canvas.js", "rosmini-trajectories.js"),
             "rosminiTrajectories.mount",
             self.data,
             title=self._title or "trajectories",
@@ -256,7 +261,7 @@ class TrajectoryWindow(View):
         shades = self._shades()
         found: dict[str, Any] = {
             "area": [round(value, 3) for value in self._area],
-            "points": _bytes([s.trajectory(int(n)) for n in order], self._area[:2]),
+            "points": _bytes([s.trajectory(int(n)) for n in order], self._area),
             "lengths": [int(s.lengths[n]) for n in order],
             "shades": [int(shades[n]) for n in order],
             "commands": [[float(fixed(value, 3)) for value in s.commands[n]] for n in order],
@@ -269,24 +274,24 @@ class TrajectoryWindow(View):
             "plan": [] if self._plan is None else snap(self._plan).round(3).tolist(),
         }
         if self._costmap is not None:
-            found["size"] = [self._costmap.width, self._costmap.height]
-            found["costs"] = _published(self._costmap)[::-1].tobytes()
+            found["size"] = list(self._costs.shape[::-1])
+            found["costs"] = self._costs.tobytes()
             found["colours"] = colours_of("costmap").tobytes()
         return found
 
 
-def _published(grid: Costmap2D) -> NDArray[np.uint8]:
+def _published(costs: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Costs as the bytes that RViz gets: 0 to 98, 99, 100 and 255."""
     table = np.zeros(256, dtype=np.uint8)
     table[1:253] = 1 + 97 * (np.arange(1, 253) - 1) // 251
     table[253:] = 99, 100, 255
-    return table[grid.costs]
+    return table[costs]
 
 
-def _bytes(tracks: Sequence[Floats], corner: tuple[float, float]) -> bytes:
+def _bytes(tracks: Sequence[Floats], area: Sequence[float]) -> bytes:
     """Tracks (s, 3) one after another, as int16: millimetres from the corner, and milliradians."""
     points = np.vstack(tracks)
-    points = np.column_stack([points[:, :2] - corner, np.mod(points[:, 2] + np.pi, 2 * np.pi) - np.pi])
+    points = np.column_stack([points[:, :2] - area[:2], np.mod(points[:, 2] + np.pi, 2 * np.pi) - np.pi])
     return (snap(points) * 1000).round().astype("<i2").tobytes()
 
 

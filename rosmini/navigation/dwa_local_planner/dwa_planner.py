@@ -125,13 +125,16 @@ class DWAPlanner:
             self.oscillation.update(pose, samples.commands[samples.best], p.min_vel_trans)
         return samples
 
+    def driven(self, grid: Costmap2D, pose: Pose, velocity: Floats, velocities: Floats) -> Samples:
+        """What becomes of velocities (n, 3) of one's own, beginning at `velocity` (3): scored, and none is noted."""
+        return self._scored(
+            grid, pose, velocity, velocities, self.sampling.steps(velocities, self.parameters), 0
+        )
+
     def is_free(self, grid: Costmap2D, pose: Pose, velocity: Floats, command: Floats) -> bool:
         """Whether no critic rejects one command (3): `checkTrajectory`, which allows going back, too."""
         self.oscillation.reset()
-        one = command[None, :]
-        return bool(
-            self._scored(grid, pose, velocity, one, self.sampling.steps(one, self.parameters), 0).accepted[0]
-        )
+        return bool(self.driven(grid, pose, velocity, command[None, :]).accepted[0])
 
     def _scored(
         self,

@@ -1,4 +1,5 @@
-/* The trajectories of a local planner, one of which is chosen. A plain script that sets `globalThis.rosminiTrajectories`.
+/* The trajectories of a local planner, one of which is chosen. A plain script that sets `globalThis.rosminiTrajectories`;
+   it draws with `rosminiCanvas`.
 
    `mount(host, data, options)` shows `data`, what `rosmini.viz.trajectory_window.TrajectoryWindow.data` has. */
 
@@ -6,17 +7,17 @@
   "use strict";
 
   const STYLE = `
-.rosmini-trajectories { color: var(--rosmini-ink); font: 13px var(--rosmini-font, sans-serif); }
-.rosmini-trajectories canvas { border: 1px solid var(--rosmini-group-line); box-sizing: border-box; cursor: crosshair; display: block; max-width: 100%; }
+.rosmini-trajectories { color: var(--rosmini-ink, inherit); font: 13px var(--rosmini-font, sans-serif); }
+.rosmini-trajectories canvas { border: 1px solid var(--rosmini-group-line, #9aa5af); box-sizing: border-box; cursor: crosshair; }
 .rt-dials { display: flex; flex-wrap: wrap; gap: 6px 20px; margin: 10px 0 6px; }
 .rt-dials label { align-items: center; display: flex; gap: 6px; }
-.rt-dials input { accent-color: var(--rosmini-blue); width: 220px; }
+.rt-dials input { accent-color: var(--rosmini-blue, #0072b2); width: 220px; }
 .rt-value { font-variant-numeric: tabular-nums; min-width: 5em; }
 .rt-said { margin: 0 0 6px; min-height: 2.6em; }
 .rosmini-trajectories table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-.rosmini-trajectories th, .rosmini-trajectories td { border-bottom: 1px solid var(--rosmini-group-line); padding: 1px 12px 1px 0; text-align: right; }
+.rosmini-trajectories th, .rosmini-trajectories td { border-bottom: 1px solid var(--rosmini-group-line, #9aa5af); padding: 1px 12px 1px 0; text-align: right; }
 .rosmini-trajectories th:first-child { text-align: left; }
-.rt-bad { color: var(--rosmini-bad-line); font-weight: 600; }
+.rt-bad { color: var(--rosmini-vermilion, #d55e00); font-weight: 600; }
 `;
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
@@ -28,19 +29,20 @@
       const raw = bytes(data.points);
       const view = new DataView(raw.buffer);
       let at = 0;
-      // of each: a list of [x, y, heading], in metres from the lower left corner
+      // of each: a list of [x, y, heading], in metres
       this.tracks = data.lengths.map((length) => Array.from({ length }, () => {
-        const pose = [0, 2, 4].map((offset) => view.getInt16(at + offset, true) / 1000);
+        const pose = [0, 2, 4].map((offset, i) => view.getInt16(at + offset, true) / 1000 + (i < 2 ? data.area[i] : 0));
         at += 6;
         return pose;
       }));
       this.chosen = data.chosen;
       this.build(host, title);
-      this.scale();
+      this.fit();
       this.choose(this.chosen);
-      new ResizeObserver(() => { if (this.scale()) this.draw(); }).observe(this.box);
-      new MutationObserver(() => this.draw()).observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme"] });
+      rosminiCanvas.watch(this.canvas, () => { this.fit(); this.draw(); });
     }
+
+    fit() { this.view = rosminiCanvas.fit(this.canvas, this.data.area, { maxHeight: 440, margin: 0 }); }
 
     build(host, title) {
       this.box = document.createElement("div");
@@ -71,20 +73,6 @@
       bytes(this.data.costs).forEach((cost, i) => picture.data.set(colours.subarray(4 * cost, 4 * cost + 4), 4 * i));
       canvas.getContext("2d").putImageData(picture, 0, 0);
       return canvas;
-    }
-
-    scale() {
-      const [x0, y0, x1, y1] = this.data.area;
-      const pixels = Math.min(440 / Math.max(x1 - x0, y1 - y0), (this.box.clientWidth || 440) / (x1 - x0));
-      if (pixels === this.pixels) return false;
-      this.pixels = pixels;
-      this.height = (y1 - y0) * pixels;
-      const ratio = globalThis.devicePixelRatio || 1;
-      this.canvas.width = Math.round((x1 - x0) * pixels * ratio);
-      this.canvas.height = Math.round(this.height * ratio);
-      this.canvas.style.width = `${(x1 - x0) * pixels}px`;
-      this.canvas.getContext("2d").setTransform(ratio, 0, 0, ratio, 0, 0);
-      return true;
     }
 
     choose(number) {
@@ -119,67 +107,58 @@
       return `<tr><th scope="row">${escape(critic)}</th><td>${given < 0 ? "" : given.toFixed(2)}</td><td>${weight.toFixed(3)}</td><td${bad}>${cost}</td></tr>`;
     }
 
-    place([x, y]) { return [x * this.pixels, this.height - y * this.pixels]; }
-
-    line(context, points, closed = false) {
+    line(points, colour, width, { closed = false, opacity = 1, dash = [] } = {}) {
+      const { context, x, y } = this.view;
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.globalAlpha = opacity;
+      context.setLineDash(dash);
       context.beginPath();
-      points.forEach((point, i) => context[i ? "lineTo" : "moveTo"](...this.place(point)));
+      points.forEach((point, i) => context[i ? "lineTo" : "moveTo"](x(point[0]), y(point[1])));
       if (closed) context.closePath();
       context.stroke();
     }
 
     draw() {
-      const context = this.canvas.getContext("2d");
-      const style = getComputedStyle(this.box);
-      const colour = (name) => style.getPropertyValue(`--rosmini-${name}`) || "#888";
-      const [x0, y0, x1, y1] = this.data.area;
+      const { context, width, height, theme } = this.view;
       context.globalAlpha = 1;
-      context.clearRect(0, 0, (x1 - x0) * this.pixels, this.height);
-      if (this.back) {
-        context.imageSmoothingEnabled = false;
-        context.globalAlpha = 0.6;
-        context.drawImage(this.back, 0, 0, (x1 - x0) * this.pixels, this.height);
-      }
+      context.clearRect(0, 0, width, height);
+      this.ground();
       for (let i = this.tracks.length - 1; i >= 0; i--) {
         const shade = this.data.shades[i];
-        context.strokeStyle = colour(shade < 0 ? "vermilion" : "blue");
-        context.globalAlpha = shade < 0 ? 0.5 : 0.9 - 0.17 * shade;
-        context.lineWidth = shade < 0 ? 0.7 : 1.2;
-        this.line(context, this.tracks[i]);
+        if (shade < 0) this.line(this.tracks[i], theme.vermilion, 0.7, { opacity: 0.5 });
+        else this.line(this.tracks[i], theme.blue, 1.2, { opacity: 0.9 - 0.17 * shade });
       }
-      context.globalAlpha = 1;
-      this.plan(context, colour);
-      context.strokeStyle = colour("orange");
-      context.lineWidth = 3;
+      this.line(this.data.plan, theme.green, 2, { dash: [5, 3] });
       const track = this.tracks[this.chosen];
-      this.line(context, track);
       const at = Number(this.point.value);
       this.point.nextElementSibling.textContent = `${at + 1} of ${track.length}`;
-      context.lineWidth = 1.4;
-      this.footprint(context, track[0], colour("ink"));
-      this.footprint(context, track[at], colour("orange"));
+      this.line(track, theme.orange, 3);
+      this.footprint(track[0], theme.ink);
+      this.footprint(track[at], theme.orange);
+      context.globalAlpha = 1;
+      rosminiCanvas.scaleBar(this.view);
     }
 
-    plan(context, colour) {
-      const [x0, y0] = this.data.area;
-      context.strokeStyle = colour("green");
-      context.lineWidth = 2;
-      context.setLineDash([5, 3]);
-      this.line(context, this.data.plan.map(([x, y]) => [x - x0, y - y0]));
-      context.setLineDash([]);
+    ground() {
+      if (!this.back) return;
+      const { context, x, y } = this.view;
+      const [x0, y0, x1, y1] = this.data.area;
+      context.imageSmoothingEnabled = false;
+      context.globalAlpha = 0.6;
+      context.drawImage(this.back, x(x0), y(y1), x(x1) - x(x0), y(y0) - y(y1));
     }
 
-    footprint(context, [x, y, theta], colour) {
-      context.strokeStyle = colour;
+    footprint([x, y, theta], colour) {
       const [cos, sin] = [Math.cos(theta), Math.sin(theta)];
-      this.line(context, this.data.outline.map(([px, py]) => [x + px * cos - py * sin, y + px * sin + py * cos]), true);
+      const outline = this.data.outline.map(([px, py]) => [x + px * cos - py * sin, y + px * sin + py * cos]);
+      this.line(outline, colour, 1.4, { closed: true });
     }
 
-    /* The trajectory of which a point is nearest to where somebody clicks. */
+    /* The trajectory whose end is nearest to where somebody clicks. */
     pick(event) {
       const frame = this.canvas.getBoundingClientRect();
-      const x = (event.clientX - frame.left) / this.pixels;
-      const y = (frame.height - (event.clientY - frame.top)) / this.pixels;
+      const [x, y] = this.view.metres(event.clientX - frame.left, event.clientY - frame.top);
       let best = [Infinity, this.chosen];
       this.tracks.forEach((track, number) => {
         const last = track[track.length - 1];
