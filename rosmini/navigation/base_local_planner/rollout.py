@@ -100,18 +100,22 @@ def outline_cost(
         if cost == UNKNOWN:
             return UNSEEN
         return HIT if cost >= INSCRIBED else cost
-    largest, last_x, last_y = 0, 0, 0
+    largest, last_x, last_y, first_x, first_y = 0, 0, 0, 0, 0
     for i in range(count + 1):
-        at = i if i < count else 0
-        px = x + footprint[at, 0] * cos - footprint[at, 1] * sin
-        py = y + footprint[at, 0] * sin + footprint[at, 1] * cos
-        if px < origin_x or py < origin_y:
-            return OUTSIDE
-        mx = int((px - origin_x) / resolution)
-        my = int((py - origin_y) / resolution)
-        if mx >= width or my >= height:
-            return OUTSIDE
-        if i > 0:
+        if i == count:
+            mx, my = first_x, first_y
+        else:
+            px = x + footprint[i, 0] * cos - footprint[i, 1] * sin
+            py = y + footprint[i, 0] * sin + footprint[i, 1] * cos
+            if px < origin_x or py < origin_y:
+                return OUTSIDE
+            mx = int((px - origin_x) / resolution)
+            my = int((py - origin_y) / resolution)
+            if mx >= width or my >= height:
+                return OUTSIDE
+        if i == 0:
+            first_x, first_y = mx, my
+        else:
             cost = line_cost(costs, width, last_x, last_y, mx, my)
             if cost < 0:
                 return cost
@@ -121,7 +125,10 @@ def outline_cost(
 
 
 def line_cost(costs: Costs, width: int, x: int, y: int, end_x: int, end_y: int) -> int:
-    """The largest cost of the cells on a line (Bresenham, 1965, both ends included), or `HIT` or `UNSEEN`."""
+    """The largest cost of the cells on a line (Bresenham, 1965), or `HIT` or `UNSEEN`.
+
+    Its last cell is left to the next edge, which begins there.
+    """
     step_x = 1 if end_x >= x else -1
     step_y = width if end_y >= y else -width
     dx, dy = abs(end_x - x), abs(end_y - y)
@@ -129,7 +136,7 @@ def line_cost(costs: Costs, width: int, x: int, y: int, end_x: int, end_y: int) 
     if dy > dx:
         steps, gain, along, across = dy, dx, step_y, step_x
     cell, rest, largest = y * width + x, steps // 2, 0
-    for _ in range(steps + 1):
+    for _ in range(max(steps, 1)):
         cost = int(costs[cell])
         if cost >= LETHAL:
             return UNSEEN if cost == UNKNOWN else HIT
@@ -179,17 +186,17 @@ def rollout(
     that point alone.
     """
     for n in range(targets.shape[0]):
-        for critic in range(5):
-            raw[n, critic] = 0.0
-            where[n, critic] = -1
         dt = sim_time / max(steps[n], 1)
         x, y, theta = pose[0], pose[1], pose[2]
         vx, vy, w = starts[n, 0], starts[n, 1], starts[n, 2]
+        under, before, beside, off, ahead = 0.0, 0.0, 0.0, 0.0, 0.0
+        for critic in range(5):
+            where[n, critic] = -1
         for i in range(steps[n]):
             points[n, i, 0], points[n, i, 1], points[n, i, 2] = x, y, theta
             cos, sin = math.cos(theta), math.sin(theta)
             cell = cell_of(x, y, origin_x, origin_y, resolution, width, height)
-            if raw[n, 0] >= 0:
+            if under >= 0:
                 cost = outline_cost(
                     costs,
                     width,
@@ -204,21 +211,22 @@ def rollout(
                     footprint,
                 )
                 if cost < 0:
-                    raw[n, 0], where[n, 0] = cost, i
+                    under, where[n, 0] = float(cost), i
                 else:
-                    raw[n, 0] = max(raw[n, 0], float(max(cost, int(costs[cell]))))
+                    under = max(under, float(max(cost, int(costs[cell]))))
             if scored[n] < 0 or i == scored[n]:
                 nose = cell_of(
                     x + shift * cos, y + shift * sin, origin_x, origin_y, resolution, width, height
                 )
-                look_up(front, nose, n, 1, i, False, raw, where)
-                look_up(path, nose, n, 2, i, False, raw, where)
-                look_up(path, cell, n, 3, i, True, raw, where)
-                look_up(goal, cell, n, 4, i, True, raw, where)
+                before = looked_up(front, nose, False, before, n, 1, i, where)
+                beside = looked_up(path, nose, False, beside, n, 2, i, where)
+                off = looked_up(path, cell, True, off, n, 3, i, where)
+                ahead = looked_up(goal, cell, True, ahead, n, 4, i, where)
             vx = nearer(vx, targets[n, 0], limits[0] * dt)
             vy = nearer(vy, targets[n, 1], limits[1] * dt)
             w = nearer(w, targets[n, 2], limits[2] * dt)
             x, y, theta = x + (vx * cos - vy * sin) * dt, y + (vx * sin + vy * cos) * dt, theta + w * dt
+        raw[n, 0], raw[n, 1], raw[n, 2], raw[n, 3], raw[n, 4] = under, before, beside, off, ahead
 
 
 def cell_of(
@@ -239,12 +247,12 @@ def nearer(value: float, target: float, most: float) -> float:
     return max(target, value - most)
 
 
-def look_up(
-    distances: Distances, cell: int, n: int, critic: int, i: int, strict: bool, raw: Floats, where: Ints
-) -> None:
-    """Write the distance of a cell into `raw[n, critic]`, unless that is negative already; see `rollout`."""
-    if raw[n, critic] < 0:
-        return
+def looked_up(
+    distances: Distances, cell: int, strict: bool, last: float, n: int, critic: int, i: int, where: Ints
+) -> float:
+    """The distance of a cell, or `last` if that is negative; the first point that makes it so is noted in `where`."""
+    if last < 0:
+        return last
     value = OFF_GRID
     if cell >= 0:
         value = float(distances[cell])
@@ -253,7 +261,7 @@ def look_up(
             value = IN_OBSTACLE if value == size else UNREACHABLE
     if value < 0:
         where[n, critic] = i
-    raw[n, critic] = value
+    return value
 
 
 def compiled_footprint_cost() -> Callable[..., int]:
@@ -300,4 +308,4 @@ def compiled_rollout() -> Callable[..., None]:
         number[:, ::1],
         whole[:, ::1],
     )
-    return machine_code(rollout, signature, (outline_cost, line_cost, cell_of, nearer, look_up))
+    return machine_code(rollout, signature, (outline_cost, line_cost, cell_of, nearer, looked_up))

@@ -77,7 +77,9 @@ def rollout() -> TrajectoryPlanner:
     )
 
 
-def cycle(side: int = 60, seed: int = 1, planner: DWAPlanner | TrajectoryPlanner | None = None) -> Callable[[], Samples]:
+def cycle(
+    side: int = 60, seed: int = 1, planner: DWAPlanner | TrajectoryPlanner | None = None
+) -> Callable[[], Samples]:
     """A function that does a cycle of control: map grids, samples, all critics, choice."""
     grid, driver = window(side, seed), planner or dwa()
     path, here, velocity = plan(grid), (0.0, 0.0, 0.0), np.array([0.49, 0.0, 0.0])
@@ -101,7 +103,7 @@ def cost_of(action: Callable[[], object], times: int = 40) -> float:
 
 
 def cycle_cost(side: int = 60, seed: int = 1, times: int = 40) -> float:
-    """What a cycle of DWA costs [ms]: 800 samples of 30 points, the outline of a polygon, four map grids, all critics."""
+    """What a cycle of DWA costs [ms]: 800 samples of 30 points, a polygon's outline, four map grids, all critics."""
     return cost_of(cycle(side, seed), times)
 
 
@@ -144,7 +146,9 @@ def driven(command: tuple[float, float], before: tuple[float, float], seconds: f
     return compose(inverse(start), engine.robots["robot"].pose)
 
 
-def predicted(command: tuple[float, float], before: tuple[float, float], acceleration: float, *, window: bool) -> Floats:
+def predicted(
+    command: tuple[float, float], before: tuple[float, float], acceleration: float, *, window: bool
+) -> Floats:
     """The pose (3) that the planner foresees after `sim_time`: with `window` it believes in the command at once.
 
     Without it (`use_dwa: false`) the velocity comes nearer by `acceleration` [m/s2]; turns by what the wheels then can.
