@@ -36,7 +36,7 @@ def test_the_true_acceleration_predicts_better_than_that_of_the_files():
 
 
 def test_a_turn_on_the_spot_lags_by_its_acceleration():
-    """The rim of a wheel 8 cm aside reaches w 0.08 m/s at 1 m/s2; as long as that takes, half of the turn is missing."""
+    """The rim of a wheel 8 cm aside reaches w 0.08 m/s at 1 m/s2; for so long half of the turn is missing."""
     turn = nav_control.miss((0.0, 2.75), (0.0, 0.0), 2.5, window=True)
     assert turn.heading == pytest.approx(-(2.75**2) * 0.08 / 2, rel=0.15)
     assert math.isclose(turn.distance, 0.0, abs_tol=2e-3)
