@@ -16,8 +16,8 @@ from .goal_functions import distance_to, stands, turn_to
 from .limits import LocalPlannerLimits
 
 Floats = NDArray[np.float64]
-Check = Callable[[Floats], bool]
-"""Whether the robot may drive a velocity (3)."""
+Check = Callable[[Floats], str]
+"""Why the robot may not drive a velocity (3); empty if it may."""
 
 
 @dataclass
@@ -56,7 +56,7 @@ class LatchedStopRotate:
         goal: Pose,
         limits: LocalPlannerLimits,
         period: float,
-        is_free: Check,
+        why_not: Check,
     ) -> Floats:
         """The velocity (3) to command at the goal; `period` [s] is the time between two commands.
 
@@ -68,14 +68,14 @@ class LatchedStopRotate:
             return np.zeros(3)
         if not self.rotating and not stands(velocity, limits.theta_stopped_vel, limits.trans_stopped_vel):
             return checked(
-                braked(velocity, limits.accelerations, period), is_free, "Stopping cmd in collision"
+                braked(velocity, limits.accelerations, period), why_not, "Stopping cmd in collision"
             )
         self.rotating = True
         most, least = limits.max_vel_theta, limits.min_vel_theta
         speed = min(most, max(least, abs(turn)))
         speed = follow(speed, turn, float(velocity[2]), limits.acc_lim_theta, period)
         speed = min(most, max(least, speed))
-        return checked(np.array([0.0, 0.0, math.copysign(speed, turn)]), is_free, "Rotation cmd in collision")
+        return checked(np.array([0.0, 0.0, math.copysign(speed, turn)]), why_not, "Rotation cmd in collision")
 
 
 def braked(velocity: Floats, accelerations: Floats, period: float) -> Floats:
@@ -89,13 +89,14 @@ def follow(speed: float, turn: float, now: float, acceleration: float, period: f
     return min(math.sqrt(2 * acceleration * abs(turn)), abs(speed))
 
 
-def checked(command: Floats, is_free: Check, text: str) -> Floats:
+def checked(command: Floats, why_not: Check, text: str) -> Floats:
     """The command, if the robot may drive it. Raises `ControlFailure`, which begins with `text`."""
-    if is_free(command):
+    reason = why_not(command)
+    if not reason:
         return command
     x, y, theta = (round(float(value), 3) + 0.0 for value in command)
     raise ControlFailure(
-        f"{text}: at the goal the robot would drive {x} m/s ahead, {y} m/s to the left and turn by {theta} rad/s, and "
-        "its footprint meets an obstacle, unknown cells or the edge of the local costmap",
+        f"{text}: at the goal the robot would drive {x} m/s ahead, {y} m/s to the left and turn by {theta} rad/s, but "
+        f"{reason}",
         command=(x, y, theta),
     )

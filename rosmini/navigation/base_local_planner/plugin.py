@@ -211,7 +211,7 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         self._sample(pose, plan)
         if not self._rotating and not stands(velocity, STANDS, STANDS):
             command = braked(velocity, self.parameters.accelerations, self.planner.sim_period)
-            return checked(command, lambda asked: self._is_free(pose, asked), "Stopping cmd in collision")
+            return checked(command, lambda asked: self._why_not(pose, asked), "Stopping cmd in collision")
         self._rotating = True
         p = self.parameters
         most, least = p.max_vel_theta, p.min_in_place_vel_theta
@@ -220,7 +220,9 @@ class TrajectoryPlannerROS(BaseLocalPlanner, plugin="base_local_planner/Trajecto
         # More important than the acceleration.
         speed = min(most, max(least, speed))
         command = np.array([0.0, 0.0, math.copysign(speed, turn)])
-        return checked(command, lambda asked: self._is_free(pose, asked), "Rotation cmd in collision")
+        return checked(command, lambda asked: self._why_not(pose, asked), "Rotation cmd in collision")
 
-    def _is_free(self, pose: Pose, command: Floats) -> bool:
-        return self.planner.score(self.costmap.grid, pose, self.odometry.velocity, command) >= 0
+    def _why_not(self, pose: Pose, command: Floats) -> str:
+        return self.planner.driven(self.costmap.grid, pose, self.odometry.velocity, command[None, :]).reason(
+            0
+        )

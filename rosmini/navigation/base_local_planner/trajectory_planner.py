@@ -209,9 +209,9 @@ class TrajectoryPlanner:
         self._forget(pose)
         return replace(samples, best=best)
 
-    def score(self, grid: Costmap2D, pose: Pose, velocity: Floats, command: Floats) -> float:
-        """The cost of driving one command (3), negative if it is impossible: `scoreTrajectory`."""
-        return float(self._scored(grid, pose, velocity, command[None, :]).totals[0])
+    def driven(self, grid: Costmap2D, pose: Pose, velocity: Floats, velocities: Floats) -> Samples:
+        """What becomes of velocities (n, 3) of one's own, beginning at `velocity` (3); none is chosen or noted."""
+        return self._scored(grid, pose, velocity, velocities)
 
     def window(self, pose: Pose, velocity: Floats) -> tuple[tuple[float, float], tuple[float, float]]:
         """The lowest and the highest velocities to try, each as (ahead [m/s], turn [rad/s])."""

@@ -131,10 +131,10 @@ class DWAPlanner:
             grid, pose, velocity, velocities, self.sampling.steps(velocities, self.parameters), 0
         )
 
-    def is_free(self, grid: Costmap2D, pose: Pose, velocity: Floats, command: Floats) -> bool:
-        """Whether no critic rejects one command (3): `checkTrajectory`, which allows going back, too."""
+    def why_not(self, grid: Costmap2D, pose: Pose, velocity: Floats, command: Floats) -> str:
+        """Why a critic rejects one command (3), or nothing: `checkTrajectory`, which allows going back, too."""
         self.oscillation.reset()
-        return bool(self.driven(grid, pose, velocity, command[None, :]).accepted[0])
+        return self.driven(grid, pose, velocity, command[None, :]).reason(0)
 
     def _scored(
         self,

@@ -166,7 +166,7 @@ class DWAPlannerROS(BaseLocalPlanner, plugin="dwa_local_planner/DWAPlannerROS"):
             self.following.goal(),
             self.parameters,
             self.planner.sim_period,
-            lambda asked: self.planner.is_free(self.costmap.grid, pose, self.odometry.velocity, asked),
+            lambda asked: self.planner.why_not(self.costmap.grid, pose, self.odometry.velocity, asked),
         )
 
     def _drive(self, pose: Pose, plan: Floats) -> Floats:

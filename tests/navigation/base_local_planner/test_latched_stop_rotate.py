@@ -16,7 +16,12 @@ STILL = np.zeros(3)
 
 def command(control, pose, velocity=STILL, free=True, limits=LIMITS):
     return control.command(
-        pose, np.asarray(velocity, dtype=float), GOAL, limits, 0.1, lambda _: free
+        pose,
+        np.asarray(velocity, dtype=float),
+        GOAL,
+        limits,
+        0.1,
+        lambda _: "" if free else "obstacle: it is in the way",
     ).tolist()
 
 
@@ -55,7 +60,9 @@ def test_the_goal_is_reached_only_at_a_standstill():
 
 
 def test_what_would_touch_something_is_not_commanded():
-    with pytest.raises(ControlFailure, match=r"Rotation cmd in collision: .* turn by 0\.4 rad/s"):
+    with pytest.raises(
+        ControlFailure, match=r"Rotation cmd in collision: .* turn by 0\.4 rad/s, but obstacle: it"
+    ):
         command(LatchedStopRotate(), (1, 0, 0), free=False)
     with pytest.raises(ControlFailure, match="Stopping cmd in collision"):
         command(LatchedStopRotate(), (1, 0, 0), [0.5, 0, 0], free=False)

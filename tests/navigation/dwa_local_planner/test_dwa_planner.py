@@ -80,8 +80,8 @@ def test_a_wall_ahead_rejects_what_runs_into_it():
     assert samples.reason(hit).startswith("obstacle: the footprint meets an obstacle at point ")
     assert samples.explain(hit)["obstacle"] is None
     assert samples.explain(hit)["total"] is None
-    assert not planner.is_free(grid, (0.0, 0.0, 0.0), np.zeros(3), np.array([0.22, 0, 0]))
-    assert planner.is_free(grid, (0.0, 0.0, 0.0), np.zeros(3), np.array([-0.22, 0, 0]))
+    assert planner.why_not(grid, (0.0, 0.0, 0.0), np.zeros(3), np.array([0.22, 0, 0])).startswith("obstacle")
+    assert planner.why_not(grid, (0.0, 0.0, 0.0), np.zeros(3), np.array([-0.22, 0, 0])) == ""
 
 
 def test_between_walls_nothing_is_possible_and_the_counts_say_why():
