@@ -26,6 +26,7 @@ from rosmini.time import Time
 from . import footprint as outlines
 from .costmap import Costmap2D
 from .explanation import CellCosts
+from .inflation_layer import InflationLayer
 from .layer import Layer
 from .layered import LayeredCostmap
 from .migration import inherit, migrate
@@ -100,6 +101,11 @@ class Costmap2DROS:
         self._first_footprint = footprint_of_parameters(node, namespace)
         migrate(node, namespace, self.name)
         self._settings = CostmapParameters.read(node, namespace, track_unknown_space=tracks_unknown)
+        if not self._settings.resolution > 0:
+            raise ParameterError(
+                f"parameter {node.resolve(namespace + 'resolution')} is {self._settings.resolution:g}: it has to be "
+                "the side of a cell in metres, above 0"
+            )
 
     def _frame(self, parameter: str, frame: str) -> str:
         if frame.startswith("/"):
@@ -269,6 +275,18 @@ class Costmap2DROS:
         options.setdefault("footprint", self.footprint)
         options.setdefault("name", self.name)
         return self.grid.show(**options)
+
+    def show_inflation(self, **options: Any) -> Any:
+        """The same with dials for the numbers of inflation, which are this costmap's at first.
+
+        See `Costmap2D.show_inflation` for the options.
+        """
+        options.setdefault("inscribed_radius", round(self.inscribed_radius, 3))
+        for layer in self.layers:
+            if isinstance(layer, InflationLayer):
+                options.setdefault("inflation_radius", layer.radius)
+                options.setdefault("cost_scaling_factor", layer.cost_scaling_factor)
+        return self.grid.show_inflation(**options)
 
     # -- what may be done to it ----------------------------------------------------------------------------------
 

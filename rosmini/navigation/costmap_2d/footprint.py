@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from rosmini.errors import ParameterError
 from rosmini.geometry.poses import Pose, transform_points
@@ -121,8 +121,3 @@ def _side(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
 def points_of(polygon: Any) -> Footprint:
     """The vertices of a `geometry_msgs/Polygon`."""
     return np.array([(point.x, point.y) for point in polygon.points], dtype=np.float64).reshape(-1, 2)
-
-
-def checked_polygon(polygon: ArrayLike) -> Footprint:
-    """Vertices (n, 2) as an array of floats."""
-    return np.asarray(polygon, dtype=np.float64).reshape(-1, 2)

@@ -248,13 +248,6 @@ class CostmapLayer(Layer):
         """Write all its costs, unknown ones too."""
         np.copyto(window.of(grid.costs), window.of(self.costs))
 
-    def update_with_addition(self, grid: Costmap2D, window: Window) -> None:
-        """Add its costs, where it knows one; what is not an obstacle stays below 253."""
-        mine, master = window.of(self.costs), window.of(grid.costs)
-        known = mine != NO_INFORMATION
-        total = np.minimum(mine.astype(np.int16) + np.where(master == NO_INFORMATION, 0, master), 252)
-        np.copyto(master, total.astype(np.uint8), where=known)
-
     def explain(self, mx: int, my: int) -> tuple[int | None, str]:
         """Its own cost at a cell of the master grid; None where it knows nothing."""
         cell = self.grid.world_to_map(*self.layered.grid.map_to_world(mx, my))

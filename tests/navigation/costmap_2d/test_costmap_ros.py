@@ -9,6 +9,7 @@ import pytest
 
 from rosmini.errors import ParameterError
 from rosmini.msgs import message_class
+from rosmini.navigation.costmap_2d.costmap import CostmapError
 from rosmini.navigation.costmap_2d.layer import Layer
 from rosmini.navigation.nav_core import TransformMissing, pose_stamped
 from rosmini.plugins import PluginError
@@ -273,6 +274,9 @@ def test_without_a_footprint_the_radius_is_that_of_the_real_one(stage):
     [
         ({"footprint": [[0, 0], [1, 1]]}, ParameterError, "at least three points"),
         ({"resolution": -0.1}, ParameterError, "resolution"),
+        ({"resolution": 0.0}, ParameterError, "above 0"),
+        ({"width": 100_000, "resolution": 0.001}, CostmapError, "take a coarser resolution"),
+        ({"plugins": "obstacles"}, ParameterError, "plugins"),
         ({"update_frequency": "fast"}, ParameterError, "update_frequency"),
         ({"plugins": [{"name": "x", "type": "costmap_2d::InflatonLayer"}]}, PluginError, "InflationLayer"),
         (
@@ -463,3 +467,16 @@ def test_it_survives_a_gap_of_tf_and_a_scan_from_the_past(stage):
     stage.scan([1.5] * 4, header=message_class("std_msgs/Header")(stamp=old, frame_id="base_link"))
     assert (costmap.grid.costs == 254).sum() == 4
     assert timer.is_alive()
+
+
+def test_it_shows_itself_with_its_own_numbers(stage):
+    costmap = stage.costmap(
+        plugins=layers("obstacles", "inflation"),
+        inflation={"inflation_radius": 0.4},
+        obstacles=BOTH,
+        **ROLLING,
+    )
+    stage.scan([1.0] * 8)
+    assert "footprint of 16 points" in costmap.show().text
+    said = costmap.show_inflation().text
+    assert "inflation_radius 0.4 m, cost_scaling_factor 10, inscribed radius 0.098 m" in said
