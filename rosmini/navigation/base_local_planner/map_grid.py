@@ -122,15 +122,16 @@ def path_grid(grid: Costmap2D, plan: Floats, within: Ints | None = None) -> MapG
 
     `within` (n, 2) are cells (mx, my) where the robot is, which stop nothing.
     """
-    return _spread(grid, plan_cells(grid, plan), within)
+    return spread(grid, plan_cells(grid, plan), within)
 
 
 def goal_grid(grid: Costmap2D, plan: Floats) -> MapGrid:
     """Distances from the last point of the plan (n, 2) before it leaves the costmap: `MapGrid::setLocalGoal`."""
-    return _spread(grid, plan_cells(grid, plan)[-1:], None)
+    return spread(grid, plan_cells(grid, plan)[-1:])
 
 
-def _spread(grid: Costmap2D, targets: Ints, within: Ints | None) -> MapGrid:
+def spread(grid: Costmap2D, targets: Ints, within: Ints | None = None) -> MapGrid:
+    """Distances from the cells `targets` (n, 2); `within` as in `path_grid`."""
     size = grid.width * grid.height
     distances: Distances = np.full((grid.height, grid.width), size + 1, dtype=np.int32)
     inside = np.zeros((grid.height, grid.width), dtype=np.uint8)

@@ -86,6 +86,24 @@ class Samples:
         words = REASONS.get((self.critics[critic], int(self.raw[number, critic])), "rejects it")
         return f"{self.critics[critic]}: {words}{place}"
 
+    def table(self, count: int = 8) -> str:
+        """The `count` cheapest, and of each critic that rejected any the first one, with what each critic added."""
+        accepted = np.flatnonzero(self.accepted)
+        cheapest = accepted[np.argsort(self.totals[accepted].round(6), kind="stable")][:count]
+        rejected = [np.flatnonzero(self.rejected_by == critic)[:1] for critic in range(len(self.critics))]
+        asked = [name for name, scale in zip(self.critics, self.scales, strict=True) if scale]
+        rows = [["number", "x", "y", "theta", *asked, "total"]]
+        for number in (int(n) for n in np.concatenate([cheapest, *rejected])):
+            row = self.explain(number)
+            costs = ["-" if row[name] is None else _shown(row[name]) for name in asked]
+            total = self.reason(number) if row["total"] is None else _shown(row["total"])
+            rows.append([str(number), *map(_shown, self.commands[number]), *costs, total])
+        widths = [max(map(len, column)) for column in list(zip(*rows, strict=True))[:-1]]
+        return "\n".join(
+            "  ".join([*(cell.rjust(width) for cell, width in zip(row, widths, strict=False)), row[-1]])
+            for row in rows
+        )
+
     def nearest(self, x: float, y: float, theta: float) -> int:
         """The number of the sample whose velocity is most like this one.
 
@@ -98,6 +116,11 @@ class Samples:
     def show(self, **options: Any) -> Any:
         """A picture of them: see `rosmini.viz.trajectory_window`."""
         return show("trajectories", self, **options)
+
+
+def _shown(value: float | None) -> str:
+    """Two decimals. The boundaries lie a little off the halves, so that they are the same on every machine."""
+    return f"{(value or 0.0) + 3.7e-7:.2f}".replace("-0.00", "0.00")
 
 
 REASONS: dict[tuple[str, int], str] = {

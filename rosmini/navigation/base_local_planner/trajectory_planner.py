@@ -19,7 +19,7 @@ from rosmini.navigation.costmap_2d.costmap import Costmap2D
 from rosmini.parameters import Parameters, parameter
 
 from .costmap_model import footprint_cells, line_cells
-from .map_grid import MapGrid, goal_grid, path_grid
+from .map_grid import MapGrid, plan_cells, spread
 from .scored_sampling import SLACK, roll_out
 from .trajectory import Samples, joined
 
@@ -169,9 +169,10 @@ class TrajectoryPlanner:
         """
         self.plan, self.footprint = plan, footprint
         here = footprint_cells(grid, pose, footprint, fill=True)
-        self.path = path_grid(grid, plan, np.array(here, dtype=np.int64).reshape(-1, 2))
-        self.goal = goal_grid(grid, plan)
-        return len(self.path.targets) > 0
+        cells = plan_cells(grid, plan)
+        self.path = spread(grid, cells, np.array(here, dtype=np.int64).reshape(-1, 2))
+        self.goal = spread(grid, cells[-1:])
+        return len(cells) > 0
 
     # -- one cycle -----------------------------------------------------------------------------------------------
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rosmini.geometry.poses import Pose
 from rosmini.navigation.base_local_planner.critics import Oscillation, together, twirling
 from rosmini.navigation.base_local_planner.limits import LocalPlannerLimits
-from rosmini.navigation.base_local_planner.map_grid import MapGrid, goal_grid, path_grid
+from rosmini.navigation.base_local_planner.map_grid import MapGrid, goal_grid, plan_cells, spread
 from rosmini.navigation.base_local_planner.scored_sampling import Sampling, footprint_scales, roll_out
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
@@ -102,8 +102,9 @@ class DWAPlanner:
         ahead[-1, :2] += shift * math.cos(towards), shift * math.sin(towards)
         # Near the goal the nose has no business on the plan any more.
         self._nose = x * x + y * y > shift * shift * self.cheat_factor
-        self.grids = (path_grid(grid, plan), goal_grid(grid, plan), goal_grid(grid, ahead))
-        return len(self.grids[0].targets) > 0
+        cells = plan_cells(grid, plan)
+        self.grids = (spread(grid, cells), spread(grid, cells[-1:]), goal_grid(grid, ahead))
+        return len(cells) > 0
 
     def scales(self, resolution: float) -> Floats:
         """The weights of the critics (k): distances are counted in cells, and weighed in metres."""

@@ -1,0 +1,53 @@
+"""What one can ask the samples of a cycle."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rosmini.navigation.base_local_planner.trajectory import Samples, joined
+
+
+@pytest.fixture
+def samples():
+    """Three: one driven, a dearer one, and one that meets an obstacle at its second point."""
+    raw = np.array([[0.0, 10.0, 2.0], [0.0, 20.0, 4.0], [0.0, -1.0, 1.0]])
+    where = np.array([[-1, -1, -1], [-1, -1, -1], [-1, 1, -1]])
+    return Samples(
+        critics=("oscillation", "obstacle", "path"),
+        scales=np.array([1.0, 0.0, 1.5]) + np.array([0, 0.1, 0]),
+        velocities=np.array([[0.2, 0, 0], [0.2, 0, -0.5], [0.2, 0, 0.5]]),
+        commands=np.array([[0.2, 0, 0], [0.2, 0, -0.5], [0.2, 0, 0.5]]),
+        points=np.zeros((3, 4, 3)),
+        lengths=np.array([4, 3, 4]),
+        raw=raw,
+        where=where,
+        totals=np.array([4.0, 8.0, -1.0]),
+        rejected_by=np.array([-1, -1, 1]),
+        best=0,
+        refused=2,
+    )
+
+
+def test_the_table_has_the_cheapest_and_one_of_each_that_was_rejected(samples):
+    assert samples.table().split("\n") == [
+        "number     x     y  theta  oscillation  obstacle  path  total",
+        "     0  0.20  0.00   0.00         0.00      1.00  3.00  4.00",
+        "     1  0.20  0.00  -0.50         0.00      2.00  6.00  8.00",
+        "     2  0.20  0.00   0.50         0.00         -  1.50  " + samples.reason(2),
+    ]
+    assert len(samples.table(1).split("\n")) == 3
+
+
+def test_counts_are_by_critic(samples):
+    assert samples.counts() == {"obstacle": 1, "generator": 2}
+    assert samples.reason(0) == ""
+    assert samples.reason(2) == "obstacle: the footprint meets an obstacle at point 2 of 4"
+    assert samples.nearest(0.2, 0.0, -0.4) == 1
+    assert len(samples.trajectory(1)) == 3
+
+
+def test_samples_of_two_phases_become_one(samples):
+    both = joined(samples, samples, best=3)
+    assert (len(both), both.best, both.refused) == (6, 3, 4)
+    assert both.counts()["obstacle"] == 2
