@@ -103,6 +103,8 @@ class MoveBase:
         self._current_goal = node.publisher("~current_goal", stamped, queue_size=10)
         self._goals = node.publisher("move_base/goal", self._action_goal, queue_size=1)
         self._recoveries = node.publisher("move_base/recovery_status", self._recovery, queue_size=1)
+        for publisher in (self._commands, self._current_goal, self._recoveries):
+            publisher.expect_nobody()
         node.subscriber("move_base_simple/goal", stamped, self._simple_goal, queue_size=1)
         node.on_shutdown(self._killed)
 
@@ -319,7 +321,8 @@ class MoveBase:
         self.node.logwarn(f"No valid command: {error}", throttle=WARN_PERIOD)
         self.machine.command_failed(self._now())
         self._stop_base()
-        self.lane.wake()
+        if self.state is State.PLANNING:  # a plan would end the recovery before it begins
+            self.lane.wake()
 
     def _recover(self, number: int) -> None:
         """Run a recovery behaviour; the robot's lane waits for it."""
