@@ -151,6 +151,7 @@ def write(found: Iterable[Row], file: Path, seed: int) -> None:
         ["git", "rev-parse", "--short", "HEAD"],
         capture_output=True,
         text=True,
+        encoding="utf-8",
         check=False,
         cwd=Path(__file__).parent,
     ).stdout.strip()
