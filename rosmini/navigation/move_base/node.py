@@ -26,12 +26,14 @@ from rosmini.navigation.nav_core.poses import checked_goal
 from rosmini.tf import TransformListener
 
 from .checks import check_setup
-from .parameters import MoveBaseConfig, MoveBaseParameters
+from .explanation import Explanation, explain
+from .measures import lethal_cells
+from .parameters import MoveBaseConfig, MoveBaseParameters, limits
 from .planning import PlannerLane, offsets_within
 from .plugin_calls import call
 from .plugins import GLOBAL, LOCAL, Planners
 from .recoveries import Recoveries
-from .state_machine import Abort, Follow, Limits, Plan, Recover, State, StateMachine
+from .state_machine import Abort, Follow, Plan, Recover, State, StateMachine
 
 if TYPE_CHECKING:
     from rosmini.graph import Node
@@ -79,6 +81,10 @@ class MoveBase:
         """The plan that the local planner follows."""
         self.why = ""
         """Why there was no plan or no command, the last time."""
+        self.failure: NavigationFailure | None = None
+        """The same with its numbers."""
+        self.recovered: list[str] = []
+        """What the recovery behaviours have changed since the goal came."""
         self.lane = PlannerLane(node, self.machine, self._make_plan, self._stop_base)
         check_setup(self)
         self.action.start()
@@ -134,6 +140,10 @@ class MoveBase:
         """The local planner."""
         return self.planners.of[LOCAL]
 
+    def explain(self) -> Explanation:
+        """Why the robot is where it is, in words, numbers and a picture."""
+        return explain(self)
+
     def _now(self) -> float:
         return self.node.clock.now_ns() * 1e-9
 
@@ -167,7 +177,7 @@ class MoveBase:
                 f"{self.global_costmap.global_frame} frame: {error}"
             )
             self.goal = target
-        self.why = ""
+        self.why, self.failure, self.recovered = "", None, []
         self.lane.goal = self.goal
         self.machine.begin(self._now())
         self.lane.wake()
@@ -317,7 +327,7 @@ class MoveBase:
             return False
 
     def _no_command(self, error: NavigationFailure) -> None:
-        self.why = str(error)
+        self.why, self.failure = str(error), error
         self.node.logwarn(f"No valid command: {error}", throttle=WARN_PERIOD)
         self.machine.command_failed(self._now())
         self._stop_base()
@@ -335,6 +345,8 @@ class MoveBase:
         with suppress(TransformMissing):
             status.pose_stamped = self.global_costmap.robot_pose()
         self._recoveries.publish(status)
+        costmaps = (self.global_costmap, self.local_costmap)
+        before = [lethal_cells(costmap.layers) for costmap in costmaps]
         try:
             call(
                 self.node,
@@ -344,6 +356,11 @@ class MoveBase:
             )
         except NavigationFailure as error:
             self.node.logerr(str(error))
+        changes = (
+            f"{was - lethal_cells(costmap.layers)} lethal cells of {costmap.name}"
+            for was, costmap in zip(before, costmaps, strict=True)
+        )
+        self.recovered.append(f"{name} ({self.machine.trigger.name.lower()}): cleared {', '.join(changes)}")
         self.machine.recovered(self._now())
 
     def _give_up(self, decision: Abort) -> None:
@@ -367,7 +384,7 @@ class MoveBase:
         try:
             plan: Sequence[Any] = self._ask(GLOBAL, "make_plan", start, goal)
         except NavigationFailure as error:
-            self.why = str(error)
+            self.why, self.failure = str(error), error
             self.node.logwarn(f"Failed to find a plan: {error}", throttle=WARN_PERIOD)
             return ()
         if plan is None or not len(plan):
@@ -468,16 +485,3 @@ class MoveBase:
         self._stop_base()
         if self.goal is not None:
             self.machine.begin(self._now())
-
-
-def limits(config: MoveBaseConfig) -> Limits:
-    """The part of the parameters by which the state machine decides."""
-    return Limits(
-        config.planner_frequency,
-        config.planner_patience,
-        config.controller_patience,
-        config.max_planning_retries,
-        config.oscillation_timeout,
-        config.oscillation_distance,
-        config.recovery_behavior_enabled,
-    )

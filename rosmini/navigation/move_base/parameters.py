@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 from rosmini.parameters import Parameters, parameter
 
+from .state_machine import Limits
+
 
 @dataclass(frozen=True)
 class MoveBaseConfig(Parameters):
@@ -86,4 +88,17 @@ class MoveBaseParameters(MoveBaseConfig):
         "make_plan clears a square of twice this around the robot; by default ~local_costmap/circumscribed_radius",
         unit="m",
         minimum=0.0,
+    )
+
+
+def limits(config: MoveBaseConfig) -> Limits:
+    """The part of the parameters by which the state machine decides."""
+    return Limits(
+        config.planner_frequency,
+        config.planner_patience,
+        config.controller_patience,
+        config.max_planning_retries,
+        config.oscillation_timeout,
+        config.oscillation_distance,
+        config.recovery_behavior_enabled,
     )

@@ -260,6 +260,9 @@ def test_recoveries_run_in_their_order_and_the_list_ends(graph):
     assert [each.current_recovery_number for each in statuses] == [0, 1, 2, 3]
     assert {each.total_number_of_recoveries for each in statuses} == {4}
     assert max(turn for _, turn in rig.commands) == 1.0, "it turned around"
+    said = str(rig.move_base.explain())
+    assert "the last trouble: it does not like to" in said
+    assert "aggressive_reset (controlling): cleared" in said
     Stubborn.asked = 8
     assert go(rig, goal(1.0, 0.0))[0] is Status.SUCCEEDED, "it recovers"
 
@@ -332,3 +335,17 @@ def test_make_plan(graph):
     rig.client.send_goal(goal(1.9, 2.5))
     graph.run(1.0)
     assert "must be in an inactive state" in ask(1.0, 0.0)
+
+
+def test_it_explains_itself(graph):
+    rig = start(graph)
+    rig.client.send_goal(goal(1.9, 2.5))
+    graph.run(3.0)
+    found = rig.move_base.explain()
+    assert found.numbers["state"] == "controlling"
+    assert 0 <= found.numbers["goal_cost"] < 253
+    assert 0 < found.numbers["clearance"] < 1
+    assert 0.05 < found.numbers["narrowest"][2] < 0.6
+    assert "on its way to (1.90, 2.50) in map" in str(found)
+    assert "the goal: cell" in str(found)
+    assert "global_costmap" in str(found.show())
