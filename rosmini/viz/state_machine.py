@@ -120,7 +120,8 @@ def _text(
     lines = [f"{title}: {len({state for pair in labels for state in pair})} states"]
     for (source, target), names in sorted(labels.items()):
         lines.append(f"  {source} -> {target}: {', '.join(names)}")
-    lines.append(f"  final: {', '.join(sorted(ends))}")
+    if ends:
+        lines.append(f"  final: {', '.join(sorted(ends))}")
     if visited:
         lines.append(f"  visited: {' -> '.join(visited)}")
     return "\n".join(lines)
@@ -128,7 +129,8 @@ def _text(
 
 def _alt(states: list[str], ends: set[str], visited: Sequence[str]) -> str:
     way = f" One goal came through {', '.join(visited)}." if visited else ""
-    return f"State machine with the states {', '.join(states)}; it ends in {', '.join(sorted(ends))}.{way}"
+    end = f"; it ends in {', '.join(sorted(ends))}" if ends else ""
+    return f"State machine with the states {', '.join(states)}{end}.{way}"
 
 
 def _draw(

@@ -53,3 +53,9 @@ def test_the_same_picture_whatever_the_order():
     assert "&lt;back&gt;" in once.svg
     with pytest.raises(ViewError, match=r"PENDIN is no state of this machine: did you mean PENDING\?"):
         action_states(visited=["PENDIN"])
+
+
+def test_a_machine_without_an_end():
+    picture = state_machine([("day", "dusk", "night"), ("night", "dawn", "day")], title="t")
+    assert "final" not in picture.text
+    assert picture.alt == "State machine with the states day, night."

@@ -87,6 +87,11 @@ def test_the_map_is_latched_and_asked_for(files):
     ]
 
 
+def test_a_map_of_ours_is_logged_by_its_package():
+    bench = Bench("package://rosmini_sim/maps/floor.yaml").start()
+    assert bench.said[0] == 'Loading map from image "package://rosmini_sim/maps/floor.png"'
+
+
 def test_another_map_takes_its_place(files):
     bench = Bench(files / "one.yaml", parameters={"frame_id": "floor"}).start()
     bench.listen()
