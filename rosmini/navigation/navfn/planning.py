@@ -35,6 +35,7 @@ class GridPlanner(BaseGlobalPlanner):
         self._path = message_class("nav_msgs/Path")
         self._pose = message_class("geometry_msgs/PoseStamped")
         self._plans = self.node.publisher(f"~{name}/plan", self._path, queue_size=1)
+        self._plans.expect_nobody()
         self.node.service(f"~{name}/make_plan", service_class("nav_msgs/GetPlan"), self._serve)
 
     @abstractmethod
