@@ -101,17 +101,22 @@ class GlobalDijkstra(WaveSearch):
         )
 
     def _seeds(self) -> dict[int, float]:
-        x, y = self.start
         if not self.precise:
             return super()._seeds()
-        cells = {
+        x, y = self.start
+        own_x, own_y = cell_of(self.start)
+        next_x, next_y = math.floor(x) + math.ceil(x) - own_x, math.floor(y) + math.ceil(y) - own_y
+        cells = {(own_x, own_y)} | {c for c in ((next_x, own_y), (own_x, next_y)) if self._free(*c)}
+        # The cell across the corner counts only if a way leads to it through one of those beside the start's own.
+        if len(cells) > 1 and self._free(next_x, next_y):
+            cells.add((next_x, next_y))
+        return {
             self._index((column, row)): self.neutral_cost * math.hypot(column - x, row - y)
-            for row in {math.floor(y), math.ceil(y)}
-            for column in {math.floor(x), math.ceil(x)}
+            for column, row in sorted(cells)
         }
-        own = self._index(cell_of(self.start))
-        flat = self.costs.ravel()
-        return {n: cost for n, cost in cells.items() if n == own or self.table[flat[n]] < HIGH}
+
+    def _free(self, column: int, row: int) -> bool:
+        return bool(self.table[self.costs[row + 1, column + 1]] < HIGH)
 
     def _expand(self, count: int) -> int:
         result = super()._expand(count)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from rosmini.navigation.global_planner import GlobalAStar, GlobalDijkstra
@@ -50,6 +50,12 @@ def test_without_interpolation_potentials_are_those_of_scipy(grid, dx, dy):
         for column in {int(np.floor(x)), int(np.ceil(x))}
         if 0 <= row < height and 0 <= column < width and np.isfinite(entering[row, column])
     }
+    # The one across the corner, if the two beside the start's own are blocked, is behind them.
+    seeds = {
+        (column, row): cost
+        for (column, row), cost in seeds.items()
+        if (column, start[1]) in seeds or (start[0], row) in seeds
+    }
     search.expand()
     np.testing.assert_allclose(search.potential, shortest(entering, seeds), rtol=1e-6, atol=1e-3)
 
@@ -67,7 +73,15 @@ def test_potentials_are_at_most_3_5_percent_above_the_fixed_point(grid):
     assert excess[exact[search.reached] > 0].min(initial=1.0) >= 1 - 1e-6
 
 
+def shut_in():
+    """The start touches the rest of the grid at the corner of its cell alone."""
+    costs = np.zeros((11, 5), np.uint8)
+    costs[0, [0, 2]] = costs[1, 1] = 254
+    return costs, (1, 0), (3, 10)
+
+
 @given(grids(), *[st.booleans()] * 4, between, between)
+@example(shut_in(), False, False, False, True, 0.25, 0.25)
 @settings(deadline=None, max_examples=200)
 def test_a_path_begins_and_ends_where_it_should_and_crosses_nothing(
     grid, a_star, quadratic, grid_path, precise, dx, dy
