@@ -54,7 +54,9 @@ def kept(points: NDArray[np.float64], tolerance: float) -> list[int]:
         start, chord = points[first], points[last] - points[first]
         between = points[first + 1 : last] - start
         length = float((chord * chord).sum())  # not `@`: BLAS's last bits depend on the processor
-        along = np.clip((between * chord).sum(axis=1) / length, 0.0, 1.0) if length else np.zeros(len(between))
+        along = (
+            np.clip((between * chord).sum(axis=1) / length, 0.0, 1.0) if length else np.zeros(len(between))
+        )
         return np.asarray(np.hypot(*(between - along[:, None] * chord).T))
 
     return needed([0, len(points) - 1], gaps, tolerance)
