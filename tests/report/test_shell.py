@@ -16,7 +16,7 @@ from ..cli.test_catkin_make import WALK
 from ..processes import run, start, wait_until
 from . import test_graph_commands
 from .command_lines import LINES
-from .test_graph_commands import NAMES_THE_RIGHT_FORM, ROSMINI, WORKS, shell
+from .test_graph_commands import MEASURES, NAMES_THE_RIGHT_FORM, ROSMINI, WORKS, shell
 
 __all__ = ["shell"]  # a fixture
 
@@ -37,7 +37,10 @@ rostopic list
 
 def test_every_line_of_the_report_is_typed_or_says_what_it_waits_for() -> None:
     assert len(LINES) == 88
-    known = {line for line, _ in (*WORKS, *NAMES_THE_RIGHT_FORM)} | {*vars(test_graph_commands), *globals()}
+    known = {line for line, _ in (*WORKS, *MEASURES, *NAMES_THE_RIGHT_FORM)} | {
+        *vars(test_graph_commands),
+        *globals(),
+    }
     for line in LINES:
         assert line.by or line.waits, line
         if line.by.startswith("walk:"):

@@ -38,6 +38,8 @@ DEPRECATED USAGE: map_server <map> <resolution>
 class MapServerParameters(Parameters):
     """The private parameters of `map_server/map_server`; all but the first are for the deprecated form alone."""
 
+    tolerant = True
+
     frame_id: str = parameter("map", "the frame of the published map")
     negate: int = parameter(0, "1: white is occupied and black is free", minimum=0, maximum=1)
     occupied_thresh: float = parameter(0.65, "darker pixels are occupied", minimum=0.0, maximum=1.0)
@@ -54,7 +56,7 @@ class MapServer:
     Raises:
         UsageError: other arguments.
         MapError: the map cannot be read.
-        ParameterError: a parameter has no such name, a wrong type, or a value out of range.
+        ParameterError: a parameter has a wrong type, or a value out of range.
 
     """
 

@@ -195,6 +195,12 @@ def test_a_parameter_of_the_wrong_type_is_told(files):
         Bench(files / "one.yaml", parameters={"frame_id": 7}).start()
 
 
+def test_a_parameter_that_it_does_not_have_is_warned_of(files):
+    bench = Bench(files / "one.yaml", parameters={"frame": "floor", "frame_id": "ground"}).start()
+    assert bench.server.parameters.frame_id == "ground"
+    assert any("has no parameter ~frame; did you mean ~frame_id" in said for said in bench.said)
+
+
 def test_with_simulated_time_the_map_waits_for_the_clock(files):
     bench = Bench(files / "one.yaml")
     bench.reader.set_param("/use_sim_time", True)
