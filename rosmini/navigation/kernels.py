@@ -20,6 +20,8 @@ KERNELS: tuple[str, ...] = (
     "rosmini.navigation.global_planner.best_first:compiled_best_first",
     "rosmini.navigation.navfn.descent:compiled_descend",
     "rosmini.navigation.navfn.wave:compiled_wave",
+    "rosmini.navigation.amcl.field:compiled_scores",
+    "rosmini.navigation.amcl.field:compiled_ranges",
 )
 """`module:function` of the functions that return a kernel: compiled, or without numba as it is."""
 

@@ -26,6 +26,12 @@ def planar_pose(pose: Any) -> Pose:
     return p.x, p.y, yaw_from_quaternion(q.x, q.y, q.z, q.w)
 
 
+def planar_transform(message: Any) -> Pose:
+    """Return x [m], y [m] and heading [rad] of a `geometry_msgs/TransformStamped`."""
+    t, q = message.transform.translation, message.transform.rotation
+    return t.x, t.y, yaw_from_quaternion(q.x, q.y, q.z, q.w)
+
+
 def pose_stamped(frame_id: str, stamp: Time, pose: Pose) -> Any:
     """A `geometry_msgs/PoseStamped` on the ground, from x [m], y [m] and heading [rad]."""
     message = message_class("geometry_msgs/PoseStamped")()

@@ -1,0 +1,242 @@
+"""How likely a laser's beams are from where: the likelihood field and the beam model.
+
+Thrun, Burgard and Fox, Probabilistic Robotics (2005), sections 6.3 and 6.4. A field is a table: what a beam that ends
+in a cell adds to the likelihood of a particle, so that scoring is looking up. As in the original
+(http://wiki.ros.org/amcl), beams are not multiplied but their cubes added, for neighbours are not independent.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.machine_code import machine_code
+from rosmini.navigation.kernels import kernel
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Table = NDArray[np.float32]
+Form = Literal["cube", "log"]
+
+SCORES = f"{__name__}:compiled_scores"
+RANGES = f"{__name__}:compiled_ranges"
+
+
+@dataclass(frozen=True)
+class BeamMixture:
+    """What a beam may be, and how often: http://wiki.ros.org/amcl#Laser_model_parameters."""
+
+    z_hit: float = 0.95
+    z_short: float = 0.1
+    z_max: float = 0.05
+    z_rand: float = 0.05
+    sigma_hit: float = 0.2
+    """Of a beam that hits what is in the map [m]."""
+    lambda_short: float = 0.1
+    """Of beams that end too early [1/m]."""
+
+
+def distances(occupied: Bools, farthest: int) -> NDArray[np.float32]:
+    """The exact distance of each cell (h, w) from the middle of the nearest occupied one [cells], at most `farthest`.
+
+    By rows, then by columns: a squared distance is the least of squares along the row plus squares along the column.
+    """
+    height, width = occupied.shape
+    limit = farthest + 1
+    row = np.full((height, width), limit, dtype=np.int32)
+    row[occupied] = 0
+    for column in range(1, width):
+        np.minimum(row[:, column], row[:, column - 1] + 1, out=row[:, column])
+    for column in range(width - 2, -1, -1):
+        np.minimum(row[:, column], row[:, column + 1] + 1, out=row[:, column])
+    squares = np.minimum(row, limit) ** 2
+    best = squares.copy()
+    for step in range(1, min(farthest, height - 1) + 1):
+        more = step * step
+        np.minimum(best[step:], squares[:-step] + more, out=best[step:])
+        np.minimum(best[:-step], squares[step:] + more, out=best[:-step])
+    found: NDArray[np.float32] = np.sqrt(np.minimum(best, farthest * farthest), dtype=np.float32)
+    return found
+
+
+class LikelihoodField:
+    """A map of which it is known how likely a beam ends where.
+
+    Args:
+        occupied: (h, w), row 0 at the bottom: the cells that are surely occupied.
+        resolution: the side of a cell [m].
+        origin: x and y of the lower left corner of cell (0, 0) [m].
+        farthest: what is farther from everything is taken to be so far [m].
+        free: (h, w): the cells that a beam passes; what is not occupied, by default. As in the original a beam of the
+            beam model ends where nothing is known, too.
+
+    """
+
+    def __init__(
+        self,
+        occupied: Bools,
+        resolution: float,
+        origin: tuple[float, float],
+        farthest: float = 2.0,
+        free: Bools | None = None,
+    ) -> None:
+        self.occupied = np.ascontiguousarray(occupied)
+        self.blocked = self.occupied if free is None else ~np.ascontiguousarray(free)
+        self.resolution, self.origin, self.farthest = float(resolution), origin, float(farthest)
+        cells = max(1, round(farthest / resolution))
+        self.distance: Table = np.minimum(distances(self.occupied, cells) * resolution, farthest).astype(
+            np.float32
+        )
+        """(h, w) [m]."""
+        self._table: tuple[tuple[BeamMixture, float, Form], Table, float] | None = None
+        """The table that was used last, for beams of the same laser."""
+
+    def densities(self, mixture: BeamMixture, range_max: float, form: Form) -> tuple[Table, float]:
+        """A form of the density of a beam by the cell (h, w) that it ends in, and that of one that ends outside."""
+        wanted = (mixture, range_max, form)
+        if self._table is None or self._table[0] != wanted:
+            # The squared distance is a whole number of squared cells: few values, so the map is only looked up.
+            steps = np.rint((self.distance / self.resolution) ** 2).astype(np.int32)
+            values = np.arange(int(steps.max()) + 1) * self.resolution**2
+            values = np.append(np.minimum(values, self.farthest**2), self.farthest**2)
+            density = (
+                mixture.z_hit * np.exp(-values / (2 * mixture.sigma_hit**2)) + mixture.z_rand / range_max
+            )
+            formed = (density**3 if form == "cube" else np.log(density)).astype(np.float32)
+            self._table = wanted, formed[steps], float(formed[-1])
+        _, table, outside = self._table
+        return table, outside
+
+    def sums(self, table: Table, outside: float, poses: Floats, ends: Floats) -> Floats:
+        """For each pose (n, 3) the sum over beams of what stands in `table` where they end.
+
+        `ends` (b, 2) are the ends of the beams in the frame of the poses [m].
+        """
+        sums: Floats = np.empty(len(poses))
+        kernel(SCORES)(
+            table,
+            outside,
+            *self.origin,
+            1.0 / self.resolution,
+            np.ascontiguousarray(poses),
+            np.ascontiguousarray(ends),
+            sums,
+        )
+        return sums
+
+    def each(self, table: Table, outside: float, poses: Floats, ends: Floats) -> Floats:
+        """The same beam by beam (n, b)."""
+        cos, sin = np.cos(poses[:, 2])[:, None], np.sin(poses[:, 2])[:, None]
+        x = poses[:, 0, None] + cos * ends[:, 0] - sin * ends[:, 1]
+        y = poses[:, 1, None] + sin * ends[:, 0] + cos * ends[:, 1]
+        column = np.floor((x - self.origin[0]) / self.resolution).astype(np.int64)
+        row = np.floor((y - self.origin[1]) / self.resolution).astype(np.int64)
+        height, width = table.shape
+        inside = (row >= 0) & (row < height) & (column >= 0) & (column < width)
+        found: Floats = np.full(inside.shape, outside)
+        found[inside] = table[row[inside], column[inside]]
+        return found
+
+    def ranges(self, poses: Floats, bearings: Floats, range_max: float) -> Floats:
+        """How far (n, b) [m] the map lets a beam go from each pose at each bearing [rad], at most `range_max`."""
+        found: Floats = np.empty((len(poses), len(bearings)))
+        kernel(RANGES)(
+            self.blocked,
+            *self.origin,
+            self.resolution,
+            np.ascontiguousarray(poses),
+            np.ascontiguousarray(bearings),
+            range_max,
+            found,
+        )
+        return found
+
+
+def scores(
+    table: Any, outside: float, left: float, low: float, per_metre: float, poses: Any, ends: Any, sums: Any
+) -> None:
+    """See `LikelihoodField.sums`."""
+    height, width = table.shape
+    for n in range(poses.shape[0]):
+        cos, sin = math.cos(poses[n, 2]), math.sin(poses[n, 2])
+        x, y = (poses[n, 0] - left) * per_metre, (poses[n, 1] - low) * per_metre
+        total = 0.0
+        for b in range(ends.shape[0]):
+            u = x + (cos * ends[b, 0] - sin * ends[b, 1]) * per_metre
+            v = y + (sin * ends[b, 0] + cos * ends[b, 1]) * per_metre
+            if 0.0 <= u < width and 0.0 <= v < height:
+                total += table[int(v), int(u)]
+            else:
+                total += outside
+        sums[n] = total
+
+
+def beam_ranges(
+    blocked: Any,
+    left: float,
+    low: float,
+    resolution: float,
+    poses: Any,
+    bearings: Any,
+    range_max: float,
+    found: Any,
+) -> None:
+    """See `LikelihoodField.ranges`: from cell to cell along the beam (Amanatides and Woo, 1987)."""
+    height, width = blocked.shape
+    for n in range(poses.shape[0]):
+        for b in range(bearings.shape[0]):
+            angle = poses[n, 2] + bearings[b]
+            cos, sin = math.cos(angle), math.sin(angle)
+            u, v = (poses[n, 0] - left) / resolution, (poses[n, 1] - low) / resolution
+            column, row = math.floor(u), math.floor(v)
+            across = abs(1.0 / cos) if abs(cos) > 1e-12 else math.inf
+            up = abs(1.0 / sin) if abs(sin) > 1e-12 else math.inf
+            next_x = (
+                across * ((column + 1 - u) if cos > 0.0 else (u - column)) if across < math.inf else math.inf
+            )
+            next_y = up * ((row + 1 - v) if sin > 0.0 else (v - row)) if up < math.inf else math.inf
+            gone, limit = 0.0, range_max / resolution
+            while gone < limit:
+                if column < 0 or column >= width or row < 0 or row >= height or blocked[row, column]:
+                    break
+                if next_x < next_y:
+                    gone = next_x
+                    next_x += across
+                    column += 1 if cos > 0.0 else -1
+                else:
+                    gone = next_y
+                    next_y += up
+                    row += 1 if sin > 0.0 else -1
+            found[n, b] = min(gone, limit) * resolution
+
+
+@cache
+def compiled_scores() -> Callable[..., None]:
+    """`scores` as machine code, or as it is without numba."""
+    try:
+        from numba import float32, float64, void
+    except ImportError:
+        return scores
+    number, table = float64, float64[:, ::1]
+    return machine_code(
+        scores, void(float32[:, ::1], number, number, number, number, table, table, float64[::1])
+    )
+
+
+@cache
+def compiled_ranges() -> Callable[..., None]:
+    """`beam_ranges` as machine code, or as it is without numba."""
+    try:
+        from numba import boolean, float64, void
+    except ImportError:
+        return beam_ranges
+    number, table = float64, float64[:, ::1]
+    return machine_code(
+        beam_ranges, void(boolean[:, ::1], number, number, number, table, float64[::1], number, table)
+    )

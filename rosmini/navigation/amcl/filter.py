@@ -1,0 +1,256 @@
+"""The particle filter: weights from likelihoods, and as many particles resampled as it takes.
+
+KLD-sampling: Fox, Adapting the sample size in particle filters through KLD-sampling (IJRR 2003). Recovery:
+Probabilistic Robotics, section 8.3.3 (augmented MCL). Random numbers come from the generator that it is given.
+
+One defect of the original is not copied: there the average likelihood that the recovery watches is divided by the
+number of particles twice, so that it jumps whenever their number changes. Here it is the average. And there a cluster
+ends where the heading wraps around; here it does not, so that a robot that looks along -x has one mean, not two.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rosmini.errors import RosminiError
+from rosmini.geometry.angles import normalize_angle
+from rosmini.geometry.poses import Pose
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+BINS = (0.5, 0.5, math.radians(10))
+"""The sides of the histogram's cells [m, m, rad]."""
+CIRCLE = 36
+"""Cells of the histogram along the heading."""
+LEAST_ERROR = 1e-9
+"""What a `kld_err` of 0 counts as: as many particles as there may be."""
+GRAIN = 1 << 48
+"""Weights are drawn by whole parts of this: a last bit that differs between machines draws the same particle."""
+NEAR = 0.5
+"""The particles have converged when all are within so much [m] of their mean, along x and y."""
+
+Uniform = Callable[[int], Floats]
+"""Draws so many poses (n, 3) from all that a map leaves free."""
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """Particles that lie together."""
+
+    weight: float
+    mean: Pose
+    covariance: Floats
+    """(3, 3) of x, y [m2] and heading, where the last is circular: minus twice the logarithm of the mean's length."""
+    count: int
+
+
+class ParticleFilter:
+    """Poses with weights that stand for where the robot may be.
+
+    Args:
+        fewest, most: bounds of the number of particles.
+        error: the divergence between the true distribution and the particles' that may remain (`kld_err`).
+        quantile: of the normal distribution, for the probability that it is met (`kld_z`).
+        slow, fast: rates at which the two averages of the likelihood follow (`recovery_alpha_slow`, `..._fast`); with 0
+            no particle is ever drawn at random.
+        random: where its random numbers come from.
+        selective: resample only when fewer than half of the particles count (`selective_resampling`).
+
+    """
+
+    def __init__(
+        self,
+        fewest: int = 100,
+        most: int = 5000,
+        *,
+        error: float = 0.01,
+        quantile: float = 0.99,
+        slow: float = 0.0,
+        fast: float = 0.0,
+        random: np.random.Generator,
+        selective: bool = False,
+    ) -> None:
+        if not 1 <= fewest <= most:
+            raise RosminiError(
+                f"a filter of {fewest} to {most} particles: min_particles has to be from 1 to max_particles"
+            )
+        self.fewest, self.most, self.error, self.quantile = fewest, most, error, quantile
+        self.slow, self.fast, self.selective = slow, fast, selective
+        self.random = random
+        self.particles: Floats = np.zeros((most, 3))
+        self.weights: Floats = np.full(most, 1 / most)
+        self.average_slow = self.average_fast = 0.0
+        self.converged = False
+
+    def initialize(self, mean: Pose, covariance: ArrayLike) -> None:
+        """Draw all particles from a normal distribution with this mean and covariance (3, 3)."""
+        deviations, axes = np.linalg.eigh(np.asarray(covariance, dtype=float))
+        spread = axes * np.sqrt(np.maximum(deviations, 0.0))
+        drawn = np.asarray(mean) + self.random.standard_normal((self.most, 3)) @ spread.T
+        drawn[:, 2] = normalize_angle(drawn[:, 2])
+        self._begin(drawn)
+
+    def initialize_uniform(self, uniform: Uniform) -> None:
+        """Draw all particles from everywhere: global localisation."""
+        self._begin(uniform(self.most))
+
+    def _begin(self, particles: Floats) -> None:
+        self.particles = particles
+        self.weights = np.full(len(particles), 1 / len(particles))
+        self.average_slow = self.average_fast = 0.0
+        self.converged = False
+
+    # -- the sensor ----------------------------------------------------------------------------------------------
+
+    def weigh(self, log_likelihoods: Floats) -> None:
+        """Multiply the weights with likelihoods (n,), and normalise them; if none is above 0, all are equal."""
+        top = float(log_likelihoods.max())
+        if not math.isfinite(top):
+            self.weights = np.full(len(self.weights), 1 / len(self.weights))
+            return
+        weights = self.weights * np.exp(log_likelihoods - top)
+        total = float(weights.sum())
+        self.weights = weights / total
+        average = total * math.exp(top)
+        if self.average_slow == 0.0:
+            self.average_slow = self.average_fast = average
+        else:
+            self.average_slow += self.slow * (average - self.average_slow)
+            self.average_fast += self.fast * (average - self.average_fast)
+
+    @property
+    def effective(self) -> float:
+        """How many particles count: 1 over the sum of the squared weights (Neff)."""
+        return float(1 / np.square(self.weights).sum())
+
+    @property
+    def random_share(self) -> float:
+        """The share of particles that resampling draws at random: what the likelihood has lost of late."""
+        return max(0.0, 1 - self.average_fast / self.average_slow) if self.average_slow > 0 else 0.0
+
+    # -- resampling ----------------------------------------------------------------------------------------------
+
+    def limit(self, bins: Ints) -> Ints:
+        """How many particles it takes, for each number of histogram cells that are occupied."""
+        least = np.maximum(bins - 1, 1).astype(float)
+        part = 2 / (9 * least)
+        found = np.ceil(
+            least / (2 * max(self.error, LEAST_ERROR)) * (1 - part + np.sqrt(part) * self.quantile) ** 3
+        )
+        limits: Ints = np.clip(np.where(bins <= 1, self.most, found), self.fewest, self.most).astype(np.int64)
+        return limits
+
+    def resample(self, uniform: Uniform) -> None:
+        """Draw particles by their weights, until there are enough for the histogram cells that they occupy."""
+        if self.selective and self.effective > 0.5 * len(self.particles):
+            return
+        share = self.random_share
+        parts = np.rint(self.weights * GRAIN).astype(np.int64)
+        ends = np.cumsum(parts)
+        drawn = self.particles[
+            np.searchsorted(ends, self.random.integers(ends[-1], size=self.most), side="right")
+        ]
+        lost = self.random.random(self.most) < share
+        if lost.any():
+            drawn[lost] = uniform(int(lost.sum()))
+        new = np.zeros(self.most, dtype=np.int64)
+        new[np.unique(packed(cells(drawn)), return_index=True)[1]] = 1
+        enough = np.flatnonzero(np.arange(1, self.most + 1) > self.limit(np.cumsum(new)))
+        count = int(enough[0]) + 1 if len(enough) else self.most
+        self.particles = drawn[:count]
+        self.weights = np.full(count, 1 / count)
+        if share > 0:
+            self.average_slow = self.average_fast = 0.0
+        off = np.abs(self.particles[:, :2] - self.particles[:, :2].mean(axis=0))
+        self.converged = bool((off <= NEAR).all())
+
+    # -- the answer ----------------------------------------------------------------------------------------------
+
+    def clusters(self) -> list[Cluster]:
+        """Particles in adjacent cells of the histogram, the heaviest cluster first."""
+        labels = clustered(cells(self.particles))
+        found = [
+            summed(self.particles[labels == label], self.weights[labels == label])
+            for label in range(int(labels.max()) + 1)
+        ]
+        return sorted(found, key=lambda cluster: -cluster.weight)
+
+    def mean(self) -> Cluster:
+        """All particles as one cluster."""
+        return summed(self.particles, self.weights)
+
+
+def cells(particles: Floats) -> Ints:
+    """The cell (n, 3) of the histogram that each particle is in."""
+    found: Ints = np.floor(particles / np.array(BINS)).astype(np.int64)
+    found[:, 2] %= CIRCLE
+    return found
+
+
+def packed(keys: Ints) -> Ints:
+    """One number (n,) for each cell (n, 3), the same for the same cell."""
+    low = keys.min(axis=0)
+    spans = keys.max(axis=0) - low + 1
+    shifted = keys - low
+    found: Ints = (shifted[:, 0] * spans[1] + shifted[:, 1]) * spans[2] + shifted[:, 2]
+    return found
+
+
+def clustered(keys: Ints) -> Ints:
+    """The number (n,) of the cluster that each of the cells (n, 3) belongs to: cells that touch, corners included."""
+    _, first, back = np.unique(packed(keys), return_index=True, return_inverse=True)
+    one, other = touching(keys[first])
+    labels = np.arange(len(first))
+    while True:
+        least = labels.copy()
+        np.minimum.at(least, one, labels[other])
+        np.minimum.at(least, other, labels[one])
+        least = least[least]
+        if (least == labels).all():
+            break
+        labels = least
+    found: Ints = np.unique(labels, return_inverse=True)[1][back.ravel()].astype(np.int64)
+    return found
+
+
+def touching(unique: Ints) -> tuple[Ints, Ints]:
+    """The indices of both of each pair of cells (n, 3) that touch; the heading is a circle."""
+    # With a margin of one cell a step to any side has a number of its own.
+    low = unique.min(axis=0) - 1
+    spans = unique.max(axis=0) - low + 2
+    spans[2] = CIRCLE
+
+    def numbers(keys: Ints) -> Ints:
+        found: Ints = ((keys[:, 0] - low[0]) * spans[1] + keys[:, 1] - low[1]) * CIRCLE + keys[:, 2] % CIRCLE
+        return found
+
+    known = numbers(unique)
+    order = np.argsort(known)
+    ones, others = [], []
+    half = [(a, b, c) for a in (0, 1) for b in (-1, 0, 1) for c in (-1, 0, 1) if (a, b, c) > (0, 0, 0)]
+    for step in half:
+        wanted = numbers(unique + np.array(step))
+        at = np.minimum(np.searchsorted(known, wanted, sorter=order), len(known) - 1)
+        hit = known[order[at]] == wanted
+        ones.append(np.flatnonzero(hit))
+        others.append(order[at[hit]])
+    return np.concatenate(ones), np.concatenate(others)
+
+
+def summed(particles: Floats, weights: Floats) -> Cluster:
+    """Mean and covariance of particles."""
+    weight = float(weights.sum())
+    shares = weights / weight if weight > 0 else np.full(len(weights), 1 / len(weights))
+    x, y = (float(v) for v in shares @ particles[:, :2])
+    cos, sin = float(shares @ np.cos(particles[:, 2])), float(shares @ np.sin(particles[:, 2]))
+    off = particles[:, :2] - (x, y)
+    covariance = np.zeros((3, 3))
+    covariance[:2, :2] = (off * shares[:, None]).T @ off
+    covariance[2, 2] = -2 * math.log(max(math.hypot(cos, sin), 1e-300))
+    return Cluster(weight, (x, y, math.atan2(sin, cos)), covariance, len(particles))

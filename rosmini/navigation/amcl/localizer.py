@@ -1,0 +1,191 @@
+"""When particles move, weigh and resample: amcl's procedure, from odometry and scans to poses, without a graph."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rosmini.errors import RosminiError
+from rosmini.geometry.poses import Pose
+from rosmini.navigation.map_server.grid_map import GridMap
+
+from .field import BeamMixture, LikelihoodField
+from .filter import Cluster, ParticleFilter
+from .laser import BeamSkip, LaserModel, Scan
+from .motion import moved
+from .parameters import AmclParameters
+
+Floats = NDArray[np.float64]
+
+NO_MAP = "there is no map yet: the robot cannot be looked for everywhere on it"
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What an update has found."""
+
+    pose: Pose
+    """The mean of the heaviest cluster."""
+    covariance: Floats
+    """(3, 3) of all particles."""
+    clusters: tuple[Cluster, ...]
+
+
+class FreeSpace:
+    """The cells of a map that a robot may be in; draws poses from them, evenly."""
+
+    def __init__(self, free: NDArray[np.bool_], resolution: float, origin: tuple[float, float]) -> None:
+        self.cells = np.flatnonzero(free)
+        if not len(self.cells):
+            raise RosminiError("the map has no free cell: there is nowhere the robot could be")
+        self.width = free.shape[1]
+        self.resolution, self.origin = resolution, origin
+
+    def __contains__(self, point: tuple[float, float]) -> bool:
+        """Whether a point [m] is in a free cell."""
+        column, row = (math.floor((v - o) / self.resolution) for v, o in zip(point, self.origin, strict=True))
+        cell = row * self.width + column
+        index = int(np.searchsorted(self.cells, cell))
+        return 0 <= column < self.width and index < len(self.cells) and int(self.cells[index]) == cell
+
+    def draw(self, count: int, random: np.random.Generator) -> Floats:
+        """Poses (count, 3) of any heading in the middles of free cells."""
+        cells = self.cells[random.integers(len(self.cells), size=count)]
+        return np.column_stack(
+            [
+                self.origin[0] + (cells % self.width + 0.5) * self.resolution,
+                self.origin[1] + (cells // self.width + 0.5) * self.resolution,
+                random.uniform(-math.pi, math.pi, count),
+            ]
+        )
+
+
+class Localizer:
+    """A filter on a map.
+
+    Args:
+        parameters: amcl's.
+        random: where all its random numbers come from.
+
+    """
+
+    def __init__(self, parameters: AmclParameters, random: np.random.Generator) -> None:
+        self.random = random
+        self.field: LikelihoodField | None = None
+        self.free: FreeSpace | None = None
+        self.odometry: Pose | None = None
+        """Where the odometry was at the last update; None before the first."""
+        self.force = False
+        """The next scan counts, though the robot stands."""
+        self.updates = 0
+        self._due: set[str] = set()
+        self._lasers: dict[str, None] = {}
+        self.configure(parameters)
+
+    def configure(self, parameters: AmclParameters) -> None:
+        """Take parameters: the filter begins anew around what it believed."""
+        self.parameters = p = parameters
+        before = getattr(self, "filter", None)
+        self.filter = ParticleFilter(
+            max(1, min(p.min_particles, p.max_particles)),
+            max(1, p.max_particles),
+            error=p.kld_err,
+            quantile=p.kld_z,
+            slow=p.recovery_alpha_slow,
+            fast=p.recovery_alpha_fast,
+            random=self.random,
+            selective=p.selective_resampling,
+        )
+        mixture = {f.name: getattr(p, f"laser_{f.name}") for f in fields(BeamMixture)}
+        skip = BeamSkip(p.beam_skip_distance, p.beam_skip_threshold, p.beam_skip_error_threshold)
+        self.model = LaserModel(
+            p.laser_model_type, BeamMixture(**mixture), p.laser_max_beams, skip if p.do_beamskip else None
+        )
+        if before is not None:
+            mean = before.mean()
+            self.initialize(mean.mean, mean.covariance)
+
+    def set_map(self, grid: GridMap) -> None:
+        """Localise on this map from now on; as in the original its origin's heading is not looked at.
+
+        Raises `RosminiError` if it has no free cell; then the map before stays.
+        """
+        origin = grid.origin[0], grid.origin[1]
+        self.free = FreeSpace(grid.free, grid.resolution, origin)
+        farthest = self.parameters.laser_likelihood_max_dist
+        self.field = LikelihoodField(grid.occupied, grid.resolution, origin, farthest, grid.free)
+        self._lasers = {}
+
+    def initialize(self, pose: Pose, covariance: ArrayLike) -> None:
+        """Begin around a pose."""
+        self.filter.initialize(pose, covariance)
+        self.odometry = None
+
+    def globally(self) -> None:
+        """Begin everywhere. Raises `RosminiError` without a map."""
+        self.filter.initialize_uniform(self._uniform)
+        self.odometry = None
+
+    def _uniform(self, count: int) -> Floats:
+        if self.free is None:
+            raise RosminiError(NO_MAP)
+        return self.free.draw(count, self.random)
+
+    def update(self, laser: str, scan: Scan, odometry: Pose) -> bool | None:
+        """Take a scan of the laser of this name, at an odometry.
+
+        None if the robot has hardly moved since the last one (with several lasers each has its turn after a motion);
+        else whether there is a new estimate: after the first scan, and whenever it was time to resample.
+        """
+        if self.field is None:
+            return None
+        self._lasers[laser] = None
+        before, p = self.odometry, self.parameters
+        if before is None:
+            self._due, self.updates = set(self._lasers), 0
+        elif self.force or self._far(before, odometry):
+            self._due = set(self._lasers)
+        if laser not in self._due:
+            return None
+        if before is not None and before != odometry:
+            noise = self.random.standard_normal((len(self.filter.particles), 3))
+            alphas = (p.odom_alpha1, p.odom_alpha2, p.odom_alpha3, p.odom_alpha4, p.odom_alpha5)
+            self.filter.particles = moved(
+                self.filter.particles, before, odometry, alphas, noise, p.odom_model_type
+            )
+        self.odometry = odometry
+        self._due.discard(laser)
+        self.force = False
+        converged = self.filter.converged
+        self.filter.weigh(
+            self.model.log_likelihoods(self.field, self.filter.particles, scan, converged=converged)
+        )
+        self.updates += 1
+        resampled = p.resample_interval > 0 and self.updates % p.resample_interval == 0
+        if resampled:
+            self.filter.resample(self._uniform)
+        return before is None or resampled
+
+    def _far(self, before: Pose, now: Pose) -> bool:
+        """Whether between two odometries lies so much of a motion that it counts."""
+        turned = abs(math.remainder(now[2] - before[2], math.tau))
+        way = max(abs(now[0] - before[0]), abs(now[1] - before[1]))
+        return way > self.parameters.update_min_d or turned > self.parameters.update_min_a
+
+    def estimate(self) -> Estimate:
+        """Where the robot is taken to be."""
+        clusters = self.filter.clusters()
+        return Estimate(clusters[0].mean, self.filter.mean().covariance, tuple(clusters))
+
+    def numbers(self) -> dict[str, Any]:
+        """What the filter is about, for tables."""
+        return {
+            "particles": len(self.filter.particles),
+            "effective": round(self.filter.effective),
+            "random": round(self.filter.random_share, 3),
+            "clusters": len(self.filter.clusters()),
+        }

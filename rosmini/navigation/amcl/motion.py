@@ -1,0 +1,110 @@
+"""How particles move when the robot does: samples of the odometry motion model.
+
+Thrun, Burgard and Fox, Probabilistic Robotics (2005), section 5.4, and http://wiki.ros.org/amcl#Overall_filter_parameters
+for what alphas mean. The models `diff` and `omni` take what was meant as a variance for a standard deviation, as the
+original does; `diff-corrected` and `omni-corrected` do not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.errors import RosminiError, nearest
+from rosmini.geometry.angles import normalize_angle
+from rosmini.geometry.poses import Pose, compose, inverse
+
+Floats = NDArray[np.float64]
+
+MODELS = ("diff", "omni", "diff-corrected", "omni-corrected")
+
+SHORT = 0.01
+"""Over a shorter way [m] a robot turns on the spot: the direction of the way says nothing."""
+
+
+def moved(
+    particles: Floats,
+    before: Pose,
+    after: Pose,
+    alphas: Sequence[float],
+    noise: Floats,
+    model: str = "diff",
+) -> Floats:
+    """Return particles (n, 3) after a motion that the odometry reports, each with an error of its own.
+
+    Args:
+        particles: poses (n, 3) [m, m, rad].
+        before: the odometry at first.
+        after: the odometry now.
+        alphas: five numbers: how much rotation comes of rotation, rotation of translation, translation of translation,
+            translation of rotation, and, for `omni`, sideways translation of translation.
+        noise: standard normal numbers (n, 3).
+        model: one of `MODELS`.
+
+    Raises:
+        RosminiError: there is no such model.
+
+    """
+    if model not in MODELS:
+        hint = nearest(model, MODELS)
+        raise RosminiError(f"there is no odometry model {model!r} but {', '.join(MODELS)}. {hint}".rstrip())
+    x, y, turn = compose(inverse(before), after)
+    turn = normalize_angle(turn)
+    sample = _diff if model.startswith("diff") else _omni
+    return sample(particles, (x, y, turn), alphas, noise, corrected=model.endswith("corrected"))
+
+
+def _diff(
+    particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool
+) -> Floats:
+    """Turn, drive, turn: what a robot on two wheels can do."""
+    x, y, turn = motion
+    way = math.hypot(x, y)
+    first = 0.0 if way < SHORT else math.atan2(y, x)
+    last = normalize_angle(turn - first)
+    # Driving backwards is no turn by half a circle.
+    loose1, loose2 = (min(abs(angle), math.pi - abs(angle)) for angle in (first, last))
+    variances = (
+        alphas[0] * loose1**2 + alphas[1] * way**2,
+        alphas[2] * way**2 + alphas[3] * (loose1**2 + loose2**2),
+        alphas[0] * loose2**2 + alphas[1] * way**2,
+    )
+    spread = np.sqrt(variances) if corrected else np.array(variances)
+    turned, driven, last_turned = (np.array((first, way, last)) - noise * spread).T
+    heading = particles[:, 2] + turned
+    return np.column_stack(
+        [
+            particles[:, 0] + driven * np.cos(heading),
+            particles[:, 1] + driven * np.sin(heading),
+            normalize_angle(heading + last_turned),
+        ]
+    )
+
+
+def _omni(
+    particles: Floats, motion: Pose, alphas: Sequence[float], noise: Floats, *, corrected: bool
+) -> Floats:
+    """Drive into any direction, and turn."""
+    x, y, turn = motion
+    way = math.hypot(x, y)
+    a1, a2, a3, a4, a5 = alphas
+    if corrected:
+        variances = a3 * way**2 + a4 * turn**2, a4 * turn**2 + a5 * way**2, a1 * turn**2 + a2 * way**2
+        spread = np.sqrt(variances)
+    else:
+        spread = np.array(
+            (a3 * way**2 + a1 * turn**2, a1 * turn**2 + a5 * way**2, a4 * turn**2 + a2 * way**2)
+        )
+    along, aside, turned = (np.array((way, 0.0, turn)) + noise * spread).T
+    bearing = math.atan2(y, x) + particles[:, 2]
+    cos, sin = np.cos(bearing), np.sin(bearing)
+    return np.column_stack(
+        [
+            particles[:, 0] + along * cos + aside * sin,
+            particles[:, 1] + along * sin - aside * cos,
+            normalize_angle(particles[:, 2] + turned),
+        ]
+    )

@@ -1,0 +1,410 @@
+"""`amcl/amcl`: the filter as a node (http://wiki.ros.org/amcl).
+
+It takes `scan`, `tf`, `initialpose` and a map, and publishes `amcl_pose`, `particlecloud` and the transform from the
+map to the odometry's frame. A scan waits until its transforms are there.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.dynamic_reconfigure import Server
+from rosmini.errors import RosminiError, ServiceException
+from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.msgs import message_class, service_class
+from rosmini.navigation.map_server.grid_map import GridMap
+from rosmini.navigation.nav_core.poses import planar_pose, planar_transform
+from rosmini.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
+from rosmini.tf.messages import set_pose
+from rosmini.tf.rigid import from_yaw
+from rosmini.time import Duration, Time
+
+from .diagnostics import deviations
+from .laser import Scan
+from .localizer import Estimate, Localizer
+from .parameters import AmclConfig, AmclParameters
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+PATIENCE = 0.5
+"""So long a scan waits for its transforms [s]."""
+MAP_PAUSE = 0.5
+"""Between two requests for the map [s]."""
+SILENCE = 15.0
+"""After so long without a scan there is a warning [s]."""
+BACK_NS = 1_000_000_000
+"""Scans of several lasers may come out of order by less than this; more is a jump back in time."""
+DIAGNOSED = 1.0
+"""Between two messages on `/diagnostics` [s]."""
+PLACES = ((0, 0), (0, 1), (1, 0), (1, 1))
+"""Where x and y stand in a covariance of six by six; the heading is (5, 5)."""
+
+
+class Amcl:
+    """Localisation, as a node of a graph."""
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+        self.parameters = AmclParameters.read(node)
+        self._warn_of_prefix()
+        random = node.graph.rng(f"{node.name}/particles")
+        self.localizer = Localizer(self.parameters, random)
+        self.buffer = Buffer(node)
+        self.listener = TransformListener(node, self.buffer)
+        self.broadcaster = TransformBroadcaster(node)
+        self._correction: Pose | None = None
+        """The pose of the odometry's frame in the map."""
+        self._map: Any = None
+        self._estimate: Estimate | None = None
+        self._lasers: dict[str, tuple[Pose, bool]] = {}
+        self._last_scan_ns = self._saved_ns = node.clock.now_ns()
+        self._last_stamp_ns = 0
+        self._advertise()
+        self._server = Server(node, AmclConfig, self._reconfigure)
+        self.localizer.initialize(self._start_pose(), self._start_covariance())
+        self._subscribe()
+
+    def _advertise(self) -> None:
+        node = self.node
+        self._pose = node.publisher(
+            "amcl_pose", message_class("geometry_msgs/PoseWithCovarianceStamped"), queue_size=2, latch=True
+        )
+        self._cloud = node.publisher(
+            "particlecloud", message_class("geometry_msgs/PoseArray"), queue_size=2, latch=True
+        )
+        self._diagnostics = node.publisher(
+            "/diagnostics", message_class("diagnostic_msgs/DiagnosticArray"), queue_size=1
+        )
+        empty = service_class("std_srvs/Empty")
+        node.service("global_localization", empty, self._globally)
+        node.service("request_nomotion_update", empty, self._nomotion)
+        node.service("set_map", service_class("nav_msgs/SetMap"), self._set_map)
+
+    def _subscribe(self) -> None:
+        node = self.node
+        node.subscriber(
+            "initialpose",
+            message_class("geometry_msgs/PoseWithCovarianceStamped"),
+            self._initial_pose,
+            queue_size=2,
+        )
+        node.subscriber("scan", message_class("sensor_msgs/LaserScan"), self._scan, queue_size=100)
+        if self.parameters.use_map_topic:
+            node.subscriber("map", message_class("nav_msgs/OccupancyGrid"), self._map_heard, queue_size=1)
+        else:
+            node.spawn("map", self._request_map)
+        node.timer(SILENCE, self._check_scans)
+        node.timer(DIAGNOSED, self._diagnose)
+        if self.parameters.save_pose_rate > 0:
+            node.on_shutdown(self._save_pose)
+
+    def _warn_of_prefix(self) -> None:
+        name = self.node.search_param("tf_prefix")
+        if name is not None and self.node.get_param(name):
+            self.node.logwarn(
+                f"the parameter {name} is set, and amcl does not look at it (tf2 knows no prefixes, in Noetic either): "
+                "write the prefix into ~odom_frame_id, ~base_frame_id and ~global_frame_id"
+            )
+
+    # -- parameters ----------------------------------------------------------------------------------------------
+
+    def _reconfigure(self, config: Any, level: int) -> Any:
+        changes = {one.name: config[one.name] for one in fields(AmclConfig)}
+        if changes["min_particles"] > changes["max_particles"]:
+            self.node.logwarn(
+                f"min_particles, {changes['min_particles']}, is above max_particles, {changes['max_particles']}: both "
+                "are set to the former"
+            )
+            config["max_particles"] = changes["max_particles"] = changes["min_particles"]
+        before = self.parameters
+        self.parameters = replace(before, **changes)
+        if level != -1 or self.parameters != before:
+            self.localizer.configure(self.parameters)
+            if (
+                self.parameters.laser_likelihood_max_dist != before.laser_likelihood_max_dist
+                and self._map is not None
+            ):
+                self._take_map(self._map, again=True)
+        return config
+
+    def _start_pose(self) -> Pose:
+        p = self.parameters
+        return p.initial_pose_x, p.initial_pose_y, p.initial_pose_a
+
+    def _start_covariance(self) -> NDArray[np.float64]:
+        p = self.parameters
+        return np.diag([p.initial_cov_xx, p.initial_cov_yy, p.initial_cov_aa])
+
+    # -- the map -------------------------------------------------------------------------------------------------
+
+    def _request_map(self) -> None:
+        """Ask for the map until somebody has it."""
+        client = self.node.service_client("static_map", service_class("nav_msgs/GetMap"))
+        self.node.loginfo("Requesting the map...")
+        while self._map is None and not self.node.is_shutdown():
+            try:
+                answer = client()
+            except (ServiceException, RosminiError):
+                if self.node.is_shutdown():
+                    return
+                self.node.logwarn("Request for map failed; trying again...")
+                self.node.sleep(MAP_PAUSE)
+            else:
+                if not self._take_map(answer.map):
+                    self.node.sleep(MAP_PAUSE)
+
+    def _map_heard(self, grid: Any) -> None:
+        if self._map is not None and self.parameters.first_map_only:
+            return
+        self._take_map(grid)
+
+    def _take_map(self, grid: Any, *, again: bool = False) -> bool:
+        """Localise on a `nav_msgs/OccupancyGrid`; whether it can be used."""
+        info = grid.info
+        self.node.loginfo(f"Received a {info.width} X {info.height} map @ {info.resolution:.3f} m/pix\n")
+        if grid.header.frame_id.lstrip("/") != self.parameters.global_frame_id.lstrip("/"):
+            self.node.logwarn(
+                f"Frame_id of map received:'{grid.header.frame_id}' doesn't match "
+                f"global_frame_id:'{self.parameters.global_frame_id}'. This could cause issues with reading published "
+                "topics"
+            )
+        try:
+            self.localizer.set_map(GridMap.from_message(grid))
+        except RosminiError as error:
+            self.node.logerr(f"the map cannot be used, and the one before stays: {error}")
+            return False
+        first, self._map = self._map is None, grid
+        self._lasers = {}
+        if not first and not again:
+            self.localizer.initialize(self._believed(), self._start_covariance())
+        return True
+
+    def _believed(self) -> Pose:
+        return self._start_pose() if self._estimate is None else self.localizer.estimate().pose
+
+    def _set_map(self, request: Any) -> Any:
+        taken = self._take_map(request.map)
+        if taken:
+            self._initial_pose(request.initial_pose)
+            if self.parameters.force_update_after_set_map:
+                self.localizer.force = True
+        return {"success": taken}
+
+    # -- where to begin ------------------------------------------------------------------------------------------
+
+    def _globally(self, _: Any) -> Any:
+        self.node.loginfo("Initializing with uniform distribution")
+        self.localizer.globally()
+        self.node.loginfo("Global initialisation done!")
+        return {}
+
+    def _nomotion(self, _: Any) -> Any:
+        self.localizer.force = True
+        return {}
+
+    def _initial_pose(self, message: Any) -> None:
+        """Begin where somebody says that the robot was at a time; it may have moved since."""
+        p, frame = self.parameters, message.header.frame_id
+        if not frame:
+            self.node.logwarn(
+                "Received initial pose with empty frame_id.  You should always supply a frame_id."
+            )
+        elif frame.lstrip("/") != p.global_frame_id.lstrip("/"):
+            self.node.logwarn(
+                f'Ignoring initial pose in frame "{frame}"; initial poses must be in the global frame, '
+                f'"{p.global_frame_id}"'
+            )
+            return
+        pose = planar_pose(message.pose.pose)
+        covariance = planar_covariance(message.pose.covariance)
+        if not (all(map(math.isfinite, pose)) and np.isfinite(covariance).all()):
+            self.node.logwarn(f"ignoring an initial pose with numbers that are not finite: {pose}")
+            return
+        pose = compose(pose, self._motion_since(message.header.stamp))
+        self.node.loginfo(
+            f"Setting pose ({self.node.now().to_sec():.6f}): {pose[0]:.3f} {pose[1]:.3f} {pose[2]:.3f}"
+        )
+        self._warn_outside(pose)
+        self.localizer.initialize(pose, covariance)
+        if p.force_update_after_initialpose:
+            self.localizer.force = True
+
+    def _motion_since(self, stamp: Time) -> Pose:
+        """How the robot has moved since a time, by its odometry."""
+        p = self.parameters
+        if stamp.to_nsec() == 0:
+            return 0.0, 0.0, 0.0
+        try:
+            found = self.buffer.lookup_transform_full(
+                p.base_frame_id, stamp, p.base_frame_id, self.node.now(), p.odom_frame_id, PATIENCE
+            )
+        except TransformException as error:
+            # Before the first scan there may be no odometry yet, and the robot has not moved.
+            if self._correction is not None:
+                self.node.logwarn(f"Failed to transform initial pose in time ({error})")
+            return 0.0, 0.0, 0.0
+        return planar_transform(found)
+
+    def _warn_outside(self, pose: Pose) -> None:
+        free = self.localizer.free
+        if free is not None and pose[:2] not in free:
+            self.node.logwarn(
+                f"the initial pose ({pose[0]:.2f}, {pose[1]:.2f}) is not in free space of the map: the particles may "
+                "never find the robot; give another pose, or call global_localization"
+            )
+
+    # -- scans ---------------------------------------------------------------------------------------------------
+
+    def _scan(self, message: Any) -> None:
+        self._last_scan_ns = self.node.clock.now_ns()
+        if self.localizer.field is None:
+            return
+        frame, stamp = message.header.frame_id.lstrip("/"), message.header.stamp
+        try:
+            laser, upside_down = self._laser(frame)
+            odometry = self._odometry(stamp)
+            scan = self._checked(message, laser, upside_down)
+        except TransformException as error:
+            self.node.logwarn(f"a scan of {frame} is left out: {error}", throttle=5.0)
+            return
+        except RosminiError as error:
+            self.node.logerr(error, throttle=5.0)
+            return
+        self._notice_jump(stamp)
+        news = self.localizer.update(frame, scan, odometry)
+        if news is not None:
+            self._publish_cloud(stamp)
+        if news:
+            self._estimate = found = self.localizer.estimate()
+            self._publish_pose(found, stamp)
+            self._correction = compose(found.pose, inverse(odometry))
+        if self._correction is not None:
+            self._broadcast(stamp)
+            self._maybe_save()
+
+    def _notice_jump(self, stamp: Time) -> None:
+        """Begin at the initial pose again when time has gone back: a bag that loops, a simulation that was reset."""
+        before, self._last_stamp_ns = self._last_stamp_ns, stamp.to_nsec()
+        if self._last_stamp_ns < before - BACK_NS:
+            self._saved_ns = self.node.clock.now_ns()
+            pose = self._start_pose()
+            self.node.logwarn(
+                f"scans jump back in time, from {before * 1e-9:.3f} s to {stamp.to_sec():.3f} s: the robot is looked "
+                f"for at the initial pose ({pose[0]:.2f}, {pose[1]:.2f}) again"
+            )
+            self.localizer.initialize(pose, self._start_covariance())
+
+    def _laser(self, frame: str) -> tuple[Pose, bool]:
+        """Where a laser is on the robot, and whether it is upside down."""
+        if frame not in self._lasers:
+            found = self.buffer.lookup_transform(self.parameters.base_frame_id, frame, Time(0), PATIENCE)
+            q = found.transform.rotation
+            up = 1 - 2 * (q.x * q.x + q.y * q.y)
+            self._lasers[frame] = planar_transform(found), up < 0
+        return self._lasers[frame]
+
+    def _odometry(self, stamp: Time) -> Pose:
+        p = self.parameters
+        return planar_transform(
+            self.buffer.lookup_transform(p.odom_frame_id, p.base_frame_id, stamp, PATIENCE)
+        )
+
+    def _checked(self, message: Any, laser: Pose, upside_down: bool) -> Scan:
+        """A scan, as far as it can be used."""
+        p = self.parameters
+        ranges = np.asarray(message.ranges, dtype=np.float64)
+        if len(ranges) < 2 or not math.isfinite(message.angle_increment) or message.angle_increment == 0:
+            raise RosminiError(
+                f"a scan of {message.header.frame_id} has {len(ranges)} ranges and the angle_increment "
+                f"{message.angle_increment}: it is left out"
+            )
+        top = message.range_max if p.laser_max_range <= 0 else min(message.range_max, p.laser_max_range)
+        low = message.range_min if p.laser_min_range <= 0 else max(message.range_min, p.laser_min_range)
+        if not (math.isfinite(top) and top > 0):
+            raise RosminiError(
+                f"a scan of {message.header.frame_id} has the range_max {message.range_max}: set ~laser_max_range"
+            )
+        ranges = np.where(ranges <= low, top, ranges)
+        bearings = message.angle_min + message.angle_increment * np.arange(len(ranges))
+        return Scan(ranges, bearings, float(top), laser, upside_down)
+
+    def _check_scans(self, _: Any) -> None:
+        silent = (self.node.clock.now_ns() - self._last_scan_ns) * 1e-9
+        if silent > SILENCE:
+            self.node.logwarn(
+                f"No laser scan received (and thus no pose updates have been published) for {silent:f} seconds.  "
+                f"Verify that data is being published on the {self.node.resolve('scan')} topic."
+            )
+
+    def _diagnose(self, _: Any) -> None:
+        if self._estimate is not None and self._diagnostics.num_connections():
+            found = deviations(self.node.name, self._estimate.covariance, self.parameters, self.node.now())
+            self._diagnostics.publish(found)
+
+    # -- the answer ----------------------------------------------------------------------------------------------
+
+    def _publish_pose(self, found: Estimate, stamp: Time) -> None:
+        message = message_class("geometry_msgs/PoseWithCovarianceStamped")()
+        message.header.frame_id, message.header.stamp = self.parameters.global_frame_id, stamp
+        set_pose(message.pose.pose, from_yaw(*found.pose))
+        whole = np.zeros((6, 6))
+        for row, column in PLACES:
+            whole[row, column] = found.covariance[row, column]
+        whole[5, 5] = found.covariance[2, 2]
+        message.pose.covariance = whole.ravel().tolist()
+        self._pose.publish(message)
+
+    def _publish_cloud(self, stamp: Time) -> None:
+        message = message_class("geometry_msgs/PoseArray")()
+        message.header.frame_id, message.header.stamp = self.parameters.global_frame_id, stamp
+        pose = message_class("geometry_msgs/Pose")
+        for x, y, yaw in self.localizer.filter.particles.tolist():
+            message.poses.append(pose())
+            set_pose(message.poses[-1], from_yaw(x, y, yaw))
+        self._cloud.publish(message)
+
+    def _broadcast(self, stamp: Time) -> None:
+        p = self.parameters
+        if p.tf_broadcast and self._correction is not None:
+            x, y, yaw = self._correction
+            when = stamp + Duration.from_sec(p.transform_tolerance)
+            self.broadcaster.send_rigid(p.global_frame_id, p.odom_frame_id, from_yaw(x, y, yaw), when)
+
+    def _maybe_save(self) -> None:
+        rate, now = self.parameters.save_pose_rate, self.node.clock.now_ns()
+        if rate > 0 and (now - self._saved_ns) * 1e-9 >= 1 / rate:
+            self._saved_ns = now
+            self._save_pose()
+
+    def _save_pose(self) -> None:
+        """Write where the robot is taken to be to the parameters from which amcl starts."""
+        if self._estimate is None:
+            return
+        x, y, a = self._estimate.pose
+        c = self._estimate.covariance
+        values = {
+            "pose_x": x,
+            "pose_y": y,
+            "pose_a": a,
+            "cov_xx": c[0, 0],
+            "cov_yy": c[1, 1],
+            "cov_aa": c[2, 2],
+        }
+        for name, value in values.items():
+            self.node.set_param(f"~initial_{name}", float(value))
+
+
+def planar_covariance(values: Any) -> NDArray[np.float64]:
+    """The part (3, 3) of a covariance of 36 numbers that is about x, y and the heading, made symmetric."""
+    whole = np.asarray(values, dtype=float).reshape(6, 6)
+    found = np.zeros((3, 3))
+    for row, column in PLACES:
+        found[row, column] = (whole[row, column] + whole[column, row]) / 2
+    found[2, 2] = whole[5, 5]
+    return found

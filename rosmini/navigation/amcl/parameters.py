@@ -1,0 +1,159 @@
+"""The parameters of `amcl/amcl`, by their names, ranges and defaults in Noetic (http://wiki.ros.org/amcl#Parameters)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rosmini.parameters import Parameters, parameter
+
+from .motion import MODELS
+
+FARTHEST = 1e6
+"""What any pose on a map is within: an infinite one is a mistake."""
+LASERS = ("beam", "likelihood_field", "likelihood_field_prob")
+
+
+@dataclass(frozen=True)
+class AmclConfig(Parameters):
+    """The private parameters that can be changed while it runs."""
+
+    odom_model_type: str = parameter("diff", "how the robot moves", choices=MODELS)
+    odom_alpha1: float = parameter(0.2, "rotation's error by rotation", minimum=0.0, maximum=10.0)
+    odom_alpha2: float = parameter(0.2, "rotation's error by translation", minimum=0.0, maximum=10.0)
+    odom_alpha3: float = parameter(0.2, "translation's error by translation", minimum=0.0, maximum=10.0)
+    odom_alpha4: float = parameter(0.2, "translation's error by rotation", minimum=0.0, maximum=10.0)
+    odom_alpha5: float = parameter(0.2, "sideways translation's error (omni only)", minimum=0.0, maximum=10.0)
+    odom_frame_id: str = parameter("odom", "the odometry's frame")
+    base_frame_id: str = parameter("base_link", "the robot's frame")
+    global_frame_id: str = parameter("map", "the map's frame")
+    update_min_d: float = parameter(
+        0.2, "an update takes so much driving", unit="m", minimum=0.0, maximum=5.0
+    )
+    update_min_a: float = parameter(
+        math.pi / 6, "or so much turning", unit="rad", minimum=0.0, maximum=math.tau
+    )
+    min_particles: int = parameter(100, "the fewest particles", minimum=0, maximum=1000)
+    max_particles: int = parameter(5000, "the most particles", minimum=0, maximum=10000)
+    kld_err: float = parameter(
+        0.01,
+        "the divergence that may remain between true and estimated distribution",
+        minimum=0.0,
+        maximum=1.0,
+    )
+    kld_z: float = parameter(
+        0.99, "the normal quantile of the probability that it is met", minimum=0.0, maximum=1.0
+    )
+    resample_interval: int = parameter(2, "so many updates until the next resampling", minimum=0, maximum=20)
+    selective_resampling: bool = parameter(False, "resample only when fewer than half of the particles count")
+    recovery_alpha_slow: float = parameter(
+        0.0, "how fast the slow average of likelihoods follows; 0: no recovery", minimum=0.0, maximum=0.5
+    )
+    recovery_alpha_fast: float = parameter(
+        0.0, "how fast the fast average follows; 0: no recovery", minimum=0.0, maximum=1.0
+    )
+    laser_model_type: str = parameter("likelihood_field", "how scans are weighed", choices=LASERS)
+    laser_min_range: float = parameter(
+        -1.0,
+        "beams that are no longer count as the longest; -1: what the scan says",
+        unit="m",
+        minimum=-1.0,
+        maximum=1000.0,
+    )
+    laser_max_range: float = parameter(
+        -1.0,
+        "beams that are longer hit nothing; -1: what the scan says",
+        unit="m",
+        minimum=-1.0,
+        maximum=1000.0,
+    )
+    laser_max_beams: int = parameter(30, "so many beams of a scan are looked at", minimum=0, maximum=250)
+    laser_z_hit: float = parameter(
+        0.95, "share of beams that hit what is in the map", minimum=0.0, maximum=1.0
+    )
+    laser_z_short: float = parameter(
+        0.1, "share of beams that end early (beam only)", minimum=0.0, maximum=1.0
+    )
+    laser_z_max: float = parameter(
+        0.05, "share of beams that see nothing (beam only)", minimum=0.0, maximum=1.0
+    )
+    laser_z_rand: float = parameter(0.05, "share of beams that end anywhere", minimum=0.0, maximum=1.0)
+    laser_sigma_hit: float = parameter(
+        0.2, "deviation of a beam that hits", unit="m", minimum=0.0, maximum=10.0
+    )
+    laser_lambda_short: float = parameter(
+        0.1, "decay of beams that end early (beam only)", unit="1/m", minimum=0.0, maximum=10.0
+    )
+    laser_likelihood_max_dist: float = parameter(
+        2.0, "what is farther from everything counts as so far", unit="m", minimum=0.0, maximum=20.0
+    )
+    do_beamskip: bool = parameter(
+        False, "leave out beams that most particles cannot explain (likelihood_field_prob only)"
+    )
+    beam_skip_distance: float = parameter(
+        0.5,
+        "a beam agrees with a particle if it ends so near to something",
+        unit="m",
+        minimum=0.0,
+        maximum=2.0,
+    )
+    beam_skip_threshold: float = parameter(
+        0.3, "share of particles a beam has to agree with", minimum=0.0, maximum=1.0
+    )
+    tf_broadcast: bool = parameter(True, "publish the transform from the map to the odometry's frame")
+    transform_tolerance: float = parameter(
+        0.1, "by so much that transform is dated into the future", unit="s", minimum=0.0, maximum=2.0
+    )
+    force_update_after_initialpose: bool = parameter(
+        False, "weigh the next scan after an initial pose, though the robot stands"
+    )
+    force_update_after_set_map: bool = parameter(
+        False, "weigh the next scan after a new map, though the robot stands"
+    )
+    gui_publish_rate: float = parameter(
+        -1.0,
+        "how often scans and paths may be published for display; -1: never less",
+        unit="Hz",
+        minimum=-1.0,
+        maximum=100.0,
+    )
+    save_pose_rate: float = parameter(
+        0.5, "how often the pose is written to the parameters", unit="Hz", minimum=-1.0, maximum=10.0
+    )
+    use_map_topic: bool = parameter(False, "listen on map in place of asking static_map")
+    first_map_only: bool = parameter(False, "keep the first map that comes")
+
+
+@dataclass(frozen=True)
+class AmclParameters(AmclConfig):
+    """All private parameters."""
+
+    tolerant = True
+    allowed = ("restore_defaults", "bag_scan_period", "tf_prefix")
+
+    beam_skip_error_threshold: float = parameter(
+        0.9, "if more beams would be left out, none is", minimum=0.0, maximum=1.0
+    )
+    std_warn_level_x: float = parameter(
+        0.2, "above this deviation `/diagnostics` warns; below 0: never", unit="m"
+    )
+    std_warn_level_y: float = parameter(0.2, "the same along y", unit="m")
+    std_warn_level_yaw: float = parameter(0.1, "the same of the heading", unit="rad")
+    initial_pose_x: float = parameter(
+        0.0, "where the robot is at the start", unit="m", minimum=-FARTHEST, maximum=FARTHEST
+    )
+    initial_pose_y: float = parameter(
+        0.0, "where the robot is at the start", unit="m", minimum=-FARTHEST, maximum=FARTHEST
+    )
+    initial_pose_a: float = parameter(
+        0.0, "its heading at the start", unit="rad", minimum=-FARTHEST, maximum=FARTHEST
+    )
+    initial_cov_xx: float = parameter(
+        0.25, "how sure that is: a variance", unit="m2", minimum=0.0, maximum=1e6
+    )
+    initial_cov_yy: float = parameter(
+        0.25, "how sure that is: a variance", unit="m2", minimum=0.0, maximum=1e6
+    )
+    initial_cov_aa: float = parameter(
+        (math.pi / 12) ** 2, "how sure that is: a variance", unit="rad2", minimum=0.0, maximum=1e6
+    )
