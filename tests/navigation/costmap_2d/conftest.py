@@ -34,17 +34,10 @@ class Stage:
 
     def publish_map(self, occupancy, resolution=0.1, origin=(0.0, 0.0)):
         """Latch a map (h, w)."""
-        cells = np.asarray(occupancy, dtype=np.int8)
-        message = message_class("nav_msgs/OccupancyGrid")()
-        message.header.frame_id = "map"
-        message.info.resolution = resolution
-        message.info.height, message.info.width = cells.shape
-        message.info.origin.position.x, message.info.origin.position.y = origin
-        message.data = cells.ravel()
         kind = message_class("nav_msgs/OccupancyGrid")
         publisher = self.graph.node("map_server").publisher("map", kind, latch=True)
         publisher.expect_nobody()
-        publisher.publish(message)
+        publisher.publish(map_message(occupancy, resolution, origin))
         return publisher
 
     def costmap(self, name="costmap", **parameters):
@@ -64,6 +57,18 @@ class Stage:
             setattr(message, field, value)
         self.scans.publish(message)
         self.graph.run(seconds)
+
+
+def map_message(occupancy, resolution=0.1, origin=(0.0, 0.0)):
+    """A map (h, w) as a message."""
+    cells = np.asarray(occupancy, dtype=np.int8)
+    message = message_class("nav_msgs/OccupancyGrid")()
+    message.header.frame_id = "map"
+    message.info.resolution = resolution
+    message.info.height, message.info.width = cells.shape
+    message.info.origin.position.x, message.info.origin.position.y = origin
+    message.data = cells.ravel()
+    return message
 
 
 @pytest.fixture
