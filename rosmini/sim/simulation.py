@@ -306,6 +306,7 @@ class Simulation(ABC):
             limits=None: how fast at most, and how fast that changes; None: as fast as the robot may
             keys='': whose keys it has; '': those of turtlebot3_teleop_key; or 'teleop_twist_keyboard'
             hold=False: whether a key has to be held, as a dead man's switch has
+            solid=False: whether the robot is shown in three dimensions, from behind, in the place of the map
             title=None: a caption under the pad, and the first line of its text form
         """
         return show("teleop_pad", self, robot=robot and self._do(lambda: self._entity(robot)), **options)
