@@ -18,6 +18,7 @@ from rosmini_bench import (
     displays,
     graph,
     launch_files,
+    nav,
     sim,
     table,
     tools,
@@ -35,6 +36,10 @@ if TYPE_CHECKING:
 
 EXPONENTS_AND_ERRORS = {"1", "m", "m/s", "blocks more"}
 """Units of what may be nothing, or less."""
+
+
+PEERS = {"pymunk", "unrecorded", "scipy", "csgraph", "scikit-image", "C++ costmap_2d, elsewhere"}
+"""What is measured beside us though no other program is asked for: libraries."""
 
 
 def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -55,12 +60,13 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
             *displays.measures(1),
             *sim.measures(None, None, 1),
             *turtles.measures(1),
+            *nav.measures(0.1),
         ]
     )
     for row in written["figures"]:
         assert math.isfinite(row["ours"])
         assert row["ours"] > 0 or row["unit"] in EXPONENTS_AND_ERRORS
-        assert row["peer"] is None or row["peer_name"] in ("pymunk", "unrecorded")
+        assert row["peer"] is None or row["peer_name"] in PEERS
         assert row["name"] in shown
 
 

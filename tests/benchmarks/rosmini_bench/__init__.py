@@ -101,7 +101,7 @@ def table(figures: Iterable[Figure]) -> str:
     )
 
 
-SUBJECTS = ("graph", "wire", "sim", "rviz", "turtles")
+SUBJECTS = ("graph", "wire", "sim", "rviz", "turtles", "nav")
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
@@ -113,7 +113,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "subject",
         nargs="?",
         choices=SUBJECTS,
-        help="the computation graph, the wire between processes, the simulator, RViz, or turtles (default: all)",
+        help="the computation graph, the wire between processes, the simulator, RViz, turtles, navigation (default: all)",
     )
     parser.add_argument(
         "--rounds", type=int, default=3, metavar="N", help="rounds of which the median is shown (default: 3)"
@@ -126,6 +126,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="do F times the usual work in a round (default: 1)",
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures to FILE, too")
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the goals of nav (default: 1)")
+    parser.add_argument("--quick", action="store_true", help="few goals of nav: under five minutes")
+    parser.add_argument(
+        "--rows", type=Path, metavar="FILE", help="write the table of nav's goals to FILE, too"
+    )
     parser.add_argument("--no-peer", action="store_true", help="measure nothing else beside it")
     return parser
 
@@ -153,13 +158,17 @@ def main(args: argparse.Namespace) -> int:
             json.dumps({"machine": machine, "figures": rows}, indent=2) + "\n", encoding="utf-8"
         )
         print(f"written to {args.json}")
+    if args.subject == "nav":
+        from . import nav_quality
+
+        nav_quality.run(args.seed, quick=args.quick, file=args.rows)
     return 0
 
 
 def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
     """What is to be measured; the peers that have to be stopped go to `peers`."""
     rospy = None
-    if args.subject not in ("sim", "rviz"):
+    if args.subject not in ("sim", "rviz", "nav"):
         from .peer import find_rospy
 
         rospy = None if args.no_peer else find_rospy()
@@ -201,6 +210,10 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         from . import turtles
 
         yield from turtles.measures(args.scale)
+    if args.subject in (None, "nav"):
+        from . import nav
+
+        yield from nav.measures(min(args.scale, 0.1) if args.quick else args.scale, args.seed)
     if args.subject in (None, "sim"):
         from . import sim
         from .sim_mujoco import find_mujoco

@@ -145,15 +145,17 @@ def line(one: Row) -> str:
     return text + "".join(f"\n    {count} x {why}" for why, count in one.failures.items())
 
 
+def run(seed: int, *, quick: bool, file: Path | None) -> None:
+    """Try everything, print the table, and keep it in a file if one is named."""
+    print(HEAD)
+    found = list(rows(seed, quick=quick, tell=lambda text: print(text, flush=True)))
+    if file is not None:
+        write(found, file, seed)
+        print(f"written to {file}")
+
+
 def write(found: Iterable[Row], file: Path, seed: int) -> None:
     """Keep rows as data, with what is needed to make them again."""
     commit = subprocess.run(
         ["git", "rev-parse", "--short", "HEAD"],
         capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-        cwd=Path(__file__).parent,
-    ).stdout.strip()
-    data: dict[str, Any] = {"seed": seed, "commit": commit, "rows": [asdict(one) for one in found]}
-    file.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
