@@ -113,7 +113,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "subject",
         nargs="?",
         choices=SUBJECTS,
-        help="the computation graph, the wire between processes, the simulator, RViz, turtles, navigation (default: all)",
+        help="graph, wire between processes, simulator, RViz, turtles or navigation (default: all)",
     )
     parser.add_argument(
         "--rounds", type=int, default=3, metavar="N", help="rounds of which the median is shown (default: 3)"

@@ -159,3 +159,9 @@ def write(found: Iterable[Row], file: Path, seed: int) -> None:
     commit = subprocess.run(
         ["git", "rev-parse", "--short", "HEAD"],
         capture_output=True,
+        encoding="utf-8",
+        check=False,
+        cwd=Path(__file__).parent,
+    ).stdout.strip()
+    data: dict[str, Any] = {"seed": seed, "commit": commit, "rows": [asdict(one) for one in found]}
+    file.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
