@@ -1,0 +1,132 @@
+"""What is right in the exercises of chapter 30, the Navigation Stack: a number, a goal from a node, and a length."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+from rosmini.book.checks import Script, Wrong, exercise, expect, expect_type
+from rosmini.book.trials import Trial
+from rosmini.msgs import message_class
+
+# ---- 30.1: which demand is not met ----
+
+UNMET = 1
+SEEN = {
+    2: "the transform from the map to the laser goes by way of odom, and it is there",
+    3: "scans come, five a second, and it is known where the laser is",
+    4: "the outline is a wish, and keeps no robot from setting off in an open hall",
+}
+
+
+@exercise(
+    "30.1",
+    praise="Nobody listens to the commands: the driver of the base is not running, or has another topic.",
+)
+def demand(answer: Any) -> Any:
+    """It is the first one: nobody subscribes to cmd_vel."""
+    expect_type(answer, int, "The answer is", "the number of a demand")
+    expect(answer in (1, *SEEN), f"There is no demand {answer}.", "there are four")
+    expect(
+        answer == UNMET,
+        f"Demand {answer} is met, as far as one can see: {SEEN.get(answer, '')}.",
+        "read the first answer again",
+    )
+    return None
+
+
+# ---- 30.2: a goal from a program ----
+
+PLACE = (-1.0, 2.6)
+LATE = 3.0
+"""So late [s] somebody begins to listen in the trial."""
+
+
+@exercise("30.2", praise="A goal is one message: a frame, a place, a heading.")
+def go_there(script: Any) -> Any:
+    """A goal comes on move_base_simple/goal, in the frame map, at the place and heading that were asked for."""
+    expect_type(script, Script, "The answer is", "a script")
+    goal_class = message_class("geometry_msgs/PoseStamped")
+    heard: list[Any] = []
+    with Trial("room", is_shown=False) as trial:
+        trial.start(script)
+        trial.run(LATE)
+        trial.graph.node("move_base").subscriber("/move_base_simple/goal", goal_class, heard.append)
+        trial.run(10.0)
+    expect(
+        heard,
+        "No goal came on move_base_simple/goal. Somebody began to listen three seconds after the script had started.",
+        "publish there, and wait until get_num_connections() is not 0",
+    )
+    _check_goal(heard[-1])
+    return None
+
+
+def _check_goal(goal: Any) -> None:
+    frame, p, q = goal.header.frame_id, goal.pose.position, goal.pose.orientation
+    expect(
+        frame.lstrip("/") == "map",
+        f"The goal is in the frame {frame!r}.",
+        "goal.header.frame_id says which: map",
+    )
+    expect(
+        math.dist((p.x, p.y), PLACE) < 0.01,
+        f"The goal is at ({p.x:g}, {p.y:g}), asked for was {PLACE}.",
+        "set goal.pose.position",
+    )
+    length = math.sqrt(q.x**2 + q.y**2 + q.z**2 + q.w**2)
+    expect(
+        abs(length - 1) < 0.01,
+        f"The quaternion has the length {length:.2f}; move_base refuses what is not 1.",
+        "z and w are both 0.7071",
+    )
+    expect(
+        abs(q.z - q.w) < 0.01 and abs(q.x) < 0.01 and abs(q.y) < 0.01,
+        f"The quaternion is ({q.x:g}, {q.y:g}, {q.z:g}, {q.w:g}), which is another heading.",
+        "a quarter turn to the left has z = w = 0.7071",
+    )
+
+
+# ---- 30.3: the length of a path ----
+
+
+def _path(*places: tuple[float, float]) -> list[Any]:
+    made = []
+    for x, y in places:
+        pose = message_class("geometry_msgs/PoseStamped")()
+        pose.pose.position.x, pose.pose.position.y = x, y
+        made.append(pose)
+    return made
+
+
+PATHS = SimpleNamespace(
+    bent=_path((0.0, 0.0), (3.0, 4.0), (3.0, 5.0)),
+    back=_path((1.0, 1.0), (2.0, 1.0), (1.0, 1.0)),
+    one=_path((5.0, 5.0)),
+)
+
+
+@exercise("30.3", praise="That is how far the robot has to drive, whatever the straight line says.")
+def length(function: Any) -> Any:
+    """The sum of the distances from each pose to the next."""
+    expect(callable(function), "The answer is not a function.", "def length(poses): ...")
+    for poses, wanted, what in (
+        (PATHS.bent, 6.0, "a path of 5 m and then 1 m"),
+        (PATHS.back, 2.0, "a path of 1 m, and the same way back"),
+        (PATHS.one, 0.0, "a path of one pose"),
+        ([], 0.0, "a path of no pose"),
+    ):
+        try:
+            found = function(poses)
+        except Exception as error:
+            raise Wrong(
+                f"For {what} it fails: {type(error).__name__}: {error}", "try it with few poses"
+            ) from error
+        expect_type(found, (int, float), f"For {what} the answer is", "a number")
+        expect(
+            abs(found - wanted) < 1e-6,
+            f"For {what} it says {found:.2f} m, and it is {wanted:.2f} m.",
+            "add up from each pose to the next",
+        )
+    return None
