@@ -65,7 +65,6 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
         lambda: between_ends,
         lambda: along_x,
         lambda: len,
-        lambda: lambda poses: None,
         lambda: 6.0,
     ],
 }
