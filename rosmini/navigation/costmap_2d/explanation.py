@@ -35,7 +35,7 @@ class CellCosts(dict[str, int | None]):
         self._words = {name: words for name, (_, words) in said.items()}
 
     def __str__(self) -> str:
-        meaning = MEANINGS.get(self.cost, "near something: some headings may collide")
+        meaning = MEANINGS.get(self.cost, "near something")
         lines = [
             f"cell {self.cell} at ({self.point[0]:.2f}, {self.point[1]:.2f}) m costs {self.cost}: {meaning}"
         ]

@@ -92,5 +92,5 @@ class InflationLayer(Layer, plugin="costmap_2d::InflationLayer"):
             return cost, f"{said}, within the inscribed radius of {inscribed:.2f} m"
         return (
             cost,
-            f"{said}: 252 exp(-{self.cost_scaling_factor:g} ({distance:.2f} - {inscribed:.2f})) = {cost}",
+            f"{said}: 252 exp(-{self.cost_scaling_factor:g} ({distance:.3f} - {inscribed:.3f})) = {cost}",
         )

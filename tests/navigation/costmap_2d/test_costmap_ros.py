@@ -411,7 +411,7 @@ def test_a_cell_is_explained_layer_by_layer(stage):
     assert (
         str(why)
         .splitlines()[-1]
-        .endswith(f"the nearest obstacle is 0.20 m away: 252 exp(-3 (0.20 - 0.10)) = {why['inflation']})")
+        .endswith(f"0.20 m away: 252 exp(-3 (0.200 - {inscribed:.3f})) = {why['inflation']})")
     )
     assert costmap.explain(10, 10)["static"] == 254
     assert costmap.explain(29, 29)["inflation"] is None
