@@ -1,0 +1,95 @@
+"""A search that somebody made by hand, to be looked at, and stepped, as those of the planners are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.errors import RosminiError
+from rosmini.navigation.costmap_2d.costmap import LETHAL_OBSTACLE
+
+from .search import Point, Points, Search, cell_of
+from .wave import HIGH
+
+Cell = tuple[int, int]
+
+GREY = 30
+"""What a price of one more adds to the cost that a cell is drawn with."""
+DARKEST = 252
+
+
+class HandSearch(Search):
+    """What a search of one's own has done, cell by cell.
+
+    Args:
+        price: what it costs to enter a cell (column, row); what is not in it is a wall.
+        start: where it began.
+        goal: where it was to end.
+        taken: the cells in the order in which they were taken up.
+        cost: what it costs to get to each cell that was reached.
+        parent: from where each of them, but the start, was reached.
+
+    Raises:
+        RosminiError: the three do not fit each other; the message names the cell.
+
+    """
+
+    def __init__(
+        self,
+        price: Mapping[Cell, float],
+        start: Cell,
+        goal: Cell,
+        taken: Sequence[Cell],
+        cost: Mapping[Cell, float],
+        parent: Mapping[Cell, Cell],
+    ) -> None:
+        cells = np.array(list(price), dtype=np.int64)
+        costs = np.full(cells.max(axis=0)[::-1] + 1, LETHAL_OBSTACLE, dtype=np.uint8)
+        costs[cells[:, 1], cells[:, 0]] = [min(DARKEST, int(GREY * (each - 1))) for each in price.values()]
+        table = np.ones(256, dtype=np.float32)
+        table[LETHAL_OBSTACLE] = np.inf
+        super().__init__(costs, table, start, goal, grid_path=True)
+        for cell in (*cost, *taken):
+            if cell not in price or cell not in cost or (cell != start and cell not in parent):
+                raise RosminiError(
+                    f"the cell {cell} of a search by hand has to be in `price`, have a cost, and a parent if it is "
+                    f"not the start {start}"
+                )
+        self._taken, self._cost, self._parent = list(taken), cost, parent
+        self._done = 0
+        self._children: dict[Cell, list[Cell]] = {}
+        for child, each in parent.items():
+            self._children.setdefault(each, []).append(child)
+        self.potential_with_rim[self._index(start)] = 0
+
+    @property
+    def expanded(self) -> int:
+        """How many cells have been taken up."""
+        return self._done
+
+    def path_to(self, goal: Point) -> Points:
+        """The path from parent to parent (n, 2). Raises a `PlanningFailure` if the goal was not reached."""
+        if self.potential_at(cell_of(goal)) >= HIGH:
+            raise self.failure()
+        points = [cell_of(goal)]
+        while points[-1] != self.start:
+            points.append(self._parent[points[-1]])
+            if len(points) > len(self._cost):
+                raise RosminiError(f"the parents of a search by hand lead round in a ring, at {points[-1]}")
+        return np.array(points[::-1], dtype=np.float64)
+
+    def _expand(self, count: int) -> int:
+        for cell in self._taken[self._done : self._done + count]:
+            for child in self._children.get(cell, ()):
+                self.potential_with_rim[self._index(child)] = self._cost[child]
+        self._done = min(self._done + count, len(self._taken))
+        if self._done < len(self._taken):
+            return 0
+        return 1 if self.goal in self._taken else 2
+
+    def _waiting(self) -> NDArray[np.int32]:
+        done = {self._index(cell) for cell in self._taken[: self._done]}
+        reached = np.flatnonzero(self.potential_with_rim < HIGH).tolist()
+        return np.array([n for n in reached if n not in done], dtype=np.int32)
