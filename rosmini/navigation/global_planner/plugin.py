@@ -83,6 +83,7 @@ class GlobalPlanner(GridPlanner, plugin="global_planner/GlobalPlanner"):
         self._offset = 0.0 if self.parameters.old_navfn_behavior else 0.5
         self._grid_message = message_class("nav_msgs/OccupancyGrid")
         self._potentials = self.node.publisher(f"~{self.name}/potential", self._grid_message, queue_size=1)
+        self._potentials.expect_nobody()
         self._server = Server(self.node, GlobalPlannerConfig, self._reconfigure, namespace=f"~{self.name}/")
 
     def _reconfigure(self, config: Any, _: int) -> Any:
