@@ -1,0 +1,243 @@
+"""What is right in the exercises of chapter 34, Global planners."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+from heapq import heappop, heappush
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from rosmini.book.checks import Script, exercise, expect, expect_number, expect_type
+from rosmini.book.trials import TurtleTrial
+from rosmini.msgs.geometry_msgs.msg import PoseStamped
+from rosmini.msgs.nav_msgs.srv import GetPlan
+from rosmini.msgs.std_msgs.msg import Float64
+from rosmini.navigation.costmap_2d.costmap import Costmap2D
+from rosmini.navigation.costmap_2d.inflation import cell_distance, cost_table, inflate
+from rosmini.navigation.costmap_2d.layer import Window
+from rosmini.navigation.global_planner import GlobalDijkstra
+from rosmini.navigation.map_server import load_map
+from rosmini.packages import assets_dir
+
+Cell = tuple[int, int]
+
+# ---- 34.1: a guess for eight directions ----
+
+
+@exercise("34.1", praise="With it A* looks ahead as far as one safely can.")
+def guess(answer: Any) -> None:
+    """The cost of the cheapest path on an empty floor of eight directions."""
+    pairs = [
+        ((3, 5), (9, 5)),
+        ((3, 5), (3, 1)),
+        ((2, 2), (7, 4)),
+        ((8, 1), (4, 7)),
+        ((6, 6), (1, 1)),
+        ((4, 4), (4, 4)),
+    ]
+    for cheapest in (1, 2.5):
+        for cell, goal in pairs:
+            found = expect_number(answer(cell, goal, cheapest), "cost")
+            dx, dy = abs(goal[0] - cell[0]), abs(goal[1] - cell[1])
+            cost = cheapest * (max(dx, dy) + (math.sqrt(2) - 1) * min(dx, dy))
+            where = f"From {cell} to {goal}, where each cell costs {cheapest}, the way costs {cost:.2f}"
+            expect(
+                found <= cost * 1.001 + 1e-9,
+                f"{where}, and you guess {found:.2f}: that is too high, and A* may miss the cheapest path.",
+                "how many steps can be diagonal ones?",
+            )
+            expect(
+                found >= cost * 0.999 - 1e-9,
+                f"{where}, and you guess {found:.2f}: that is never too high, but it can be higher.",
+                "as many diagonal steps as there are columns or rows, whichever are fewer; the rest is straight",
+            )
+
+
+# ---- 34.2: a trap for the greedy ----
+
+LARGEST = (30, 12)
+"""Columns and rows of a floor, at most."""
+PRICES = {".": 1, ":": 4, "S": 1, "G": 1}
+
+
+def search(price: dict[Cell, int], start: Cell, goal: Cell, trust: float) -> float:
+    """The chapter's search: what the goal costs, with the guess of columns plus rows times `trust`."""
+
+    def ahead(cell: Cell) -> float:
+        return trust * (abs(goal[0] - cell[0]) + abs(goal[1] - cell[1]))
+
+    cost: dict[Cell, float] = {start: 0}
+    queue, taken = [(ahead(start), start)], set()
+    while queue and goal not in taken:
+        cell = heappop(queue)[1]
+        taken.add(cell)
+        x, y = cell
+        for near in ((x + 1, y), (x, y + 1), (x - 1, y), (x, y - 1)):
+            new = cost[cell] + price.get(near, math.inf)
+            if new < cost.get(near, math.inf):
+                cost[near] = new
+                heappush(queue, (new + ahead(near), near))
+    return cost.get(goal, math.inf)
+
+
+@exercise("34.2", praise="It ran for the goal, and never counted its steps.")
+def trap(answer: Any) -> None:
+    """A floor on which the greedy search pays twice."""
+    expect_type(answer, str, "The floor is", "a text")
+    rows = answer.split()
+    width, height = LARGEST
+    expect(
+        rows and len(rows) <= height and max(map(len, rows)) <= width,
+        f"The floor has {len(rows)} rows of up to {max(map(len, rows), default=0)} letters.",
+        f"no more than {height} rows of {width} letters, and one at least",
+    )
+    strange = sorted(set("".join(rows)) - {*PRICES, "#"})
+    expect(not strange, f"The floor has the letter {strange and strange[0]!r}.", "use # . : S G")
+    letters = {(x, y): letter for y, row in enumerate(reversed(rows)) for x, letter in enumerate(row)}
+    places = {each: [cell for cell, letter in letters.items() if letter == each] for each in "SG"}
+    for each, cells in places.items():
+        expect(len(cells) == 1, f"There are {len(cells)} letters {each} on the floor.", "one S and one G")
+    price = {cell: PRICES[letter] for cell, letter in letters.items() if letter != "#"}
+    (start,), (goal,) = places["S"], places["G"]
+    least, greedy = (search(price, start, goal, trust) for trust in (0, 1000))
+    expect(least < math.inf, "No path leads from S to G.", "leave a way around the walls")
+    expect(
+        greedy >= 2 * least,
+        f"The greedy search pays {greedy:g}, and the cheapest path costs {least:g}.",
+        "what it pays has to be twice as much: a carpet in the straight way, and bare floor beside it",
+    )
+
+
+# ---- 34.3: tune it ----
+
+BEGIN, SOFA = (-2.98, 1.02), (-4.48, -4.48)
+ROOM = (140, 130)
+"""Rows and columns of the house's corner in which it is planned."""
+NEUTRAL = 100
+HIGHEST, AVERAGE = 135, 45.0
+INSCRIBED, RADIUS, SCALING = 0.0511, 0.6, 5.0
+"""Of the costmap of a burger in `turtlebot3_navigation`."""
+
+
+@cache
+def house() -> Costmap2D:
+    """The global costmap of the house, without what the laser sees."""
+    found = load_map(assets_dir() / "ros/rosmini_sim/maps/house.yaml")
+    costs = np.where(found.occupied, 254, np.where(found.free, 0, 255)).astype(np.uint8)
+    made = Costmap2D.of(costs, found.resolution, found.origin[:2])
+    radius = cell_distance(RADIUS, found.resolution)
+    table = cost_table(radius, found.resolution, INSCRIBED, SCALING)
+    inflate(made.costs, Window(0, 0, made.width, made.height), radius, table)
+    return made
+
+
+@exercise("34.3", praise="The prices differ wherever the path has a choice.")
+def tuned(answer: Any) -> None:
+    """A factor that leads neither along the sofa nor up to the ceiling."""
+    factor = expect_number(answer, "factor")
+    expect(0.01 <= factor <= 5.0, f"cost_factor is {factor:g}.", "it goes from 0.01 to 5.0")
+    grid = house()
+    plan = GlobalDijkstra(
+        grid.costs[: ROOM[0], : ROOM[1]],
+        grid.world_to_map_clamped(*BEGIN),
+        grid.world_to_map_clamped(*SOFA),
+        neutral_cost=NEUTRAL,
+        cost_factor=factor,
+    )
+    columns, rows = np.floor(plan.path() + 0.5).astype(int).T
+    costs = grid.costs[rows, columns]
+    ceiling = (252 - NEUTRAL) / factor
+    said = f"The plan crosses costs of {costs.mean():.0f} on average, and of {costs.max()} at most"
+    expect(costs.mean() <= AVERAGE, f"{said}: it keeps too near to things.", _advice(ceiling))
+    expect(costs.max() <= HIGHEST, f"{said}: there it comes too near to something.", _advice(ceiling))
+
+
+def _advice(ceiling: float) -> str:
+    if ceiling > 252:
+        return "let the costmap count for more"
+    return f"from a cost of {ceiling:.0f} on all prices are the same: let the costmap count for less"
+
+
+# ---- 34.4: how far is it ----
+
+QUESTIONS: tuple[tuple[Cell, list[tuple[float, float]]], ...] = (
+    ((3, 4), [(0, 0), (0, 1), (0.5, 1), (3, 1), (3, 4)]),
+    ((9, 9), []),
+    ((-2, 0), [(0, 0), (-0.3, 0.4), (-2, 0.4), (-2, 0)]),
+)
+"""Goals, and the plans to them."""
+
+
+@exercise("34.4", praise="The post arrives when it was promised.")
+def far(answer: Script) -> None:
+    """A node that asks for plans, and publishes their lengths."""
+    asked: list[Any] = []
+    told: list[Any] = []
+    with TurtleTrial(None) as trial:
+        mover = trial.graph.node("move_base")
+        mover.service("~make_plan", GetPlan, _server(asked))
+        office = trial.graph.node("office")
+        office.subscriber("distance", Float64, told.append)
+        question = office.publisher("question", PoseStamped, queue_size=5)
+        trial.start(answer)
+        trial.run(1.0)
+        for place, points in QUESTIONS:
+            asked.clear()
+            told.clear()
+            question.publish(_pose(place))
+            trial.run(0.5)
+            where = f"For the goal {place}"
+            expect(
+                asked, f"{where} you asked move_base/make_plan nothing.", "make_plan(start, goal, tolerance)"
+            )
+            request = asked[-1]
+            expect(
+                not request.start.header.frame_id,
+                f"{where} you asked for a plan from a place of your own.",
+                "an empty PoseStamped() stands for where the robot is",
+            )
+            expect(
+                (request.goal.pose.position.x, request.goal.pose.position.y) == place
+                and request.goal.header.frame_id == "map",
+                f"{where} you asked for another goal.",
+                "hand on the pose that came",
+            )
+            expect(
+                math.isclose(request.tolerance, 0.5, abs_tol=1e-6),
+                f"{where} the tolerance was {request.tolerance:g} m, not 0.5.",
+            )
+            expect(
+                len(told) == 1, f"{where} there were {len(told)} messages on distance, not 1.", "publish once"
+            )
+            wanted = sum(math.dist(a, b) for a, b in pairwise(points)) if points else -1.0
+            expect(
+                abs(told[0].data - wanted) < 0.01,
+                f"{where} you said {told[0].data:.2f}, not {wanted:.2f}."
+                + ("" if points else " There is no plan to it."),
+                "add the distances from each pose to the next; an empty plan is -1",
+            )
+
+
+def _server(asked: list[Any]) -> Callable[[Any], Any]:
+    plans = dict(QUESTIONS)
+
+    def handle(request: Any) -> Any:
+        asked.append(request)
+        position = request.goal.pose.position
+        response = GetPlan._response_class()
+        response.plan.poses = [_pose(each) for each in plans.get((int(position.x), int(position.y)), [])]
+        return response
+
+    return handle
+
+
+def _pose(point: tuple[float, float]) -> Any:
+    made = PoseStamped()
+    made.header.frame_id = "map"
+    made.pose.position.x, made.pose.position.y = map(float, point)
+    made.pose.orientation.w = 1.0
+    return made
