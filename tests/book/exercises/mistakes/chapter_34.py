@@ -56,7 +56,7 @@ MISTAKES = {
         _guess(lambda dx, dy: max(dx, dy) + 0.414 * min(dx, dy), priced=False),
         _guess(lambda dx, dy: abs(dx - dy) + 2 * min(dx, dy)),
         _guess(lambda dx, dy: 0),
-        lambda: lambda cell, goal, cheapest: None,
+        lambda: lambda cell, goal, cheapest: "far",
     ],
     "34.2": [
         lambda: "S........G",
@@ -87,7 +87,9 @@ MISTAKES = {
         _but("length if plan else -1.0", "len(plan) if plan else -1.0"),
         _but("hypot(b.x - a.x, b.y - a.y)", "abs(b.x - a.x) + abs(b.y - a.y)"),
         _but("    distance.publish(length if plan else -1.0)\n", ""),
-        _but("    pairs", "    distance.publish(0.0)\n    pairs"),
+        _but(
+            "    distance.publish(length if plan else -1.0)", "    if plan:\n        distance.publish(length)"
+        ),
         _but("zip(points, points[1:])", "[(points[0], points[-1])] if points else []"),
     ],
 }
