@@ -1,0 +1,54 @@
+"""Chapter 35: its size, its figures, and that its cells show what its text says of them."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from book.tools import notebooks
+from rosmini.book.checks import Status, find
+
+from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, printed
+
+CHAPTER = NOTEBOOKS / "35_local_planners.ipynb"
+
+
+@pytest.fixture(scope="module")
+def cells():
+    return notebooks.read(CHAPTER).cells
+
+
+def test_it_is_as_short_as_a_chapter_has_to_be(cells):
+    assert_short(cells)
+
+
+def test_its_figures_are_numbered():
+    assert_figures_are_numbered(CHAPTER.stem, (".replay(", ".show(", "plot("))
+
+
+def test_only_the_true_acceleration_predicts_the_drive(cells):
+    found = dict(re.findall(r"^(\S+).*: (\d) cm too far$", printed(cells, "guesses ="), re.MULTILINE))
+    assert found == {"infinite": "2", "2.5": "2", "1.0": "0"}
+
+
+def test_the_choice_by_hand_is_the_planners(cells):
+    theirs, ours = re.findall(r"\d+", printed(cells, "def choose"))
+    assert theirs == ours
+
+
+def test_without_the_plan_it_gets_stuck_and_the_obstacle_critic_says_so(cells):
+    said = printed(cells, "Nothing is possible")
+    assert "'obstacle'" in said
+    [figure] = [cell for cell in cells if "Nothing is possible" in cell.source]
+    [text] = [output.data["text/plain"] for output in figure.outputs if "data" in output]
+    assert "rejected by obstacle" in text
+
+
+def test_slower_turns_end_the_dance(cells):
+    assert int(printed(cells, "degrees off").split()[0]) <= 3
+
+
+@pytest.mark.parametrize("answer", [{"min_vel_theta": 0.3}, {"max_vel_theta": 0.5, "min_vel_theta": 0.5}])
+def test_more_than_one_cure_is_right(answer):
+    assert find("35.4").grade(answer).status is Status.RIGHT
