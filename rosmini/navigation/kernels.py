@@ -22,6 +22,8 @@ KERNELS: tuple[str, ...] = (
     "rosmini.navigation.navfn.wave:compiled_wave",
     "rosmini.navigation.amcl.field:compiled_scores",
     "rosmini.navigation.amcl.field:compiled_ranges",
+    "rosmini.navigation.gmapping.maps:compiled_register",
+    "rosmini.navigation.gmapping.matching:compiled_match",
 )
 """`module:function` of the functions that return a kernel: compiled, or without numba as it is."""
 

@@ -1,0 +1,14 @@
+"""A map from odometry and a laser: a Rao-Blackwellised particle filter (http://wiki.ros.org/gmapping).
+
+Grisetti, Stachniss and Burgard, Improved techniques for grid mapping with Rao-Blackwellized particle filters (IEEE
+Transactions on Robotics, 2007). Each particle is a path with the map that follows from it: `matching` puts a scan on a
+map, `maps` holds all maps, each piece once, `slam` is the filter; the node is apart.
+"""
+
+from __future__ import annotations
+
+from .maps import SharedMaps
+from .matching import Matcher
+from .slam import GridSlam, Settings
+
+__all__ = ["GridSlam", "Matcher", "Settings", "SharedMaps"]

@@ -1,0 +1,184 @@
+"""`gmapping/slam_gmapping`: the filter as a node (http://wiki.ros.org/gmapping).
+
+It takes `scan` and `tf`, and publishes `map`, `map_metadata`, `~entropy` and the transform from the map to the
+odometry's frame; `dynamic_map` returns the map. A scan waits until its transforms are there.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.errors import RosminiError
+from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.msgs import message_class, service_class
+from rosmini.navigation.nav_core.poses import planar_transform
+from rosmini.tf import Buffer, TransformBroadcaster, TransformException, TransformListener
+from rosmini.tf.rigid import from_yaw
+from rosmini.time import Duration, Time
+
+from .parameters import GmappingParameters
+from .slam import GridSlam
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+PATIENCE = 0.5
+"""So long a scan waits for its transforms [s]."""
+
+
+class SlamGmapping:
+    """Mapping and localisation in one, as a node of a graph."""
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+        self.parameters = p = GmappingParameters.read(node)
+        self.slam: GridSlam | None = None
+        self._upside_down = False
+        self._beams = self._scans = 0
+        self._correction: Pose = (0.0, 0.0, 0.0)
+        self._last_map: int | None = None
+        self._last_stamp_ns = 0
+        self._map: Any = None
+        self.buffer = Buffer(node)
+        self.listener = TransformListener(node, self.buffer)
+        self.broadcaster = TransformBroadcaster(node)
+        grid, numbers = message_class("nav_msgs/OccupancyGrid"), message_class("nav_msgs/MapMetaData")
+        self._entropy = node.publisher(
+            "~entropy", message_class("std_msgs/Float64"), queue_size=1, latch=True
+        )
+        self._maps = node.publisher("map", grid, queue_size=1, latch=True)
+        self._numbers = node.publisher("map_metadata", numbers, queue_size=1, latch=True)
+        node.service("dynamic_map", service_class("nav_msgs/GetMap"), self._dynamic_map)
+        node.subscriber("scan", message_class("sensor_msgs/LaserScan"), self._scan, queue_size=5)
+        if p.transform_publish_period > 0:
+            node.timer(p.transform_publish_period, self._broadcast)
+
+    # -- scans ---------------------------------------------------------------------------------------------------
+
+    def _scan(self, message: Any) -> None:
+        self._scans += 1
+        if self._scans % self.parameters.throttle_scans:
+            return
+        p, stamp = self.parameters, message.header.stamp
+        try:
+            if self.slam is None:
+                self.slam = self._begin(message)
+            odometry = planar_transform(
+                self.buffer.lookup_transform(p.odom_frame, p.base_frame, stamp, PATIENCE)
+            )
+        except TransformException as error:
+            self.node.logwarn(f"a scan of {message.header.frame_id} is left out: {error}", throttle=5.0)
+            return
+        except RosminiError as error:
+            self.node.logerr(error, throttle=5.0)
+            return
+        if len(message.ranges) != self._beams:
+            self.node.logerr(
+                f"a scan of {message.header.frame_id} has {len(message.ranges)} ranges, the first one had "
+                f"{self._beams}: it is left out",
+                throttle=5.0,
+            )
+            return
+        self._take(self.slam, message, odometry)
+
+    def _begin(self, message: Any) -> GridSlam:
+        """Learn from the first scan where the laser is, and how far it sees."""
+        p, frame = self.parameters, message.header.frame_id.lstrip("/")
+        if len(message.ranges) < 2 or not message.angle_increment or not message.range_max > 0:
+            raise RosminiError(
+                f"a scan of {frame} has {len(message.ranges)} ranges, the angle_increment {message.angle_increment} "
+                f"and the range_max {message.range_max}: no map can be made of it"
+            )
+        found = self.buffer.lookup_transform(p.base_frame, frame, Time(0), PATIENCE)
+        q = found.transform.rotation
+        if abs(1 - abs(1 - 2 * (q.x * q.x + q.y * q.y))) > 1e-3:
+            raise RosminiError(
+                f"Laser has to be mounted planar! The z axis of {frame} is not parallel to that of {p.base_frame}: "
+                "no map can be made of it"
+            )
+        self._upside_down = 1 - 2 * (q.x * q.x + q.y * q.y) < 0
+        self.node.loginfo(f"Laser is mounted {'upside down' if self._upside_down else 'upwards'}.")
+        odometry = planar_transform(
+            self.buffer.lookup_transform(p.odom_frame, p.base_frame, message.header.stamp, PATIENCE)
+        )
+        self._beams = len(message.ranges)
+        return GridSlam(
+            p.settings(message.range_max),
+            laser=planar_transform(found),
+            start=odometry,
+            random=self.node.graph.rng(f"{self.node.name}/particles"),
+        )
+
+    def _take(self, slam: GridSlam, message: Any, odometry: Pose) -> None:
+        ranges = np.asarray(message.ranges, dtype=np.float64)
+        # What is nearer than the laser can measure would be an end; the mapper takes it for nothing hit.
+        ranges = np.where(ranges < message.range_min, message.range_max, ranges)
+        bearings = message.angle_min + message.angle_increment * np.arange(len(ranges))
+        bearings = -bearings if self._upside_down else bearings
+        before, self._last_stamp_ns = self._last_stamp_ns, message.header.stamp.to_nsec()
+        if self._last_stamp_ns < before:
+            self.node.logwarn(
+                f"scans jump back in time, from {before * 1e-9:.3f} s to {message.header.stamp.to_sec():.3f} s: the "
+                "map goes on from where the odometry is now; restart the node for a new one"
+            )
+        report = slam.process(ranges, bearings, odometry, message.header.stamp.to_sec())
+        if report is None:
+            return
+        x, y, yaw = slam.poses[slam.best]
+        self._correction = compose((float(x), float(y), float(yaw)), inverse(odometry))
+        now = self.node.clock.now_ns()
+        if self._last_map is None or (now - self._last_map) * 1e-9 > self.parameters.map_update_interval:
+            self._last_map = now
+            self._publish(slam)
+
+    # -- the answer ----------------------------------------------------------------------------------------------
+
+    def _publish(self, slam: GridSlam) -> None:
+        p = self.parameters
+        self._entropy.publish(message_class("std_msgs/Float64")(data=slam.entropy))
+        cells, (left, low) = occupancy(slam, (p.xmin, p.ymin, p.xmax, p.ymax), p.occ_thresh)
+        grid = message_class("nav_msgs/OccupancyGrid")()
+        grid.header.frame_id, grid.header.stamp = p.map_frame, self.node.now()
+        info = grid.info
+        info.map_load_time, info.resolution = grid.header.stamp, p.delta
+        info.height, info.width = cells.shape
+        info.origin.position.x, info.origin.position.y, info.origin.orientation.w = left, low, 1.0
+        grid.data = cells.ravel()
+        self._map = grid
+        self._maps.publish(grid)
+        self._numbers.publish(info)
+
+    def _dynamic_map(self, _: Any) -> Any:
+        if self._map is None:
+            raise RosminiError("there is no map yet: no scan has been taken in")
+        return {"map": self._map}
+
+    def _broadcast(self, _: Any) -> None:
+        p = self.parameters
+        delay = p.transform_publish_period if p.tf_delay is None else p.tf_delay
+        when = self.node.now() + Duration.from_sec(delay)
+        self.broadcaster.send_rigid(p.map_frame, p.odom_frame, from_yaw(*self._correction), when)
+
+
+def occupancy(
+    slam: GridSlam, bounds: tuple[float, float, float, float], threshold: float
+) -> tuple[NDArray[np.int8], tuple[float, float]]:
+    """The best map (h, w) as nav_msgs/OccupancyGrid has it, over `bounds` and all that was seen, and its corner [m]."""
+    shares, (left, low) = slam.maps.occupancy(slam.best)
+    delta = slam.settings.delta
+    column, row = round(left / delta), round(low / delta)
+    height, width = shares.shape
+    x0, y0 = min(math.floor(bounds[0] / delta), column), min(math.floor(bounds[1] / delta), row)
+    x1, y1 = (
+        max(math.ceil(bounds[2] / delta), column + width),
+        max(math.ceil(bounds[3] / delta), row + height),
+    )
+    cells = np.full((y1 - y0, x1 - x0), -1, dtype=np.int8)
+    part = cells[row - y0 : row - y0 + height, column - x0 : column - x0 + width]
+    part[shares >= 0] = 0
+    part[shares > threshold] = 100
+    return cells, (x0 * delta, y0 * delta)

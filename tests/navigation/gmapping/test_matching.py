@@ -1,0 +1,99 @@
+"""Scores by hand on a map by hand, and that a search finds the pose."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from rosmini.navigation.gmapping.maps import SharedMaps
+from rosmini.navigation.gmapping.matching import Matcher, fit
+
+BEARINGS = np.arange(180) * math.tau / 180
+
+
+def square(x, y, heading, half=2.0):
+    """Ranges to the walls of a square room around the origin."""
+    c, s = np.cos(heading + BEARINGS), np.sin(heading + BEARINGS)
+    with np.errstate(divide="ignore"):
+        to_x = np.where(c > 0, half - x, -half - x) / c
+        to_y = np.where(s > 0, half - y, -half - y) / s
+    return np.minimum(np.where(np.isfinite(to_x), to_x, 99.0), np.where(np.isfinite(to_y), to_y, 99.0))
+
+
+@pytest.fixture
+def maps():
+    found = SharedMaps(1, 0.05)
+    for pose in ((0.3, 0.2, 0.0), (0.3, 0.2, 0.0), (-0.4, 0.1, 0.7)):
+        found.register(np.array([pose]), square(*pose), BEARINGS, 10.0)
+    return found
+
+
+def scored(maps, end, **changes):
+    """What a beam from the origin with this end gets."""
+    matcher = Matcher(iterations=0, lstep=0.0, astep=0.0, **changes)
+    found = matcher.match(
+        maps, np.zeros((1, 3)), np.array([math.hypot(*end)]), np.array([math.atan2(end[1], end[0])]), 10.0
+    )
+    return float(found.scores[0]), float(found.log_likelihoods[0])
+
+
+def test_score_and_likelihood_of_one_beam():
+    """A wall whose mean end is known exactly: exp(-d2 / sigma), and -d2 / lsigma."""
+    maps = SharedMaps(1, 0.05)
+    maps.register(np.array([(0.0, 0.0, 0.0)]), np.array([1.03]), np.zeros(1), 10.0)
+    for off in (0.0, 0.03, -0.04):
+        score, likelihood = scored(maps, (1.03 + off, 0.0))
+        assert score == pytest.approx(math.exp(-(off**2) / 0.05), abs=1e-9)
+        assert likelihood == pytest.approx(-(off**2) / 0.075, abs=1e-9)
+    assert scored(maps, (1.03, 0.2)) == (0.0, pytest.approx(-0.5 / 0.075)), "nothing is near"
+    assert scored(maps, (1.12, 0.0)) == (0.0, pytest.approx(-0.5 / 0.075)), (
+        "two cells away, with kernelSize 1"
+    )
+    assert scored(maps, (1.12, 0.0), kernel_size=2)[0] == pytest.approx(math.exp(-(0.09**2) / 0.05))
+
+
+def test_a_full_cell_counts_only_where_the_way_to_it_is_free():
+    maps = SharedMaps(1, 0.05)
+    for length in (1.03, 1.03, 1.08):
+        maps.register(np.array([(0.0, 0.0, 0.0)]), np.array([length]), np.zeros(1), 10.0)
+    behind, _ = scored(maps, (1.08, 0.0), kernel_size=0)
+    front, _ = scored(maps, (1.03, 0.0), kernel_size=0)
+    assert front == pytest.approx(1.0)
+    assert behind == 0.0, "the cell before it is full"
+
+
+@pytest.mark.parametrize("off", [(0.06, -0.05, 0.04), (-0.08, 0.03, -0.05), (0.0, 0.0, 0.0)])
+def test_a_search_finds_the_pose(maps, off):
+    truth = np.array([(0.1, 0.3, 0.2)])
+    ranges = square(*truth[0])
+    found = Matcher().match(maps, truth + np.array(off), ranges, BEARINGS, 10.0)
+    assert math.dist(found.poses[0, :2], truth[0, :2]) < 0.015
+    assert abs(found.poses[0, 2] - truth[0, 2]) < 0.015
+    start = Matcher(iterations=0, lstep=0.0, astep=0.0).match(
+        maps, truth + np.array(off), ranges, BEARINGS, 10.0
+    )
+    assert found.scores[0] >= start.scores[0]
+
+
+def test_beams_of_no_use_are_left_out(maps):
+    ranges = square(0.0, 0.0, 0.0)
+    every = Matcher().match(maps, np.zeros((1, 3)), ranges, BEARINGS, 10.0)
+    fewer = Matcher(lskip=1).match(maps, np.zeros((1, 3)), ranges, BEARINGS, 10.0)
+    none = Matcher().match(maps, np.zeros((1, 3)), ranges, BEARINGS, 1.0)
+    assert fewer.scores[0] == pytest.approx(every.scores[0] / 2, rel=0.2)
+    assert none.scores[0] == 0.0
+    ranges[:90] = 0.0
+    assert Matcher().match(maps, np.zeros((1, 3)), ranges, BEARINGS, 10.0).scores[0] < 91
+
+
+def test_giving_up_early_changes_no_result(maps):
+    """A pose that cannot beat `least` may be left: what it has then is no more than `least`."""
+    ranges = square(0.1, 0.3, 0.2)
+    common = maps.tables, maps.means, maps.full, *maps.low, maps.resolution
+    beams = ranges, np.cos(BEARINGS), np.sin(BEARINGS), 1, 0.05, 0.075, -0.5 / 0.075
+    for pose in ((0.1, 0.3, 0.2), (0.3, 0.3, 0.2), (0.1, 0.3, 0.5)):
+        whole, likelihood = fit(0, *common, *pose, *beams, -1.0)
+        assert fit(0, *common, *pose, *beams, whole - 0.5) == (whole, likelihood)
+        assert fit(0, *common, *pose, *beams, whole + 0.5)[0] <= whole + 0.5
