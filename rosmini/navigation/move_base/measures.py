@@ -55,3 +55,14 @@ def lethal_cells(layers: Sequence[object]) -> int:
     """The lethal cells that the layers with costs of their own hold together."""
     grids = [getattr(layer, "costs", None) for layer in layers]
     return sum(int((costs == LETHAL_OBSTACLE).sum()) for costs in grids if costs is not None)
+
+
+def fewer(count: int) -> str:
+    """The change of a number of lethal cells in words; a negative `count` means that there are more.
+
+    >>> fewer(3), fewer(-2), fewer(0)
+    ('3 lethal cells fewer', '2 lethal cells more', 'no lethal cell fewer')
+    """
+    if count == 0:
+        return "no lethal cell fewer"
+    return f"{abs(count)} lethal cells {'fewer' if count > 0 else 'more'}"

@@ -27,7 +27,7 @@ from rosmini.tf import TransformListener
 
 from .checks import check_setup
 from .explanation import Explanation, explain
-from .measures import lethal_cells
+from .measures import fewer, lethal_cells
 from .parameters import MoveBaseConfig, MoveBaseParameters, limits
 from .planning import PlannerLane, offsets_within
 from .plugin_calls import call
@@ -178,6 +178,7 @@ class MoveBase:
             )
             self.goal = target
         self.why, self.failure, self.recovered = "", None, []
+        self.plan = ()
         self.lane.goal = self.goal
         self.machine.begin(self._now())
         self.lane.wake()
@@ -357,10 +358,10 @@ class MoveBase:
         except NavigationFailure as error:
             self.node.logerr(str(error))
         changes = (
-            f"{was - lethal_cells(costmap.layers)} lethal cells of {costmap.name}"
+            f"{fewer(was - lethal_cells(costmap.layers))} in {costmap.name}"
             for was, costmap in zip(before, costmaps, strict=True)
         )
-        self.recovered.append(f"{name} ({self.machine.trigger.name.lower()}): cleared {', '.join(changes)}")
+        self.recovered.append(f"{name} ({self.machine.trigger.name.lower()}): {', '.join(changes)}")
         self.machine.recovered(self._now())
 
     def _give_up(self, decision: Abort) -> None:

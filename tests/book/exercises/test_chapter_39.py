@@ -1,0 +1,61 @@
+"""Chapter 39: its size, its figures, and that what the text says of the stuck robot is what its cells print."""
+
+from __future__ import annotations
+
+import pytest
+
+from book.tools import notebooks
+
+from .conftest import NOTEBOOKS, assert_short, figure_numbers, printed
+
+CHAPTER = NOTEBOOKS / "39_move_base.ipynb"
+
+
+@pytest.fixture(scope="module")
+def cells():
+    return notebooks.read(CHAPTER).cells
+
+
+def texts(cells):
+    """The text forms of the figures, by their numbers."""
+    found = {}
+    for cell in cells:
+        for output in cell.get("outputs", ()):
+            text = output.get("data", {}).get("text/plain", "")
+            if text.startswith("Figure 39."):
+                found[int(text[10:].partition(":")[0])] = text
+    return found
+
+
+def test_it_is_as_short_as_a_chapter_has_to_be(cells):
+    assert_short(cells)
+
+
+def test_every_figure_is_numbered_in_order(cells):
+    assert figure_numbers(CHAPTER.stem) == list(range(1, 10))
+    assert sorted(texts(cells)) == list(range(1, 10))
+
+
+def test_goals_end_as_the_text_says(cells):
+    assert printed(cells, "on_feedback").endswith("arrived: False\n2 PREEMPTED\n")
+    assert printed(cells, "clicks =").startswith("PREEMPTED\n")
+    assert "Failed to find a valid plan. Even after executing recovery behaviors." in printed(
+        cells, "def watch"
+    )
+    assert printed(cells, "before = costmap").strip() == "Goal reached."
+    assert printed(cells, "changed =").strip() == "my_planners/Manhattan\nGoal reached."
+
+
+def test_the_recoveries_run_in_the_order_of_the_text(cells):
+    stuck, helped = texts(cells)[5], texts(cells)[8]
+    names = [line.partition(" s: ")[2] for line in stuck.splitlines() if " s: " in line]
+    assert names == ["conservative_reset", "rotate_recovery", "aggressive_reset", "rotate_recovery"]
+    assert [line.partition(" s: ")[2] for line in helped.splitlines() if " s: " in line] == [
+        "conservative_reset"
+    ]
+
+
+def test_a_goal_in_a_wall_has_a_plan_with_tolerance_only(cells):
+    *_, wall, near = printed(cells, "def length").strip().splitlines()
+    assert wall.endswith(" 0.0 m")
+    assert not near.endswith(" 0.0 m")
