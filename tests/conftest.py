@@ -36,6 +36,16 @@ def pytest_configure() -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Compile navigation's loops once, before the processes that share the tests each do it."""
+    option = session.config.option
+    is_worker = hasattr(session.config, "workerinput")
+    if getattr(option, "numprocesses", None) and not is_worker and not option.collectonly:
+        from rosmini.navigation.kernels import compile_all
+
+        compile_all()
+
+
 def codes(function: Any) -> Iterator[CodeType]:
     """The code of a function or of a class's methods, and of what is defined inside."""
     todo = [each.__code__ for each in [function, *vars(function).values()] if hasattr(each, "__code__")]
