@@ -37,7 +37,8 @@ def test_every_page_opens_with_an_empty_console(book_html, chromium, watch, shar
             problems.append(f"{name}: lines of code are wider than the phone")
         if page.evaluate("document.documentElement.dataset.theme") != scheme:
             problems.append(f"{name}: not {scheme}")
-        page.screenshot(path=screenshots / f"{name.replace('/', '_')}-{scheme}-{width}.png", full_page=True)
+        if (scheme, width) == ("light", "desktop"):  # to be looked at; it takes longer than all the rest
+            page.screenshot(path=screenshots / f"{name.replace('/', '_')}.png", full_page=True)
         page.close()
     context.close()
     assert problems == []
