@@ -13,7 +13,7 @@ from rosmini.launch import read
 from rosmini.msgs import define_message
 from rosmini.packages import Package, read_package
 
-OTHERS = ("turtlebot3_bringup", "turtlebot3_gazebo", "turtlebot3_navigation")
+OTHERS = ("turtlebot3_bringup", "turtlebot3_gazebo", "turtlebot3_navigation", "turtlebot3_slam")
 """The packages that need turtlebot3_description."""
 
 WANTED = """

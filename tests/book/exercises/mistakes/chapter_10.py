@@ -42,8 +42,14 @@ def wrong(right: str, old: str = "", new: str = "") -> Callable[[], str]:
 MISTAKES = {
     "10.1": [
         lambda: ["turtlebot3_gazebo"],
-        lambda: ["turtlebot3_gazebo", "turtlebot3_bringup", "turtlebot3_navigation"],
-        lambda: ["my_robot", "turtlebot3_bringup", "turtlebot3_gazebo", "turtlebot3_navigation"],
+        lambda: ["turtlebot3_gazebo", "turtlebot3_bringup", "turtlebot3_navigation", "turtlebot3_slam"],
+        lambda: [
+            "my_robot",
+            "turtlebot3_bringup",
+            "turtlebot3_gazebo",
+            "turtlebot3_navigation",
+            "turtlebot3_slam",
+        ],
         lambda: "turtlebot3_bringup",
     ],
     "10.2": [
