@@ -1,3 +1,6 @@
+import sys
+from pathlib import Path
+
 import pytest
 
 from rosmini.navigation.nav_core import BaseGlobalPlanner, RecoveryBehavior
@@ -38,7 +41,11 @@ def package(tmp_path, monkeypatch):
     (folder / "src/my_pkg/words.py").write_text("SAYS = 'hello'", encoding="utf-8")
     (folder / "src/my_pkg/planner.py").write_text(CODE, encoding="utf-8")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "src"))
-    return folder
+    before = set(sys.modules)
+    yield folder
+    for name in set(sys.modules) - before:
+        if Path(getattr(sys.modules[name], "__file__", None) or "/").is_relative_to(tmp_path):
+            del sys.modules[name]
 
 
 @pytest.mark.parametrize("name", ["my_pkg/MyPlanner", "my_pkg::MyPlanner"])
