@@ -45,15 +45,20 @@ class Declared(NamedTuple):
     folder: Path
     file: Path
 
+    @property
+    def is_compiled(self) -> bool:
+        """Whether the library is one in C++ (`lib/libmy_planner`)."""
+        return "/" in self.module or self.module.endswith(".so")
+
 
 def create(interface: type[T], name: str) -> T:
     """A new object of the plugin with this name: of one that is registered, or else of one in a plugin XML.
 
-    Raises `PluginError`, with similar names, if there is none, and for one that cannot be loaded.
+    A description of a library in C++ is passed over for a plugin of the same name that is registered: the sources of
+    the Navigation Stack may lie in the workspace. Raises `PluginError`, with similar names and the packages that cannot
+    be read, if there is none, and for one that cannot be loaded.
     """
-    wanted = name.replace("::", "/")
-    declared = next((each for each in declared_plugins(wanted) if each.name == wanted), None)
-    found = _load(interface, declared) if declared is not None else interface.named(name)
+    found = _found(interface, name)
     try:
         return found()
     except Exception as error:
@@ -61,6 +66,20 @@ def create(interface: type[T], name: str) -> T:
             f"the plugin {name} cannot be made: {type(error).__name__}: {error}; a plugin is made without arguments, "
             "and learns the rest in initialize()"
         ) from error
+
+
+def _found(interface: type[T], name: str) -> type[T]:
+    wanted = name.replace("::", "/")
+    unread: list[str] = []
+    declared = next((each for each in declared_plugins(wanted, unread) if each.name == wanted), None)
+    if declared is not None and not (declared.is_compiled and wanted in interface.names()):
+        return _load(interface, declared)
+    try:
+        return interface.named(name)
+    except PluginError as error:
+        if not unread:
+            raise
+        raise PluginError("\n  ".join([f"{error}; and these packages could not be read:", *unread])) from error
 
 
 def short_name(name: str) -> str:
@@ -72,13 +91,21 @@ def short_name(name: str) -> str:
     return name.replace(":", "/").rpartition("/")[2]
 
 
-def declared_plugins(name: str) -> Iterator[Declared]:
-    """What the packages of a workspace declare: first the one that the name begins with, then all others."""
+def declared_plugins(name: str, unread: list[str]) -> Iterator[Declared]:
+    """What the packages of a workspace declare: first the one that the name begins with, then all others.
+
+    Raises what is wrong with the first; what is wrong with another is added to `unread`.
+    """
     index = PackageIndex()
     first = name.partition("/")[0]
     for package in sorted(index.names(), key=lambda each: (each != first, each)):
         if package in index and (package == first or not _is_ours(index.path(package))):
-            yield from _declared(index.find(package))
+            try:
+                yield from _declared(index.find(package))
+            except RosminiError as error:
+                if package == first:
+                    raise
+                unread.append(str(error))
 
 
 def _is_ours(folder: Path) -> bool:
@@ -136,7 +163,7 @@ def _load(interface: type[T], declared: Declared) -> type[T]:
 
 def _module(declared: Declared) -> Any:
     folder, name = declared.folder, declared.module
-    if "/" in name or name.endswith(".so"):
+    if declared.is_compiled:
         raise PluginError(
             f"{declared.file} names the library {name!r}: a library in C++ cannot be loaded here. Write the plugin in "
             'Python, and name its module: <library path="my_pkg.planner">'

@@ -120,3 +120,21 @@ def test_an_unknown_name(package):
 
 def test_short_names():
     assert short_name("a/b/C") == "C"
+
+
+@pytest.mark.parametrize("broken", [PACKAGE.replace("a@b.invalid", "nobody"), PACKAGE])
+def test_a_package_that_cannot_be_read_is_in_nobodys_way(package, broken):
+    other = package.parent / "another"
+    other.mkdir()
+    (other / "package.xml").write_text(broken.replace("my_pkg", "another"), encoding="utf-8")
+    assert create(BaseGlobalPlanner, "navfn/NavfnROS")
+    assert create(BaseGlobalPlanner, "my_pkg/MyPlanner").says == "hello"
+    with pytest.raises(PluginError, match="could not be read:\n.*another"):
+        create(BaseGlobalPlanner, "third/Planner")
+
+
+def test_sources_of_a_planner_in_c_leave_ours_in_its_place(package):
+    name = "my_pkg/MyPlanner"
+    (package / "package.xml").write_text(PACKAGE.replace("my_pkg", "navfn"), encoding="utf-8")
+    write(package, XML.replace("my_pkg.planner", "lib/libnavfn").replace(name, "navfn/NavfnROS"))
+    assert type(create(BaseGlobalPlanner, "navfn/NavfnROS")) is BaseGlobalPlanner.named("navfn/NavfnROS")
