@@ -222,11 +222,12 @@ def limit(node: Node, label: str, declared: type[Parameters]) -> None:
 def no_command(text: str, samples: Samples) -> NoValidCommand:
     """Why none of the samples is any good, with their number by critic."""
     counts = samples.counts()
-    listed = ", ".join(f"{name} rejected {count}" for name, count in counts.items() if name != "generator")
+    listed = [f"{name} rejected {count}" for name, count in counts.items() if name != "generator"]
     tried = len(samples) + samples.refused
-    if not len(samples):
-        listed = "all are slower than the slowest that the robot drives and turns, or faster than it may"
-    return NoValidCommand(f"{text}: of {tried} sampled velocities, {listed}", sampled=tried, rejected=counts)
+    if samples.refused:
+        number = str(samples.refused) if len(samples) else "all"
+        listed += [f"{number} are slower than the slowest that the robot drives and turns, or faster than it may"]
+    return NoValidCommand(f"{text}: of {tried} sampled velocities, {', '.join(listed)}", sampled=tried, rejected=counts)
 
 
 def twist(command: Floats) -> Any:
