@@ -226,8 +226,12 @@ def no_command(text: str, samples: Samples) -> NoValidCommand:
     tried = len(samples) + samples.refused
     if samples.refused:
         number = str(samples.refused) if len(samples) else "all"
-        listed += [f"{number} are slower than the slowest that the robot drives and turns, or faster than it may"]
-    return NoValidCommand(f"{text}: of {tried} sampled velocities, {', '.join(listed)}", sampled=tried, rejected=counts)
+        listed += [
+            f"{number} are slower than the slowest that the robot drives and turns, or faster than it may"
+        ]
+    return NoValidCommand(
+        f"{text}: of {tried} sampled velocities, {', '.join(listed)}", sampled=tried, rejected=counts
+    )
 
 
 def twist(command: Floats) -> Any:

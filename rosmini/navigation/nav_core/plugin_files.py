@@ -79,7 +79,9 @@ def _found(interface: type[T], name: str) -> type[T]:
     except PluginError as error:
         if not unread:
             raise
-        raise PluginError("\n  ".join([f"{error}; and these packages could not be read:", *unread])) from error
+        raise PluginError(
+            "\n  ".join([f"{error}; and these packages could not be read:", *unread])
+        ) from error
 
 
 def short_name(name: str) -> str:

@@ -129,7 +129,7 @@ def test_a_package_that_cannot_be_read_is_in_nobodys_way(package, broken):
     (other / "package.xml").write_text(broken.replace("my_pkg", "another"), encoding="utf-8")
     assert create(BaseGlobalPlanner, "navfn/NavfnROS")
     assert create(BaseGlobalPlanner, "my_pkg/MyPlanner").says == "hello"
-    with pytest.raises(PluginError, match="could not be read:\n.*another"):
+    with pytest.raises(PluginError, match=r"could not be read:\n.*another"):
         create(BaseGlobalPlanner, "third/Planner")
 
 
