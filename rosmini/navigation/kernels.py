@@ -21,7 +21,6 @@ KERNELS: tuple[str, ...] = (
     "rosmini.navigation.navfn.descent:compiled_descend",
     "rosmini.navigation.navfn.wave:compiled_wave",
     "rosmini.navigation.amcl.field:compiled_scores",
-    "rosmini.navigation.amcl.field:compiled_ranges",
     "rosmini.navigation.gmapping.maps:compiled_register",
     "rosmini.navigation.gmapping.matching:compiled_match",
 )

@@ -19,13 +19,14 @@ from numpy.typing import NDArray
 from rosmini.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
+from .distances import clearances, distances, march
+
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Table = NDArray[np.float32]
 Form = Literal["cube", "log"]
 
 SCORES = f"{__name__}:compiled_scores"
-RANGES = f"{__name__}:compiled_ranges"
 
 
 @dataclass(frozen=True)
@@ -40,29 +41,6 @@ class BeamMixture:
     """Of a beam that hits what is in the map [m]."""
     lambda_short: float = 0.1
     """Of beams that end too early [1/m]."""
-
-
-def distances(occupied: Bools, farthest: int) -> NDArray[np.float32]:
-    """The exact distance of each cell (h, w) from the middle of the nearest occupied one [cells], at most `farthest`.
-
-    By rows, then by columns: a squared distance is the least of squares along the row plus squares along the column.
-    """
-    height, width = occupied.shape
-    limit = farthest + 1
-    row = np.full((height, width), limit, dtype=np.int32)
-    row[occupied] = 0
-    for column in range(1, width):
-        np.minimum(row[:, column], row[:, column - 1] + 1, out=row[:, column])
-    for column in range(width - 2, -1, -1):
-        np.minimum(row[:, column], row[:, column + 1] + 1, out=row[:, column])
-    squares = np.minimum(row, limit) ** 2
-    best = squares.copy()
-    for step in range(1, min(farthest, height - 1) + 1):
-        more = step * step
-        np.minimum(best[step:], squares[:-step] + more, out=best[step:])
-        np.minimum(best[:-step], squares[step:] + more, out=best[:-step])
-    found: NDArray[np.float32] = np.sqrt(np.minimum(best, farthest * farthest), dtype=np.float32)
-    return found
 
 
 class LikelihoodField:
@@ -96,6 +74,8 @@ class LikelihoodField:
         """(h, w) [m]."""
         self._table: tuple[tuple[BeamMixture, float, Form], Table, float] | None = None
         """The table that was used last, for beams of the same laser."""
+        self._clear: Table | None = None
+        """What `march` needs, as soon as the beam model asks."""
 
     def densities(self, mixture: BeamMixture, range_max: float, form: Form) -> tuple[Table, float]:
         """A form of the density of a beam by the cell (h, w) that it ends in, and that of one that ends outside."""
@@ -145,17 +125,12 @@ class LikelihoodField:
 
     def ranges(self, poses: Floats, bearings: Floats, range_max: float) -> Floats:
         """How far (n, b) [m] the map lets a beam go from each pose at each bearing [rad], at most `range_max`."""
-        found: Floats = np.empty((len(poses), len(bearings)))
-        kernel(RANGES)(
-            self.blocked,
-            *self.origin,
-            self.resolution,
-            np.ascontiguousarray(poses),
-            np.ascontiguousarray(bearings),
-            range_max,
-            found,
-        )
-        return found
+        if self._clear is None:
+            cells = max(1, round(self.farthest / self.resolution))
+            self._clear = clearances(self.blocked, cells)
+        origin, cells_per_metre = np.array((*self.origin, 0.0)), 1.0 / self.resolution
+        starts = (poses - origin) * (cells_per_metre, cells_per_metre, 1.0)
+        return march(self._clear, starts, bearings, range_max * cells_per_metre) * self.resolution
 
 
 def scores(
@@ -177,45 +152,6 @@ def scores(
         sums[n] = total
 
 
-def beam_ranges(
-    blocked: Any,
-    left: float,
-    low: float,
-    resolution: float,
-    poses: Any,
-    bearings: Any,
-    range_max: float,
-    found: Any,
-) -> None:
-    """See `LikelihoodField.ranges`: from cell to cell along the beam (Amanatides and Woo, 1987)."""
-    height, width = blocked.shape
-    for n in range(poses.shape[0]):
-        for b in range(bearings.shape[0]):
-            angle = poses[n, 2] + bearings[b]
-            cos, sin = math.cos(angle), math.sin(angle)
-            u, v = (poses[n, 0] - left) / resolution, (poses[n, 1] - low) / resolution
-            column, row = math.floor(u), math.floor(v)
-            across = abs(1.0 / cos) if abs(cos) > 1e-12 else math.inf
-            up = abs(1.0 / sin) if abs(sin) > 1e-12 else math.inf
-            next_x = (
-                across * ((column + 1 - u) if cos > 0.0 else (u - column)) if across < math.inf else math.inf
-            )
-            next_y = up * ((row + 1 - v) if sin > 0.0 else (v - row)) if up < math.inf else math.inf
-            gone, limit = 0.0, range_max / resolution
-            while gone < limit:
-                if column < 0 or column >= width or row < 0 or row >= height or blocked[row, column]:
-                    break
-                if next_x < next_y:
-                    gone = next_x
-                    next_x += across
-                    column += 1 if cos > 0.0 else -1
-                else:
-                    gone = next_y
-                    next_y += up
-                    row += 1 if sin > 0.0 else -1
-            found[n, b] = min(gone, limit) * resolution
-
-
 @cache
 def compiled_scores() -> Callable[..., None]:
     """`scores` as machine code, or as it is without numba."""
@@ -226,17 +162,4 @@ def compiled_scores() -> Callable[..., None]:
     number, table = float64, float64[:, ::1]
     return machine_code(
         scores, void(float32[:, ::1], number, number, number, number, table, table, float64[::1])
-    )
-
-
-@cache
-def compiled_ranges() -> Callable[..., None]:
-    """`beam_ranges` as machine code, or as it is without numba."""
-    try:
-        from numba import boolean, float64, void
-    except ImportError:
-        return beam_ranges
-    number, table = float64, float64[:, ::1]
-    return machine_code(
-        beam_ranges, void(boolean[:, ::1], number, number, number, table, float64[::1], number, table)
     )

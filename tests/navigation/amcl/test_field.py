@@ -1,4 +1,4 @@
-"""Distances, tables and beams, against geometry and brute force."""
+"""Tables and what is summed from them, against formulas and brute force."""
 
 from __future__ import annotations
 
@@ -9,23 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rosmini.navigation.amcl.field import BeamMixture, LikelihoodField, beam_ranges, distances, scores
-
-
-@st.composite
-def masks(draw):
-    height, width = draw(st.integers(1, 12)), draw(st.integers(1, 12))
-    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    return rng.random((height, width)) < draw(st.sampled_from([0.0, 0.05, 0.3, 1.0]))
-
-
-@given(masks(), st.integers(1, 15))
-def test_distances_are_exact(occupied, farthest):
-    found = distances(occupied, farthest)
-    rows, columns = np.nonzero(occupied)
-    for row, column in np.ndindex(*occupied.shape):
-        nearest = min(np.hypot(rows - row, columns - column), default=math.inf)
-        assert found[row, column] == pytest.approx(min(nearest, farthest), abs=1e-5)
+from rosmini.navigation.amcl.field import BeamMixture, LikelihoodField, scores
 
 
 def room(size=40, resolution=0.05):
@@ -64,29 +48,3 @@ def test_sums_are_the_sums_of_each(seed):
     plain = np.empty(7)
     scores(table, outside, *field.origin, 1 / field.resolution, poses, ends, plain)
     assert plain == pytest.approx(each, rel=1e-6)
-
-
-@given(st.floats(-0.9, 0.9), st.floats(-0.9, 0.9), st.floats(-math.pi, math.pi))
-def test_beams_end_at_the_walls(x, y, angle):
-    """The inner sides of the walls of the room are at -0.95 and 0.95."""
-    field = room()
-    c, s = math.cos(angle), math.sin(angle)
-    to_x = ((0.95 if c > 0 else -0.95) - x) / c if abs(c) > 1e-12 else math.inf
-    to_y = ((0.95 if s > 0 else -0.95) - y) / s if abs(s) > 1e-12 else math.inf
-    poses, bearings = np.array([[x, y, 0.0]]), np.array([angle])
-    found = field.ranges(poses, bearings, 10.0)
-    assert found[0, 0] == pytest.approx(min(to_x, to_y), abs=1e-6)
-    plain = np.empty((1, 1))
-    beam_ranges(field.blocked, *field.origin, field.resolution, poses, bearings, 10.0, plain)
-    assert plain == pytest.approx(found, abs=1e-9)
-    assert field.ranges(poses, bearings, 0.02)[0, 0] == 0.02
-
-
-def test_a_beam_ends_where_nothing_is_known_too():
-    occupied, free = np.zeros((10, 10), dtype=bool), np.ones((10, 10), dtype=bool)
-    free[:, 6] = False
-    field = LikelihoodField(occupied, 0.1, (0.0, 0.0), free=free)
-    assert field.ranges(np.array([[0.25, 0.5, 0.0]]), np.array([0.0]), 5.0)[0, 0] == pytest.approx(0.35)
-    assert LikelihoodField(occupied, 0.1, (0.0, 0.0)).ranges(
-        np.array([[0.25, 0.5, 0.0]]), np.array([0.0]), 5.0
-    )[0, 0] == pytest.approx(0.75)
