@@ -65,6 +65,8 @@ class Amcl:
         self._lasers: dict[str, tuple[Pose, bool]] = {}
         self._last_scan_ns = self._saved_ns = node.clock.now_ns()
         self._last_stamp_ns = 0
+        self._at_start: dict[str, Any] | None = None
+        """What can be changed, as it was at first."""
         self._advertise()
         self._server = Server(node, AmclConfig, self._reconfigure)
         self.localizer.initialize(self._start_pose(), self._start_covariance())
@@ -115,6 +117,10 @@ class Amcl:
     # -- parameters ----------------------------------------------------------------------------------------------
 
     def _reconfigure(self, config: Any, level: int) -> Any:
+        if self._at_start is None:
+            self._at_start = {**config, "restore_defaults": False}
+        elif config["restore_defaults"]:
+            config.update(self._at_start)
         changes = {one.name: config[one.name] for one in fields(AmclConfig)}
         if changes["min_particles"] > changes["max_particles"]:
             self.node.logwarn(
@@ -124,6 +130,7 @@ class Amcl:
             config["max_particles"] = changes["max_particles"] = changes["min_particles"]
         before = self.parameters
         self.parameters = replace(before, **changes)
+        self._lasers = {}
         if level != -1 or self.parameters != before:
             self.localizer.configure(self.parameters)
             if (
@@ -181,7 +188,9 @@ class Amcl:
             return False
         first, self._map = self._map is None, grid
         self._lasers = {}
-        if not first and not again:
+        if first:
+            self._warn_outside(self.localizer.filter.mean().mean)
+        elif not again:
             self.localizer.initialize(self._believed(), self._start_covariance())
         return True
 

@@ -122,6 +122,7 @@ class AmclConfig(Parameters):
     )
     use_map_topic: bool = parameter(False, "listen on map in place of asking static_map")
     first_map_only: bool = parameter(False, "keep the first map that comes")
+    restore_defaults: bool = parameter(False, "set all of these to what they were at the start")
 
 
 @dataclass(frozen=True)
@@ -129,7 +130,7 @@ class AmclParameters(AmclConfig):
     """All private parameters."""
 
     tolerant = True
-    allowed = ("restore_defaults", "bag_scan_period", "tf_prefix")
+    allowed = ("bag_scan_period", "tf_prefix")
 
     beam_skip_error_threshold: float = parameter(
         0.9, "if more beams would be left out, none is", minimum=0.0, maximum=1.0

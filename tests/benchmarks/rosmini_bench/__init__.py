@@ -159,8 +159,9 @@ def main(args: argparse.Namespace) -> int:
         )
         print(f"written to {args.json}")
     if args.subject == "nav":
-        from . import nav_quality
+        from . import nav_amcl, nav_quality
 
+        nav_amcl.run(quick=args.quick)
         nav_quality.run(args.seed, quick=args.quick, file=args.rows)
     return 0
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from rosmini.errors import RosminiError
 
-from . import Measure, nav_control, nav_costmap, nav_planners, nav_trial
+from . import Measure, nav_amcl, nav_control, nav_costmap, nav_planners, nav_trial
 from .nav_goals import errands
 from .nav_trial import Setup
 
@@ -56,6 +56,7 @@ def measures(scale: float, seed: int = 1) -> Iterator[Measure]:
         "Trajectory Rollout, 800 samples", "ms of CPU", partial(nav_control.rollout_cost, 60, seed, times),
         more_is_better=False,
     )  # fmt: skip
+    yield from nav_amcl.measures(scale)
     goals = 4 if scale >= 1 else 1
     for name, rates in (("ROBOTIS's rates", ROBOTIS_RATES), ("our file", ())):
         yield Measure(

@@ -307,6 +307,29 @@ def test_parameters_that_change(graph):
     assert robot.heard("min_particles, 300, is above max_particles, 200")
 
 
+def test_parameters_that_are_restored(graph):
+    _, amcl = ready(graph, "_max_particles:=700", "_odom_alpha1:=0.3")
+    amcl._server.update_configuration({"max_particles": 200, "odom_alpha1": 0.1})
+    found = amcl._server.update_configuration({"restore_defaults": True})
+    assert (found["max_particles"], found["odom_alpha1"], found["restore_defaults"]) == (700, 0.3, False)
+    assert (amcl.parameters.odom_alpha1, amcl.localizer.filter.most) == (0.3, 700)
+
+
+def test_a_start_outside_the_map(graph):
+    robot, _ = ready(graph, "_initial_pose_x:=-4.0")
+    assert robot.heard("is not in free space of the map")
+
+
+def test_another_base_frame_asks_anew_where_the_laser_is(graph):
+    robot, amcl = ready(graph)
+    robot.drive(2)
+    StaticTransformBroadcaster(graph.node("more")).send("base_link", "front", (0.3, 0.0, 0.0))
+    robot.tell()
+    amcl._server.update_configuration({"base_frame_id": "front"})
+    robot.drive(2)
+    assert amcl._lasers["laser"][0][0] == pytest.approx(-0.3)
+
+
 @pytest.mark.parametrize(
     "given",
     [
