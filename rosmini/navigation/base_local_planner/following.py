@@ -18,6 +18,7 @@ from rosmini.graph import Node
 from rosmini.msgs import message_class
 from rosmini.navigation.costmap_2d.costmap import INSCRIBED_INFLATED_OBSTACLE
 from rosmini.navigation.nav_core import ControlFailure, NoValidCommand, TransformMissing, pose_stamped
+from rosmini.navigation.nav_core.clouds import point_cloud
 from rosmini.parameters import Parameters
 from rosmini.tf import Buffer, TransformException
 from rosmini.time import Time
@@ -146,15 +147,7 @@ class Publications:
         )
 
     def _cloud(self, publisher: Any, names: Sequence[str], rows: Floats) -> None:
-        message, field = message_class("sensor_msgs/PointCloud2")(), message_class("sensor_msgs/PointField")
-        message.header.frame_id, message.header.stamp = self.frame, self.node.now()
-        message.fields = [
-            field(name=name, offset=4 * i, datatype=field.FLOAT32, count=1) for i, name in enumerate(names)
-        ]
-        message.height, message.width, message.is_dense = 1, len(rows), True
-        message.point_step, message.row_step = 4 * len(names), 4 * len(names) * len(rows)
-        message.data = np.frombuffer(rows.astype("<f4").tobytes(), dtype=np.uint8)
-        publisher.publish(message)
+        publisher.publish(point_cloud(self.frame, self.node.now(), names, rows))
 
 
 # -- parameters --------------------------------------------------------------------------------------------------------

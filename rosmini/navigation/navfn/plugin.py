@@ -10,6 +10,7 @@ import numpy as np
 
 from rosmini.msgs import message_class
 from rosmini.navigation.nav_core import OutsideMap
+from rosmini.navigation.nav_core.clouds import point_cloud
 from rosmini.parameters import Parameters, parameter
 
 from .planning import GridPlanner, Poses
@@ -53,9 +54,10 @@ class NavfnROS(GridPlanner, plugin="navfn/NavfnROS"):
         own = NavfnParameters.read(self.node, f"~{self.name}")
         self.parameters = own
         self.default_tolerance = own.default_tolerance
-        self._cloud = message_class("sensor_msgs/PointCloud2")
         self._potentials = (
-            self.node.publisher(f"~{self.name}/potential", self._cloud, queue_size=1)
+            self.node.publisher(
+                f"~{self.name}/potential", message_class("sensor_msgs/PointCloud2"), queue_size=1
+            )
             if own.visualize_potential
             else None
         )
@@ -97,19 +99,11 @@ class NavfnROS(GridPlanner, plugin="navfn/NavfnROS"):
         rows, columns = np.nonzero(search.reached)
         potential = search.potential[rows, columns]
         at_goal = max(1.0, float(potential.max()) if goal is None else search.potential_at(goal))
-        points = np.empty((len(rows), 4), dtype="<f4")
+        points = np.empty((len(rows), 4))
         points[:, 0] = self.grid.origin[0] + (columns + 0.5) * self.grid.resolution
         points[:, 1] = self.grid.origin[1] + (rows + 0.5) * self.grid.resolution
         points[:, 2] = potential / at_goal * 20
         points[:, 3] = potential
-        field = message_class("sensor_msgs/PointField")
-        cloud = self._cloud()
-        cloud.header.stamp, cloud.header.frame_id = self.now(), self.costmap.global_frame
-        cloud.height, cloud.width = 1, len(points)
-        cloud.fields = [
-            field(name=name, offset=4 * i, datatype=field.FLOAT32, count=1)
-            for i, name in enumerate(("x", "y", "z", "pot"))
-        ]
-        cloud.point_step, cloud.row_step, cloud.is_dense = 16, 16 * len(points), True
-        cloud.data = points.tobytes()
-        self._potentials.publish(cloud)
+        self._potentials.publish(
+            point_cloud(self.costmap.global_frame, self.now(), ("x", "y", "z", "pot"), points)
+        )

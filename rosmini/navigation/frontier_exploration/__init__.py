@@ -1,0 +1,12 @@
+"""Exploration by frontiers, inside a polygon (http://wiki.ros.org/frontier_exploration).
+
+Yamauchi, A frontier-based approach for autonomous exploration (CIRA 1997). `search` finds frontiers on a grid of costs;
+`polygon` is the polygon that a user clicks; a layer of a costmap (`plugin`), a server (`node`) and a client
+(`client_node`) meet the graph.
+"""
+
+from __future__ import annotations
+
+from .search import Frontier, find_frontiers, frontier_cells
+
+__all__ = ["Frontier", "find_frontiers", "frontier_cells"]

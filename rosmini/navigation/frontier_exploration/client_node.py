@@ -1,0 +1,102 @@
+"""`frontier_exploration/explore_client`: an area to explore, from points that a user clicks in RViz.
+
+It takes `/clicked_point`, shows the polygon on `exploration_polygon_marker` (blue while it grows, red when it is
+closed), and sends it to `explore_server`. A polygon whose edges cross is refused here, where the original takes it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rosmini.actionlib import SimpleActionClient
+from rosmini.msgs import message_class
+
+from .polygon import Selection, Step
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+PERIOD = 0.1
+"""Between two pictures of the polygon [s]."""
+PATIENCE = 5.0
+"""After so long without the server it is said that it is missing [s]."""
+
+
+class ExploreClient:
+    """The node."""
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+        self.selection = Selection()
+        self.client: SimpleActionClient | None = None
+        """Of the server; made when the first area is complete."""
+        self._marker = message_class("visualization_msgs/Marker")
+        self._point = message_class("geometry_msgs/Point")
+        self._markers = node.publisher("exploration_polygon_marker", self._marker, queue_size=10)
+        self._markers.expect_nobody()
+        node.subscriber(
+            "/clicked_point", message_class("geometry_msgs/PointStamped"), self._clicked, queue_size=10
+        )
+        node.timer(PERIOD, self._show)
+        node.loginfo("Please use the 'Point' tool in Rviz to select an exploration boundary.")
+
+    def __repr__(self) -> str:
+        return f"<ExploreClient {self.node.name}: {len(self.selection.vertices)} vertices>"
+
+    def _clicked(self, point: Any) -> None:
+        """Take a point."""
+        selection = self.selection
+        step, text = selection.click(point.header.frame_id.lstrip("/"), point.point.x, point.point.y)
+        if step is Step.REFUSED:
+            self.node.logerr(text)
+        elif step is Step.CLOSED:
+            self.node.logwarn(text)
+        elif step is Step.COMPLETE:
+            goal = self._goal(point)
+            selection.clear()
+            self._send(goal, text)
+
+    def _goal(self, center: Any) -> Any:
+        goal = message_class("frontier_exploration/ExploreTaskGoal")()
+        goal.explore_center = center
+        goal.explore_boundary.header.frame_id = self.selection.frame
+        goal.explore_boundary.header.stamp = self.node.now()
+        corner = message_class("geometry_msgs/Point32")
+        goal.explore_boundary.polygon.points = [corner(x=x, y=y) for x, y in self.selection.vertices]
+        return goal
+
+    def _send(self, goal: Any, text: str) -> None:
+        if self.client is None:
+            action = message_class("frontier_exploration/ExploreTaskAction")
+            self.client = SimpleActionClient(self.node, "explore_server", action)
+        while not self.client.wait_for_server(PATIENCE):
+            self.node.logwarn(
+                "The area waits for the action server explore_server: start frontier_exploration's explore_server"
+            )
+        self.node.loginfo(text)
+        self.client.send_goal(goal)
+
+    def _show(self, _: Any) -> None:
+        """Publish the vertices and the edges as they are."""
+        if self._markers.num_connections():
+            for number, (kind, size) in enumerate(
+                ((self._marker.SPHERE_LIST, (0.1, 0.1, 0.1)), (self._marker.LINE_STRIP, (0.05, 0.0, 0.0)))
+            ):
+                self._markers.publish(self._drawn(number, kind, size))
+
+    def _drawn(self, number: int, kind: int, size: tuple[float, float, float]) -> Any:
+        selection, marker = self.selection, self._marker()
+        marker.header.frame_id, marker.header.stamp = selection.frame, self.node.now()
+        marker.ns, marker.id, marker.type = "explore_points", number, kind
+        if not selection.vertices:
+            marker.action = marker.DELETE
+            return marker
+        marker.pose.orientation.w = 1.0
+        marker.scale.x, marker.scale.y, marker.scale.z = size
+        vertices = selection.vertices
+        if selection.is_closed and kind == marker.LINE_STRIP:
+            vertices = [*vertices, vertices[0]]
+        marker.points = [self._point(x=x, y=y) for x, y in vertices]
+        marker.color.a = 1.0
+        marker.color.r, marker.color.b = (1.0, 0.0) if selection.is_closed else (0.0, 1.0)
+        return marker

@@ -1,0 +1,219 @@
+"""`frontier_exploration/explore_server`: drives to frontier after frontier until none is left in an area.
+
+It offers the action that is called as the node (`frontier_exploration/ExploreTask`), has a costmap of its own,
+`~explore_costmap`, with a `BoundedExploreLayer` called `explore_boundary`, and sends goals to `move_base`.
+
+From the original differ: before it asks again whether a frontier is left it waits for an update of the costmap; the
+five attempts are each goal's own; and a robot whose pose is not known ends the task.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rosmini.actionlib import SimpleActionClient, SimpleActionServer, Status
+from rosmini.errors import ROSException, ServiceException
+from rosmini.msgs import message_class, service_class
+from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
+from rosmini.navigation.costmap_2d.footprint import points_of
+from rosmini.navigation.nav_core import TransformMissing, planar_pose, pose_stamped
+from rosmini.tf import TransformException, TransformListener
+
+from .parameters import ExploreServerParameters
+from .plugin import moved
+from .polygon import has_inside
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+ATTEMPTS = 5
+"""So many further times it is asked whether there is a frontier before there is none."""
+PAUSE = 0.2
+"""Between two attempts [s]."""
+PATIENCE = 5.0
+"""After so long without move_base it is said what is missing [s]."""
+LOST = 30.0
+"""A robot whose pose has not been known for so long ends the task [s]."""
+
+
+class ExploreServer:
+    """The node."""
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+        self.parameters = ExploreServerParameters.read(node)
+        self.buffer = TransformListener(node).buffer
+        self.move_base = SimpleActionClient(node, "move_base", message_class("move_base_msgs/MoveBaseAction"))
+        self.costmap = Costmap2DROS("explore_costmap", self.buffer, node)
+        self.sent = 0
+        """How many goals it has sent."""
+        self._moving = self._found = False
+        self._last = (math.inf, math.inf)
+        self._feedback = message_class("frontier_exploration/ExploreTaskFeedback")()
+        services = "~explore_costmap/explore_boundary/"
+        self._set_boundary, self._next_frontier = (
+            node.service_client(services + name, service_class(f"frontier_exploration/{kind}"))
+            for name, kind in (
+                ("update_boundary_polygon", "UpdateBoundaryPolygon"),
+                ("get_next_frontier", "GetNextFrontier"),
+            )
+        )
+        self.action = SimpleActionServer(
+            node,
+            node.name,
+            message_class("frontier_exploration/ExploreTaskAction"),
+            execute_cb=self._execute,
+            auto_start=False,
+        )
+        self.action.register_preempt_callback(self._preempt)
+        self.action.start()
+
+    def __repr__(self) -> str:
+        doing = "explores" if self.action.is_active() else "waits for an area"
+        return f"<ExploreServer {self.node.name}: {doing}, {self.sent} goals sent>"
+
+    # -- the task ------------------------------------------------------------------------------------------------
+
+    def _execute(self, task: Any) -> None:
+        """Explore an area until no frontier is left."""
+        self._found = self._moving = False
+        self.costmap.reset_layers()
+        try:
+            self._wait_for_others()
+            self._set_boundary(task.explore_boundary)
+        except (ServiceException, ROSException) as error:
+            self._fail(f"Failed to set region boundary: {error}")
+            return
+        self.node.loginfo("Region boundary set")
+        left, known_ns = ATTEMPTS, self.node.clock.now_ns()
+        while not self.node.is_shutdown() and self.action.is_active():
+            try:
+                goal = self._next_goal(task)
+                left, known_ns = ATTEMPTS, self.node.clock.now_ns()
+            except ServiceException as error:
+                if left == 0:
+                    self._finish(str(error))
+                    return
+                left -= 1
+                self.node.sleep(PAUSE)
+                continue
+            except (TransformMissing, TransformException) as error:
+                if (self.node.clock.now_ns() - known_ns) * 1e-9 > LOST:
+                    self._fail(
+                        f"Failed exploration: for {LOST:g} s the robot's pose has been unknown: {error}"
+                    )
+                    return
+                self.node.logwarn(f"Exploration waits for the robot's pose: {error}", throttle=PATIENCE)
+                self.node.sleep(PAUSE)
+                continue
+            self._drive(goal)
+            self._wait()
+
+    def _wait_for_others(self) -> None:
+        while self.action.is_active() and not self.move_base.wait_for_server(PATIENCE):
+            self.node.logwarn("Exploration waits for the action server move_base: start move_base")
+        for client in (self._set_boundary, self._next_frontier):
+            try:
+                self.node.wait_for_service(client.name, PATIENCE)
+            except ROSException as error:
+                raise ROSException(
+                    f"{error}: the costmap ~explore_costmap needs a layer named explore_boundary of the type "
+                    "frontier_exploration::BoundedExploreLayer"
+                ) from error
+
+    def _next_goal(self, task: Any) -> Any:
+        """Where to drive now: the next frontier, or back into the area.
+
+        Raises `ServiceException` if there is no frontier, and `TransformMissing` or `TransformException` if it is not
+        known where the robot is.
+        """
+        robot = self.costmap.robot_pose()
+        x, y, _ = planar_pose(robot)
+        boundary = task.explore_boundary
+        if len(boundary.polygon.points):
+            vertices = moved(
+                self.buffer, self.costmap.global_frame, boundary.header.frame_id, points_of(boundary.polygon)
+            )
+            if not has_inside(vertices, (x, y)):
+                return self._way_back(task.explore_center, x, y)
+        goal = self._next_frontier(robot).next_frontier
+        self._found = True
+        self._feedback.next_frontier = goal
+        return goal
+
+    def _way_back(self, center: Any, x: float, y: float) -> Any:
+        """The point inside that came with the area, looked at from where the robot is."""
+        if self._found:
+            self.node.logwarn("Robot left exploration boundary, returning to center", throttle=PATIENCE)
+        else:
+            self.node.logdebug("Robot not initially in exploration boundary, traveling to center")
+        point = np.array([[center.point.x, center.point.y]])
+        frame = self.costmap.global_frame
+        cx, cy = moved(self.buffer, frame, center.header.frame_id, point)[0].tolist()
+        return pose_stamped(frame, self.node.now(), (cx, cy, math.atan2(cy - y, cx - x)))
+
+    # -- driving -------------------------------------------------------------------------------------------------
+
+    def _drive(self, pose: Any) -> None:
+        """Send a goal, unless it is nearly the last one."""
+        x, y, _ = planar_pose(pose)
+        if self._moving and math.dist((x, y), self._last) < self.parameters.goal_aliasing / 2:
+            return
+        if not self.action.is_active():
+            return
+        self._last, self._moving = (x, y), True
+        self.sent += 1
+        goal = message_class("move_base_msgs/MoveBaseGoal")(target_pose=pose)
+        self.move_base.send_goal(goal, done_cb=self._done, feedback_cb=self._feed)
+
+    def _wait(self) -> None:
+        """Until it is time to look again: a period, or until the robot has arrived."""
+        frequency = self.parameters.frequency
+        if frequency > 0:
+            self.node.sleep(1 / frequency)
+            return
+        while not self.node.is_shutdown() and self.action.is_active() and self._moving:
+            self.node.sleep(PAUSE)
+
+    def _feed(self, feedback: Any) -> None:
+        self._feedback.base_position = feedback.base_position
+        if self.action.is_active():
+            self.action.publish_feedback(self._feedback)
+
+    def _done(self, state: int, _: Any) -> None:
+        if state == Status.SUCCEEDED:
+            self._moving = False
+        elif state == Status.ABORTED and self.action.is_active():
+            self._fail(f"Failed to move: {self.move_base.get_goal_status_text()}")
+
+    # -- the end -------------------------------------------------------------------------------------------------
+
+    def _finish(self, why: str) -> None:
+        """There is no frontier: that is the end, or a failure if there has never been one."""
+        if not self._found:
+            self._fail(f"Failed exploration: {why}")
+            return
+        self.node.logwarn("Finished exploring room")
+        self.action.set_succeeded()
+        self._cancel()
+
+    def _fail(self, text: str) -> None:
+        self.node.logerr(text)
+        if self.action.is_active():
+            self.action.set_aborted(None, text)
+        self._cancel()
+
+    def _preempt(self) -> None:
+        self._cancel()
+        self.node.logwarn("Current exploration task cancelled")
+        if self.action.is_active():
+            self.action.set_preempted()
+
+    def _cancel(self) -> None:
+        """End the drive, if it is this node's."""
+        if self._moving:
+            self._moving = False
+            self.move_base.cancel_goals_at_and_before_time(self.node.now())

@@ -1,0 +1,40 @@
+"""Parameters of the layer, the server and of nothing else: the client has none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from rosmini.navigation.costmap_2d.parameters import LayerConfig
+from rosmini.parameters import Parameters, parameter
+
+CLOSEST, MIDDLE, CENTROID = "closest", "middle", "centroid"
+
+
+@dataclass(frozen=True)
+class BoundedExploreParameters(LayerConfig):
+    """Of `frontier_exploration::BoundedExploreLayer`."""
+
+    explore_clear_space: bool = parameter(
+        True, "whether all inside of the boundary is unknown at first, so that known space is explored again"
+    )
+    resize_to_boundary: bool = parameter(True, "whether the costmap gets the size of the boundary")
+    frontier_travel_point: str = parameter(
+        CLOSEST,
+        "which point of a frontier to drive to",
+        choices=(CLOSEST, MIDDLE, CENTROID),
+    )
+
+
+@dataclass(frozen=True)
+class ExploreServerParameters(Parameters):
+    """Of `explore_server`."""
+
+    allowed: ClassVar[tuple[str, ...]] = ("explore_costmap",)
+
+    frequency: float = parameter(
+        0.0, "how often to look for the next frontier; 0: when the last is reached", unit="Hz", minimum=0.0
+    )
+    goal_aliasing: float = parameter(
+        0.1, "a goal nearer than half of it to the last one is not sent", unit="m", minimum=0.0
+    )

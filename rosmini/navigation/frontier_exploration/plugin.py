@@ -1,0 +1,223 @@
+"""`frontier_exploration::BoundedExploreLayer`: a boundary in a costmap, and frontiers inside of it.
+
+Below the costmap's name: the services `explore_boundary/update_boundary_polygon` and `explore_boundary/
+get_next_frontier`, and the topic `explore_boundary/frontiers`, a cloud in which the frontier chosen has the intensity
+100, others 50.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from rosmini.dynamic_reconfigure import Server
+from rosmini.errors import ServiceRefused
+from rosmini.geometry.polygons import Floats
+from rosmini.geometry.poses import Pose, transform_points
+from rosmini.msgs import message_class, service_class
+from rosmini.navigation.costmap_2d import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
+from rosmini.navigation.costmap_2d.footprint import points_of
+from rosmini.navigation.costmap_2d.layer import Bounds, CostmapLayer, Window
+from rosmini.navigation.costmap_2d.parameters import LayerConfig
+from rosmini.navigation.costmap_2d.rays import line_cells
+from rosmini.navigation.nav_core.clouds import point_cloud
+from rosmini.navigation.nav_core.poses import planar_pose, planar_transform, pose_stamped
+from rosmini.tf import Buffer, TransformException
+from rosmini.time import Time
+
+from .parameters import CENTROID, CLOSEST, BoundedExploreParameters
+from .polygon import fault
+from .search import Frontier, find_frontiers
+
+PATIENCE = 10.0
+"""So long it is waited for a transform, and for the boundary to be drawn [s]."""
+ROUNDING = 1e-3
+"""Points are 32-bit floats: by less than this share of a cell a boundary does not reach into the next [cells]."""
+LOOK = 0.1
+"""How often it is looked whether the boundary is drawn [s]."""
+OTHERS, CHOSEN = 50.0, 100.0
+"""Intensities of frontiers in the cloud."""
+
+
+def moved(buffer: Buffer, frame: str, source: str, points: Floats) -> Floats:
+    """Points (n, 2) of the frame `source` in another, as it is now. Raises `TransformException` after `PATIENCE`."""
+    if source.lstrip("/") == frame:
+        return points
+    found = buffer.lookup_transform(frame, source.lstrip("/"), Time(0), PATIENCE)
+    return transform_points(planar_transform(found), points)
+
+
+class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExploreLayer"):
+    """Draws a boundary that cannot be crossed into the costmap, and chooses the nearest frontier.
+
+    The costmap's layer of the map or the sensors is below or above it; its own costs are the boundary and, with
+    `explore_clear_space`, unknown elsewhere. Boundaries that bound no area are refused, where the original takes them.
+    """
+
+    def on_initialize(self) -> None:
+        """Read the parameters; offer the services."""
+        node, namespace = self.node, self.namespace
+        self.settings = BoundedExploreParameters.read(node, namespace)
+        self.grid.default = NO_INFORMATION if self.settings.explore_clear_space else FREE_SPACE
+        self.boundary: Floats | None = None
+        """The vertices (n, 2) [m] in the costmap's frame; None before there is a boundary."""
+        self.frontiers: list[Frontier] = []
+        """Those that were found the last time."""
+        self._is_drawn = False
+        self._has_changed = False
+        self.match_size()
+        self._cloud = node.publisher(
+            f"{namespace}frontiers", message_class("sensor_msgs/PointCloud2"), queue_size=5
+        )
+        for name, kind, handler in (
+            ("update_boundary_polygon", "UpdateBoundaryPolygon", self._update_boundary),
+            ("get_next_frontier", "GetNextFrontier", self._next_frontier),
+        ):
+            node.service(f"{namespace}{name}", service_class(f"frontier_exploration/{kind}"), handler)
+        self._server = Server(node, LayerConfig, self._reconfigure, namespace=namespace)
+
+    def _reconfigure(self, config: Any, _: int) -> Any:
+        self.is_enabled = config["enabled"]
+        return config
+
+    # -- the boundary --------------------------------------------------------------------------------------------
+
+    def _update_boundary(self, request: Any) -> Any:
+        """Take a boundary; without a vertex it is the costmap's edge."""
+        stamped = request.explore_boundary
+        vertices = points_of(stamped.polygon)
+        wrong = fault(vertices) if len(vertices) else None
+        if wrong is not None:
+            raise self._refused(wrong)
+        try:
+            vertices = moved(self.buffer, self.layered.global_frame, stamped.header.frame_id, vertices)
+        except TransformException as error:
+            raise self._refused(
+                f"Couldn't transform from {self.layered.global_frame} to {stamped.header.frame_id}: {error}"
+            ) from error
+        master = self.layered.grid
+        if not len(vertices):
+            vertices = _edge(master)
+        elif self.settings.resize_to_boundary:
+            low, high = vertices.min(axis=0), vertices.max(axis=0)
+            width, height = (int(side) for side in np.ceil((high - low) / master.resolution - ROUNDING))
+            self.layered.resize(width + 1, height + 1, master.resolution, (float(low[0]), float(low[1])))
+        elif not _overlaps(vertices, _edge(master)):
+            raise self._refused(
+                f"the boundary, {_span(vertices)}, has nothing in common with the costmap, {_span(_edge(master))}"
+            )
+        self.boundary = vertices
+        self._is_drawn, self._has_changed = False, True
+        return []
+
+    def _refused(self, text: str) -> ServiceRefused:
+        self.node.logerr(text)
+        return ServiceRefused(text)
+
+    def reset(self) -> None:
+        """Forget the boundary."""
+        self.boundary, self.frontiers = None, []
+        self._is_drawn, self._has_changed = False, True
+        self.costs[...] = self.grid.default
+
+    def match_size(self) -> None:
+        """Take over the costmap's size, for which the boundary has to be drawn again."""
+        super().match_size()
+        self._is_drawn = False
+
+    def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
+        """Everything, after a change of the boundary."""
+        del robot
+        self.use_extra_bounds(bounds)
+        if self._has_changed:
+            self._has_changed = False
+            bounds.touch_all()
+
+    def update_costs(self, grid: Costmap2D, window: Window) -> None:
+        """Write the boundary, and what is to count as unknown; obstacles stay."""
+        if self.boundary is None:
+            return
+        if not self._is_drawn:
+            self._draw(self.boundary)
+        self._is_drawn = True
+        mine, master = window.of(self.costs), window.of(grid.costs)
+        np.copyto(
+            master, mine, where=(master != LETHAL_OBSTACLE) & ((mine == LETHAL_OBSTACLE) | (mine > master))
+        )
+
+    def _draw(self, boundary: Floats) -> None:
+        """Draw the edges as obstacles; vertices outside of the costmap are brought to its edge."""
+        self.costs[...] = self.grid.default
+        cells = [self.grid.world_to_map_clamped(x, y) for x, y in boundary.tolist()]
+        for (x0, y0), (x1, y1) in zip(cells, [*cells[1:], cells[0]], strict=True):
+            columns, rows = line_cells(x0, y0, x1, y1)
+            self.costs[rows, columns] = LETHAL_OBSTACLE
+
+    # -- frontiers -----------------------------------------------------------------------------------------------
+
+    def _next_frontier(self, request: Any) -> Any:
+        """Where to drive next from a pose; refused if no frontier is left."""
+        start = request.start_pose
+        self._wait_until_drawn()
+        x, y, _ = planar_pose(start)
+        try:
+            here = moved(self.buffer, self.layered.global_frame, start.header.frame_id, np.array([[x, y]]))
+        except TransformException as error:
+            raise self._refused(
+                f"Couldn't transform from {self.layered.global_frame} to {start.header.frame_id}: {error}"
+            ) from error
+        x, y = here[0].tolist()
+        try:
+            self.frontiers = find_frontiers(self.layered.grid, x, y)
+        except IndexError as error:
+            raise self._refused(
+                f"Robot out of costmap bounds, cannot search for frontiers: {error}"
+            ) from error
+        # A single cell is noise of the map.
+        self.frontiers = [one for one in self.frontiers if one.size > 1]
+        if not self.frontiers:
+            raise ServiceRefused("No valid frontiers found, exploration complete")
+        chosen = min(self.frontiers, key=lambda one: one.min_distance)
+        self._publish(chosen)
+        px, py = self._travel_point(chosen)
+        yaw = math.atan2(py - y, px - x)
+        return {"next_frontier": pose_stamped(self.layered.global_frame, self.node.now(), (px, py, yaw))}
+
+    def _wait_until_drawn(self) -> None:
+        for _ in range(round(PATIENCE / LOOK)):
+            if self._is_drawn:
+                return
+            self.node.sleep(LOOK)
+        raise self._refused(
+            f"no boundary has been drawn within {PATIENCE:g} s: call update_boundary_polygon first"
+        )
+
+    def _travel_point(self, frontier: Frontier) -> tuple[float, float]:
+        wanted = self.settings.frontier_travel_point
+        if wanted == CLOSEST:
+            return frontier.initial
+        return frontier.centroid if wanted == CENTROID else frontier.middle
+
+    def _publish(self, chosen: Frontier) -> None:
+        rows = [(*one.initial, 0.0, CHOSEN if one is chosen else OTHERS) for one in self.frontiers]
+        names = ("x", "y", "z", "intensity")
+        self._cloud.publish(point_cloud(self.layered.global_frame, self.node.now(), names, rows))
+
+
+def _edge(grid: Costmap2D) -> Floats:
+    """The corners (4, 2) of a grid [m]."""
+    (x, y), (width, height) = grid.origin, grid.size_m
+    return np.array([(x, y), (x, y + height), (x + width, y + height), (x + width, y)])
+
+
+def _overlaps(a: Floats, b: Floats) -> bool:
+    """Whether the rectangles around two sets of points (n, 2) have something in common."""
+    return bool((a.min(axis=0) < b.max(axis=0)).all() and (b.min(axis=0) < a.max(axis=0)).all())
+
+
+def _span(points: Floats) -> str:
+    """The rectangle around points (n, 2), in words."""
+    (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
+    return f"from ({x0:.2f}, {y0:.2f}) to ({x1:.2f}, {y1:.2f})"

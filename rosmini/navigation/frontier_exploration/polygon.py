@@ -1,0 +1,101 @@
+"""The polygon of an area to explore: how it is clicked, and whether it is one."""
+
+from __future__ import annotations
+
+import math
+from enum import Enum
+
+import numpy as np
+
+from rosmini.geometry.polygons import Floats, crossing_sides, inside, sides_of
+
+Point = tuple[float, float]
+
+NEAR = 0.1
+"""A click closes the polygon this near its first vertex, as a share of the mean length of its edges."""
+
+
+class Step(Enum):
+    """What a click has done."""
+
+    ADDED = "added"
+    CLOSED = "closed"
+    COMPLETE = "complete"
+    REFUSED = "refused"
+
+
+def has_inside(vertices: Floats, point: Point) -> bool:
+    """Whether a point is inside the polygon (n, 2)."""
+    return bool(inside(np.array([point]), sides_of(vertices))[0])
+
+
+def fault(vertices: Floats) -> str | None:
+    """Why these vertices (n, 2) bound no area; None if they do."""
+    if len(vertices) < 3:
+        return f"a polygon of {len(vertices)} vertices bounds no area: at least 3 are needed"
+    if not np.isfinite(vertices).all():
+        return "a vertex of the polygon is no finite number"
+    crossing = crossing_sides(vertices)
+    if crossing is not None:
+        a, b = crossing
+        return (
+            f"the edges after vertices {a + 1} and {b + 1} of the polygon meet: name its vertices in order, around the "
+            "area"
+        )
+    return None
+
+
+class Selection:
+    """A polygon that grows by clicks: vertices, then one near the first, which closes it, then a point inside.
+
+    `step, text = selection.click("map", x, y)`; after a fault it begins again.
+    """
+
+    def __init__(self) -> None:
+        self.frame = "map"
+        self.vertices: list[Point] = []
+        self.is_closed = False
+        """Whether the next click is the point to start from."""
+
+    @property
+    def polygon(self) -> Floats:
+        """Its vertices (n, 2)."""
+        return np.array(self.vertices, dtype=np.float64).reshape(-1, 2)
+
+    def clear(self) -> None:
+        """Begin again."""
+        self.vertices, self.is_closed = [], False
+
+    def click(self, frame: str, x: float, y: float) -> tuple[Step, str]:
+        """Take a point [m]: what it has done, and what there is to say. After `COMPLETE`, `clear` it."""
+        if not self.vertices:
+            self.frame = frame
+        elif frame != self.frame:
+            said = f"Frame mismatch, restarting polygon selection: '{frame}' after '{self.frame}'"
+            return self._restart(said)
+        if self.is_closed:
+            if has_inside(self.polygon, (x, y)):
+                return Step.COMPLETE, "Sending goal"
+            return self._restart("Center not inside polygon, restarting")
+        if self._closes(x, y):
+            return self._close()
+        self.vertices.append((x, y))
+        return Step.ADDED, ""
+
+    def _closes(self, x: float, y: float) -> bool:
+        if len(self.vertices) < 2:
+            return False
+        ends = [*self.vertices[1:], self.vertices[0]]
+        mean = sum(map(math.dist, self.vertices, ends)) / len(self.vertices)
+        return math.dist(self.vertices[0], (x, y)) < NEAR * mean
+
+    def _close(self) -> tuple[Step, str]:
+        wrong = fault(self.polygon)
+        if wrong is not None:
+            return self._restart(f"Not a valid polygon, restarting: {wrong}")
+        self.is_closed = True
+        return Step.CLOSED, "Please select an initial point for exploration inside the polygon"
+
+    def _restart(self, text: str) -> tuple[Step, str]:
+        self.clear()
+        return Step.REFUSED, text

@@ -1,0 +1,124 @@
+"""Frontiers: where what is known to be free borders on the unknown.
+
+A frontier cell is unknown and has a free cell on one of its four sides; a frontier is a set of such cells that are
+neighbours, corners included (Yamauchi 1997, with the roles that the packages `frontier_exploration` and `explore_lite`
+give to the cells). The search spreads from the robot over free cells, so a frontier that no free cell leads to is not
+found.
+
+From the originals differ: the cell that a frontier was found by counts for its centroid and its distance, too. There
+the sum leaves it out and is divided by all, so that small frontiers have centroids nearer to the map's origin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.navigation.costmap_2d import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
+
+Bools = NDArray[np.bool_]
+Ints = NDArray[np.int64]
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Frontier:
+    """Cells (n, 2) of one frontier, each (mx, my), the one first; lengths in metres."""
+
+    cells: Ints
+    """In the order in which they were found."""
+    points: NDArray[np.float64]
+    """Their middles (n, 2) [m]."""
+    min_distance: float
+    """From the middle of the robot's cell to the nearest [m]."""
+    initial: Point
+    """The cell that the search met first."""
+    middle: Point
+    """The cell nearest to the robot by the straight line: this is what the original calls so."""
+    centroid: Point
+    """The mean of all; it need not be in one of the cells."""
+
+    @property
+    def size(self) -> int:
+        """How many cells it has."""
+        return len(self.cells)
+
+
+def frontier_cells(costs: NDArray[np.uint8]) -> Bools:
+    """Which cells (h, w) of a grid of costs are unknown beside a free one."""
+    free = np.pad(costs == FREE_SPACE, 1)
+    beside = free[:-2, 1:-1] | free[2:, 1:-1] | free[1:-1, :-2] | free[1:-1, 2:]
+    cells: Bools = beside & (costs == NO_INFORMATION)
+    return cells
+
+
+def find_frontiers(grid: Costmap2D, x: float, y: float) -> list[Frontier]:
+    """The frontiers that free cells lead to from a point [m], in the order in which the search meets them.
+
+    It begins at the free cell nearest to the point. Raises `IndexError` if the point is outside of the grid.
+    """
+    cell = grid.world_to_map(x, y)
+    if cell is None:
+        raise IndexError(f"the robot, at ({x:.2f}, {y:.2f}), is outside of {grid!r}")
+    free = np.argwhere(grid.costs == FREE_SPACE)
+    if not len(free):
+        return []
+    off = free - np.array([cell[1], cell[0]])
+    nearest = np.lexsort(((off * off).sum(axis=1), np.abs(off).max(axis=1)))[0]
+    here = grid.map_to_world(*cell)
+    return [_measured(grid, cells, here) for cells in _groups(grid.costs, free[nearest])]
+
+
+def _measured(grid: Costmap2D, cells: Ints, here: Point) -> Frontier:
+    """A frontier of these cells, seen from `here` [m]."""
+    points = np.array(grid.origin) + (cells + 0.5) * grid.resolution
+    distances = np.hypot(points[:, 0] - here[0], points[:, 1] - here[1])
+    nearest = int(distances.argmin())
+    ix, iy = points[0].tolist()
+    mx, my = points[nearest].tolist()
+    cx, cy = points.mean(axis=0).tolist()
+    return Frontier(cells, points, float(distances[nearest]), (ix, iy), (mx, my), (cx, cy))
+
+
+def _groups(costs: NDArray[np.uint8], start: Ints) -> Iterator[Ints]:
+    """The cells (n, 2) of each frontier that is met from the cell `start` (row, column)."""
+    # With a rim of walls every neighbour is in the array, and a cell is one number.
+    padded = np.pad(costs, 1, constant_values=LETHAL_OBSTACLE)
+    width = padded.shape[1]
+    waiting = bytearray(frontier_cells(padded).tobytes())
+    around = [sign * step for step in (1, width, width - 1, width + 1) for sign in (-1, 1)]
+    for first in _met(padded, int((start[0] + 1) * width + start[1] + 1)):
+        if not waiting[first]:
+            continue
+        waiting[first] = 0
+        found = [first]
+        for cell in found:  # it grows meanwhile
+            for step in around:
+                if waiting[cell + step]:
+                    waiting[cell + step] = 0
+                    found.append(cell + step)
+        numbers = np.array(found)
+        yield np.stack([numbers % width - 1, numbers // width - 1], axis=1)
+
+
+def _met(padded: NDArray[np.uint8], start: int) -> list[int]:
+    """The unknown cells beside those that a breadth-first search over free cells reaches, in order, some repeatedly."""
+    costs = padded.ravel()
+    unknown, free = costs == NO_INFORMATION, costs == FREE_SPACE
+    steps = np.array([-1, 1, -padded.shape[1], padded.shape[1]])
+    rank = np.zeros(len(costs), dtype=np.int64)
+    wave = np.array([start])
+    free[start] = False
+    met: list[int] = []
+    while len(wave):
+        beside = (wave[:, None] + steps).ravel()
+        met += beside[unknown[beside]].tolist()
+        fresh = beside[free[beside]]
+        # Of a cell that several led to the first stays: a queue would have it there.
+        rank[fresh[::-1]] = np.arange(len(fresh))[::-1]
+        wave = fresh[rank[fresh] == np.arange(len(fresh))]
+        free[wave] = False
+    return met
