@@ -1,9 +1,11 @@
-"""Each chapter comes out the same on each run, and on another machine.
+"""Each chapter comes out the same on each run and on another machine, and then its solutions pass their checks.
 
 Its stored outputs are of one run, and nbval compares a second one. This is a third, on the plainest machine: a kernel
 that orders sets and hashes strings differently, has no vector units beyond the least that numpy needs (its functions
 differ in the last bit between them), and casts the laser's rays in numpy instead of numba. The bytes of pictures, which
 nbval does not compare, are the same, too.
+
+Then it goes on as a reader does, in the same kernel: all that follows the first stub runs again, with the solutions.
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ from typing import Any
 
 import pytest
 
-from book.tools import notebooks
+from book.tools import notebooks, solutions
 
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
@@ -24,7 +26,7 @@ DEAR = (
     if os.environ.get("ROSMINI_TEST_MACHINE") == "all"
     else ("23_gazebo", "40_turtlebot3", "73_many_turtlebots")
 )
-"""Each takes half a minute to two, where rays are cast in numpy: on request only, since CI has half an hour for all."""
+"""Casting rays in numpy takes half a minute to two in each: on request only, since CI has half an hour for all."""
 
 
 def outputs(notebook: Any) -> list[tuple[str, Any]]:
@@ -36,23 +38,39 @@ def test_there_are_chapters() -> None:
     assert CHAPTERS
 
 
-def plain_machine() -> dict[str, str]:
+def plain_machine(chapter: str) -> dict[str, str]:
+    """The environment of a kernel on the plainest machine; where it would be dear, numba casts the rays."""
     from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 
     features = [name for name in __cpu_dispatch__ if __cpu_features__.get(name)]
-    return {"NPY_DISABLE_CPU_FEATURES": " ".join(features), "ROSMINI_RAYCAST": "numpy"}
+    rays = {} if chapter in DEAR else {"ROSMINI_RAYCAST": "numpy"}
+    return {"PYTHONHASHSEED": "2", "NPY_DISABLE_CPU_FEATURES": " ".join(features), **rays}
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
-def test_a_chapter_gives_its_stored_outputs_on_another_machine(
-    path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    if path.stem in DEAR:
-        pytest.skip("dear: ROSMINI_TEST_MACHINE=all runs it")
+@pytest.fixture(scope="module", params=CHAPTERS, ids=lambda path: path.stem)
+def chapter(request: pytest.FixtureRequest) -> tuple[Any, Any, Any]:
+    """A chapter as stored, as it comes out, and its exercises with their solutions, which ran after it."""
+    path: Path = request.param
     stored = notebooks.read(path)
-    for name, value in {"PYTHONHASHSEED": "2", **plain_machine()}.items():
-        monkeypatch.setenv(name, value)
-    notebook = copy.deepcopy(stored)
-    notebooks.execute(notebook, path.parent)
-    notebooks.clean(notebook)
-    assert outputs(notebook) == outputs(stored)
+    run, solved = copy.deepcopy(stored), solutions.solved(stored)
+    run.cells += solved.cells[min(solutions.stubs(solved).values()) :]
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in plain_machine(path.stem).items():
+            patch.setenv(name, value)
+        notebooks.execute(run, path.parent)
+    notebooks.clean(run)
+    again = copy.deepcopy(run)
+    again.cells = run.cells[len(stored.cells) :]
+    del run.cells[len(stored.cells) :]
+    return stored, run, again
+
+
+def test_a_chapter_gives_its_stored_outputs_on_another_machine(chapter: tuple[Any, Any, Any]) -> None:
+    stored, run, _ = chapter
+    assert outputs(run) == outputs(stored)
+
+
+def test_the_hidden_solutions_pass_their_checks(chapter: tuple[Any, Any, Any]) -> None:
+    stored, _, again = chapter
+    for number in solutions.stubs(stored):
+        assert solutions.check_output(again, number).startswith(f"Exercise {number}: right.")
