@@ -3,7 +3,8 @@
 Pure: where it would be at a time, as a function of that time. The engine lets such a thing go its way by a clock of its
 own. Whatever stands in its way (a robot, something that was pushed there) stops that
 clock: the thing waits and never pushes through, and afterwards goes on where it was. So two that stand in each other's
-way wait for good.
+way wait for good. A door that meets something on its way goes back, as EN 16005 and ANSI/BHMA A156.19 ask of doors with
+a motor, and tries again after it stood closed, or open.
 """
 
 from __future__ import annotations
@@ -138,8 +139,8 @@ class Door:
     """How long it is closed [s]."""
     phase: float = 0.0
     """At which time of its period it begins [s]; 0: it has just closed."""
-    keep: float = 0.0
-    """So far before what is in its way it stops [m]."""
+    keep: float = 0.1
+    """So far before what is in its way it stops, or goes back [m]."""
 
     def __post_init__(self) -> None:
         _check_numbers("door", positive={"moving": self.moving})
@@ -183,6 +184,18 @@ class Door:
             return (1 - math.cos(math.pi * t / self.moving)) / 2
         t -= self.moving + self.open
         return 1.0 if t <= 0 else (1 + math.cos(math.pi * t / self.moving)) / 2
+
+    def turned_back(self, t: float) -> float | None:
+        """The next time [s] at which it is where it is at `t` and moves the other way; None if it stands still then.
+
+        >>> Door(closed=1.0, moving=2.0, open=3.0).turned_back(1.5)
+        7.5
+        """
+        into = math.fmod(max(0.0, t) + self.phase, self.period)
+        opened = self.closed + self.moving
+        if not (self.closed < into < opened or opened + self.open < into):
+            return None
+        return t + math.fmod(2 * (opened + self.open / 2 - into) + self.period, self.period)
 
     def pose_at(self, t: float, start: Pose = (0.0, 0.0, 0.0)) -> Pose:
         """Where it is at its time t [s], if it had never to wait for anybody; closed it is at `start`.

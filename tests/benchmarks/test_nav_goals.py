@@ -8,10 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rosmini_bench.nav_goals import APART, CLEARANCE, DISC, Terrain, errands, turning, wilson
+from rosmini_bench.nav_goals import APART, CLEARANCE, DISC, Terrain, errands, turning, unmapped, wilson
 
 from rosmini.errors import RosminiError
 from rosmini.navigation.map_server import GridMap
+from rosmini.sim.motion import Door
+from rosmini.sim.world import Box, Obstacle, World
+from rosmini.sim.worlds import to_map
 
 
 def drawn(rows: list[str]) -> GridMap:
@@ -61,6 +64,25 @@ def test_errands_keep_to_what_a_disc_reaches_and_are_the_same_for_the_same_seed(
         straight = math.dist(errand.start[:2], errand.goal[:2])
         assert straight >= APART
         assert errand.shortest >= straight - 1e-9
+
+
+def test_nobody_is_sent_to_where_a_crate_stands_or_a_door_swings() -> None:
+    walls = (
+        Obstacle("west", Box(0.2, 4.0), (-3.0, 0.0, 0.0)),
+        Obstacle("east", Box(0.2, 4.0), (3.0, 0.0, 0.0)),
+        Obstacle("south", Box(6.0, 0.2), (0.0, -2.0, 0.0)),
+        Obstacle("north", Box(6.0, 0.2), (0.0, 2.0, 0.0)),
+    )
+    crate = Obstacle("crate", Box(0.4, 0.4), (2.0, -1.0, 0.0), mass=2.0)
+    leaf = Obstacle("door", Box(1.0, 0.05), (-1.5, -0.5, 0.0), motion=Door(hinge=(-0.5, 0.0)))
+    world = World("hall", (*walls, crate, leaf))
+    taken, grid = unmapped(world), to_map(world)
+    area = taken.sum() * grid.resolution**2
+    assert area == pytest.approx(0.4**2 + math.pi / 4, rel=0.15)
+    for errand in errands(grid, (0.0, 0.0), 30, 1, taken):
+        for x, y, _ in (errand.start, errand.goal):
+            assert max(abs(x - 2.0), abs(y + 1.0)) > 0.2 + DISC - 0.05
+            assert not (x > -2.0 and y > -0.5 and math.hypot(x + 2.0, y + 0.5) < 1.0)
 
 
 def test_a_room_that_is_too_small_is_named() -> None:

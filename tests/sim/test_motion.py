@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -167,21 +168,67 @@ def test_a_walker_whose_way_is_free_is_not_held_by_who_pushes_it_from_behind():
     assert engine.robots["burger"].pose[0] == pytest.approx(2.0 - 0.2 - 0.041, abs=0.05)
 
 
-def test_a_door_does_not_close_on_a_robot():
-    leaf = Obstacle(
-        "door", Box(0.9, 0.05), motion=Door(hinge=(-0.45, 0.0), closed=1.0, moving=2.0, open=2.0), height=2.0
-    )
-    engine = make(leaf)
+LEAF = Obstacle(
+    "door", Box(0.9, 0.05), motion=Door(hinge=(-0.45, 0.0), closed=1.0, moving=2.0, open=2.0), height=2.0
+)
+
+
+def test_a_door_does_not_close_on_a_robot_but_opens_again():
+    engine = make(LEAF)
     robot = engine.add("burger", BURGER, (0.2, 0.0 - 1.0, math.pi / 2))
     engine.advance(3.5)  # it is open
     engine.place("burger", (0.2, 0.0, math.pi / 2))
-    engine.advance(60.0)
-    assert engine.movers["door"].waiting
+    angles = [angle for _, angle in watched(engine, 60.0)]
     assert robot.pose == (0.2, 0.0, math.pi / 2)
-    assert engine.pose("door")[2] > 0.1
+    assert min(angles) > 0.1  # it came no nearer than it keeps
+    assert max(angles[-80:]) == pytest.approx(math.pi / 2)
     engine.place("burger", (0.2, -1.0, math.pi / 2))
-    engine.advance(engine.now + leaf.motion.period)
-    assert not engine.movers["door"].waiting
+    assert min(angle for _, angle in watched(engine, LEAF.motion.period)) == pytest.approx(0.0, abs=1e-3)
+
+
+def test_a_door_that_opens_onto_a_robot_goes_back_and_leaves_it_room():
+    engine = make(LEAF)
+    robot = engine.add("burger", BURGER, (0.1, 0.35, 0.0))
+    seen = watched(engine, 30.0)
+    assert 0.05 < max(angle for _, angle in seen) < 0.7
+    assert min(gap for gap, _ in seen) > 0.05  # the robot is wider at its corners
+    assert not robot.touching
+    shut = [angle < 1e-3 for _, angle in seen]
+    assert 3 <= sum(now and not before for before, now in pairwise(shut)) <= 20  # it tried again, and again
+    engine.command("burger", 0.2, 0.0)
+    assert max(angle for _, angle in watched(engine, 15.0)) == pytest.approx(math.pi / 2)
+
+
+def watched(engine: Engine, seconds: float) -> list[tuple[float, float]]:
+    """How far the leaf is from the burger's middle, less what the burger has to its side [m], and its angle [rad]."""
+    found = []
+    begin = engine.now
+    for i in range(int(seconds / 0.05)):
+        engine.advance(begin + (i + 1) * 0.05)
+        x, y, theta = engine.pose("door")
+        px, py, _ = engine.pose("burger")
+        dx, dy = px - x, py - y
+        along = math.cos(theta) * dx + math.sin(theta) * dy
+        across = math.cos(theta) * dy - math.sin(theta) * dx
+        gap = math.hypot(max(abs(along) - 0.45, 0.0), max(abs(across) - 0.025, 0.0))
+        found.append((gap - 0.105, theta))
+    return found
+
+
+@given(
+    st.floats(0.05, 30.0), st.floats(0.1, 4.0), st.floats(0.0, 5.0), st.floats(0.0, 5.0), st.floats(0.0, 9.0)
+)
+def test_a_door_that_turns_back_is_where_it_was_and_moves_the_other_way(t, moving, stays, closed, phase):
+    door = Door(moving=moving, open=stays, closed=closed, phase=phase)
+    back = door.turned_back(t)
+    dt = 1e-4 * moving
+    rate = door.openness(t + dt) - door.openness(t - dt)
+    if back is None:
+        assert rate == pytest.approx(0.0, abs=1e-3)
+    else:
+        assert t <= back <= t + door.period
+        assert door.openness(back) == pytest.approx(door.openness(t), abs=1e-6)
+        assert door.openness(back + dt) - door.openness(back - dt) == pytest.approx(-rate, abs=1e-6)
 
 
 def test_two_walkers_do_not_walk_into_each_other():

@@ -1,4 +1,4 @@
-"""Things that move by themselves, and wait for what is in their way."""
+"""Things that move by themselves, and wait for what is in their way, or go back."""
 
 from __future__ import annotations
 
@@ -60,17 +60,28 @@ class Mover:
         if waiting != self.waiting:
             self._clock, self._since_ns, self.waiting = self.clock, self._instant.ns, waiting
 
+    @property
+    def clock_back(self) -> float | None:
+        """Its clock [s] if it went back from here; None if it has no way back: it stands, or walks."""
+        motion = self.obstacle.motion
+        return motion.turned_back(self.clock) if isinstance(motion, Door) else None
+
+    def go_back(self, clock: float) -> None:
+        """Go on from a clock at which it is where it is now."""
+        self._clock, self._since_ns, self.waiting = clock, self._instant.ns, False
+
     def room_left(self, ns: int) -> float:
         """How far any point of it can still move then [m]."""
         return self.room - self.haste * (ns - self.room_ns) / SECOND
 
-    def leg(self) -> tuple[float, Pose, float, bool]:
-        """Return the current leg of its trail: start time [s], pose, its own clock, and whether it waits."""
-        return (self._since_ns / SECOND, self.obstacle.at(self._clock), self._clock, self.waiting)
+    def leg(self) -> tuple[float, Pose, float, tuple[bool, int]]:
+        """Return the current leg of its trail: start time [s], pose, its own clock, whether it waits and since when."""
+        course = (self.waiting, self._since_ns)
+        return (self._since_ns / SECOND, self.obstacle.at(self._clock), self._clock, course)
 
     def later(self, leg: Leg, dt: float) -> Pose:
         """Return its pose `dt` seconds after the start of a leg of its trail."""
-        _, _, clock, waiting = leg
+        _, _, clock, (waiting, _) = leg
         return self.obstacle.at(clock if waiting else clock + dt)
 
     def state(self) -> tuple[int, float, bool]:

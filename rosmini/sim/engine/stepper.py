@@ -297,13 +297,20 @@ class Stepper:
                 self._all.note(robot)
 
     def _let_go(self, mover: Mover) -> None:
-        """Let a mover go on unless something that can give way is in its path."""
-        contacts, name, clock = self._all.contacts, mover.obstacle.name, mover.clock
+        """Let a mover go on unless something that can give way is in its path; then let it go back if it can."""
+        mover.wait(waiting=self._is_stuck(mover, mover.clock))
+        if mover.waiting:
+            back = mover.clock_back
+            if back is not None and not self._is_stuck(mover, back):
+                mover.go_back(back)
+        self._all.note(mover)
+
+    def _is_stuck(self, mover: Mover, clock: float) -> bool:
+        """Whether something that can give way is in a mover's path at this time of its own [s]."""
         places = [mover.obstacle.at(clock + STEP)]
         if mover.ahead:
             places.append(mover.obstacle.at(clock + STEP + mover.ahead))
-        mover.wait(waiting=any(contacts.stuck(name, place) for place in places))
-        self._all.note(mover)
+        return any(self._all.contacts.stuck(mover.obstacle.name, place) for place in places)
 
     def _slide(self, group: Near, ahead: list[Spot], end_ns: int) -> None:
         """Let things slide, be struck and be pushed for a step."""

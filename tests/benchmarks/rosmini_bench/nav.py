@@ -7,13 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from itertools import islice
 from typing import Any
 
 from rosmini.errors import RosminiError
 
 from . import Measure, nav_amcl, nav_control, nav_costmap, nav_planners, nav_trial
-from .nav_goals import errands
 from .nav_trial import Setup
 
 ROBOTIS_RATES: tuple[tuple[str, Any], ...] = (
@@ -32,8 +30,7 @@ ROBOTIS_RATES: tuple[tuple[str, Any], ...] = (
 def loop(overrides: tuple[tuple[str, Any], ...], goals: int, seed: int) -> float:
     """Return seconds of the graph a second of the processor, while a burger drives to some goals in the house."""
     setup = Setup("house", overrides=overrides, seed=seed)
-    grid, _, inside = nav_trial.place(setup.world)
-    found = [nav_trial.run(setup, errand) for errand in islice(errands(grid, inside, goals, seed), goals)]
+    found = [nav_trial.run(setup, errand) for errand in nav_trial.drawn(setup, goals)]
     lost = [one for one in found if one.status == "LOST"]
     if lost:
         raise RosminiError(f"{len(lost)} of {goals} goals ended without a result: there is no figure")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,6 +20,9 @@ from scipy.sparse import csgraph
 from rosmini.errors import RosminiError
 from rosmini.geometry.poses import Pose
 from rosmini.navigation.map_server import GridMap
+from rosmini.sim.motion import Door
+from rosmini.sim.world import Obstacle, World
+from rosmini.sim.worlds import to_map
 
 DISC = 0.20
 """Starts and goals are where a disc of this radius [m] gets to."""
@@ -136,13 +139,37 @@ def turning(path: list[tuple[float, float]], start: Pose, goal: Pose) -> float:
     return sum(abs(math.remainder(b - a, math.tau)) for a, b in itertools.pairwise(turns))
 
 
-def errands(grid: GridMap, inside: tuple[float, float], count: int, seed: int) -> Iterator[Errand]:
+def unmapped(world: World) -> Bools:
+    """Cells (h, w) that are free in a world's map only: where things to push stand, and where doors swing."""
+    things: list[Obstacle] = []
+    for each in world.obstacles:
+        if isinstance(each.motion, Door):
+            times = np.linspace(0.0, each.motion.period, 60)
+            places = {each.at(float(t)) for t in times}
+            things += [
+                replace(each, name=f"{each.name} {i}", pose=place, motion=None)
+                for i, place in enumerate(sorted(places))
+            ]
+        elif each.movable:
+            things.append(replace(each, mass=None))
+    fixed = [each for each in world.obstacles if each.fixed]
+    taken: Bools = to_map(world.with_just([*fixed, *things])).occupied & to_map(world).free
+    return taken
+
+
+def errands(
+    grid: GridMap, inside: tuple[float, float], count: int, seed: int, taken: Bools | None = None
+) -> Iterator[Errand]:
     """`count` errands in the part of a map that a disc reaches from the point `inside` [m], of any headings.
 
+    Nothing begins or ends where the disc would overlap with `taken` cells (h, w), which only who is there sees.
     Raises `RosminiError` if a thousand draws in sequence find no pair far enough apart.
     """
     terrain = Terrain(grid)
-    places = np.argwhere(terrain.within(DISC, terrain.cell(*inside)))
+    room = terrain.within(DISC, terrain.cell(*inside))
+    if taken is not None and taken.any():
+        room &= (ndimage.distance_transform_edt(~taken) - 0.5) * grid.resolution >= DISC
+    places = np.argwhere(room)
     if not len(places):
         raise RosminiError(f"a disc of {DISC} m has no room at {inside}: name a point farther from the walls")
     draw = np.random.default_rng([seed, len(places)])

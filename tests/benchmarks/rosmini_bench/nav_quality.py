@@ -21,7 +21,7 @@ from typing import Any
 from rosmini.sim.models import model as model_called
 
 from . import nav_trial
-from .nav_goals import errands, wilson
+from .nav_goals import wilson
 from .nav_trial import FIELD, Outcome, Setup
 
 XY, YAW = 0.05 + 0.02, 0.17 + 0.05
@@ -75,13 +75,7 @@ def setups(seed: int, *, quick: bool) -> Iterator[tuple[Setup, int]]:
 
 def outcomes(setup: Setup, count: int, pool: ProcessPoolExecutor) -> list[Outcome]:
     """Send a robot to so many goals."""
-    grid, _, inside = nav_trial.place(setup.world)
-    wanted = (
-        nav_trial.across(count, setup.seed)
-        if setup.gap is not None
-        else errands(grid, inside, count, setup.seed)
-    )
-    return list(pool.map(nav_trial.run, itertools.repeat(setup), list(wanted)))
+    return list(pool.map(nav_trial.run, itertools.repeat(setup), list(nav_trial.drawn(setup, count))))
 
 
 def row(setup: Setup, found: list[Outcome], xy: float = XY, yaw: float = YAW) -> Row:

@@ -31,7 +31,7 @@ from rosmini.sim.worlds import to_map
 from rosmini.sim.worlds import world as world_called
 from rosmini.time import Time
 
-from .nav_goals import Errand, turning
+from .nav_goals import Errand, errands, turning, unmapped
 
 PATIENCE = 6.0
 """A robot that has not arrived after so many times the least time has failed; so has one after `LONGEST`."""
@@ -134,6 +134,14 @@ def place(name: str) -> tuple[GridMap, Path, tuple[float, float]]:
     folder = Path(gettempdir()) / f"rosmini_bench_{hash_of(grid)}"
     folder.mkdir(exist_ok=True)
     return grid, save_map(grid, folder / name)[0], inside
+
+
+def drawn(setup: Setup, count: int) -> Iterator[Errand]:
+    """The errands of a setup."""
+    if setup.gap is not None:
+        return across(count, setup.seed)
+    grid, _, inside = place(setup.world)
+    return errands(grid, inside, count, setup.seed, unmapped(world_called(setup.world)))
 
 
 def width(model: str) -> float:
