@@ -7,8 +7,10 @@ map, `maps` holds all maps, each piece once, `slam` is the filter; the node is a
 
 from __future__ import annotations
 
+from .extent import known, published
+from .film import Film
 from .maps import SharedMaps
 from .matching import Matcher
 from .slam import GridSlam, Settings
 
-__all__ = ["GridSlam", "Matcher", "Settings", "SharedMaps"]
+__all__ = ["Film", "GridSlam", "Matcher", "Settings", "SharedMaps", "known", "published"]

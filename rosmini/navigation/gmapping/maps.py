@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,10 +24,37 @@ SIDE = 32
 """Cells along the side of a patch."""
 FULL = 0.1
 """A cell is full if more than this share of its visits were ends."""
-NONE = -1
-"""In a table: a patch where no beam ever came."""
+NONE = 0
+"""In a table: the patch that stays empty, where no beam ever came."""
+
+PATCH_BYTES = SIDE * (SIDE * (4 + 4 + 16) + 8)
+"""The memory of one: hits, visits, mean ends, and which cells are full."""
 
 REGISTER = f"{__name__}:compiled_register"
+
+
+class Pool(NamedTuple):
+    """The arrays of `SharedMaps`, for loops."""
+
+    tables: Any
+    hits: Any
+    visits: Any
+    means: Any
+    full: Any
+    owners: Any
+    low_x: int
+    low_y: int
+    resolution: float
+
+
+class Scan(NamedTuple):
+    """What is written into maps."""
+
+    ranges: Any
+    bearings: Any
+    usable: float
+    touched: Any
+    """(rows, columns) of patches: room to mark those that beams cross."""
 
 
 class SharedMaps:
@@ -42,23 +69,26 @@ class SharedMaps:
         self.low = (0, 0)
         self.tables: Ints = np.full((count, 0, 0), NONE, dtype=np.int32)
         """(particles, rows, columns) of patches: the number of each in the pool."""
-        self.hits: Ints = np.zeros((0, SIDE, SIDE), dtype=np.int32)
+        self.hits: Ints = np.zeros((1, SIDE, SIDE), dtype=np.int32)
         """(patches, rows, columns): how often a beam ended in the cell."""
-        self.visits: Ints = np.zeros((0, SIDE, SIDE), dtype=np.int32)
+        self.visits: Ints = np.zeros((1, SIDE, SIDE), dtype=np.int32)
         """How often a beam passed it or ended in it."""
-        self.means: Floats = np.zeros((0, SIDE, SIDE, 2))
+        self.means: Floats = np.zeros((1, SIDE, SIDE, 2))
         """The mean of the ends [m]."""
-        self.full: NDArray[np.uint8] = np.zeros((0, SIDE, SIDE), dtype=np.uint8)
-        """1 where ends are at least the share `FULL` of the visits: what a matcher looks for."""
-        self._free: list[int] = []
+        self.full: NDArray[np.int64] = np.zeros((1, SIDE), dtype=np.int64)
+        """(patches, rows): a bit for each column, 1 where ends are more than the share `FULL` of the visits.
+
+        It is what a matcher looks for, and a patch's are next to one another."""
+        self.owners: NDArray[np.int64] = np.zeros(1, dtype=np.int64)
+        """(patches,): how many maps each belongs to; 0 for the empty one, and for what is free."""
 
     # -- room ----------------------------------------------------------------------------------------------------
 
     def cover(self, left: float, bottom: float, right: float, top: float) -> None:
-        """Let all maps reach over this box [m]."""
+        """Let all maps reach over this box [m], and a patch farther, so that what is around a cell is a cell."""
         block = SIDE * self.resolution
-        x0, y0 = int(np.floor(left / block)), int(np.floor(bottom / block))
-        x1, y1 = int(np.floor(right / block)) + 1, int(np.floor(top / block)) + 1
+        x0, y0 = int(np.floor(left / block)) - 1, int(np.floor(bottom / block)) - 1
+        x1, y1 = int(np.floor(right / block)) + 2, int(np.floor(top / block)) + 2
         _, rows, columns = self.tables.shape
         here_x, here_y = self.low[0] // SIDE, self.low[1] // SIDE
         if not rows:
@@ -69,41 +99,25 @@ class SharedMaps:
             self.tables = np.pad(self.tables, ((0, 0), (south, north), (west, east)), constant_values=NONE)
             self.low = ((here_x - west) * SIDE, (here_y - south) * SIDE)
 
-    def _take(self, count: int) -> list[int]:
-        """Numbers of patches that nobody has, of which the pool gets more if need be."""
-        if len(self._free) < count:
-            have = len(self.hits)
-            more = max(count - len(self._free), have // 2, 64)
-            grow = ((0, more), (0, 0), (0, 0))
-            self.hits, self.visits = np.pad(self.hits, grow), np.pad(self.visits, grow)
-            self.means, self.full = np.pad(self.means, (*grow, (0, 0))), np.pad(self.full, grow)
-            self._free += range(have + more - 1, have - 1, -1)
-        return [self._free.pop() for _ in range(count)]
-
-    @property
-    def owners(self) -> NDArray[np.int64]:
-        """How many maps each patch of the pool belongs to."""
-        used = self.tables[self.tables != NONE]
-        return np.bincount(used.ravel(), minlength=len(self.hits))
+    def _enlarge(self, count: int) -> None:
+        """Get more patches: at least so many."""
+        more = max(count, len(self.hits) // 2, 64)
+        grow = ((0, more), (0, 0), (0, 0))
+        self.hits, self.visits = np.pad(self.hits, grow), np.pad(self.visits, grow)
+        self.means, self.full = np.pad(self.means, (*grow, (0, 0))), np.pad(self.full, grow[:2])
+        self.owners = np.pad(self.owners, grow[0])
 
     @property
     def bytes_used(self) -> int:
         """The memory of all patches that belong to a map."""
-        return int((self.owners > 0).sum()) * SIDE * SIDE * (4 + 4 + 16)
+        return int((self.owners > 0).sum()) * PATCH_BYTES
 
     # -- change --------------------------------------------------------------------------------------------------
 
     def choose(self, indices: NDArray[np.int64]) -> None:
         """Go on with the maps of these particles; one that is chosen twice is not copied until it changes."""
-        self.tables = self.tables[indices]
-        owners = self.owners
-        free = set(self._free)
-        dropped = [int(patch) for patch in np.flatnonzero(owners == 0) if int(patch) not in free]
-        self.hits[dropped] = 0
-        self.visits[dropped] = 0
-        self.means[dropped] = 0.0
-        self.full[dropped] = 0
-        self._free += dropped[::-1]
+        self.tables = np.ascontiguousarray(self.tables[indices])
+        self.owners = np.bincount(self.tables[self.tables != NONE], minlength=len(self.hits)).astype(np.int64)
 
     def register(self, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float) -> None:
         """Write a scan into each map, seen from that particle's laser pose (n, 3).
@@ -116,41 +130,19 @@ class SharedMaps:
         reach = min(float(ranges.max()), usable) + self.resolution
         x, y = laser_poses[:, 0], laser_poses[:, 1]
         self.cover(x.min() - reach, y.min() - reach, x.max() + reach, y.max() + reach)
-        owners = self.owners
-        write = kernel(REGISTER)
-        touched = np.zeros(self.tables.shape[1:], dtype=np.uint8)
-        for table, pose in zip(self.tables, laser_poses, strict=True):
-            common = (
-                self.low[0],
-                self.low[1],
-                self.resolution,
-                *pose.tolist(),
-                ranges,
-                bearings,
-                usable,
-                touched,
-            )
-            touched[:] = 0
-            write(table, self.hits, self.visits, self.means, self.full, *common, False)
-            self._own(table, touched.astype(bool), owners)
-            if len(owners) < len(self.hits):
-                owners = np.pad(owners, (0, len(self.hits) - len(owners)))
-            write(table, self.hits, self.visits, self.means, self.full, *common, True)
+        scan = Scan(ranges, bearings, usable, np.zeros(self.tables.shape[1:], dtype=np.uint8))
+        done = 0
+        while done < len(laser_poses):
+            free = np.flatnonzero(self.owners[1:] == 0) + 1
+            done = kernel(REGISTER)(self.pool, scan, laser_poses, free, done)
+            if done < len(laser_poses):
+                self._enlarge(int(scan.touched.sum()))
 
-    def _own(self, table: Ints, touched: NDArray[np.bool_], owners: NDArray[np.int64]) -> None:
-        """See to it that the patches that are touched belong to this map alone."""
-        empty = np.argwhere(touched & (table == NONE))
-        for (row, column), patch in zip(empty.tolist(), self._take(len(empty)), strict=True):
-            table[row, column] = patch
-        shared = np.argwhere(touched & (table != NONE))
-        for row, column in shared.tolist():
-            patch = int(table[row, column])
-            if patch < len(owners) and owners[patch] > 1:
-                owners[patch] -= 1
-                (own,) = self._take(1)
-                for array in (self.hits, self.visits, self.means, self.full):
-                    array[own] = array[patch]
-                table[row, column] = own
+    @property
+    def pool(self) -> Pool:
+        """The arrays as they are now."""
+        grids = self.hits, self.visits, self.means, self.full
+        return Pool(self.tables, *grids, self.owners, *self.low, self.resolution)
 
     # -- the map -------------------------------------------------------------------------------------------------
 
@@ -167,56 +159,25 @@ class SharedMaps:
         return found, (self.low[0] * self.resolution, self.low[1] * self.resolution)
 
 
-def register(
-    table: Any,
-    hits: Any,
-    visits: Any,
-    means: Any,
-    full: Any,
-    low_x: int,
-    low_y: int,
-    resolution: float,
-    x: float,
-    y: float,
-    heading: float,
-    ranges: Any,
-    bearings: Any,
-    usable: float,
-    touched: Any,
-    write: bool,
-) -> None:
+def trace(n: int, pose: Any, pool: Any, scan: Any, write: bool) -> None:
     """Go along each beam from cell to cell (Bresenham); mark the patches on the way, or write into their cells."""
-    per_metre = 1.0 / resolution
+    per_metre, low_x, low_y = 1.0 / pool.resolution, pool.low_x, pool.low_y
+    x, y, heading, usable = pose[0], pose[1], pose[2], scan.usable
     from_x, from_y = math.floor(x * per_metre) - low_x, math.floor(y * per_metre) - low_y
-    for b in range(len(ranges)):
-        reach = min(ranges[b], usable)
-        end_x = x + reach * math.cos(heading + bearings[b])
-        end_y = y + reach * math.sin(heading + bearings[b])
+    for b in range(len(scan.ranges)):
+        reach = min(scan.ranges[b], usable)
+        end_x = x + reach * math.cos(heading + scan.bearings[b])
+        end_y = y + reach * math.sin(heading + scan.bearings[b])
         to_x, to_y = math.floor(end_x * per_metre) - low_x, math.floor(end_y * per_metre) - low_y
         dx, dy = abs(to_x - from_x), abs(to_y - from_y)
         step_x, step_y = (1 if to_x > from_x else -1), (1 if to_y > from_y else -1)
-        column, row, error = from_x, from_y, dx - dy
-        while True:
+        column, row, error, last = from_x, from_y, dx - dy, False
+        while not last:
             last = column == to_x and row == to_y
-            i, j = row >> 5, column >> 5
             if not write:
-                touched[i, j] = 1
-            elif not last or ranges[b] < usable:
-                patch = table[i, j]
-                visits[patch, row & 31, column & 31] += 1
-                if last:
-                    hits[patch, row & 31, column & 31] += 1
-                    share = 1.0 / hits[patch, row & 31, column & 31]
-                    mean_x, mean_y = (
-                        means[patch, row & 31, column & 31, 0],
-                        means[patch, row & 31, column & 31, 1],
-                    )
-                    means[patch, row & 31, column & 31, 0] = mean_x + share * (end_x - mean_x)
-                    means[patch, row & 31, column & 31, 1] = mean_y + share * (end_y - mean_y)
-                share = hits[patch, row & 31, column & 31] / visits[patch, row & 31, column & 31]
-                full[patch, row & 31, column & 31] = 1 if share > FULL else 0
-            if last:
-                break
+                scan.touched[row >> 5, column >> 5] = 1
+            elif not last or scan.ranges[b] < usable:
+                count(pool.tables[n, row >> 5, column >> 5], row & 31, column & 31, last, end_x, end_y, pool)
             twice = 2 * error
             if twice > -dy:
                 error -= dy
@@ -226,15 +187,68 @@ def register(
                 row += step_y
 
 
+def count(patch: int, i: int, j: int, is_end: bool, x: float, y: float, pool: Any) -> None:
+    """A beam passes a cell, or ends in it at a point."""
+    pool.visits[patch, i, j] += 1
+    if is_end:
+        pool.hits[patch, i, j] += 1
+        share = 1.0 / pool.hits[patch, i, j]
+        pool.means[patch, i, j, 0] += share * (x - pool.means[patch, i, j, 0])
+        pool.means[patch, i, j, 1] += share * (y - pool.means[patch, i, j, 1])
+    ends = pool.hits[patch, i, j]
+    if ends:
+        is_full = ends > FULL * pool.visits[patch, i, j]
+        if ((pool.full[patch, i] >> j) & 1 == 1) != is_full:
+            pool.full[patch, i] ^= 1 << j
+
+
+def own(n: int, row: int, column: int, patch: int, pool: Any) -> None:
+    """Give a map a patch of its own, a copy of the one that it has."""
+    old = pool.tables[n, row, column]
+    for i in range(32):
+        pool.full[patch, i] = pool.full[old, i]
+        for j in range(32):
+            pool.hits[patch, i, j] = pool.hits[old, i, j]
+            pool.visits[patch, i, j] = pool.visits[old, i, j]
+            pool.means[patch, i, j, 0] = pool.means[old, i, j, 0]
+            pool.means[patch, i, j, 1] = pool.means[old, i, j, 1]
+    if old:
+        pool.owners[old] -= 1
+    pool.owners[patch] = 1
+    pool.tables[n, row, column] = patch
+
+
+def register(pool: Any, scan: Any, poses: Any, free: Any, first: int) -> int:
+    """Write into the maps from `first` on; returns the number of the one that patches do not suffice for, or of all."""
+    taken = 0
+    for n in range(first, len(poses)):
+        for row in range(scan.touched.shape[0]):
+            for column in range(scan.touched.shape[1]):
+                scan.touched[row, column] = 0
+        pose = poses[n, 0], poses[n, 1], poses[n, 2]
+        trace(n, pose, pool, scan, False)
+        for row in range(scan.touched.shape[0]):
+            for column in range(scan.touched.shape[1]):
+                if scan.touched[row, column] and pool.owners[pool.tables[n, row, column]] != 1:
+                    if taken == len(free):
+                        return n
+                    own(n, row, column, free[taken], pool)
+                    taken += 1
+        trace(n, pose, pool, scan, True)
+    return len(poses)
+
+
 @cache
-def compiled_register() -> Callable[..., None]:
+def compiled_register() -> Callable[..., int]:
     """`register` as machine code, or as it is without numba."""
     try:
-        from numba import boolean, float64, int32, int64, uint8, void
+        from numba import float64, int32, int64, types, uint8
     except ImportError:
         return register
-    number, beams = float64, float64[::1]
-    grids = int32[:, :, ::1], int32[:, :, ::1], float64[:, :, :, ::1], uint8[:, :, ::1]
-    place = int64, int64, number, number, number, number
-    signature = void(int32[:, ::1], *grids, *place, beams, beams, number, uint8[:, ::1], boolean)
-    return machine_code(register, signature)
+    record: Any = types.NamedTuple
+    cells, beams = int32[:, :, ::1], float64[::1]
+    grids = cells, cells, cells, float64[:, :, :, ::1], int64[:, ::1], int64[::1]
+    pool = record((*grids, int64, int64, float64), Pool)
+    scan = record((beams, beams, float64, uint8[:, ::1]), Scan)
+    signature = int64(pool, scan, float64[:, ::1], int64[::1], int64)
+    return machine_code(register, signature, (count, trace, own))

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -33,11 +33,47 @@ class Matched(NamedTuple):
     """What a matcher found for each particle."""
 
     poses: Floats
-    """(n, 3) of the laser."""
+    """(n, 3) of the laser: the best found, or the one that was given where that one scores too little."""
     scores: Floats
-    """(n,): the sum over beams of how well each fits, from 0 to 1."""
+    """(n,): the best found, the sum over beams of how well each fits, from 0 to 1."""
     log_likelihoods: Floats
-    """(n,)."""
+    """(n,), of `poses`."""
+
+
+class Grids(NamedTuple):
+    """What a matcher reads of `SharedMaps`."""
+
+    tables: Any
+    means: Any
+    full: Any
+    low_x: int
+    low_y: int
+    resolution: float
+
+
+class Beams(NamedTuple):
+    """The beams that are matched, of length b."""
+
+    ranges: Any
+    cosines: Any
+    sines: Any
+    """Of the bearings."""
+    ends: Any
+    """(b, 2): `aim` writes the ends seen from the laser into it, along the axes of the map [m]."""
+    before: Any
+    """(b, 2), likewise: how many cells before its end the way of a beam has to be free."""
+
+
+class Rule(NamedTuple):
+    """How ends are scored, and how a better pose is looked for."""
+
+    size: int
+    sigma: float
+    lsigma: float
+    no_hit: float
+    lstep: float
+    astep: float
+    iterations: int
 
 
 @dataclass(frozen=True)
@@ -51,6 +87,8 @@ class Matcher:
     iterations: int = 5
     lsigma: float = 0.075
     lskip: int = 0
+    minimum_score: float = -1.0
+    """A pose that scores no more is not taken; with -1 every one is."""
     no_hit: float = -0.5
     """The log-likelihood of a beam that ends near nothing, before the division by `lsigma`."""
 
@@ -61,24 +99,38 @@ class Matcher:
 
         `ranges` (b,) [m] above `usable` and of 0 are left out.
         """
-        chosen = (ranges > 0) & (ranges <= usable)
-        if self.lskip:
-            every = np.arange(len(ranges)) % (self.lskip + 1) == self.lskip
-            chosen &= every
-        ends, turns = np.ascontiguousarray(ranges[chosen]), np.ascontiguousarray(bearings[chosen])
         poses = np.ascontiguousarray(laser_poses, dtype=np.float64).copy()
         result = np.zeros((len(poses), 2))
         kernel(MATCH)(
-            maps.tables,
-            maps.means,
-            maps.full,
-            maps.low[0],
-            maps.low[1],
-            maps.resolution,
-            poses,
-            ends,
+            grids_of(maps), self.beams(ranges, bearings, usable), self.rule, self.minimum_score, poses, result
+        )
+        return Matched(poses, result[:, 0], result[:, 1])
+
+    def score(
+        self, maps: SharedMaps, laser_poses: Floats, ranges: Floats, bearings: Floats, usable: float
+    ) -> Matched:
+        """Score poses as they are, without looking for better ones."""
+        still = replace(self, lstep=0.0, astep=0.0, iterations=0)
+        return still.match(maps, laser_poses, ranges, bearings, usable)
+
+    def beams(self, ranges: Floats, bearings: Floats, usable: float) -> Beams:
+        """Those that are matched."""
+        chosen = (ranges > 0) & (ranges <= usable)
+        if self.lskip:
+            chosen &= np.arange(len(ranges)) % (self.lskip + 1) == self.lskip
+        turns, count = bearings[chosen], int(chosen.sum())
+        return Beams(
+            np.ascontiguousarray(ranges[chosen]),
             np.cos(turns),
             np.sin(turns),
+            np.zeros((count, 2)),
+            np.zeros((count, 2), np.int64),
+        )
+
+    @property
+    def rule(self) -> Rule:
+        """What the loops take of it."""
+        return Rule(
             self.kernel_size,
             self.sigma,
             self.lsigma,
@@ -86,193 +138,131 @@ class Matcher:
             self.lstep,
             self.astep,
             self.iterations,
-            result,
         )
-        return Matched(poses, result[:, 0], result[:, 1])
 
 
+def grids_of(maps: SharedMaps) -> Grids:
+    """The arrays of `maps` as they are now."""
+    return Grids(maps.tables, maps.means, maps.full, *maps.low, maps.resolution)
+
+
+NOWHERE = 1e300
+"""How far an end is from the nearest one where there is none."""
 FREE_RATIO = math.sqrt(2)
 """So many cells before the end of a beam the way has to be free."""
 
 
-def fit(
-    n: int,
-    tables: Any,
-    means: Any,
-    full: Any,
-    low_x: int,
-    low_y: int,
-    resolution: float,
-    x: float,
-    y: float,
-    heading: float,
-    ranges: Any,
-    cosines: Any,
-    sines: Any,
-    size: int,
-    sigma: float,
-    lsigma: float,
-    no_hit: float,
-    least: float,
-) -> tuple[float, float]:
-    """Score and log-likelihood of a pose on the map of particle `n`.
+def aim(heading: float, beams: Any) -> None:
+    """Turn the ends of `beams` by the laser's heading."""
+    ahead_x, ahead_y = math.cos(heading), math.sin(heading)
+    for b in range(len(beams.ranges)):
+        cos = ahead_x * beams.cosines[b] - ahead_y * beams.sines[b]
+        sin = ahead_y * beams.cosines[b] + ahead_x * beams.sines[b]
+        beams.ends[b, 0], beams.ends[b, 1] = beams.ranges[b] * cos, beams.ranges[b] * sin
+        beams.before[b, 0] = math.floor(0.5 - FREE_RATIO * cos)
+        beams.before[b, 1] = math.floor(0.5 - FREE_RATIO * sin)
+
+
+def window(n: int, row: int, west: int, east: int, tables: Any, full: Any) -> int:
+    """A bit for each cell of a row of particle `n`'s map, the first for column `west`: 1 if the cell is full."""
+    here, there = tables[n, row >> 5, west >> 5], tables[n, row >> 5, east >> 5]
+    both: int = full[here, row & 31] | (full[there, row & 31] << 32)
+    return both >> (west & 31)
+
+
+def fit(n: int, x: float, y: float, grids: Any, beams: Any, rule: Any, least: float) -> tuple[float, float]:
+    """Score and log-likelihood of a position on the map of particle `n`, with beams that are aimed.
 
     A score of no more than `least` is of no use: as soon as the beams that remain cannot lift it above, it is left.
     """
-    rows, columns = tables.shape[1] * 32, tables.shape[2] * 32
-    per_metre = 1.0 / resolution
-    ahead_x, ahead_y = math.cos(heading), math.sin(heading)
-    score = 0.0
-    likelihood = 0.0
-    for b in range(len(ranges)):
-        if score + (len(ranges) - b) <= least:
+    tables, full, means, ends, before = grids.tables, grids.full, grids.means, beams.ends, beams.before
+    size, edge, count = rule.size, rule.size + 2, len(ends)
+    rows, columns = tables.shape[1] * 32 - edge, tables.shape[2] * 32 - edge
+    per_metre, score, likelihood = 1.0 / grids.resolution, 0.0, 0.0
+    for b in range(count):
+        if score + (count - b) <= least:
             break
-        cos = ahead_x * cosines[b] - ahead_y * sines[b]
-        sin = ahead_y * cosines[b] + ahead_x * sines[b]
-        end_x, end_y = x + ranges[b] * cos, y + ranges[b] * sin
-        column, row = math.floor(end_x * per_metre) - low_x, math.floor(end_y * per_metre) - low_y
-        before_x, before_y = math.floor(0.5 - FREE_RATIO * cos), math.floor(0.5 - FREE_RATIO * sin)
-        best = -1.0
-        for i in range(max(row - size, 0), min(row + size + 1, rows)):
-            patch, block = -1, -1
-            for j in range(max(column - size, 0), min(column + size + 1, columns)):
-                if j >> 5 != block:
-                    block = j >> 5
-                    patch = tables[n, i >> 5, block]
-                if patch < 0 or full[patch, i & 31, j & 31] == 0:
-                    continue
-                fi, fj = i + before_y, j + before_x
-                if 0 <= fi < rows and 0 <= fj < columns:
-                    free = tables[n, fi >> 5, fj >> 5]
-                    if free >= 0 and full[free, fi & 31, fj & 31] == 1:
-                        continue
-                off_x = end_x - means[patch, i & 31, j & 31, 0]
-                off_y = end_y - means[patch, i & 31, j & 31, 1]
-                off = off_x * off_x + off_y * off_y
-                if best < 0.0 or off < best:
-                    best = off
-        if best >= 0.0:
-            score += math.exp(-best / sigma)
-            likelihood -= best / lsigma
+        end_x, end_y = x + ends[b, 0], y + ends[b, 1]
+        column, row = math.floor(end_x * per_metre) - grids.low_x, math.floor(end_y * per_metre) - grids.low_y
+        best, first, last = NOWHERE, row - size, row + size + 1
+        if row < edge or row >= rows or column < edge or column >= columns:
+            first = last  # beyond what anybody has seen
+        west, east = column - size, column + size
+        for i in range(first, last):
+            here = there = tables[n, i >> 5, west >> 5]
+            bits = full[here, i & 31]
+            if east >> 5 != west >> 5:
+                there = tables[n, i >> 5, east >> 5]
+                bits |= full[there, i & 31] << 32
+            bits = (bits >> (west & 31)) & ((1 << (2 * size + 1)) - 1)
+            if bits == 0:
+                continue
+            bits &= ~window(n, i + before[b, 1], west + before[b, 0], east + before[b, 0], tables, full)
+            for j in range(west, east + 1):
+                if bits & 1:
+                    patch = here if j >> 5 == west >> 5 else there
+                    off_x = end_x - means[patch, i & 31, j & 31, 0]
+                    off_y = end_y - means[patch, i & 31, j & 31, 1]
+                    best = min(best, off_x * off_x + off_y * off_y)
+                bits >>= 1
+        if best < NOWHERE:
+            score += math.exp(-best / rule.sigma)
+            likelihood -= best / rule.lsigma
         else:
-            likelihood += no_hit
+            likelihood += rule.no_hit
     return score, likelihood
 
 
-def match(
-    tables: Any,
-    means: Any,
-    full: Any,
-    low_x: int,
-    low_y: int,
-    resolution: float,
-    poses: Any,
-    ranges: Any,
-    cosines: Any,
-    sines: Any,
-    size: int,
-    sigma: float,
-    lsigma: float,
-    no_hit: float,
-    lstep: float,
-    astep: float,
-    iterations: int,
-    result: Any,
-) -> None:
+def climb(n: int, pose: Any, grids: Any, beams: Any, rule: Any) -> float:
+    """Go from `pose` (3,) to better ones in steps that are halved when none is better; returns the last one's score."""
+    aim(pose[2], beams)
+    score = fit(n, pose[0], pose[1], grids, beams, rule, -1.0)[0]
+    step, turn, refined, before, last = rule.lstep, rule.astep, 0, -1.0, -1
+    while score > before or refined < rule.iterations:
+        if before >= score:
+            refined, step, turn, last = refined + 1, step * 0.5, turn * 0.5, -1
+        before = score
+        x, y, heading = pose[0], pose[1], pose[2]
+        aim(heading, beams)
+        back, last = last, -1
+        for move in range(6):
+            if move == back:
+                continue  # it came from there
+            sign = 1.0 if move % 2 == 0 else -1.0
+            try_x = x + sign * step if move < 2 else x
+            try_y = y + sign * step if 2 <= move < 4 else y
+            try_heading = heading + sign * turn if move >= 4 else heading
+            if move >= 4:
+                aim(try_heading, beams)
+            new = fit(n, try_x, try_y, grids, beams, rule, score)[0]
+            if new > score:
+                score, last = new, move ^ 1
+                pose[0], pose[1], pose[2] = try_x, try_y, try_heading
+    return score
+
+
+def match(grids: Any, beams: Any, rule: Any, minimum: float, poses: Any, result: Any) -> None:
     """See `Matcher.match`: better poses into `poses`, score and log-likelihood into `result`."""
+    pose = np.zeros(3)
     for n in range(poses.shape[0]):
-        x, y, heading = poses[n, 0], poses[n, 1], poses[n, 2]
-        score, likelihood = fit(
-            n,
-            tables,
-            means,
-            full,
-            low_x,
-            low_y,
-            resolution,
-            x,
-            y,
-            heading,
-            ranges,
-            cosines,
-            sines,
-            size,
-            sigma,
-            lsigma,
-            no_hit,
-            -1.0,
-        )
-        step, turn, refined, before, last = lstep, astep, 0, -1.0, -1
-        while score > before or refined < iterations:
-            if before >= score:
-                refined += 1
-                step *= 0.5
-                turn *= 0.5
-                last = -1
-            before = score
-            from_x, from_y, from_heading = x, y, heading
-            back, last = last, -1
-            for move in range(6):
-                if move == back:
-                    continue  # it came from there
-                sign = 1.0 if move % 2 == 0 else -1.0
-                try_x = from_x + sign * step if move < 2 else from_x
-                try_y = from_y + sign * step if 2 <= move < 4 else from_y
-                try_heading = from_heading + sign * turn if move >= 4 else from_heading
-                new, new_likelihood = fit(
-                    n,
-                    tables,
-                    means,
-                    full,
-                    low_x,
-                    low_y,
-                    resolution,
-                    try_x,
-                    try_y,
-                    try_heading,
-                    ranges,
-                    cosines,
-                    sines,
-                    size,
-                    sigma,
-                    lsigma,
-                    no_hit,
-                    score,
-                )
-                if new > score:
-                    score, likelihood = new, new_likelihood
-                    x, y, heading = try_x, try_y, try_heading
-                    last = move ^ 1
-        poses[n, 0], poses[n, 1], poses[n, 2] = x, y, heading
-        result[n, 0], result[n, 1] = score, likelihood
+        pose[0], pose[1], pose[2] = poses[n, 0], poses[n, 1], poses[n, 2]
+        result[n, 0] = climb(n, pose, grids, beams, rule)
+        if result[n, 0] > minimum:
+            poses[n, 0], poses[n, 1], poses[n, 2] = pose[0], pose[1], pose[2]
+        aim(poses[n, 2], beams)
+        result[n, 1] = fit(n, poses[n, 0], poses[n, 1], grids, beams, rule, -1.0)[1]
 
 
 @cache
 def compiled_match() -> Callable[..., None]:
     """`match` as machine code, or as it is without numba."""
     try:
-        from numba import float64, int32, int64, uint8, void
+        from numba import float64, int32, int64, types, void
     except ImportError:
         return match
-    number, count, beams = float64, int64, float64[::1]
-    signature = void(
-        int32[:, :, ::1],
-        float64[:, :, :, ::1],
-        uint8[:, :, ::1],
-        count,
-        count,
-        number,
-        float64[:, ::1],
-        beams,
-        beams,
-        beams,
-        count,
-        number,
-        number,
-        number,
-        number,
-        number,
-        count,
-        float64[:, ::1],
-    )
-    return machine_code(match, signature, (fit,))
+    record: Any = types.NamedTuple
+    number, count, beam, pairs = float64, int64, float64[::1], float64[:, ::1]
+    grids = record((int32[:, :, ::1], float64[:, :, :, ::1], int64[:, ::1], count, count, number), Grids)
+    beams = record((beam, beam, beam, pairs, int64[:, ::1]), Beams)
+    rule = record((count, *(number,) * 5, count), Rule)
+    return machine_code(match, void(grids, beams, rule, number, pairs, pairs), (aim, window, fit, climb))

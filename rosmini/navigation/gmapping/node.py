@@ -6,11 +6,9 @@ odometry's frame; `dynamic_map` returns the map. A scan waits until its transfor
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rosmini.errors import RosminiError
 from rosmini.geometry.poses import Pose, compose, inverse
@@ -20,8 +18,9 @@ from rosmini.tf import Buffer, TransformBroadcaster, TransformException, Transfo
 from rosmini.tf.rigid import from_yaw
 from rosmini.time import Duration, Time
 
+from .extent import first_extent, published
 from .parameters import GmappingParameters
-from .slam import GridSlam
+from .slam import JUMP, GridSlam
 
 if TYPE_CHECKING:
     from rosmini.graph import Node
@@ -37,6 +36,8 @@ class SlamGmapping:
         self.node = node
         self.parameters = p = GmappingParameters.read(node)
         self.slam: GridSlam | None = None
+        """The filter, from the first scan on: `slam.show()` draws its maps and paths."""
+        self._extent = first_extent(p.xmin, p.ymin, p.xmax, p.ymax, p.delta)
         self._upside_down = False
         self._beams = self._scans = 0
         self._correction: Pose = (0.0, 0.0, 0.0)
@@ -95,12 +96,13 @@ class SlamGmapping:
             )
         found = self.buffer.lookup_transform(p.base_frame, frame, Time(0), PATIENCE)
         q = found.transform.rotation
-        if abs(1 - abs(1 - 2 * (q.x * q.x + q.y * q.y))) > 1e-3:
+        up = 1 - 2 * (q.x * q.x + q.y * q.y)
+        if abs(1 - abs(up)) > 1e-3:
             raise RosminiError(
-                f"Laser has to be mounted planar! The z axis of {frame} is not parallel to that of {p.base_frame}: "
-                "no map can be made of it"
+                f"Laser has to be mounted planar! Z-coordinate has to be 1 or -1, but gave: {up:.5f} (the z axis of "
+                f"{frame} in {p.base_frame}): no map can be made of it"
             )
-        self._upside_down = 1 - 2 * (q.x * q.x + q.y * q.y) < 0
+        self._upside_down = up < 0
         self.node.loginfo(f"Laser is mounted {'upside down' if self._upside_down else 'upwards'}.")
         odometry = planar_transform(
             self.buffer.lookup_transform(p.odom_frame, p.base_frame, message.header.stamp, PATIENCE)
@@ -125,14 +127,19 @@ class SlamGmapping:
                 f"scans jump back in time, from {before * 1e-9:.3f} s to {message.header.stamp.to_sec():.3f} s: the "
                 "map goes on from where the odometry is now; restart the node for a new one"
             )
+        if slam.jumps_to(odometry):
+            self.node.logwarn(
+                f"the odometry jumps to x {odometry[0]:.2f} m, y {odometry[1]:.2f} m, over {JUMP:.0f} m from where it "
+                "was: the map goes on from there, and is likely to be bent"
+            )
         report = slam.process(ranges, bearings, odometry, message.header.stamp.to_sec())
         if report is None:
             return
         x, y, yaw = slam.poses[slam.best]
         self._correction = compose((float(x), float(y), float(yaw)), inverse(odometry))
-        now = self.node.clock.now_ns()
-        if self._last_map is None or (now - self._last_map) * 1e-9 > self.parameters.map_update_interval:
-            self._last_map = now
+        since = None if self._last_map is None else (self._last_stamp_ns - self._last_map) * 1e-9
+        if since is None or not 0 <= since <= self.parameters.map_update_interval:
+            self._last_map = self._last_stamp_ns
             self._publish(slam)
 
     # -- the answer ----------------------------------------------------------------------------------------------
@@ -140,13 +147,17 @@ class SlamGmapping:
     def _publish(self, slam: GridSlam) -> None:
         p = self.parameters
         self._entropy.publish(message_class("std_msgs/Float64")(data=slam.entropy))
-        cells, (left, low) = occupancy(slam, (p.xmin, p.ymin, p.xmax, p.ymax), p.occ_thresh)
+        cells, self._extent = published(slam, self._extent, p.occ_thresh)
         grid = message_class("nav_msgs/OccupancyGrid")()
         grid.header.frame_id, grid.header.stamp = p.map_frame, self.node.now()
         info = grid.info
         info.map_load_time, info.resolution = grid.header.stamp, p.delta
         info.height, info.width = cells.shape
-        info.origin.position.x, info.origin.position.y, info.origin.orientation.w = left, low, 1.0
+        info.origin.position.x, info.origin.position.y = (
+            self._extent.column * p.delta,
+            self._extent.row * p.delta,
+        )
+        info.origin.orientation.w = 1.0
         grid.data = cells.ravel()
         self._map = grid
         self._maps.publish(grid)
@@ -162,23 +173,3 @@ class SlamGmapping:
         delay = p.transform_publish_period if p.tf_delay is None else p.tf_delay
         when = self.node.now() + Duration.from_sec(delay)
         self.broadcaster.send_rigid(p.map_frame, p.odom_frame, from_yaw(*self._correction), when)
-
-
-def occupancy(
-    slam: GridSlam, bounds: tuple[float, float, float, float], threshold: float
-) -> tuple[NDArray[np.int8], tuple[float, float]]:
-    """The best map (h, w) as nav_msgs/OccupancyGrid has it, over `bounds` and all that was seen, and its corner [m]."""
-    shares, (left, low) = slam.maps.occupancy(slam.best)
-    delta = slam.settings.delta
-    column, row = round(left / delta), round(low / delta)
-    height, width = shares.shape
-    x0, y0 = min(math.floor(bounds[0] / delta), column), min(math.floor(bounds[1] / delta), row)
-    x1, y1 = (
-        max(math.ceil(bounds[2] / delta), column + width),
-        max(math.ceil(bounds[3] / delta), row + height),
-    )
-    cells = np.full((y1 - y0, x1 - x0), -1, dtype=np.int8)
-    part = cells[row - y0 : row - y0 + height, column - x0 : column - x0 + width]
-    part[shares >= 0] = 0
-    part[shares > threshold] = 100
-    return cells, (x0 * delta, y0 * delta)

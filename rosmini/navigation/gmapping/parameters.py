@@ -11,7 +11,6 @@ from .slam import Settings
 
 Text = str
 """Since a parameter is called `str`."""
-SAMPLES = ("llsamplerange", "llsamplestep", "lasamplerange", "lasamplestep")
 
 
 @dataclass(frozen=True)
@@ -19,8 +18,8 @@ class GmappingParameters(Parameters):
     """The private parameters."""
 
     tolerant = True
-    allowed = (*SAMPLES, "inverted_laser", "enovation")
-    """What real files carry, and slam_gmapping does not use for maps."""
+    allowed = ("inverted_laser", "enovation")
+    """What real files carry, and slam_gmapping has not read since it learned from tf how a laser is mounted."""
 
     base_frame: Text = parameter("base_link", "the robot's frame")
     map_frame: Text = parameter("map", "the map's frame")
@@ -62,6 +61,10 @@ class GmappingParameters(Parameters):
     xmax: float = parameter(100.0, "to here at first", unit="m")
     ymax: float = parameter(100.0, "to here at first", unit="m")
     delta: float = parameter(0.05, "the side of a cell", unit="m", minimum=1e-3)
+    llsamplerange: float = parameter(0.01, "as in the original it is read, and changes nothing", unit="m")
+    llsamplestep: float = parameter(0.01, "as in the original it is read, and changes nothing", unit="m")
+    lasamplerange: float = parameter(0.005, "as in the original it is read, and changes nothing", unit="rad")
+    lasamplestep: float = parameter(0.005, "as in the original it is read, and changes nothing", unit="rad")
     occ_thresh: float = parameter(
         0.25, "a cell is occupied if more than this share of its visits were ends", minimum=0.0, maximum=1.0
     )
@@ -70,7 +73,14 @@ class GmappingParameters(Parameters):
         """What the filter takes, with a laser that sees so far [m]."""
         longest = range_max - 0.01 if self.maxRange is None else self.maxRange
         matcher = Matcher(
-            self.sigma, self.kernelSize, self.lstep, self.astep, self.iterations, self.lsigma, self.lskip
+            self.sigma,
+            self.kernelSize,
+            self.lstep,
+            self.astep,
+            self.iterations,
+            self.lsigma,
+            self.lskip,
+            self.minimumScore,
         )
         return Settings(
             particles=self.particles,
@@ -81,7 +91,6 @@ class GmappingParameters(Parameters):
             angular_update=self.angularUpdate,
             temporal_update=self.temporalUpdate,
             resample_threshold=self.resampleThreshold,
-            minimum_score=self.minimumScore,
             ogain=self.ogain,
             srr=self.srr,
             srt=self.srt,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from rosmini.errors import RosminiError
 from rosmini.geometry.angles import normalize_angle
 from rosmini.geometry.poses import Pose, compose, inverse
+from rosmini.graph.show import show
 
 from .maps import SharedMaps
 from .matching import Matcher
@@ -25,6 +27,9 @@ GRAIN = 1 << 48
 """Weights are drawn by whole parts of this, so that a last bit that differs changes nothing."""
 DIGITS = 6
 """To so many digits log-likelihoods are rounded, for the same reason."""
+
+JUMP = 20.0
+"""An odometry that is so far from the one before [m] has jumped, as in the original."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,6 @@ class Settings:
     angular_update: float = 0.5
     temporal_update: float = -1.0
     resample_threshold: float = 0.5
-    minimum_score: float = 0.0
     ogain: float = 3.0
     srr: float = 0.1
     srt: float = 0.2
@@ -69,7 +73,7 @@ class Report:
     scores: Floats
     """The matcher's, of each particle."""
     unmatched: int
-    """How many particles kept the odometry's pose, for no better one scored `minimum_score`."""
+    """How many particles kept the odometry's pose, for no better one scored above `minimum_score`."""
 
 
 class GridSlam:
@@ -132,6 +136,11 @@ class GridSlam:
         self.poses = compose(self.poses, motions)
         self.poses[:, 2] = normalize_angle(self.poses[:, 2])
 
+    def jumps_to(self, odometry: Pose) -> bool:
+        """Whether no robot can have driven there since the last odometry."""
+        before = self._odometry
+        return before is not None and math.dist(before[:2], odometry[:2]) > JUMP
+
     def wants(self, time: float) -> bool:
         """Whether the robot has moved so much, or so long ago, that the next scan is taken in."""
         s = self.settings
@@ -173,7 +182,7 @@ class GridSlam:
     def _match(self, ranges: Floats, bearings: Floats, usable: float) -> tuple[Floats, int]:
         lasers = compose(self.poses, self.laser)
         found = self.settings.matcher.match(self.maps, lasers, ranges, bearings, usable)
-        good = found.scores > self.settings.minimum_score
+        good = found.scores > self.settings.matcher.minimum_score
         back = inverse(self.laser)
         self.poses = np.where(good[:, None], compose(found.poses, back), self.poses)
         self.poses[:, 2] = normalize_angle(self.poses[:, 2])
@@ -228,3 +237,32 @@ class GridSlam:
             found.append(node)
             node = node.parent
         return found[::-1]
+
+    def branches(self) -> tuple[Floats, ...]:
+        """The paths of all particles as lines (k, 2) [m], each stretch that several share but once."""
+        seen: set[int] = set()
+        lines = []
+        for node in self.paths:
+            line = []
+            while node is not None:
+                line.append(node.pose[:2])
+                if id(node) in seen:
+                    break
+                seen.add(id(node))
+                node = node.parent
+            if len(line) > 1:
+                lines.append(np.array(line[::-1]))
+        return tuple(lines)
+
+    def forefathers(self) -> NDArray[np.int64]:
+        """(scans,): of how many particles of that time a path lives on."""
+        layer, counts = list(self.paths), []
+        while layer and layer[0] is not None:
+            alive = {id(node): node for node in layer}
+            counts.append(len(alive))
+            layer = [node.parent for node in alive.values() if node is not None]
+        return np.array(counts[::-1], dtype=np.int64)
+
+    def show(self, **options: Any) -> Any:
+        """Draw a particle's map, the best one's by default, and the paths of all: `rosmini.viz.slam_pictures`."""
+        return show("gmapping", self, **options)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rosmini.navigation.gmapping.maps import NONE, SIDE, SharedMaps, register
+from rosmini.navigation.gmapping.maps import NONE, PATCH_BYTES, SIDE, Scan, SharedMaps, register
 
 AHEAD = np.zeros(1)
 
@@ -73,15 +73,16 @@ def test_every_beam_ends_where_it_points(seed):
         end = x + length * math.cos(heading + bearing), y + length * math.sin(heading + bearing)
         assert at(maps, 0, *end) > 0
     other = SharedMaps(1, 0.05)
-    other.low, other.tables = maps.low, maps.tables.copy()
-    for name in ("hits", "visits", "means", "full"):
-        setattr(other, name, np.zeros_like(getattr(maps, name)))
-    grids = other.hits, other.visits, other.means, other.full
-    touched = np.zeros(other.tables.shape[1:], dtype=np.uint8)
-    register(other.tables[0], *grids, *other.low, 0.05, x, y, heading, ranges, bearings, 10.0, touched, True)
+    other.low, other.tables = maps.low, np.full_like(maps.tables, NONE)
+    other._enlarge(len(maps.hits) - 1)
+    scan = Scan(ranges, bearings, 10.0, np.zeros(other.tables.shape[1:], dtype=np.uint8))
+    assert register(other.pool, scan, np.array([(x, y, heading)]), np.arange(1, len(other.hits)), 0) == 1
     assert (other.hits == maps.hits).all()
     assert (other.visits == maps.visits).all()
     assert other.means == pytest.approx(maps.means, abs=1e-12)
+    assert (other.full == maps.full).all()
+    columns = (other.full[:, :, None] >> np.arange(SIDE)) & 1
+    assert (columns == (other.hits > 0.1 * other.visits)).all(), "a bit for each full cell"
 
 
 def test_a_map_that_is_chosen_twice_is_not_copied_until_it_changes():
@@ -92,7 +93,7 @@ def test_a_map_that_is_chosen_twice_is_not_copied_until_it_changes():
     before = maps.occupancy(1)[0].copy()
     maps.choose(np.array([1, 1, 1]))
     one = maps.bytes_used
-    assert one < 3 * SIDE * SIDE * 24
+    assert one < 3 * PATCH_BYTES
     assert (maps.tables[0] == maps.tables[2]).all()
     maps.register(
         np.array([(0.05, 5.05, 0.0), (0.05, 5.05, 0.5), (0.05, 5.05, 1.0)]), np.array([2.0]), AHEAD, 10.0

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rosmini.navigation.gmapping.maps import SharedMaps
-from rosmini.navigation.gmapping.matching import Matcher, fit
+from rosmini.navigation.gmapping.matching import Matcher, aim, fit, grids_of, match
 
 BEARINGS = np.arange(180) * math.tau / 180
 
@@ -91,9 +91,37 @@ def test_beams_of_no_use_are_left_out(maps):
 def test_giving_up_early_changes_no_result(maps):
     """A pose that cannot beat `least` may be left: what it has then is no more than `least`."""
     ranges = square(0.1, 0.3, 0.2)
-    common = maps.tables, maps.means, maps.full, *maps.low, maps.resolution
-    beams = ranges, np.cos(BEARINGS), np.sin(BEARINGS), 1, 0.05, 0.075, -0.5 / 0.075
-    for pose in ((0.1, 0.3, 0.2), (0.3, 0.3, 0.2), (0.1, 0.3, 0.5)):
-        whole, likelihood = fit(0, *common, *pose, *beams, -1.0)
-        assert fit(0, *common, *pose, *beams, whole - 0.5) == (whole, likelihood)
-        assert fit(0, *common, *pose, *beams, whole + 0.5)[0] <= whole + 0.5
+    matcher = Matcher()
+    grids, beams, rule = grids_of(maps), matcher.beams(ranges, BEARINGS, 10.0), matcher.rule
+    for x, y, heading in ((0.1, 0.3, 0.2), (0.3, 0.3, 0.2), (0.1, 0.3, 0.5)):
+        aim(heading, beams)
+        whole, likelihood = fit(0, x, y, grids, beams, rule, -1.0)
+        assert fit(0, x, y, grids, beams, rule, whole - 0.5) == (whole, likelihood)
+        assert fit(0, x, y, grids, beams, rule, whole + 0.5)[0] <= whole + 0.5
+
+
+def test_machine_code_finds_what_python_finds(maps):
+    ranges = square(0.1, 0.3, 0.2)[::6]
+    poses, result = np.array([(0.15, 0.25, 0.22)]), np.zeros((1, 2))
+    found = Matcher(kernel_size=2).match(maps, poses, ranges, BEARINGS[::6], 10.0)
+    matcher = Matcher(kernel_size=2)
+    match(grids_of(maps), matcher.beams(ranges, BEARINGS[::6], 10.0), matcher.rule, -1.0, poses, result)
+    assert found.poses == pytest.approx(poses, abs=1e-9)
+    assert (found.scores[0], found.log_likelihoods[0]) == pytest.approx(tuple(result[0]), abs=1e-9)
+
+
+def test_a_pose_that_scores_too_little_is_weighed_where_it_was(maps):
+    """As in the original: a match that is not taken does not make its particle more likely, either."""
+    ranges, start = square(0.1, 0.3, 0.2), np.array([(0.3, 0.25, 0.25)])
+    kept = Matcher(minimum_score=1e6).match(maps, start, ranges, BEARINGS, 10.0)
+    still = Matcher().score(maps, start, ranges, BEARINGS, 10.0)
+    better = Matcher().match(maps, start, ranges, BEARINGS, 10.0)
+    assert kept.poses == pytest.approx(start)
+    assert kept.log_likelihoods[0] == still.log_likelihoods[0] < better.log_likelihoods[0]
+    assert kept.scores[0] == better.scores[0], "the score is the match's"
+
+
+def test_poses_beyond_the_map_hit_nothing(maps):
+    far = Matcher().match(maps, np.array([(500.0, -80.0, 0.0)]), square(0.0, 0.0, 0.0), BEARINGS, 10.0)
+    assert far.scores[0] == 0.0
+    assert far.log_likelihoods[0] == pytest.approx(-0.5 / 0.075 * len(BEARINGS))

@@ -11,6 +11,7 @@ import pytest
 
 from rosmini.errors import RosminiError
 from rosmini.geometry.poses import compose, inverse
+from rosmini.navigation.gmapping.matching import Matcher
 from rosmini.navigation.gmapping.slam import GridSlam, Settings
 
 from .test_matching import BEARINGS, square
@@ -91,11 +92,32 @@ def test_ranges_that_are_none_leave_no_mark():
 
 
 def test_a_match_that_scores_too_little_is_not_taken():
-    slam = a_slam(particles=3, minimum_score=1e6, srr=0.0, srt=0.0, str_=0.0, stt=0.0)
+    slam = a_slam(particles=3, matcher=Matcher(minimum_score=1e6), srr=0.0, srt=0.0, str_=0.0, stt=0.0)
     slam.process(square(0.0, 0.0, 0.0), BEARINGS, (0.0, 0.0, 0.0), 0.0)
     report = slam.process(square(1.0, 0.05, 0.0), BEARINGS, (1.0, 0.0, 0.0), 1.0)
     assert report.unmatched == 3
     assert slam.poses[:, :2] == pytest.approx(np.tile((1.0, 0.0), (3, 1)))
+
+
+def test_paths_are_a_tree():
+    slam = a_slam(particles=3, resample_threshold=0.0)
+    for x in (0.0, 1.0, 2.0):
+        slam.process(square(0.2 * x, 0.0, 0.0), BEARINGS, (x, 0.0, 0.0), x)
+    slam.paths = [slam.paths[0], slam.paths[0], slam.paths[2]]
+    slam.paths = [type(slam.paths[0])((3.0, float(n), 0.0), 3.0, one) for n, one in enumerate(slam.paths)]
+    assert slam.forefathers().tolist() == [2, 2, 2, 3]
+    lines = slam.branches()
+    assert [len(line) for line in lines] == [4, 2, 4], "the second leaves the first at its end"
+    assert lines[1][0] == pytest.approx(lines[0][2])
+    assert lines[1][1].tolist() == [3.0, 1.0]
+
+
+def test_an_odometry_that_jumps():
+    slam = a_slam()
+    assert not slam.jumps_to((50.0, 0.0, 0.0)), "the first may be anywhere"
+    slam.move((50.0, 0.0, 0.0))
+    assert not slam.jumps_to((50.0, 19.0, 0.0))
+    assert slam.jumps_to((50.0, 21.0, 0.0))
 
 
 def test_numbers_that_make_no_map():

@@ -1,0 +1,86 @@
+"""How large a published map is: what `xmin` to `ymax` say at first, and more when the robot sees farther.
+
+As in the original the size is a whole number of blocks of 32 cells (20 m at 0.05 m are 384 cells, not 400), and a map
+that has to grow gets 10 m more than it needs. Unlike there, corners of cells lie on multiples of the resolution, where
+OccupancyGrid has them (the original's published map lies half a cell off).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.errors import ParameterError
+
+from .maps import SIDE
+from .slam import GridSlam
+
+ENLARGE = 10.0
+"""A map that has to grow gets so much more [m]."""
+
+
+class Extent(NamedTuple):
+    """Cells from (column, row), counted on the lattice of `SharedMaps`."""
+
+    column: int
+    row: int
+    width: int
+    height: int
+
+
+def first_extent(xmin: float, ymin: float, xmax: float, ymax: float, delta: float) -> Extent:
+    """Where a map begins; all in metres. Raises `ParameterError` for a map of no cells."""
+    if not (xmin < xmax and ymin < ymax):
+        raise ParameterError(
+            f"a map from xmin {xmin} to xmax {xmax} m and from ymin {ymin} to ymax {ymax} m has no cells: xmin and "
+            "ymin have to be the smaller ones"
+        )
+    columns, rows = (
+        max(math.ceil(length / delta - 1e-6) // SIDE, 1) for length in (xmax - xmin, ymax - ymin)
+    )
+    return Extent(
+        math.floor(xmin / delta + 1e-6), math.floor(ymin / delta + 1e-6), columns * SIDE, rows * SIDE
+    )
+
+
+def grown(extent: Extent, seen: Extent, delta: float) -> Extent:
+    """An extent that has room for what was seen, too."""
+    if not (seen.width and seen.height):
+        return extent
+    column, width = _grown(extent.column, extent.width, seen.column, seen.width, delta)
+    row, height = _grown(extent.row, extent.height, seen.row, seen.height, delta)
+    return Extent(column, row, width, height)
+
+
+def _grown(low: int, size: int, from_: int, count: int, delta: float) -> tuple[int, int]:
+    more = ENLARGE / delta
+    before = math.ceil((low - from_ + more) / SIDE) if from_ < low else 0
+    after = math.ceil((from_ + count - low - size + more) / SIDE) if from_ + count > low + size else 0
+    return low - before * SIDE, size + (before + after) * SIDE
+
+
+def published(slam: GridSlam, extent: Extent, threshold: float) -> tuple[NDArray[np.int8], Extent]:
+    """The best particle's map (h, w) as nav_msgs/OccupancyGrid has it, and its extent, which may have grown."""
+    shares, seen = known(slam, slam.best)
+    extent = grown(extent, seen, slam.settings.delta)
+    cells = np.full((extent.height, extent.width), -1, dtype=np.int8)
+    row, column = seen.row - extent.row, seen.column - extent.column
+    part = cells[row : row + seen.height, column : column + seen.width]
+    part[shares >= 0] = 0
+    part[shares > threshold] = 100
+    return cells, extent
+
+
+def known(slam: GridSlam, particle: int) -> tuple[NDArray[np.float64], Extent]:
+    """The occupancy of a particle's map, -1 where unknown, cut to what was seen."""
+    shares, _ = slam.maps.occupancy(particle)
+    rows, columns = np.flatnonzero((shares >= 0).any(axis=1)), np.flatnonzero((shares >= 0).any(axis=0))
+    if not len(rows):
+        return shares[:0, :0], Extent(0, 0, 0, 0)
+    top, right = rows[-1] + 1, columns[-1] + 1
+    left, low = slam.maps.low
+    extent = Extent(left + int(columns[0]), low + int(rows[0]), int(right - columns[0]), int(top - rows[0]))
+    return shares[rows[0] : top, columns[0] : right], extent
