@@ -83,13 +83,17 @@ class Watcher:
         self.seen: list[str] = []
         page.on("console", self.console)
         page.on("pageerror", lambda error: self.seen.append(f"error: {error}"))
-        page.on("requestfailed", lambda request: self.seen.append(f"failed: {request.url}"))
+        page.on("requestfailed", self.failed)
         page.on("request", self.request)
 
     def console(self, message) -> None:
         # Reading a picture back out of a software renderer, as a screenshot does, is slow, and it says so.
         if "GPU stall due to ReadPixels" not in message.text:
             self.seen.append(f"console {message.type}: {message.text}")
+
+    def failed(self, request) -> None:
+        if request.failure != "net::ERR_ABORTED":  # what a page still loads when it is left
+            self.seen.append(f"failed: {request.url}")
 
     def request(self, request) -> None:
         if not request.url.startswith(("file:", "data:", "blob:")):

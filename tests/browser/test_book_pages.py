@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import os
+
 import pytest
 
 pytestmark = pytest.mark.browser
+
+IS_SHOT = os.environ.get("ROSMINI_SCREENSHOTS") == "1"
+"""Whether pictures of the whole pages are wanted, to be looked at: they take longer than all the rest."""
 
 WIDTHS = {"desktop": (1280, 900), "phone": (390, 844)}
 SIDEWAYS = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
@@ -14,32 +19,48 @@ CODE_ASIDE = """[...document.querySelectorAll(".bd-article div.highlight pre")]
 """How many listings one has to push aside to read."""
 
 
-@pytest.mark.parametrize("width", WIDTHS)
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_every_page_opens_with_an_empty_console(book_html, chromium, watch, shared_tmp, scheme, width):
+IS_DRAWN = "() => new Promise(drawn => requestAnimationFrame(() => requestAnimationFrame(drawn)))"
+
+
+def problems_of(page, width: str, scheme: str) -> list[str]:
+    """What is wrong with a page as it is shown now."""
+    found = []
+    if page.evaluate(SIDEWAYS) > 0:
+        found.append(f"wider than the {width}")
+    if width == "phone" and page.evaluate(CODE_ASIDE):
+        found.append("lines of code are wider than the phone")
+    if page.evaluate("document.documentElement.dataset.theme") != scheme:
+        found.append(f"not {scheme}")
+    return found
+
+
+@pytest.mark.parametrize(
+    ("scheme", "width", "other"), [("light", "desktop", "phone"), ("dark", "phone", "desktop")]
+)
+def test_every_page_opens_with_an_empty_console(book_html, chromium, watch, shared_tmp, scheme, width, other):
+    """Each scheme and each width is there when pages load; the other width comes when the window changes."""
     screenshots = shared_tmp / "screenshots"
     screenshots.mkdir(exist_ok=True)
-    wide, high = WIDTHS[width]
-    context = chromium.new_context(color_scheme=scheme, viewport={"width": wide, "height": high})
     pages = sorted(path for path in book_html.rglob("*.html") if "_static" not in path.parts)
     assert len(pages) > 5
+    sizes = {name: dict(zip(("width", "height"), size, strict=True)) for name, size in WIDTHS.items()}
+    context = chromium.new_context(color_scheme=scheme, viewport=sizes[width])
+    page = context.new_page()  # one for all: to open it costs as much as to load a chapter
+    watcher = watch(page)
     problems = []
     for path in pages:
         name = path.relative_to(book_html).with_suffix("").as_posix()
-        page = context.new_page()
-        watcher = watch(page)
         page.goto(path.as_uri(), wait_until="load")
         page.wait_for_function("document.readyState === 'complete'")
+        for now in (width, other):
+            page.set_viewport_size(sizes[now])
+            page.evaluate(IS_DRAWN)
+            problems += [f"{name}: {each}" for each in problems_of(page, now, scheme)]
+            if IS_SHOT and (scheme, now) == ("light", "desktop"):
+                page.screenshot(path=screenshots / f"{name.replace('/', '_')}.png", full_page=True)
+        page.set_viewport_size(sizes[width])
         problems += [f"{name}: {seen}" for seen in watcher.seen]
-        if page.evaluate(SIDEWAYS) > 0:
-            problems.append(f"{name}: wider than the {width}")
-        if width == "phone" and page.evaluate(CODE_ASIDE):
-            problems.append(f"{name}: lines of code are wider than the phone")
-        if page.evaluate("document.documentElement.dataset.theme") != scheme:
-            problems.append(f"{name}: not {scheme}")
-        if (scheme, width) == ("light", "desktop"):  # to be looked at; it takes longer than all the rest
-            page.screenshot(path=screenshots / f"{name.replace('/', '_')}.png", full_page=True)
-        page.close()
+        watcher.seen.clear()
     context.close()
     assert problems == []
 
