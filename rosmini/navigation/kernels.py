@@ -23,6 +23,7 @@ KERNELS: tuple[str, ...] = (
     "rosmini.navigation.amcl.field:compiled_scores",
     "rosmini.navigation.gmapping.maps:compiled_register",
     "rosmini.navigation.gmapping.matching:compiled_match",
+    "rosmini.navigation.hector_mapping.matching:compiled_climb",
 )
 """`module:function` of the functions that return a kernel: compiled, or without numba as it is."""
 

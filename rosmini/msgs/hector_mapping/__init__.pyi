@@ -1,0 +1,2 @@
+# Written by python -m assets.generate; do not edit.
+from . import srv as srv

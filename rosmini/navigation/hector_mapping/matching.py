@@ -1,0 +1,142 @@
+"""Puts a scan on a map: Gauss-Newton on the interpolated probabilities (Kohlbrecher et al., 2011, section IV).
+
+The ends of all beams shall lie where the map is occupied. One defect of the original is not copied: there the
+derivatives along x are interpolated by the fraction of x where that of y was meant, and the other way round.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.geometry.machine_code import machine_code
+from rosmini.geometry.poses import Pose
+from rosmini.navigation.kernels import kernel
+
+from .grid import OccupancyGrid
+
+Floats = NDArray[np.float64]
+
+LARGEST_TURN = 0.2
+"""A step turns no further [rad]."""
+NOTHING_KNOWN = 1e6
+"""The variance of what a match tells nothing of [m2, rad2]."""
+
+
+class Matched(NamedTuple):
+    """What a matcher found."""
+
+    pose: Pose
+    hessian: Floats
+    """(3, 3) of x, y [m] and heading [rad], at the last step; zeros if there was nothing to match with."""
+    spread: float
+    """The mean square of what the ends lacked of being on something occupied, before the last step."""
+    steps: int
+
+    @property
+    def covariance(self) -> Floats:
+        """(3, 3) of x, y [m2] and heading [rad2]: the inverse curvature, scaled by the spread (the paper's eq. 14).
+
+        The original publishes the curvature itself, in cells.
+        """
+        known = self.hessian / max(self.spread, 1e-6)
+        found: Floats = np.linalg.inv(known + np.eye(3) / NOTHING_KNOWN)
+        return found
+
+
+def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> Matched:
+    """Improve a pose [m, m, rad] so that `points` (n, 2) [m], in the robot's frame, lie on what is occupied.
+
+    There is one step more than `iterations`, as in the original. It ends early where there is nothing to climb.
+    """
+    resolution = grid.resolution
+    start = np.array([*grid.cells(np.asarray(pose[:2], dtype=np.float64)), pose[2]])
+    ends = np.ascontiguousarray(points, dtype=np.float64) / resolution
+    result = np.zeros(8)
+    kernel("rosmini.navigation.hector_mapping.matching:compiled_climb")(
+        grid.probabilities, ends, start, iterations + 1, result
+    )
+    xx, xy, xt, yy, yt, tt, spread, steps = result.tolist()
+    if steps:
+        x, y, heading = start.tolist()
+        left, low = grid.origin
+        pose = (left + x * resolution, low + y * resolution, math.remainder(heading, math.tau))
+    scale = np.array([1 / resolution, 1 / resolution, 1.0])
+    hessian = np.array(((xx, xy, xt), (xy, yy, yt), (xt, yt, tt))) * np.outer(scale, scale)
+    return Matched(pose, hessian, spread, int(steps))
+
+
+def surface(probabilities: Any, x: float, y: float) -> tuple[float, float, float]:
+    """The map (h, w) as a surface at x, y [cells]: probability, and its derivatives along x and y [1/cell].
+
+    Between the middles of four cells it is bilinear; outside the map it is 0.
+    """
+    height, width = probabilities.shape
+    if not (0.0 <= x < width - 1.0 and 0.0 <= y < height - 1.0):
+        return 0.0, 0.0, 0.0
+    column, row = int(x), int(y)
+    fx, fy = x - column, y - row
+    a, b = float(probabilities[row, column]), float(probabilities[row, column + 1])
+    c, d = float(probabilities[row + 1, column]), float(probabilities[row + 1, column + 1])
+    bottom, top = a + (b - a) * fx, c + (d - c) * fx
+    return bottom + (top - bottom) * fy, (b - a) * (1.0 - fy) + (d - c) * fy, top - bottom
+
+
+def climb(probabilities: Any, ends: Any, pose: Any, most: int, result: Any) -> None:
+    """Make at most `most` steps of Gauss-Newton.
+
+    Args:
+        probabilities: the map (h, w).
+        ends: of the beams (n, 2), in the robot's frame [cells].
+        pose: x, y [cells] and heading [rad]; changed.
+        most: so many steps.
+        result: (8), changed: the curvature's xx, xy, xt, yy, yt, tt at the last step [cells, rad], the mean square of
+            what the ends lacked there, and the steps that were made.
+
+    """
+    height, width = probabilities.shape
+    for _ in range(most):
+        cos, sin = math.cos(pose[2]), math.sin(pose[2])
+        xx = xy = xt = yy = yt = tt = bx = by = bt = spread = 0.0
+        for n in range(ends.shape[0]):
+            u, v = cos * ends[n, 0] - sin * ends[n, 1], sin * ends[n, 0] + cos * ends[n, 1]
+            value, gx, gy = surface(probabilities, pose[0] + u, pose[1] + v)
+            gt, lacking = u * gy - v * gx, 1.0 - value
+            xx, xy, xt = xx + gx * gx, xy + gx * gy, xt + gx * gt
+            yy, yt, tt = yy + gy * gy, yt + gy * gt, tt + gt * gt
+            bx, by, bt = bx + gx * lacking, by + gy * lacking, bt + gt * lacking
+            spread += lacking * lacking
+        result[0], result[1], result[2], result[3], result[4], result[5] = xx, xy, xt, yy, yt, tt
+        result[6] = spread / max(1, ends.shape[0])
+        # Solved by minors: the curvature is symmetric.
+        ixx, ixy, ixt = yy * tt - yt * yt, xt * yt - xy * tt, xy * yt - yy * xt
+        determinant = xx * ixx + xy * ixy + xt * ixt
+        if xx == 0.0 or yy == 0.0 or determinant == 0.0:
+            return
+        iyy, iyt, itt = xx * tt - xt * xt, xy * xt - xx * yt, xx * yy - xy * xy
+        x = pose[0] + (ixx * bx + ixy * by + ixt * bt) / determinant
+        y = pose[1] + (ixy * bx + iyy * by + iyt * bt) / determinant
+        turn = (ixt * bx + iyt * by + itt * bt) / determinant
+        # Where nothing holds the robot along a wall, the curvature is all but 0, and what comes out is no step.
+        if not (0.0 <= x < width and 0.0 <= y < height and abs(turn) < math.inf):
+            return
+        pose[0], pose[1] = x, y
+        pose[2] += max(-LARGEST_TURN, min(LARGEST_TURN, turn))
+        result[7] += 1.0
+
+
+@cache
+def compiled_climb() -> Callable[..., None]:
+    """`climb` as machine code, or as it is without numba."""
+    try:
+        from numba import float32, float64, int64, void
+    except ImportError:
+        return climb
+    return machine_code(
+        climb, void(float32[:, ::1], float64[:, ::1], float64[::1], int64, float64[::1]), (surface,)
+    )
