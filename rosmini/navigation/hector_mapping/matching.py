@@ -45,8 +45,7 @@ class Matched(NamedTuple):
         The original publishes the curvature itself, in cells.
         """
         known = self.hessian / max(self.spread, 1e-6)
-        found: Floats = np.linalg.inv(known + np.eye(3) / NOTHING_KNOWN)
-        return found
+        return np.asarray(np.linalg.inv(known + np.eye(3) / NOTHING_KNOWN), dtype=np.float64)
 
 
 def match(grid: OccupancyGrid, points: Floats, pose: Pose, iterations: int) -> Matched:

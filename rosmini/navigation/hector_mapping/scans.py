@@ -55,4 +55,5 @@ def scan_ends(
 def plain_ends(ranges: Floats, bearings: Floats, measurable: tuple[float, float]) -> Floats:
     """The ends (n, 2) [m] in the frame of the laser itself, for a robot that is its laser."""
     kept = (ranges > measurable[0]) & (ranges < measurable[1] - MARGIN)
-    return ranges[kept, None] * np.column_stack([np.cos(bearings[kept]), np.sin(bearings[kept])])
+    lengths, turned = ranges[kept], bearings[kept]
+    return np.column_stack([lengths * np.cos(turned), lengths * np.sin(turned)])
