@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .rosout import LEVELS, caller
+from .rosout import LEVELS, LOGGING, caller
 
 if TYPE_CHECKING:
     from .clock import GraphClock, TopicClock
@@ -95,7 +95,7 @@ class LoggingApi:
             self.logger.log(LEVELS[level], shown, logger=f"rosout.{logger}" if logger else None)
 
     def _is_let_through(self, text: str, throttle: float | None, identical: bool, once: bool) -> bool:
-        frame = caller(2)
+        frame = caller(2, LOGGING)
         where = (frame.f_code.co_filename, frame.f_lineno, frame.f_lasti)
         gates = self.logger.gates
         if once:

@@ -31,6 +31,8 @@ INTERNAL = ("rospy", "rospy.client", "rospy.core", "rospy.init", "rospy.internal
 
 OWN = str(Path(__file__).resolve().parents[1]) + os.sep
 """How the names of rosmini's own source files begin."""
+LOGGING = (OWN + "graph" + os.sep, OWN + "rospy" + os.sep)
+"""The same of those that log on behalf of others; built-in nodes are elsewhere."""
 
 
 def source_of(filename: str) -> str:
@@ -196,10 +198,10 @@ def function_of(frame: FrameType) -> str:
     return f"{type(frame.f_locals['self']).__name__}.{name}" if "self" in frame.f_locals else name
 
 
-def caller(depth: int) -> FrameType:
-    """Return the frame ``depth`` calls up; frames of rosmini's own files only if there are no others."""
+def caller(depth: int, own: str | tuple[str, ...] = OWN) -> FrameType:
+    """Return the frame ``depth`` calls up; frames of files that begin with ``own`` only if there are no others."""
     nearest = frame = sys._getframe(depth)  # noqa: SLF001 - the documented way to find a caller
-    while frame.f_code.co_filename.startswith(OWN):
+    while frame.f_code.co_filename.startswith(own):
         if frame.f_back is None:
             return nearest
         frame = frame.f_back

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
+import rosmini
 from rosmini import Graph
 from rosmini.graph.log_gates import LogGates
 from rosmini.graph.rosout import LoggerTree
@@ -169,3 +171,14 @@ def test_the_last_message_is_for_listeners_that_come_later(simulated: Graph) -> 
     simulated.node("late").subscriber("/rosout", simulated.log_class, heard.append)
     simulated.run(0.1)
     assert [message.msg for message in heard] == ["kept"]
+
+
+def test_each_place_of_a_built_in_node_is_throttled_by_itself(capsys):
+    """The first of two different warnings of map_server once kept the second one quiet."""
+    node = Graph().node("server")
+    text = (
+        "for _ in range(3):\n    node.logwarn('one', throttle=5.0)\n    node.logwarn('two', throttle=5.0)\n"
+    )
+    file = Path(rosmini.__file__).parent / "navigation" / "made_up.py"
+    exec(compile(text, str(file), "exec"), {"node": node})
+    assert [line.rpartition(" ")[2] for line in texts(capsys)] == ["one", "two"]
