@@ -115,6 +115,8 @@ def cell_problems(cell: nbformat.NotebookNode) -> Iterator[str]:
     uncomparable = UNCOMPARABLE.search(cell.source)
     if uncomparable:
         yield f"uses {uncomparable[1]}, whose output nbval cannot compare"
+    if cell.source.rstrip().endswith(";") and not cell.source.startswith("%%"):
+        yield "hides its value with a semicolon, which nbval does not see: assign it"
     lines = [line for line in cell.source.splitlines() if line.strip() and not line.strip().startswith("#")]
     most = MAX_SCRIPT_LINES if cell.source.startswith("%%node ") else MAX_CODE_LINES
     if len(lines) > most:

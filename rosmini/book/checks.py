@@ -141,7 +141,12 @@ def expect_type(
 
 
 def expect_number(found: object, what: str) -> float:
-    """The number that a function returned; expect a finite or infinite one that is not a bool."""
+    """The number that a function returned; expect a finite or infinite one that is not a bool.
+
+    numpy's functions make arrays without a dimension of numbers (`np.where`): these are numbers, too.
+    """
+    if getattr(found, "shape", None) == ():
+        found = cast("Any", found).item()
     expect(
         isinstance(found, Real) and not isinstance(found, bool) and not math.isnan(found),
         f"It returned {found!r}, which is no {what}.",

@@ -29,6 +29,10 @@ if TYPE_CHECKING:
     from .console import Console
 
 
+PATIENCE = 60.0
+"""How long ``instance()`` waits for a node to be set up [s of graph time]."""
+
+
 @dataclass(frozen=True)
 class NodeSpec:
     """A built-in node to run, with its ROS arguments."""
@@ -72,17 +76,24 @@ class NodeHandle(LaneHandle):
     def instance(self) -> Any:
         """Wait until the node is set up and return the object that it made; raises what it raised meanwhile.
 
-        Raises ``ScriptError`` if it was never started.
+        Raises ``ScriptError`` if it was never started, or is not set up after ``PATIENCE`` of graph time: a costmap
+        waits for its frames as long as it takes. It goes on then, and may be asked again.
         """
         if self._ready is None:
             raise ScriptError(f"{self.name} was not started; call start() first")
         if not self._is_set_up and self._problem is None:
             self._awaited = True
             try:
-                self._ready.wait()
+                is_ready = self._ready.wait(round(PATIENCE * 1e9))
             except BaseException:
                 self._set_up_lane.kill()
                 raise
+            self._awaited = False
+            if not is_ready:
+                raise ScriptError(
+                    f"{self.name} is still being set up after {PATIENCE:g} s. What it waits for is in its log; "
+                    "start that and ask again, or kill() it"
+                )
         if self._problem is not None:
             raise self._problem
         return self._instance

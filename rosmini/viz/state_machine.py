@@ -85,11 +85,13 @@ def state_machine(
     visited: Sequence[str] = (),
     title: str,
     direction: Direction = "down",
+    first: str | None = None,
     alt: str | None = None,
 ) -> Picture:
     """Draw a state machine; a state without a way out is final. Raises ``ViewError`` for an unknown visited state.
 
-    ``alt`` says what is drawn to those who do not see it; None names the states.
+    ``first`` is the state where it begins: the picture begins there, too. ``alt`` says what is drawn to those who do
+    not see it; None names the states.
     """
     labels: dict[tuple[str, str], list[str]] = {}
     for source, label, target in transitions:
@@ -104,7 +106,7 @@ def state_machine(
     alt = alt or _alt(states, ends, visited)
     edges = [_edge_of(pair, names) for pair, names in labels.items()]
     vertices = [Vertex(state, text_width(state, style.TEXT_SIZE) + 24, HEIGHT) for state in states]
-    layout = layered(vertices, edges, direction=direction)
+    layout = layered(vertices, edges, direction=direction, first=first)
     svg = _draw(layout, edges, labels, ends, visited, title, alt)
     return Picture(svg, text=text, alt=alt, caption=title)
 

@@ -66,6 +66,10 @@ def test_a_clean_notebook_has_no_problems():
             code("clear_output()"),
             "cell 1 uses clear_output, whose output nbval cannot compare: 'clear_output()'",
         ),
+        (
+            code("save('a');"),
+            "cell 1 hides its value with a semicolon, which nbval does not see: assign it: \"save('a');\"",
+        ),
         (code("x", 1, stream("A=/opt/ros/x")), "cell 1 printed a path of this machine ('/opt/r'): 'x'"),
         (
             code("x", 1, stream("<f at 0x7f00deadbeef>")),

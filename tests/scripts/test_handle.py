@@ -356,6 +356,24 @@ def test_what_a_node_raises_is_printed_unless_somebody_asks_for_its_object(simul
     assert len(simulated_runs.said) == count
 
 
+def test_a_node_that_waits_for_ever_is_not_waited_for_so_long(simulated_runs):
+    """`rosrun costmap_2d costmap_2d_node` with a frame that never comes once held up whoever asked for its object."""
+    came = []
+
+    def patient(node):
+        while not came:
+            node.sleep(1.0)
+        return "set up"
+
+    handle = simulated_runs.node(patient)
+    with pytest.raises(ScriptError, match=r"still being set up after 60 s"):
+        handle.instance()
+    assert handle.poll() is None
+    came.append("the frame")
+    assert handle.instance() == "set up"
+    handle.kill()
+
+
 def test_a_script_waits_for_what_it_started(simulated_runs, tmp_path, monkeypatch):
     package = tmp_path / "talk"
     (package / "scripts").mkdir(parents=True)

@@ -59,3 +59,21 @@ def test_a_machine_without_an_end():
     picture = state_machine([("day", "dusk", "night"), ("night", "dawn", "day")], title="t")
     assert "final" not in picture.text
     assert picture.alt == "State machine with the states day, night."
+
+
+def test_a_picture_begins_at_its_first_state():
+    """Of a circle any state could be above; a reader looks there for the one where it begins."""
+    steps = [
+        ("PLANNING", "plan", "CONTROLLING"),
+        ("CONTROLLING", "stuck", "CLEARING"),
+        ("CLEARING", "done", "PLANNING"),
+    ]
+    for first in ("PLANNING", "CONTROLLING", "CLEARING"):
+        picture = state_machine(steps, title="a circle", first=first)
+        root = ET.fromstring(picture.svg)
+        tops = {
+            "".join(g.itertext()): float(g[0].get("y"))
+            for g in root.iter(f"{SVG}g")
+            if g.get("class") == "rm-state"
+        }
+        assert min(tops, key=tops.get) == first

@@ -38,6 +38,8 @@ def cell_of(answer: Any) -> None:
         found = answer(*place, grid.to_message().info)
         wanted = grid.world_to_map(*place)
         where = f"On a map of 10 x 3 cells of 0.1 m with its origin at {tuple(round(n, 2) for n in origin)}"
+        if isinstance(found, list | np.ndarray):
+            found = tuple(found)
         expect(
             found is None or (isinstance(found, tuple) and len(found) == 2),
             f"{where} it returned {found!r} for {place}.",
@@ -47,7 +49,7 @@ def cell_of(answer: Any) -> None:
 
 
 def _named(cell: tuple[int, int] | None) -> str:
-    return "outside" if cell is None else f"in the cell {cell}"
+    return "outside" if cell is None else f"in the cell ({cell[0]}, {cell[1]})"
 
 
 # ---- 32.2: pixels ----
@@ -147,9 +149,14 @@ def lift(answer: Script) -> None:
             trial.run(0.5)
             failed = trial.output.count("[ERROR]") > errors
             if name == "cellar.yaml":
-                named = failed and name in trial.output.rpartition("[ERROR]")[2]
+                logged = trial.output.rpartition("[ERROR]")[2]
                 expect(
-                    named,
+                    " raised " not in logged,
+                    f"There is no {name}, and your callback fails of it.",
+                    "a callback that fails is logged by ROS; log your own error, and return",
+                )
+                expect(
+                    failed and name in logged,
                     f"There is no {name}, and no error of yours names it.",
                     "answer.result, rospy.logerr",
                 )

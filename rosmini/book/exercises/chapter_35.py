@@ -37,7 +37,7 @@ def window(answer: Any) -> None:
     for velocity, limits, accelerations, period, hint in WINDOWS:
         found = answer(velocity, limits, accelerations, period)
         expect(
-            isinstance(found, tuple | list) and len(found) == 4,
+            isinstance(found, tuple | list | np.ndarray) and len(found) == 4,
             f"It returned {found!r}.",
             "four numbers: low v, high v, low w, high w",
         )

@@ -79,11 +79,13 @@ def patrol(answer: Script) -> None:
         wanted = [(1.0, 0.0), (2.0, 1.0), (0.0, 2.0)]
         expect(bool(played.begun), "No goal came to move_base within 15 s.", "client.send_goal(goal)")
         expect(
-            not played.faults, f"A goal is wrong: {played.faults[:1]}.", "header.frame_id, orientation.w = 1"
+            not played.faults,
+            f"A goal is wrong: {''.join(played.faults[:1])}.",
+            "header.frame_id, orientation.w = 1",
         )
         expect(
             not played.cut,
-            f"The goal {played.cut[:1]} was preempted by the next one.",
+            f"The goal {str(played.cut[:1])[1:-1]} was preempted by the next one.",
             "wait_for_result() before the next goal",
         )
         expect(
@@ -122,7 +124,7 @@ def courier(answer: Script) -> None:
         )
         expect(
             not played.cut,
-            f"The goal {played.cut[:1]} was preempted by the next one.",
+            f"The goal {str(played.cut[:1])[1:-1]} was preempted by the next one.",
             "wait_for_result() in the callback",
         )
         expect(
@@ -130,7 +132,11 @@ def courier(answer: Script) -> None:
             f"Five places came, and the goals were {played.begun}.",
             "go on after a goal that failed",
         )
-        expect(not played.faults, f"A goal is wrong: {played.faults[:1]}.", "the pose that came is the goal")
+        expect(
+            not played.faults,
+            f"A goal is wrong: {''.join(played.faults[:1])}.",
+            "the pose that came is the goal",
+        )
         wanted = [failures.get(place, "arrived") for place in places]
         expect(
             heard == wanted,

@@ -87,22 +87,25 @@ class Samples:
         return f"{self.critics[critic]}: {words}{place}"
 
     def table(self, count: int = 8) -> str:
-        """The `count` cheapest, and of each critic that rejected any the first one, with what each critic added."""
+        """The `count` cheapest, and of each critic that rejected any the first one, with what each critic added.
+
+        Columns that are 0 in all these rows are left out; below are the reasons of those that were rejected.
+        """
         accepted = np.flatnonzero(self.accepted)
         cheapest = accepted[np.argsort(self.totals[accepted].round(6), kind="stable")][:count]
         rejected = [np.flatnonzero(self.rejected_by == critic)[:1] for critic in range(len(self.critics))]
         asked = [name for name, scale in zip(self.critics, self.scales, strict=True) if scale]
-        rows = [["number", "x", "y", "theta", *asked, "total"]]
+        rows, reasons = [["number", "x", "y", "theta", *asked, "total"]], []
         for number in (int(n) for n in np.concatenate([cheapest, *rejected])):
             row = self.explain(number)
-            costs = ["-" if row[name] is None else _shown(row[name]) for name in asked]
-            total = self.reason(number) if row["total"] is None else _shown(row["total"])
-            rows.append([str(number), *map(_shown, self.commands[number]), *costs, total])
-        widths = [max(map(len, column)) for column in list(zip(*rows, strict=True))[:-1]]
-        return "\n".join(
-            "  ".join([*(cell.rjust(width) for cell, width in zip(row, widths, strict=False)), row[-1]])
-            for row in rows
-        )
+            costs = ["-" if row[name] is None else _shown(row[name]) for name in [*asked, "total"]]
+            rows.append([str(number), *map(_shown, self.commands[number]), *costs])
+            if row["total"] is None:
+                reasons.append(f"{number}: {self.reason(number)}")
+        columns = [column for column in zip(*rows, strict=True) if {*column[1:]} != {"0.00"}]
+        widths = [max(map(len, column)) for column in columns]
+        lines = ("  ".join(map(str.rjust, row, widths)) for row in zip(*columns, strict=True))
+        return "\n".join([*lines, *reasons])
 
     def nearest(self, x: float, y: float, theta: float) -> int:
         """The number of the sample whose velocity is most like this one.

@@ -22,13 +22,20 @@ PAGE_WIDTH = 680.0
 """Components stand side by side up to this width, or up to that of the widest component."""
 
 
-def layered(vertices: Iterable[Vertex], edges: Iterable[Edge], *, direction: Direction = "right") -> Layout:
+def layered(
+    vertices: Iterable[Vertex],
+    edges: Iterable[Edge],
+    *,
+    direction: Direction = "right",
+    first: str | None = None,
+) -> Layout:
     """Lay out a directed graph in layers that follow its edges to the right or down.
 
     Args:
         vertices: what to place; names are unique.
         edges: from vertex name to vertex name; names are unique. Parallel edges and loops are welcome.
         direction: where edges lead, "right" as in rqt_graph or "down" as in a tree of frames.
+        first: the vertex at which cycles begin; None breaks them where the fewest edges run backwards.
 
     Raises:
         ValueError: a name is used twice, or an edge has an end that is no vertex.
@@ -39,7 +46,7 @@ def layered(vertices: Iterable[Vertex], edges: Iterable[Edge], *, direction: Dir
     _check(vertices, edges)
     if direction == "down":
         vertices, edges = [_turned_vertex(v) for v in vertices], [_turned_edge(e) for e in edges]
-    parts = [_component(some, among, direction) for some, among in _components(vertices, edges)]
+    parts = [_component(some, among, direction, first) for some, among in _components(vertices, edges)]
     layout = _on_shelves(parts, direction)
     return layout if direction == "right" else _turned(layout)
 
@@ -72,11 +79,13 @@ def _components(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> list[tuple
     return [parts[root] for root in sorted(parts, key=lambda root: (-len(parts[root][0]), root))]
 
 
-def _component(vertices: Sequence[Vertex], edges: Sequence[Edge], direction: Direction) -> Layout:
+def _component(
+    vertices: Sequence[Vertex], edges: Sequence[Edge], direction: Direction, first: str | None
+) -> Layout:
     # The name of a group is written along its upper border, whichever way the layers run. Downwards, arrow heads
     # end under it and need room of their own.
     along, across = (GROUP_PAD, GROUP_HEAD) if direction == "right" else (GROUP_HEAD + ARROW_ROOM, GROUP_PAD)
-    proper = make_proper(vertices, edges)
+    proper = make_proper(vertices, edges, first)
     order_layers(proper)
     assign_across(proper, across)
     bands = Bands(proper, along)

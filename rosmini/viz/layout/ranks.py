@@ -14,10 +14,17 @@ Arc = tuple[int, int]
 """An edge as (tail, head), indices of vertices."""
 
 
-def feedback_arcs(count: int, arcs: Sequence[Arc]) -> set[int]:
-    """Indices of arcs that, when reversed, leave no cycle. None of them could be left as it was."""
-    position = {vertex: place for place, vertex in enumerate(_greedy_sequence(count, arcs))}
+def feedback_arcs(count: int, arcs: Sequence[Arc], first: int | None = None) -> set[int]:
+    """Indices of arcs that, when reversed, leave no cycle. None of them could be left as it was.
+
+    A vertex `first` comes before what can be reached from it: of a cycle through it, the arc into it is reversed.
+    """
+    sequence = _greedy_sequence(count, arcs)
+    if first is not None:
+        sequence = [first, *(vertex for vertex in sequence if vertex != first)]
+    position = {vertex: place for place, vertex in enumerate(sequence)}
     backward = [i for i, (tail, head) in enumerate(arcs) if position[tail] > position[head]]
+    backward.sort(key=lambda i: arcs[i][1] == first)
     successors: list[list[int]] = [[] for _ in range(count)]
     for tail, head in arcs:
         if position[tail] < position[head]:

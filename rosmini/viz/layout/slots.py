@@ -89,8 +89,11 @@ class Joined(Generic[T]):
         return first != second
 
 
-def make_proper(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> Proper:
-    """Layer one connected component. `vertices` and `edges` come sorted, sizes as (along, across) the layers."""
+def make_proper(vertices: Sequence[Vertex], edges: Sequence[Edge], first: str | None = None) -> Proper:
+    """Layer one connected component. `vertices` and `edges` come sorted, sizes as (along, across) the layers.
+
+    Cycles begin at the vertex named `first`, if it is one of these.
+    """
     loops: dict[str, list[Edge]] = {}
     straight: list[Edge] = []
     for edge in edges:
@@ -100,7 +103,7 @@ def make_proper(vertices: Sequence[Vertex], edges: Sequence[Edge]) -> Proper:
             straight.append(edge)
     index = {vertex.name: i for i, vertex in enumerate(vertices)}
     arcs = [(index[edge.source], index[edge.target]) for edge in straight]
-    back = feedback_arcs(len(vertices), arcs)
+    back = feedback_arcs(len(vertices), arcs, index.get(first or ""))
     forward = [(head, tail) if i in back else (tail, head) for i, (tail, head) in enumerate(arcs)]
     lengths = [2 if edge.labelled else 1 for edge in straight]
     forward, lengths = _with_group_ties(vertices, forward, lengths)

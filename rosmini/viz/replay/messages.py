@@ -99,7 +99,7 @@ def run_of(
 
     Args:
         log: the messages.
-        topics: only these, and transforms; None: all that can be shown.
+        topics: only these, the updates of grids among them, and transforms; None: all that can be shown.
         frame: what everything is drawn in; None: map, odom or world, whichever there is first.
         outline: of the robots, in their frames [m].
         start_at: where a robot is known to have been at the start, in what is drawn: a fixed frame in which it stood
@@ -152,7 +152,10 @@ def _shown(log: Log, topics: Collection[str] | None) -> list[str]:
     return [
         topic
         for topic, kind in sorted(log.topics.items())
-        if (kind in COLLECTORS or kind == UPDATE) and (topics is None or topic in topics)
+        if (kind in COLLECTORS or kind == UPDATE)
+        and (
+            topics is None or topic in topics or (kind == UPDATE and topic.removesuffix("_updates") in topics)
+        )
     ]
 
 

@@ -132,6 +132,7 @@ MISTAKES = {
         _but(LIFT, "answer.result != answer.RESULT_SUCCESS", "False"),
         _but(LIFT, "answer.result != answer.RESULT_SUCCESS", "True"),
         _but(LIFT, ': %s", message.data', '"'),
+        _but(LIFT, "rospy.logerr(", "raise RuntimeError("),
         _but(LIFT, "    if answer", "    rospy.signal_shutdown('done')\n    if answer"),
     ],
 }
