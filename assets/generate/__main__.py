@@ -1,10 +1,10 @@
-"""`python -m assets.generate`: make the committed worlds, maps, meshes, pictures and stubs again, in this checkout."""
+"""`python -m assets.generate`: make the committed worlds, maps, .rviz files, meshes, pictures and stubs again."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from . import pictures, stubs, worlds
+from . import pictures, rviz_files, stubs, worlds
 from .drawings import DRAWINGS
 from .meshes import turtlebot3
 
@@ -14,6 +14,7 @@ CHECKOUT = Path(__file__).resolve().parents[2]
 def texts() -> dict[str, str]:
     """Every file that is compared byte by byte, by its path in a checkout."""
     made = {f"assets/ros/{path}": text for path, text in worlds.sdf_texts().items()}
+    made |= {f"assets/ros/{path}": text for path, text in rviz_files.texts().items()}
     for name, text in turtlebot3.files().items():
         made[f"assets/ros/turtlebot3_description/meshes/{name}"] = text
     made["book/static/talker_listener.svg"] = pictures.talker_and_listener() + "\n"

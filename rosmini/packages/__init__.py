@@ -18,7 +18,7 @@ from .executables import (
     built_in_nodes,
     reconfigure_modules,
 )
-from .folders import MANIFEST, Crawled, assets_dir, crawl, own_dirs, package_around, search_paths
+from .folders import MANIFEST, Crawled, address_of, assets_dir, crawl, own_dirs, package_around, search_paths
 from .index import BUILT_IN, LONGEST, SCHEME, PackageIndex
 from .manifest import Export, Package, Stack, read_package, read_stack
 
@@ -36,6 +36,7 @@ __all__ = [
     "Package",
     "PackageIndex",
     "Stack",
+    "address_of",
     "assets_dir",
     "built_in_nodes",
     "crawl",

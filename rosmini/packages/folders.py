@@ -29,6 +29,12 @@ def assets_dir() -> Path:
     )
 
 
+def address_of(path: Path) -> str:
+    """Return a path as it is shown: of a file that rosmini brings ``package://NAME/PATH``, the same on any machine."""
+    ours = assets_dir() / "ros"
+    return f"package://{path.relative_to(ours).as_posix()}" if path.is_relative_to(ours) else str(path)
+
+
 def search_paths(environ: Mapping[str, str] | None = None) -> tuple[Path, ...]:
     """Where packages are looked for: the folders of ``ROS_PACKAGE_PATH``, then rosmini's own assets."""
     value = (os.environ if environ is None else environ).get("ROS_PACKAGE_PATH", "")

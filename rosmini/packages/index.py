@@ -35,10 +35,12 @@ BUILT_IN = {
     ),
     **dict.fromkeys(["gencpp", "geneus", "genlisp", "gennodejs"], _OTHER),
     "cmake_modules": "that is for CMake, which rosmini does not run; its `catkin_make` reads CMakeLists.txt itself",
+    "cartographer_ros": "rosmini has no Cartographer: gmapping and hector_mapping make maps here",
+    "slam_karto": "rosmini has no Karto: gmapping and hector_mapping make maps here",
     "rosclean": "that removes old log files; rosmini keeps none unless ROS_LOG_DIR says where",
     "rospack": "that is the tool: `rosmini rospack`",
 }
-"""Packages of ROS's core that need no folder here, and what serves instead."""
+"""Packages that have no folder here, and what serves instead."""
 
 
 class PackageIndex:

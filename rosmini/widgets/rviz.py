@@ -29,7 +29,7 @@ from .rqt.panel import Panel, bar
 from .rqt.parts import Control, Drawing, Row, Rows, Words
 
 if TYPE_CHECKING:
-    from rosmini.graph import Graph
+    from rosmini.graph import Graph, Node
     from rosmini.viz.rviz import Display, Layer
     from rosmini.viz.rviz.primitives import Floats, Primitive
     from rosmini.viz.rviz.projection import Projection
@@ -54,6 +54,7 @@ class RVizWindow(Panel):
         config: a `.rviz` file, or its path; without one, displays are chosen by what is published.
         fixed_frame: overrides that of the file.
         name: of the window's node, without which another window takes this one's place; `rviz` by default.
+        node: what listens and publishes, in place of a node of the window's own.
         height: of the picture [CSS px].
 
     Raises:
@@ -67,11 +68,11 @@ class RVizWindow(Panel):
 
     def __init__(
         self, graph: Graph, config: Config | str | Path | None = None, *, fixed_frame: str | None = None,
-        name: str | None = None, height: float = 0.62 * WIDTH,
+        name: str | None = None, node: Node | None = None, height: float = 0.62 * WIDTH,
     ) -> None:  # fmt: skip
         chosen = suggested(graph, fixed_frame) if config is None else config
         found = chosen if isinstance(chosen, Config) else Config.read(chosen)
-        super().__init__(graph, name=name)
+        super().__init__(graph, name=name, node=node)
         self.scene = Scene(graph, found, fixed_frame=fixed_frame, node=self.node)
         self.tools = Tools(self.scene)
         self.time = TimePanel(self.scene)

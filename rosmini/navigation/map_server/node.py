@@ -11,14 +11,13 @@ What differs: `change_map` says by its result what was wrong; there it is always
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError, UsageError
 from rosmini.files import path_of
 from rosmini.graph.clock import TopicClock
 from rosmini.msgs import message_class, service_class
-from rosmini.packages import PackageIndex, assets_dir
+from rosmini.packages import PackageIndex, address_of
 from rosmini.parameters import Parameters, parameter
 
 from .grid_map import GridMap, MapError, MapMetadataError, MapMissing
@@ -85,7 +84,7 @@ class MapServer:
         return f"<MapServer {self.node.name}: {self.grid!r}>"
 
     def _load(self, file: MapFile) -> GridMap:
-        self.node.loginfo(f'Loading map from image "{_shown(file.image)}"')
+        self.node.loginfo(f'Loading map from image "{address_of(file.image)}"')
         return file.load()
 
     def _deprecated(self, image: str, resolution: str) -> MapFile:
@@ -137,12 +136,6 @@ def _path_of(address: str) -> str:
         return str(PackageIndex().resolve(address))
     except RosminiError as error:
         raise MapMissing(str(error)) from error
-
-
-def _shown(path: Path) -> str:
-    """A path for the log; of a map that rosmini brings the address in its package, which is the same everywhere."""
-    ours = assets_dir() / "ros"
-    return f"package://{path.relative_to(ours).as_posix()}" if path.is_relative_to(ours) else str(path)
 
 
 def _words_of(error: MapError, path: str) -> str:

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from rosmini.errors import RosminiError
+from rosmini.packages import SCHEME, PackageIndex
 from rosmini.viz.view import ViewError
 from rosmini.yaml_text import documents
 
@@ -81,12 +83,17 @@ class Config:
 
     @classmethod
     def read(cls, path: str | Path) -> Config:
-        """Read a file.
+        """Read a file, given by its path or its address ``package://NAME/PATH``.
 
         Raises:
             ConfigError: it cannot be read, is no YAML, is too large, or is no configuration of RViz.
 
         """
+        try:
+            if str(path).startswith(SCHEME):
+                path = PackageIndex().resolve(str(path))
+        except RosminiError as error:
+            raise ConfigError(f"the configuration {path} cannot be read: {error}") from error
         try:
             with Path(path).open("rb") as file:
                 data = file.read(MOST_BYTES + 1)

@@ -38,6 +38,7 @@ class Panel(View):
     Args:
         graph: the graph that is looked at.
         name: of the panel's node, without which another of the kind takes this one's place; the tool's by default.
+        node: what acts on the graph, in place of a node of the panel's own.
 
     """
 
@@ -48,18 +49,14 @@ class Panel(View):
     plugin: ClassVar[str]
     """What a perspective calls it: ``rqt_console/Console``."""
 
-    def __init__(self, graph: Graph, *, name: str | None = None) -> None:
+    def __init__(self, graph: Graph, *, name: str | None = None, node: Node | None = None) -> None:
         self.graph = graph
         self.message = ""
         """What the last thing that was done did."""
         self.problem = ""
         """Why the last thing that :meth:`set` was to do was refused."""
         self._link: Any = None
-        name = name or self.tool
-        before = graph.nodes.get(resolve(name, "/"))
-        if isinstance(before, PanelNode):
-            before.shutdown("a new panel took its place")
-        self._node = PanelNode(name, graph)
+        self._node = node or _own_node(graph, name or self.tool)
 
     @property
     def node(self) -> Node:
@@ -189,6 +186,14 @@ class Panel(View):
 
             self._link = PanelLink(self)
         return self._link
+
+
+def _own_node(graph: Graph, name: str) -> PanelNode:
+    """Start the node of a panel, in place of that of an earlier one of its name."""
+    before = graph.nodes.get(resolve(name, "/"))
+    if isinstance(before, PanelNode):
+        before.shutdown("a new panel took its place")
+    return PanelNode(name, graph)
 
 
 def bar(*cells: str | Control) -> Bar:

@@ -1,0 +1,136 @@
+"""The launch files for navigation: their nodes start and stay, a map or a goal comes, and what is wrong is one line."""
+
+from __future__ import annotations
+
+import pytest
+
+from rosmini.graph import Graph
+from rosmini.launch import LaunchError, plan_of, roslaunch
+from rosmini.msgs import message_class
+from rosmini.navigation.nav_core import pose_stamped
+from rosmini.time import Time
+
+
+@pytest.fixture
+def graph():
+    with Graph(strict=False) as graph:
+        yield graph
+
+
+@pytest.fixture
+def model(monkeypatch):
+    monkeypatch.setenv("TURTLEBOT3_MODEL", "burger")
+
+
+def hear(graph, topic, kind):
+    heard = []
+    graph.node("ear", anonymous=True).subscriber(topic, message_class(kind), heard.append)
+    return heard
+
+
+def send(graph, namespace, goal):
+    """Send a goal (x, y, yaw) in the map; return what the results will be in."""
+    node = graph.node("tester", anonymous=True)
+    topic = f"{namespace}/move_base_simple/goal"
+    goals = node.publisher(topic, message_class("geometry_msgs/PoseStamped"), queue_size=1)
+    results = hear(graph, f"{namespace}/move_base/result", "move_base_msgs/MoveBaseActionResult")
+    graph.run(0.2)
+    goals.publish(pose_stamped("map", Time(0), goal))
+    return results
+
+
+def statuses(results):
+    return [(one.status.status, one.status.text) for one in results]
+
+
+REACHED = [(3, "Goal reached.")]
+
+
+def test_an_erratic_maps_the_floor_on_its_way_to_a_goal(graph, capsys):
+    launch = roslaunch("navigation_stage", "move_base_gmapping_5cm.launch", graph=graph)
+    maps = hear(graph, "/map", "nav_msgs/OccupancyGrid")
+    graph.run(3.0)
+    assert [name for name, code in launch.state().codes if code is None] == [
+        "/move_base_node", "/stageros", "/slam_gmapping", "/rviz",
+    ]  # fmt: skip
+    assert "To look: %rviz -d package://navigation_stage/single_robot.rviz" in capsys.readouterr().out
+    results = send(graph, "", (0.7, 0.0, 0.0))
+    graph.run(10.0)
+    assert statuses(results) == REACHED
+    known = sum(cell >= 0 for cell in maps[-1].data) * 0.05**2
+    assert known > 10.0  # m^2
+
+
+def test_move_base_launched_once_more_takes_the_name_of_the_first(graph, capsys):
+    """The report's second command, beside a launch file that includes it already."""
+    first = roslaunch("navigation_stage", "move_base_gmapping_5cm.launch", graph=graph, open_rviz=False)
+    graph.run(2.0)
+    second = roslaunch("navigation_stage", "move_base.xml", graph=graph)
+    graph.run(2.0)
+    said = capsys.readouterr()
+    assert "new node registered with same name" in said.out + said.err
+    assert dict(first.state().codes)["/move_base_node"] is not None
+    assert dict(second.state().codes)["/move_base_node"] is None
+
+
+def test_an_erratic_finds_itself_and_its_goal_on_a_known_map(graph):
+    roslaunch("navigation_stage", "move_base_amcl_5cm.launch", graph=graph, open_rviz=False)
+    poses = hear(graph, "/amcl_pose", "geometry_msgs/PoseWithCovarianceStamped")
+    graph.run(3.0)
+    results = send(graph, "", (0.7, 0.0, 0.0))
+    graph.run(10.0)
+    assert statuses(results) == REACHED
+    assert poses[-1].pose.pose.position.x == pytest.approx(0.7, abs=0.35)
+
+
+def test_each_of_two_erratics_goes_to_a_goal_of_its_own(graph):
+    roslaunch("navigation_stage", "move_base_multi_robot.launch", graph=graph, open_rviz=False)
+    graph.run(3.0)
+    results = [send(graph, "/robot_0", (0.7, 0.0, 0.0)), send(graph, "/robot_1", (4.3, 0.0, 3.14))]
+    graph.run(10.0)
+    assert [statuses(each) for each in results] == [REACHED, REACHED]
+
+
+def test_a_map_and_no_way_back_are_arguments(model):
+    plan = plan_of(
+        "turtlebot3_navigation", "turtlebot3_navigation.launch", map_file="/my.yaml", move_forward_only=True
+    )
+    assert plan.node("/map_server").args == "/my.yaml"
+    assert plan.settings["/move_base/DWAPlannerROS/min_vel_x"].value == 0.0
+    of_many = plan_of("turtlebot3_navigation", "multi_turtlebot3_navigation.launch", ns="tb3_7")
+    assert of_many.settings["/tb3_7/move_base/DWAPlannerROS/min_vel_x"].value == -0.1
+    assert of_many.settings["/tb3_7/move_base/global_costmap/scan/sensor_frame"].value == "tb3_7/base_scan"
+
+
+@pytest.mark.parametrize("files", [
+    ("turtlebot3_navigation", "turtlebot3_navigation.launch"), ("turtlebot3_slam", "turtlebot3_slam.launch"),
+    ("turtlebot3_bringup", "turtlebot3_model.launch"), ("turtlebot3_gazebo", "turtlebot3_world.launch"),
+])  # fmt: skip
+def test_without_a_model_one_line_says_what_to_do(files, monkeypatch):
+    monkeypatch.delenv("TURTLEBOT3_MODEL", raising=False)
+    with pytest.raises(LaunchError) as raised:
+        plan_of(*files)
+    assert "\n" not in str(raised.value)
+    assert "'TURTLEBOT3_MODEL' is not set: export TURTLEBOT3_MODEL=" in str(raised.value)
+
+
+@pytest.mark.parametrize(("method", "said"), [
+    ("karto", "rosmini has no Karto: gmapping and hector_mapping make maps here"),
+    ("cartographer", "rosmini has no Cartographer: gmapping and hector_mapping make maps here"),
+])  # fmt: skip
+def test_mappers_that_are_not_here_are_named(method, said, graph, model, capsys):
+    launch = roslaunch("turtlebot3_slam", "turtlebot3_slam.launch", graph=graph, slam_methods=method)
+    assert {node.package for node in launch.failed} <= {"slam_karto", "cartographer_ros"}
+    assert said in capsys.readouterr().out
+
+
+def test_a_method_that_nobody_knows_has_no_launch_file(model):
+    with pytest.raises(
+        LaunchError, match=r"turtlebot3_magic\.launch\] cannot be read: there is no such file"
+    ):
+        plan_of("turtlebot3_slam", "turtlebot3_slam.launch", slam_methods="magic")
+
+
+def test_a_program_is_no_launch_file():
+    with pytest.raises(LaunchError, match=r"(?s)map_saver.*rosrun map_server map_saver"):
+        plan_of("map_server", "map_saver")
