@@ -70,6 +70,8 @@ class ExploreClient:
             action = message_class("frontier_exploration/ExploreTaskAction")
             self.client = SimpleActionClient(self.node, "explore_server", action)
         while not self.client.wait_for_server(PATIENCE):
+            if self.node.is_shutdown():
+                return
             self.node.logwarn(
                 "The area waits for the action server explore_server: start frontier_exploration's explore_server"
             )

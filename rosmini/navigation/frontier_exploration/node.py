@@ -114,6 +114,8 @@ class ExploreServer:
 
     def _wait_for_others(self) -> None:
         while self.action.is_active() and not self.move_base.wait_for_server(PATIENCE):
+            if self.node.is_shutdown():
+                return
             self.node.logwarn("Exploration waits for the action server move_base: start move_base")
         for client in (self._set_boundary, self._next_frontier):
             try:

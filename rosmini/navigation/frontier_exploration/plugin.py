@@ -71,6 +71,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         self._cloud = node.publisher(
             f"{namespace}frontiers", message_class("sensor_msgs/PointCloud2"), queue_size=5
         )
+        self._cloud.expect_nobody()
         for name, kind, handler in (
             ("update_boundary_polygon", "UpdateBoundaryPolygon", self._update_boundary),
             ("get_next_frontier", "GetNextFrontier", self._next_frontier),

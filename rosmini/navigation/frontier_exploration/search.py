@@ -6,7 +6,9 @@ give to the cells). The search spreads from the robot over free cells, so a fron
 found.
 
 From the originals differ: the cell that a frontier was found by counts for its centroid and its distance, too. There
-the sum leaves it out and is divided by all, so that small frontiers have centroids nearer to the map's origin.
+the sum leaves it out and is divided by all, so that small frontiers have centroids nearer to the map's origin. And the
+middle is in the middle. There it is the cell nearest to the robot, which most often lies at the end of a wall, where
+the robot that is sent there gets stuck.
 """
 
 from __future__ import annotations
@@ -37,7 +39,7 @@ class Frontier:
     initial: Point
     """The cell that the search met first."""
     middle: Point
-    """The cell nearest to the robot by the straight line: this is what the original calls so."""
+    """The cell nearest to the centroid."""
     centroid: Point
     """The mean of all; it need not be in one of the cells."""
 
@@ -76,11 +78,10 @@ def _measured(grid: Costmap2D, cells: Ints, here: Point) -> Frontier:
     """A frontier of these cells, seen from `here` [m]."""
     points = np.array(grid.origin) + (cells + 0.5) * grid.resolution
     distances = np.hypot(points[:, 0] - here[0], points[:, 1] - here[1])
-    nearest = int(distances.argmin())
     ix, iy = points[0].tolist()
-    mx, my = points[nearest].tolist()
     cx, cy = points.mean(axis=0).tolist()
-    return Frontier(cells, points, float(distances[nearest]), (ix, iy), (mx, my), (cx, cy))
+    mx, my = points[np.hypot(points[:, 0] - cx, points[:, 1] - cy).argmin()].tolist()
+    return Frontier(cells, points, float(distances.min()), (ix, iy), (mx, my), (cx, cy))
 
 
 def _groups(costs: NDArray[np.uint8], start: Ints) -> Iterator[Ints]:

@@ -48,13 +48,13 @@ def test_an_opening_and_a_corner():
 
 
 def test_its_measures():
-    one, *others = find_frontiers(grid("????\n....\n....", 0.5), 0.25, 0.25)
+    one, *others = find_frontiers(grid("?????\n.....\n.....", 0.5), 0.25, 0.25)
     assert not others
-    assert one.size == 4
+    assert one.size == 5
     assert one.initial == (0.25, 1.25), "the search meets first what is straight ahead"
-    assert one.middle == (0.25, 1.25), "the nearest"
+    assert one.middle == (1.25, 1.25)
     assert one.min_distance == pytest.approx(1.0)
-    assert one.centroid == pytest.approx((1.0, 1.25))
+    assert one.centroid == pytest.approx((1.25, 1.25))
     assert one.points[0].tolist() == [0.25, 1.25]
 
 

@@ -1,0 +1,180 @@
+"""`explore_lite/explore`: drives to the cheapest frontier until none is left, or all were given up.
+
+It takes a map and its updates, sends goals to `move_base`, and shows frontiers on `~frontiers`: blue, or red if given
+up, with a green ball whose size falls with the cost. False on `~resume` stops it, True lets it go on; with
+`return_to_init` it drives back in the end. These two are of the version for ROS 2.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from rosmini.actionlib import SimpleActionClient, Status
+from rosmini.msgs import message_class
+from rosmini.navigation.frontier_exploration import Frontier, find_frontiers
+from rosmini.navigation.nav_core import TransformMissing, pose_stamped
+
+from .costs import Blacklist, Weights, ranked
+from .map_client import PATIENCE, MapClient
+from .parameters import ExploreParameters
+
+if TYPE_CHECKING:
+    from rosmini.graph import Node
+
+Ranked = Sequence[tuple[float, Frontier]]
+
+SOON = 1e-3
+"""After the end of a goal the next one is chosen [s]."""
+BLUE, RED, GREEN = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
+
+
+class Explore:
+    """The node."""
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+        self.parameters = own = ExploreParameters.read(node)
+        self.weights = Weights(own.potential_scale, own.gain_scale, own.min_frontier_size)
+        self.blacklist = Blacklist()
+        self.frontiers: Ranked = ()
+        """Cost and frontier of those that were found the last time, the cheapest first."""
+        self.goal: tuple[float, float] | None = None
+        """The last one sent [m]."""
+        self.sent = 0
+        """How many goals it has sent."""
+        self.is_exploring = False
+        self._distance, self._progress_ns, self._shown = math.inf, 0, 0
+        self._marker = message_class("visualization_msgs/Marker")
+        self._array = message_class("visualization_msgs/MarkerArray")
+        self._markers = node.publisher("~frontiers", self._array, queue_size=10) if own.visualize else None
+        if self._markers is not None:
+            self._markers.expect_nobody()
+        self.map = MapClient(node, own)
+        self._start: tuple[float, float] | None = None
+        self.move_base = SimpleActionClient(node, "move_base", message_class("move_base_msgs/MoveBaseAction"))
+        node.loginfo("Waiting to connect to move_base server")
+        while not self.move_base.wait_for_server(PATIENCE):
+            if node.is_shutdown():
+                return
+            node.logwarn("Still waiting for the action server move_base: start move_base")
+        node.loginfo("Connected to move_base server")
+        node.subscriber("~resume", message_class("std_msgs/Bool"), self._resume, queue_size=10)
+        self.is_exploring = True
+        node.timer(1 / own.planner_frequency, lambda _: self.make_plan())
+
+    def __repr__(self) -> str:
+        doing = "explores" if self.is_exploring else "has stopped"
+        return f"<Explore {self.node.name}: {doing}, {self.sent} goals sent, {len(self.blacklist.points)} given up>"
+
+    # -- the goal ------------------------------------------------------------------------------------------------
+
+    def make_plan(self) -> None:
+        """Choose the frontier to drive to, and send it unless the robot is on its way there."""
+        if not self.is_exploring or not self._look():
+            return
+        while (frontier := self._cheapest()) is not None:
+            is_new = self.goal != frontier.centroid
+            now = self.node.clock.now_ns()
+            if is_new or frontier.min_distance < self._distance:
+                self._distance, self._progress_ns = frontier.min_distance, now
+            self.goal = frontier.centroid
+            if (now - self._progress_ns) * 1e-9 <= self.parameters.progress_timeout:
+                if is_new:
+                    self._send(frontier.centroid)
+                return
+            self._give_up(frontier.centroid, f"no progress for {self.parameters.progress_timeout:g} s")
+        what = "All frontiers traversed/tried out" if self.frontiers else "No frontiers found"
+        self.node.loginfo(f"{what}, stopping.")
+        self._stop(is_finished=True)
+
+    def _look(self) -> bool:
+        """Find the frontiers; whether that was possible."""
+        try:
+            x, y = self.map.robot()
+            found = find_frontiers(self.map.grid, x, y)
+        except (TransformMissing, IndexError) as error:
+            self.node.logwarn(f"Exploration waits for the robot's pose: {error}", throttle=PATIENCE)
+            return False
+        self._start = self._start or (x, y)
+        self.frontiers = ranked(found, self.weights, self.map.grid.resolution)
+        if self._markers is not None and self._markers.num_connections():
+            self._markers.publish(self._array(markers=list(self._drawn())))
+        return True
+
+    def _cheapest(self) -> Frontier | None:
+        """Of those that were not given up."""
+        resolution = self.map.grid.resolution
+        return next(
+            (one for _, one in self.frontiers if not self.blacklist.has(one.centroid, resolution)), None
+        )
+
+    def _give_up(self, point: tuple[float, float], why: str) -> None:
+        self.node.logdebug(f"Adding ({point[0]:.2f}, {point[1]:.2f}) to black list: {why}")
+        self.blacklist.points.append(point)
+
+    def _send(self, point: tuple[float, float]) -> None:
+        self.sent += 1
+        goal = message_class("move_base_msgs/MoveBaseGoal")()
+        goal.target_pose = pose_stamped(self.map.global_frame, self.node.now(), (*point, 0.0))
+        self.move_base.send_goal(goal, done_cb=lambda state, _: self._ended(state, point))
+
+    def _ended(self, state: int, point: tuple[float, float]) -> None:
+        """Look for the next goal at once."""
+        if state == Status.ABORTED:
+            self._give_up(point, self.move_base.get_goal_status_text())
+        if self.is_exploring:
+            # Not in the client's callback: the next goal would be the old one's end.
+            self.node.timer(SOON, lambda _: self.make_plan(), oneshot=True)
+
+    # -- stop and go on ------------------------------------------------------------------------------------------
+
+    def _resume(self, message: Any) -> None:
+        if message.data and not self.is_exploring:
+            self.node.loginfo("Exploration resuming.")
+            self.is_exploring, self.goal = True, None
+            self.make_plan()
+        elif not message.data and self.is_exploring:
+            self._stop(is_finished=False)
+
+    def _stop(self, *, is_finished: bool) -> None:
+        self.is_exploring = False
+        self.move_base.cancel_all_goals()
+        self.node.loginfo("Exploration stopped.")
+        if is_finished and self.parameters.return_to_init and self._start is not None:
+            self.node.loginfo("Attempting to return to initial pose.")
+            self._send(self._start)
+
+    # -- pictures ------------------------------------------------------------------------------------------------
+
+    def _drawn(self) -> Iterator[Any]:
+        """Two markers a frontier, its cells and a ball; and deletions of those that are no longer needed."""
+        resolution = self.map.grid.resolution
+        least = self.frontiers[0][0] if self.frontiers else 0.0
+        point = message_class("geometry_msgs/Point")
+        number = 0
+        for cost, frontier in self.frontiers:
+            is_given_up = self.blacklist.has(frontier.centroid, resolution)
+            cells = self._new(number, self._marker.POINTS, 0.1, RED if is_given_up else BLUE)
+            cells.points = [point(x=x, y=y) for x, y in frontier.points.tolist()]
+            size = min(abs(least * 0.4 / cost), 0.5) if cost else 0.5
+            ball = self._new(number + 1, self._marker.SPHERE, size, GREEN)
+            ball.pose.position.x, ball.pose.position.y = frontier.initial
+            yield from (cells, ball)
+            number += 2
+        for old in range(number, self._shown):
+            gone = self._new(old, self._marker.SPHERE, 0.1, BLUE)
+            gone.action = gone.DELETE
+            yield gone
+        self._shown = number
+
+    def _new(self, number: int, kind: int, size: float, colour: tuple[float, float, float]) -> Any:
+        marker = self._marker()
+        marker.header.frame_id, marker.header.stamp = self.map.global_frame, self.node.now()
+        marker.ns, marker.id, marker.type, marker.frame_locked = "frontiers", number, kind, True
+        marker.pose.orientation.w = 1.0
+        marker.scale.x = marker.scale.y = marker.scale.z = size
+        marker.color.r, marker.color.g, marker.color.b = colour
+        marker.color.a = 1.0
+        return marker

@@ -1,0 +1,14 @@
+"""A stage to explore on."""
+
+from __future__ import annotations
+
+import pytest
+
+from rosmini.graph import Graph
+from tests.navigation.exploring import Stage
+
+
+@pytest.fixture
+def stage():
+    with Graph(strict=False) as graph:
+        yield Stage(graph)
