@@ -159,9 +159,10 @@ def main(args: argparse.Namespace) -> int:
         )
         print(f"written to {args.json}")
     if args.subject == "nav":
-        from . import nav_amcl, nav_quality
+        from . import nav_amcl, nav_hector, nav_quality
 
         nav_amcl.run(quick=args.quick)
+        nav_hector.study(*((1, 30.0) if args.quick else (3, 120.0)))
         nav_quality.run(args.seed, quick=args.quick, file=args.rows)
     return 0
 

@@ -72,9 +72,11 @@ def terrain(world: str) -> tuple[Terrain, NDArray[np.intp]]:
 class _Driver:
     """Drives from one place to the next, and looks at the truth."""
 
-    def __init__(self, graph: Graph, world: str, simulator: Simulator, random: np.random.Generator) -> None:
+    def __init__(
+        self, graph: Graph, world: str, simulator: Simulator, random: np.random.Generator, turn: float
+    ) -> None:
         self.terrain, self.places = terrain(world)
-        self.simulator, self.random = simulator, random
+        self.simulator, self.random, self.turn = simulator, random, turn
         self.node = graph.node("driver")
         self.sender = self.node.publisher("cmd_vel", message_class("geometry_msgs/Twist"), queue_size=1)
         self.path: list[tuple[float, float]] = []
@@ -95,7 +97,7 @@ class _Driver:
         turn = math.remainder(math.atan2(self.path[0][1] - y, self.path[0][0] - x) - yaw, math.tau)
         message = message_class("geometry_msgs/Twist")()
         message.linear.x = SPEED if abs(turn) < BEND else 0.0
-        message.angular.z = max(-TURN, min(TURN, 2.0 * turn))
+        message.angular.z = max(-self.turn, min(self.turn, 2.0 * turn))
         self.sender.publish(message)
 
     def somewhere(self, here: tuple[float, float]) -> list[tuple[float, float]]:
@@ -112,8 +114,11 @@ class _Driver:
         ]
 
 
-def drive(world: str, seed: int, seconds: float) -> Drive:
-    """Drive a burger around in a world from a start at random; a seed gives the same drive again."""
+def drive(world: str, seed: int, seconds: float, *, turn: float = TURN, sweep: bool = True) -> Drive:
+    """Drive a burger around in a world from a start at random; a seed gives the same drive again.
+
+    `turn` is the fastest turn [rad/s]; without `sweep` a scan's beams are measured all at once.
+    """
     random = np.random.default_rng([seed, 36])
     _, places = terrain(world)
     row, column = (int(v) for v in places[random.integers(len(places))])
@@ -129,13 +134,14 @@ def drive(world: str, seed: int, seconds: float) -> Drive:
         node = graph.node("simulator")
         for name, value in zip(("x", "y", "yaw"), (x, y, float(random.uniform(-3, 3))), strict=True):
             node.set_param(f"~{name}", value)
+        node.set_param("~sweep", sweep)
         simulator = Simulator(node, world=world_called(world), model=BURGER)
         ears = graph.node("ears")
         ears.subscriber("scan", message_class("sensor_msgs/LaserScan"), scans.append)
         odometry_type = message_class("nav_msgs/Odometry")
         ears.subscriber("odom", odometry_type, note(odometry))
         ears.subscriber("base_pose_ground_truth", odometry_type, note(truth))
-        _Driver(graph, world, simulator, random)
+        _Driver(graph, world, simulator, random, turn)
         graph.run(seconds)
     assert BURGER.lidar is not None
     stamps = np.array([scan.header.stamp.to_sec() for scan in scans])
