@@ -67,7 +67,7 @@ def house() -> Drive | None:
     if not path.is_file():
         return None
     log = np.load(path)
-    ranges = np.where(log["ranges_mm"] == 0, math.inf, log["ranges_mm"] / 1000.0)
+    ranges: Floats = np.where(log["ranges_mm"] == 0, math.inf, log["ranges_mm"].astype(np.float64) / 1000.0)
     ranges[log["ranges_mm"] == 65535] = 0.0
     bearings = float(log["angle_min"]) + float(log["angle_increment"]) * np.arange(ranges.shape[1])
     poses = log["odom"].astype(float), log["truth"].astype(float)
