@@ -67,9 +67,10 @@ def house() -> Drive | None:
     if not path.is_file():
         return None
     log = np.load(path)
-    ranges: Floats = np.where(log["ranges_mm"] == 0, math.inf, log["ranges_mm"].astype(np.float64) / 1000.0)
+    ranges = np.where(log["ranges_mm"] == 0, math.inf, log["ranges_mm"] / 1000.0)
     ranges[log["ranges_mm"] == 65535] = 0.0
-    bearings = float(log["angle_min"]) + float(log["angle_increment"]) * np.arange(ranges.shape[1])
+    steps = np.arange(ranges.shape[1], dtype=np.float64)
+    bearings: Floats = float(log["angle_min"]) + float(log["angle_increment"]) * steps
     poses = log["odom"].astype(float), log["truth"].astype(float)
     laser = tuple(log["laser_in_base"].tolist())
     return Drive("house", log["t"], *poses, ranges, bearings, float(log["range_max"]), laser)
