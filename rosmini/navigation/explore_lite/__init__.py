@@ -6,6 +6,6 @@
 
 from __future__ import annotations
 
-from .costs import Blacklist, Weights, ranked
+from .costs import Weights, ranked
 
-__all__ = ["Blacklist", "Weights", "ranked"]
+__all__ = ["Weights", "ranked"]

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.actionlib import SimpleActionClient, Status
 from rosmini.msgs import message_class
-from rosmini.navigation.frontier_exploration import Frontier, find_frontiers
+from rosmini.navigation.frontier_exploration import Blacklist, Frontier, find_frontiers
 from rosmini.navigation.nav_core import TransformMissing, pose_stamped
 
-from .costs import Blacklist, Weights, ranked
+from .costs import Weights, ranked
 from .map_client import PATIENCE, MapClient
 from .parameters import ExploreParameters
 

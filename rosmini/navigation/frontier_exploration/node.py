@@ -3,8 +3,9 @@
 It offers the action that is called as the node (`frontier_exploration/ExploreTask`), has a costmap of its own,
 `~explore_costmap`, with a `BoundedExploreLayer` called `explore_boundary`, and sends goals to `move_base`.
 
-From the original differ: before it asks again whether a frontier is left it waits for an update of the costmap; the
-five attempts are each goal's own; and a robot whose pose is not known ends the task.
+From the original differ: a goal that move_base gives up is left out from then on, and the exploration goes on, where
+there it ends with the first of them; before it asks again whether a frontier is left it waits for an update of the
+costmap; the five attempts are each goal's own; and a robot whose pose is not known ends the task.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from rosmini.navigation.nav_core import TransformMissing, planar_pose, pose_stam
 from rosmini.tf import TransformException, TransformListener
 
 from .parameters import ExploreServerParameters
-from .plugin import moved
+from .plugin import BoundedExploreLayer, moved
 from .polygon import has_inside
 
 if TYPE_CHECKING:
@@ -189,7 +190,14 @@ class ExploreServer:
         if state == Status.SUCCEEDED:
             self._moving = False
         elif state == Status.ABORTED and self.action.is_active():
-            self._fail(f"Failed to move: {self.move_base.get_goal_status_text()}")
+            self._moving = False
+            x, y = self._last
+            self.node.logwarn(
+                f"Failed to move to ({x:.2f}, {y:.2f}): {self.move_base.get_goal_status_text()}"
+            )
+            for layer in self.costmap.layers:
+                if isinstance(layer, BoundedExploreLayer):
+                    layer.given_up.points.append(self._last)
 
     # -- the end -------------------------------------------------------------------------------------------------
 

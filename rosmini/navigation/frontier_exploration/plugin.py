@@ -29,7 +29,7 @@ from rosmini.time import Time
 
 from .parameters import CENTROID, CLOSEST, BoundedExploreParameters
 from .polygon import fault
-from .search import Frontier, find_frontiers
+from .search import Blacklist, Frontier, find_frontiers
 
 PATIENCE = 10.0
 """So long it is waited for a transform, and for the boundary to be drawn [s]."""
@@ -65,6 +65,8 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         """The vertices (n, 2) [m] in the costmap's frame; None before there is a boundary."""
         self.frontiers: list[Frontier] = []
         """Those that were found the last time."""
+        self.given_up = Blacklist()
+        """Where nobody is to be sent any more."""
         self._is_drawn = False
         self._has_changed = False
         self.match_size()
@@ -120,6 +122,7 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
     def reset(self) -> None:
         """Forget the boundary."""
         self.boundary, self.frontiers = None, []
+        self.given_up.points.clear()
         self._is_drawn, self._has_changed = False, True
         self.costs[...] = self.grid.default
 
@@ -178,9 +181,15 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
             ) from error
         # A single cell is noise of the map.
         self.frontiers = [one for one in self.frontiers if one.size > 1]
-        if not self.frontiers:
-            raise ServiceRefused("No valid frontiers found, exploration complete")
-        chosen = min(self.frontiers, key=lambda one: one.min_distance)
+        resolution = self.layered.grid.resolution
+        left = [one for one in self.frontiers if not self.given_up.has(self._travel_point(one), resolution)]
+        if not left:
+            count = len(self.frontiers)
+            raise ServiceRefused(
+                "No valid frontiers found, exploration complete"
+                + (f"; {count} were given up" if count else "")
+            )
+        chosen = min(left, key=lambda one: one.min_distance)
         self._publish(chosen)
         px, py = self._travel_point(chosen)
         yaw = math.atan2(py - y, px - x)

@@ -14,7 +14,7 @@ the robot that is sent there gets stuck.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,9 @@ from rosmini.navigation.costmap_2d import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORM
 Bools = NDArray[np.bool_]
 Ints = NDArray[np.int64]
 Point = tuple[float, float]
+
+TOLERANCE = 5
+"""Goals nearer than so many cells, along both axes, to one that was given up count as given up, as in explore_lite."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,3 +126,15 @@ def _met(padded: NDArray[np.uint8], start: int) -> list[int]:
         wave = fresh[rank[fresh] == np.arange(len(fresh))]
         free[wave] = False
     return met
+
+
+@dataclass
+class Blacklist:
+    """Goals that were given up [m]."""
+
+    points: list[Point] = field(default_factory=list)
+
+    def has(self, point: Point, resolution: float) -> bool:
+        """Whether a point is next to one of them."""
+        reach = TOLERANCE * resolution
+        return any(abs(point[0] - x) < reach and abs(point[1] - y) < reach for x, y in self.points)

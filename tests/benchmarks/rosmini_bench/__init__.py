@@ -159,10 +159,14 @@ def main(args: argparse.Namespace) -> int:
         )
         print(f"written to {args.json}")
     if args.subject == "nav":
-        from . import nav_amcl, nav_hector, nav_quality
+        from . import nav_amcl, nav_explore, nav_hector, nav_quality
 
         nav_amcl.run(quick=args.quick)
         nav_hector.study(*((1, 30.0) if args.quick else (3, 120.0)))
+        if args.quick:
+            nav_explore.run(worlds=("maze",), seeds=(args.seed,))
+        else:
+            nav_explore.run(seeds=range(args.seed, args.seed + 20))
         nav_quality.run(args.seed, quick=args.quick, file=args.rows)
     return 0
 

@@ -184,7 +184,7 @@ def hash_of(grid: GridMap) -> str:
 
 
 @dataclass
-class _Watch:
+class Watch:
     """What is seen while the robot drives."""
 
     engine: Any
@@ -242,7 +242,7 @@ def _run(graph: Graph, setup: Setup, errand: Errand, file: Path) -> Outcome:
     for obstacle in () if setup.gap is None else cylinders(setup.gap * width(setup.model)):
         simulator.engine.insert(obstacle)
     node = graph.node("tester")
-    watch = _Watch(simulator.engine, simulator.name)
+    watch = Watch(simulator.engine, simulator.name)
     results: list[Any] = []
     node.subscriber("/move_base/result", message_class("move_base_msgs/MoveBaseActionResult"), results.append)
     recoveries: list[str] = []

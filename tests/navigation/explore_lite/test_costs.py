@@ -1,4 +1,4 @@
-"""Costs of frontiers by explore_lite's formula, and the list of those given up."""
+"""Costs of frontiers by explore_lite's formula."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rosmini.navigation.costmap_2d import Costmap2D
-from rosmini.navigation.explore_lite import Blacklist, Weights, ranked
+from rosmini.navigation.explore_lite import Weights, ranked
 from rosmini.navigation.frontier_exploration import find_frontiers
 
 # Free in the middle, unknown left (2 cells, near) and right (8 cells, far).
@@ -35,11 +35,3 @@ def test_the_way_may_weigh_more():
 @pytest.mark.parametrize(("least", "sizes"), [(0.1, [8, 2]), (0.11, [8]), (0.41, [])])
 def test_small_ones_are_left_out(least, sizes):
     assert [size for _, size in choice(Weights(3.0, 1.0, least))] == sizes
-
-
-def test_given_up_means_next_to_it_too():
-    given_up = Blacklist([(1.0, 2.0)])
-    assert given_up.has((1.24, 1.76), 0.05)
-    assert not given_up.has((1.26, 2.0), 0.05)
-    assert not given_up.has((1.0, 2.26), 0.05)
-    assert not Blacklist().has((0.0, 0.0), 0.05)

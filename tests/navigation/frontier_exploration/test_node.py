@@ -89,12 +89,16 @@ def test_an_area_without_frontiers(stage):
     assert "No valid frontiers found" in text
 
 
-def test_a_base_that_gives_up(stage):
-    stage.know(0.5, 0.5, 1.6, 1.6)
+def test_what_the_base_gives_up_is_left_out(stage):
+    stage.know(0.5, 0.0, 1.6, 3.0)
     stage.answer = "set_aborted"
-    exploration = Exploration(stage)
-    assert exploration.explore() is Status.ABORTED
-    assert exploration.client.get_goal_status_text().startswith("Failed to move")
+    exploration = Exploration(stage, frequency=0.0)
+    assert exploration.explore() is Status.SUCCEEDED
+    assert len(stage.goals) == 2, "the left one and the right one, each once"
+    assert stage.said("Failed to move to (")
+    stage.answer = "set_succeeded"
+    assert exploration.explore() is Status.SUCCEEDED
+    assert len(stage.goals) > 2, "a new area begins afresh"
 
 
 @pytest.mark.parametrize(

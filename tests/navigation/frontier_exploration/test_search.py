@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from rosmini.navigation.costmap_2d import Costmap2D
-from rosmini.navigation.frontier_exploration import find_frontiers, frontier_cells
+from rosmini.navigation.frontier_exploration import Blacklist, find_frontiers, frontier_cells
 
 COSTS = {".": 0, "?": 255, "#": 254, "o": 100}
 
@@ -135,3 +135,11 @@ def test_it_finds_what_the_definition_says_in_the_same_order(costs, data):
     assert [tuple(one.cells[0].tolist()) for one in found] == [group[0] for group in wanted]
     together = frontier_cells(costs)
     assert all(together[my, mx] for one in found for mx, my in one.cells)
+
+
+def test_given_up_means_next_to_it_too():
+    given_up = Blacklist([(1.0, 2.0)])
+    assert given_up.has((1.24, 1.76), 0.05)
+    assert not given_up.has((1.26, 2.0), 0.05)
+    assert not given_up.has((1.0, 2.26), 0.05)
+    assert not Blacklist().has((0.0, 0.0), 0.05)

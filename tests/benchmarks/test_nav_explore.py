@@ -1,0 +1,45 @@
+"""What the study of exploration counts, and one short run of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from rosmini_bench import nav_explore
+from rosmini_bench.nav_explore import Explored, table
+from rosmini_bench.nav_trial import place
+
+from rosmini.sim.worlds import world
+
+
+def test_the_share_of_a_map_that_knows_all_half_or_nothing():
+    grid, _, _ = place("room")
+    start = world("room").starts[0]
+    message = grid.to_message()
+    message.info.origin.position.x -= start[0]
+    message.info.origin.position.y -= start[1]
+    assert nav_explore.share(message, start, "room") == pytest.approx(1.0)
+    cells = np.asarray(message.data).reshape(message.info.height, message.info.width).copy()
+    cells[: message.info.height // 2] = -1
+    message.data = cells.ravel()
+    assert 0.2 < nav_explore.share(message, start, "room") < 0.8
+    message.data = np.full(cells.size, -1, dtype=np.int8)
+    assert nav_explore.share(message, start, "room") == 0.0
+
+
+def test_the_table():
+    runs = [
+        Explored("maze", "explore_lite", 1, "Exploration stopped.", 400.0, 80.0, 0.99, 60, 0, 20.0),
+        Explored("maze", "explore_lite", 2, "", 2400.0, 100.0, 0.5, 90, 1, 40.0),
+    ]
+    head, row = table(runs)
+    assert "seen all" in head
+    assert row.startswith("maze     explore_lite           1/2")
+    assert "46.7" in row, "2800 s in 60 s of the processor"
+
+
+def test_a_run_that_is_cut_short():
+    one = nav_explore.explore("maze", "explore_lite", 1, longest=12.0)
+    assert not one.ended
+    assert 0.0 < one.share < 0.9
+    assert one.goals >= 1
+    assert one.driven > 0.2
