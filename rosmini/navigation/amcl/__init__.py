@@ -8,7 +8,7 @@ from the node.
 from __future__ import annotations
 
 from .field import LikelihoodField
-from .filter import ParticleFilter
+from .filter import ParticleFilter, show_steps
 from .motion import MODELS, moved
 
-__all__ = ["MODELS", "LikelihoodField", "ParticleFilter", "moved"]
+__all__ = ["MODELS", "LikelihoodField", "ParticleFilter", "moved", "show_steps"]

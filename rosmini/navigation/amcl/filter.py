@@ -11,8 +11,9 @@ ends where the heading wraps around; here it does not, so that a robot that look
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from rosmini.errors import RosminiError
 from rosmini.geometry.angles import normalize_angle
 from rosmini.geometry.poses import Pose
+from rosmini.graph.show import show
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -254,3 +256,10 @@ def summed(particles: Floats, weights: Floats) -> Cluster:
     covariance[:2, :2] = (off * shares[:, None]).T @ off
     covariance[2, 2] = -2 * math.log(max(math.hypot(cos, sin), 1e-300))
     return Cluster(weight, (x, y, math.atan2(sin, cos)), covariance, len(particles))
+
+
+def show_steps(
+    grid: Any, steps: Sequence[tuple[str, ArrayLike, ArrayLike | None, Any]], **options: Any
+) -> Any:
+    """A filter on a map, with a slider. A step: its name, particles (n, 3), weights or None, true pose or None."""
+    return show("filter_steps", grid, steps=steps, **options)
