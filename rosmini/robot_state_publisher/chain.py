@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 
 from rosmini.tf.rigid import Rigid, compose, from_rpy, rigid
 from rosmini.urdf import Joint, Robot
@@ -14,7 +15,7 @@ Sent = tuple[str, str, Rigid]
 
 def joint_transform(joint: Joint, position: float = 0.0) -> Rigid:
     """The child's frame in the parent's with the joint at `position` [rad or m]."""
-    origin = from_rpy(joint.origin.xyz, *joint.origin.rpy)
+    origin = _origin(tuple(joint.origin.xyz), tuple(joint.origin.rpy))
     x, y, z = joint.axis
     if joint.type == "prismatic":
         return compose(origin, rigid((x * position, y * position, z * position)))
@@ -23,6 +24,12 @@ def joint_transform(joint: Joint, position: float = 0.0) -> Rigid:
         s = math.sin(half)
         return compose(origin, (0.0, 0.0, 0.0, x * s, y * s, z * s, math.cos(half)))
     return origin
+
+
+@lru_cache(maxsize=1024)
+def _origin(xyz: tuple[float, ...], rpy: tuple[float, ...]) -> Rigid:
+    """Where a joint is attached; asked again and again for the same few."""
+    return from_rpy(xyz, *rpy)
 
 
 class Chain:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ROSInterruptException
@@ -48,6 +48,11 @@ class BufferCore:
         A leading `/` of a name is dropped, as tf2 does.
         """
         return self._set(transform, authority, static=False)
+
+    def set_transforms(self, transforms: Iterable[Any], authority: str = "default_authority") -> None:
+        """Take several, of one message."""
+        for transform in transforms:
+            self._set(transform, authority, static=False)
 
     def set_transform_static(self, transform: Any, authority: str = "default_authority") -> bool:
         """Take one that holds for all times."""
@@ -161,6 +166,7 @@ class Buffer(BufferCore):
         self._node = node
         self._waiting: dict[Waiter, Callable[[], bool]] = {}
         self._watching: list[Callable[[], object]] = []
+        self._several = False
         super().__init__(cache_time)
 
     @property
@@ -178,18 +184,29 @@ class Buffer(BufferCore):
 
     def _set(self, message: Any, authority: str, *, static: bool) -> bool:
         taken = super()._set(message, authority, static=static)
-        if not taken:
-            return False
+        if taken and not self._several:
+            self._changed()
+        return taken
+
+    def set_transforms(self, transforms: Iterable[Any], authority: str = "default_authority") -> None:
+        """Take several, of one message; who waits or watches learns of them together."""
+        self._several = True
+        try:
+            super().set_transforms(transforms, authority)
+        finally:
+            self._several = False
+        self._changed()
+
+    def _changed(self) -> None:
         for waiter, ready in list(self._waiting.items()):
             if ready():
                 self._waiting.pop(waiter, None)
                 waiter.wake()
         for watcher in list(self._watching):
             watcher()
-        return True
 
     def watch(self, callback: Callable[[], object]) -> Callable[[], None]:
-        """Call `callback()` whenever a transform was taken; return a function that ends this."""
+        """Call `callback()` whenever transforms were taken; return a function that ends this."""
         self._watching.append(callback)
         return lambda: self._watching.remove(callback)
 

@@ -34,8 +34,7 @@ class TransformListener:
         """Take a message of `/tf`."""
         self.check_for_reset()
         authority = data._connection_header.get("callerid", UNKNOWN)
-        for transform in data.transforms:
-            self.buffer.set_transform(transform, authority)
+        self.buffer.set_transforms(data.transforms, authority)
 
     def static_callback(self, data: Any) -> None:
         """Take a message of `/tf_static`."""

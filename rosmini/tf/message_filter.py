@@ -76,23 +76,25 @@ class MessageFilter:
         stamp = message.header.stamp.to_nsec()
         stamps = (stamp, stamp + self._tolerance_ns) if self._tolerance_ns else (stamp,)
         for target in self.target_frames:
+            newest = self._newest(target, source)
+            if 0 < newest < stamps[-1]:  # quicker than to look, and nearly always why one waits
+                return False
             for each in stamps:
                 if self.buffer.tree.knows(target, source, each):
                     continue
-                if self._is_too_old(target, source, stamp):
+                if newest > stamps[-1]:  # no transform that may still come can help
                     self._drop(message, TOO_OLD)
                     return True
                 return False
         self._callback(message)
         return True
 
-    def _is_too_old(self, target: str, source: str, stamp: int) -> bool:
-        """Whether no transform that may still come can help: the newest that is known is from later."""
+    def _newest(self, target: str, source: str) -> int:
+        """The newest time [ns] at which all between two frames is known; 0: none, or all times."""
         try:
-            newest = self.buffer.tree.latest_common_time(target, source)
+            return self.buffer.tree.latest_common_time(target, source)
         except TransformException:
-            return False
-        return newest > stamp + self._tolerance_ns
+            return 0
 
     def _drop(self, message: Any, reason: str) -> None:
         if self._failed is not None:

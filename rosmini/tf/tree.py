@@ -263,7 +263,7 @@ class FrameTree:
         """
         if target == source and target in self:
             return self._newest(target)
-        return _common(self._path(target, source, LATEST))
+        return _common(self._paths.get((target, source)) or self._path(target, source, LATEST))
 
     def _newest(self, frame: str) -> int:
         history = self.edges.get(frame)

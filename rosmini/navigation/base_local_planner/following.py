@@ -21,7 +21,6 @@ from rosmini.navigation.nav_core import ControlFailure, NoValidCommand, Transfor
 from rosmini.navigation.nav_core.clouds import point_cloud
 from rosmini.parameters import Parameters
 from rosmini.tf import Buffer, TransformException
-from rosmini.time import Time
 
 from .goal_functions import behind, part_in_reach
 from .map_grid import MapGrid
@@ -42,18 +41,19 @@ class Following:
     def set_plan(self, plan: Sequence[Any]) -> None:
         """Follow poses (`geometry_msgs/PoseStamped`) that are all in the frame of the first one."""
         self.frame = plan[0].header.frame_id.lstrip("/") if plan else ""
-        made = np.empty((len(plan), 3))
-        for row, stamped in zip(made, plan, strict=True):
+        rows = []
+        for stamped in plan:
             p, q = stamped.pose.position, stamped.pose.orientation
-            row[:] = p.x, p.y, np.arctan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
-        self.poses = made
+            rows.append((p.x, p.y, 2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z)))
+        made = np.array(rows, dtype=np.float64).reshape(-1, 4)
+        self.poses = np.column_stack([made[:, :2], np.arctan2(made[:, 2], made[:, 3])])
 
     def goal(self) -> Pose:
         """The end of the plan in the costmap's frame. Raises `ControlFailure` and `TransformMissing`."""
         if not len(self.poses):
             raise ControlFailure("Received plan with zero length: there is no goal to drive to")
-        x, y, theta = compose(self._frame_pose(), self.poses[-1])
-        return float(x), float(y), float(theta)
+        x, y, theta = self.poses[-1].tolist()
+        return compose(self._frame_pose(), (x, y, theta))
 
     def local(self, robot: Pose, *, prune: bool) -> Floats:
         """The part (n, 3) of the plan in reach of the costmap, in its frame; with `prune`, what is behind is dropped.
@@ -85,14 +85,14 @@ class Following:
         if self.frame == self.costmap.global_frame:
             return 0.0, 0.0, 0.0
         try:
-            found = self.buffer.lookup_transform(self.costmap.global_frame, self.frame, Time(0))
+            found = self.buffer.tree.lookup(self.costmap.global_frame, self.frame)
         except TransformException as error:
             raise TransformMissing(
                 f"Could not transform the global plan to the frame of the controller: {error}",
                 frame=self.frame,
             ) from error
-        t, q = found.transform.translation, found.transform.rotation
-        return t.x, t.y, float(np.arctan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z)))
+        x, y, _, qx, qy, qz, qw = found.transform
+        return x, y, float(np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)))
 
 
 class Publications:

@@ -125,8 +125,11 @@ class Sampling:
             high[:2] = np.maximum(np.minimum(high[:2], enough), low[:2])
         gain = limits.accelerations * (self.sim_period if self.use_dwa else self.sim_time)
         high, low = np.minimum(high, velocity + gain), np.maximum(low, velocity - gain)
-        axes = [velocity_samples(*three) for three in zip(low, high, self.counts, strict=True)]
-        return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+        ends = zip(low.tolist(), high.tolist(), self.counts, strict=True)
+        axes = [velocity_samples(*three) for three in ends]
+        made = np.empty((*(len(axis) for axis in axes), 3))
+        made[..., 0], made[..., 1], made[..., 2] = axes[0][:, None, None], axes[1][:, None], axes[2]
+        return made.reshape(-1, 3)
 
     def steps(self, velocities: Floats, limits: LocalPlannerLimits) -> Ints:
         """How many steps each velocity (n, 3) is driven, 0 for one that the robot cannot follow."""

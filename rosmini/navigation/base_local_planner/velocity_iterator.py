@@ -21,5 +21,5 @@ def velocity_samples(low: float, high: float, count: int) -> NDArray[np.float64]
     values[-1] = high
     after = int(np.searchsorted(values, 0.0))
     if 0 < after < count and values[after] > 0 > values[after - 1]:
-        values = np.insert(values, after, 0.0)
+        values = np.concatenate([values[:after], (0.0,), values[after:]])
     return values

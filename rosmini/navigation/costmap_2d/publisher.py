@@ -60,13 +60,17 @@ class Costmap2DPublisher:
             )
 
     def publish(self) -> None:
-        """Send what has changed; all of it if the grid has another size or origin than in the last message."""
+        """Send what has changed; all of it if the grid has another size or origin than in the last message.
+
+        No message is made while nobody listens: who comes gets all of it.
+        """
         geometry = self._geometry()
         changed, self._changed = self._changed, None
         if self._always_send_full or self._sent != geometry:
             self._sent = geometry
-            self._whole.publish(self._message())
-        elif changed is not None:
+            if self._whole.num_connections():
+                self._whole.publish(self._message())
+        elif changed is not None and self._part.num_connections():
             self._part.publish(self._update(changed))
 
     def _greet(self, subscriber: str) -> None:

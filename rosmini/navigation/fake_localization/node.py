@@ -68,8 +68,7 @@ class FakeLocalization:
         self._cloud = node.publisher("particlecloud", self._cloud_type, queue_size=1, latch=True)
         self._pose_type = posed
         odometry = message_class("nav_msgs/Odometry")
-        # After the listener's: what waited for the transform goes on as soon as it is there.
-        node.subscriber("/tf", message_class("tf2_msgs/TFMessage"), lambda _: self._catch_up(), numpy=False)
+        self.buffer.watch(self._catch_up)
         node.subscriber("base_pose_ground_truth", odometry, self._truth, queue_size=WAITING)
         node.subscriber("initialpose", posed, self._move_map, queue_size=1)
 

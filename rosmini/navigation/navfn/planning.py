@@ -113,6 +113,8 @@ class GridPlanner(BaseGlobalPlanner):
         return pose
 
     def _publish(self, plan: Poses) -> None:
+        if not self._plans.num_connections():
+            return
         message = self._path()
         message.header.frame_id = self.costmap.global_frame
         message.header.stamp = plan[0].header.stamp if plan else self.now()
