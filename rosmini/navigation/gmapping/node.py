@@ -44,6 +44,8 @@ class SlamGmapping:
         self._last_map: int | None = None
         self._last_stamp_ns = 0
         self._map: Any = None
+        self._sent = Time(0)
+        """The stamp of the last transform."""
         self.buffer = Buffer(node)
         self.listener = TransformListener(node, self.buffer)
         self.broadcaster = TransformBroadcaster(node)
@@ -172,4 +174,7 @@ class SlamGmapping:
         p = self.parameters
         delay = p.transform_publish_period if p.tf_delay is None else p.tf_delay
         when = self.node.now() + Duration.from_sec(delay)
+        if when == self._sent:  # a slow /clock stands still between two turns of the timer
+            return
+        self._sent = when
         self.broadcaster.send_rigid(p.map_frame, p.odom_frame, from_yaw(*self._correction), when)

@@ -15,6 +15,7 @@ from rosmini.navigation.map_server import load_map
 from rosmini.sim.simulator import Simulator
 from rosmini.tf import StaticTransformBroadcaster, TransformBroadcaster
 from rosmini.tf.rigid import from_yaw
+from rosmini.time import Time
 
 Twist = message_class("geometry_msgs/Twist")
 
@@ -155,3 +156,17 @@ def test_parameter_files_of_robotis(graph):
     assert mapper.parameters.minimumScore == 50.0
     settings = mapper.parameters.settings(3.5)
     assert (settings.max_range, settings.max_urange) == (pytest.approx(3.49), 3.0)
+
+
+def test_a_transform_is_sent_once_for_each_time(graph):
+    graph.master.setParam("/test", "/use_sim_time", True)
+    node, sent = graph.node("time"), []
+    clock = node.publisher("clock", message_class("rosgraph_msgs/Clock"), queue_size=1)
+    node.subscriber("tf", message_class("tf2_msgs/TFMessage"), sent.append)
+    rosrun("gmapping", "slam_gmapping", graph=graph)
+    for tenths in range(20):
+        clock.publish(message_class("rosgraph_msgs/Clock")(clock=Time(10 + tenths // 10, tenths % 10 * 100_000_000)))
+        graph.run(0.1)
+    stamps = [message.transforms[0].header.stamp for message in sent]
+    assert len(stamps) > 10
+    assert len(set(stamps)) == len(stamps)
