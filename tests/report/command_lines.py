@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-NAVIGATION = "the launch files of the use cases come with the chapters on them; what they start is built"
-EXPLORATION = "the exploration packages are not built yet"
+USE_CASES = "test_a_goal_and_exploration_on_stage"
 NO_ROS = "no ROS is installed, so nothing is there to be sourced"
 NETWORK = "the scripts of the tutorials are in rosmini: rosrun rospy_tutorials talker.py; tests fetch nothing"
 
@@ -282,29 +281,33 @@ LINES = (
         "%roslaunch turtlesim turtlesim_node __name:=node1_turtle",
         "rosrun turtlesim turtlesim_node",
     ),
-    Line("9.3", "roslaunch navigation_stage move_base_gmapping_5cm.launch", waits=NAVIGATION),
-    Line("9.3", "roslaunch navigation_stage move_base.xml", waits=NAVIGATION),
+    Line("9.3", "roslaunch navigation_stage move_base_gmapping_5cm.launch", USE_CASES),
+    Line("9.3", "roslaunch navigation_stage move_base.xml", USE_CASES),
     slip(
         "9.3",
         "roslaunch map_server map_saver -f my map",
         "roslaunch map_server map_saver -f my map",
         "%roslaunch map_server map_saver -f my map",
         "rosrun map_server map_saver",
-        waits=NAVIGATION,
     ),
-    Line("9.4.1", "roslaunch navigation_stage move_base_gmapping_5cm.launch", waits=NAVIGATION),
-    Line("9.4.1", "roslaunch navigation_stage move_base.xml", waits=NAVIGATION),
+    Line("9.4.1", "roslaunch navigation_stage move_base_gmapping_5cm.launch", USE_CASES),
+    Line("9.4.1", "roslaunch navigation_stage move_base.xml", USE_CASES),
     slip(
         "9.4.1",
         "roslaunch frontier-exploration global_map.launch",
         "roslaunch frontier-exploration global_map.launch",
         "%roslaunch frontier-exploration global_map.launch",
         "frontier_exploration",
-        waits=EXPLORATION,
     ),
-    Line("9.4.2", "roslaunch navigation_stage move_base_gmapping_5cm.launch", waits=NAVIGATION),
-    Line("9.4.2", "roslaunch navigation_stage move_base.xml", waits=NAVIGATION),
-    Line("9.4.2", "roslaunch explore_lite global_map.launch", waits=EXPLORATION),
+    Line("9.4.2", "roslaunch navigation_stage move_base_gmapping_5cm.launch", USE_CASES),
+    Line("9.4.2", "roslaunch navigation_stage move_base.xml", USE_CASES),
+    slip(
+        "9.4.2",
+        "roslaunch explore_lite global_map.launch",
+        "roslaunch explore_lite global_map.launch",
+        "%roslaunch explore_lite global_map.launch",
+        "explore.launch",
+    ),
     Line("9.4.3", "roslaunch turtlebot3_ds my_multi_turtlebot3.launch", "test_the_workspace_of_the_report"),
     Line(
         "9.4.3",
@@ -323,8 +326,16 @@ LINES = (
         "%roslaunch turtlebot3_gazebo turtlebot3_world.launch model:=burger --check",
         "all is there",
     ),
-    Line("9.5", "roslaunch turtlebot3_navigation move_base.launch", waits=NAVIGATION),
-    Line("9.5", "roslaunch turtlebot3_slam turtlebot3_slam.launch slam_methods:=gmapping", waits=NAVIGATION),
-    Line("9.5", "roslaunch turtlebot3_slam turtlebot3_frontier_exploration.launch", waits=EXPLORATION),
+    Line("9.5", "roslaunch turtlebot3_navigation move_base.launch", "test_one_turtlebot_explores"),
+    Line(
+        "9.5",
+        "roslaunch turtlebot3_slam turtlebot3_slam.launch slam_methods:=gmapping",
+        "test_one_turtlebot_explores",
+    ),
+    Line(
+        "9.5",
+        "roslaunch turtlebot3_slam turtlebot3_frontier_exploration.launch",
+        "test_one_turtlebot_explores",
+    ),
     Line("9.5", "roslaunch turtlebot3_teleop turtlebot3_teleop_key.launch", "test_the_world_of_turtlebot3"),
 )

@@ -110,6 +110,7 @@ NAMES_THE_RIGHT_FORM = [
     ("roslaunch ping my_turtle", "rosnode ping my_turtle"),
     ("roslaunch example_pkg talker.py --name:=my_turtle", "__name:=my_turtle"),
     ("roslaunch frontier-exploration global_map.launch", "frontier_exploration"),
+    ("roslaunch explore_lite global_map.launch", "explore.launch"),
 ]
 
 

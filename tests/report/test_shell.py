@@ -6,6 +6,7 @@ import os
 import shutil
 import signal
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ from rosmini.packages import assets_dir
 
 from ..cli.test_catkin_make import WALK
 from ..processes import run, start, wait_until
-from . import test_graph_commands
+from . import test_graph_commands, test_use_cases
 from .command_lines import LINES
 from .test_graph_commands import MEASURES, NAMES_THE_RIGHT_FORM, ROSMINI, WORKS, shell
 
@@ -40,6 +41,7 @@ def test_every_line_of_the_report_is_typed_or_says_what_it_waits_for() -> None:
     known = {line for line, _ in (*WORKS, *MEASURES, *NAMES_THE_RIGHT_FORM)} | {
         *vars(test_graph_commands),
         *globals(),
+        *vars(test_use_cases),
     }
     for line in LINES:
         assert line.by or line.waits, line
@@ -47,6 +49,18 @@ def test_every_line_of_the_report_is_typed_or_says_what_it_waits_for() -> None:
             assert line.by.removeprefix("walk:") in WALK.splitlines(), line
         elif line.by and not (line.is_slip and "--name:=" in line.by):  # a test of its own
             assert line.by in known, line
+
+
+TURTLEBOT3 = (
+    ("turtlebot3_gazebo turtlebot3_world.launch", "/gazebo"),
+    ("turtlebot3_navigation move_base.launch", "/move_base"),
+    (
+        "turtlebot3_slam turtlebot3_slam.launch slam_methods:=gmapping open_rviz:=false",
+        "/turtlebot3_slam_gmapping",
+    ),
+    ("turtlebot3_slam turtlebot3_frontier_exploration.launch open_rviz:=false", "/explore_server"),
+)
+"""9.5: launch files, and a node by which one sees that each has begun."""
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
@@ -114,3 +128,23 @@ def test_the_world_of_turtlebot3(shell: dict[str, str]) -> None:
         wait_until(lambda: process.poll() is not None, "the end of the launch")
     keys = [*ROSMINI, "roslaunch", "turtlebot3_teleop", "turtlebot3_teleop_key.launch", "--check"]
     assert "all is there" in run(keys, env=env).stdout
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is sent otherwise there")
+def test_one_turtlebot_explores(shell: dict[str, str]) -> None:
+    """9.5: four terminals, one launch in each; the last one starts nodes again, and Ctrl-C ends all of them."""
+    env = {**shell, "TURTLEBOT3_MODEL": "burger"}
+
+    def listed() -> str:
+        return run([*ROSMINI, "rosnode", "list"], env=env).stdout
+
+    with ExitStack() as terminals:
+        processes = []
+        for words, node in TURTLEBOT3:
+            process = terminals.enter_context(start([*ROSMINI, "roslaunch", *words.split()], env=env))
+            wait_until(lambda node=node: f"{node}\n" in listed(), node, process)
+            processes.append(process)
+        for process in reversed(processes):
+            process.send_signal(signal.SIGINT)
+            wait_until(lambda process=process: process.poll() is not None, "the end of a launch")
+    assert not {node for _, node in TURTLEBOT3} & set(listed().splitlines())
