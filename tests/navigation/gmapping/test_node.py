@@ -165,7 +165,9 @@ def test_a_transform_is_sent_once_for_each_time(graph):
     node.subscriber("tf", message_class("tf2_msgs/TFMessage"), sent.append)
     rosrun("gmapping", "slam_gmapping", graph=graph)
     for tenths in range(20):
-        clock.publish(message_class("rosgraph_msgs/Clock")(clock=Time(10 + tenths // 10, tenths % 10 * 100_000_000)))
+        clock.publish(
+            message_class("rosgraph_msgs/Clock")(clock=Time(10 + tenths // 10, tenths % 10 * 100_000_000))
+        )
         graph.run(0.1)
     stamps = [message.transforms[0].header.stamp for message in sent]
     assert len(stamps) > 10
