@@ -58,7 +58,7 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
             *tools.measures(None, 1),
             *bags.measures(tmp_path, None, 1),
             *displays.measures(1),
-            *sim.measures(None, None, 1),
+            *sim.measures(None, None, 0.001),
             *turtles.measures(1),
             *nav.measures(0.1),
         ]

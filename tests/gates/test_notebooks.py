@@ -17,6 +17,8 @@ from ..processes import run
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 
+QUICKEST = "93_publish_subscribe.ipynb"
+
 chapters = pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda path: path.stem)
 
 
@@ -101,9 +103,7 @@ TAMPER = {
 
 @pytest.fixture(scope="module")
 def outcome(tmp_path_factory):
-    """Failures, by copy, when our own pytest command judges the first chapter and tampered copies of it."""
-    if not CHAPTERS:
-        pytest.skip("no chapter is written yet")
+    """Failures, by copy, when our own pytest command judges the quickest chapter and tampered copies of it."""
     checkout = tmp_path_factory.mktemp("checkout")
     copied = ["pyproject.toml", "tests/conftest.py", "tests/processes.py", "tests/gates/test_notebooks.py"]
     for name in copied:
@@ -111,7 +111,7 @@ def outcome(tmp_path_factory):
         shutil.copy(ROOT / name, checkout / name)
     (checkout / "notebooks").mkdir()
     for name, (tamper, _) in {"intact": (lambda _: None, ""), **TAMPER}.items():
-        notebook = notebooks.read(CHAPTERS[0])
+        notebook = notebooks.read(ROOT / "notebooks" / QUICKEST)
         tamper(notebook)
         notebooks.write(notebook, checkout / "notebooks" / f"{name}.ipynb")
     command = [sys.executable, "-m", "pytest", "-q", "-n2", "-p", "no:cacheprovider", "--junitxml=result.xml"]
