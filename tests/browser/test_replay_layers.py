@@ -192,3 +192,69 @@ def test_two_runs_have_one_clock(page):
     assert readings == ["1.80, 0.00 m, 0.0°"] * 2
     both.get_by_role("slider", name="Time").press("ArrowRight")
     assert both.locator("[role=status]").inner_text().startswith("6.2 s. before: robot 1.86, 0.00 m")
+
+
+def costs() -> Run:
+    """Five seconds: a map with a wall, and a costmap that later has something beside it that a laser has seen."""
+    walls = np.zeros((40, 60), dtype=np.uint8)
+    walls[5] = 100
+    first = walls.copy()
+    first[6:8] = 99
+    first[8] = 40
+    later = first.copy()
+    later[25, 30], later[25, 32] = 100, 32
+    grids = (Grid(first, 0.1, (-1.0, -1.0, 0.0)), Grid(later, 0.1, (-1.0, -1.0, 0.0)))
+    return Run(
+        "costs",
+        0.0,
+        5.0,
+        (Body("robot", np.array([0.0, 5.0]), np.zeros((2, 3))),),
+        (
+            Grids("/map", np.array([0.0]), (Grid(walls, 0.1, (-1.0, -1.0, 0.0)),)),
+            Grids("/local_costmap/costmap", np.array([0.0, 2.0]), grids),
+        ),
+        bounds=(-1.0, -1.0, 5.0, 3.0),
+    )
+
+
+def test_a_place_says_what_it_costs_and_why(chromium, tmp_path):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROSMINI_DISPLAY", "live")
+        html = replay(costs()).html
+    (tmp_path / "page.html").write_text(f"<!DOCTYPE html><meta charset=utf-8>{html}", encoding="utf-8")
+    page = chromium.new_page(viewport={"width": 900, "height": 800})
+    page.goto((tmp_path / "page.html").as_uri())
+    page.wait_for_selector(PLAYER)
+    page.evaluate(SPY)
+    said = page.locator(".rosmini-replay [data-read=why]")
+    assert not said.is_visible()
+    scrub(page, 1.0)
+
+    def ask(x: float, y: float) -> str:
+        at = page.evaluate(
+            """([x, y]) => {
+            const {view} = seen.get(document.querySelector(".rosmini-replay canvas"));
+            return [view.x(x), view.y(y)]; }""",
+            [x, y],
+        )
+        page.locator("canvas").click(position={"x": at[0], "y": at[1]}, modifiers=["Shift"])
+        painted(page)
+        return said.inner_text()
+
+    assert ask(0.05, -0.15) == (
+        "/map: free; /local_costmap/costmap: about 40, inflated, 0.30 m from an obstacle, on the map"
+    )
+    assert "99, too near: inflated, 0.10 m from an obstacle, on the map" in ask(0.05, -0.35)
+    assert ask(0.05, -0.45).startswith("/map: occupied; /local_costmap/costmap: 100, an obstacle")
+    assert ask(2.25, 1.55) == "/map: free; /local_costmap/costmap: free"
+    scrub(page, 3.0)
+    assert said.inner_text().endswith("inflated, 0.20 m from an obstacle, seen by a sensor")
+    page.locator(".rosmini-replay input[type=range]").focus()
+    page.keyboard.press("w")
+    painted(page)
+    assert not said.is_visible()
+    page.keyboard.press("w")
+    painted(page)
+    assert said.inner_text().startswith("/map: free")
+    assert page.locator(PLAYER).count() == 1, "it was asked, and did not begin to play"
+    page.close()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -32,12 +32,16 @@ TAKES = 3.0
 class PlayedMoveBase:
     """A node that offers the action `move_base`, and gives up goals at the places of `failures`, with these texts.
 
-    `begun` has the places, and `cut` those that were preempted.
+    At the places of `lasting` it never arrives. `begun` has the places, `cut` those that were preempted, and `took` how
+    long each lasted [s].
     """
 
-    def __init__(self, graph: Graph, failures: dict[Point, str] | None = None) -> None:
+    def __init__(
+        self, graph: Graph, failures: dict[Point, str] | None = None, *, lasting: Collection[Point] = ()
+    ) -> None:
         self.node = graph.node("move_base")
-        self.failures = failures or {}
+        self.failures, self.lasting = failures or {}, lasting
+        self.took: dict[Point, float] = {}
         self.begun: list[Point] = []
         self.cut: list[Point] = []
         self.faults: list[str] = []
@@ -56,8 +60,9 @@ class PlayedMoveBase:
             checked_goal(pose)
         except BadGoal as error:
             self.faults.append(str(error))
-        end = self.node.now().to_sec() + TAKES
-        while self.node.now().to_sec() < end:
+        start = self.node.now().to_sec()
+        while self.node.now().to_sec() < start + TAKES or place in self.lasting:
+            self.took[place] = self.node.now().to_sec() - start
             if self.server.is_preempt_requested():
                 self.cut.append(place)
                 self.server.set_preempted()

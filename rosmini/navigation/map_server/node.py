@@ -65,8 +65,6 @@ class MapServer:
         self.node = node
         self.parameters = MapServerParameters.read(node)
         self._message = message_class("nav_msgs/OccupancyGrid")()
-        node.service("static_map", service_class("nav_msgs/GetMap"), self._static_map)
-        node.service("change_map", service_class("nav_msgs/LoadMap"), self._change_map)
         self._metadata = node.publisher(
             "map_metadata", message_class("nav_msgs/MapMetaData"), queue_size=1, latch=True
         )
@@ -78,7 +76,7 @@ class MapServer:
         except MapError as error:
             node.logerr(_words_of(error, arguments[0]))
             raise
-        self._publish()
+        self._start()
 
     def __repr__(self) -> str:
         return f"<MapServer {self.node.name}: {self.grid!r}>"
@@ -99,12 +97,17 @@ class MapServer:
         thresholds = {"occupied_thresh": own.occupied_thresh, "free_thresh": own.free_thresh}
         return image_file(image, side, negate=own.negate, **thresholds)
 
-    def _publish(self) -> None:
-        """Publish the map, once there is a time to stamp it with."""
+    def _start(self) -> None:
+        """Publish the map and answer services, once there is a time: who asks before gets no empty map, but waits."""
         clock = self.node.clock
         if isinstance(clock, TopicClock) and clock.now_ns() == 0:
-            clock.call_at(1, self._publish)
+            clock.call_at(1, self._start)
             return
+        self._publish()
+        self.node.service("static_map", service_class("nav_msgs/GetMap"), self._static_map)
+        self.node.service("change_map", service_class("nav_msgs/LoadMap"), self._change_map)
+
+    def _publish(self) -> None:
         self._message = self.grid.to_message(self.parameters.frame_id, self.node.now())
         info = self._message.info
         self.node.loginfo(f"Read a {info.width} X {info.height} map @ {info.resolution:.3f} m/cell")

@@ -79,16 +79,62 @@
     return canvas;
   }
 
+  /* What a colour of RViz's schemes stands for: -1 unknown, 0 free, to 99 inscribed and 100 occupied; by its number. */
+  function valueOf([red, green, blue, alpha], number) {
+    if (number === 0) return -1;
+    if (alpha === 0) return 0;
+    if (red === green && green === blue) return Math.round((255 - red) / 2.55);
+    return [[green, 99], [red === 255 && blue, 100], [green === 0, Math.round(red / 2.55)]].find(([is]) => is)?.[1];
+  }
+
+  const REACH = 1.5; // how far from a cell an obstacle is looked for [m]
+
+  /* Which occupied cell is nearest to (mx, my), and how far from it [cells]. */
+  function nearest(isFull, mx, my, reach) {
+    let found = null;
+    for (let dy = -reach; dy <= reach; dy += 1) {
+      for (let dx = -reach; dx <= reach; dx += 1) {
+        const apart = Math.hypot(dx, dy);
+        if (apart < (found?.apart ?? reach) && isFull(mx + dx, my + dy)) found = { mx: mx + dx, my: my + dy, apart };
+      }
+    }
+    return found;
+  }
+
   function grid(data) {
+    const isCostmap = data.name.includes("costmap");
     const table = data.colours.map((c) => [1, 3, 5, 7].map((i) => parseInt(c.slice(i, i + 2), 16)));
     const places = columns(data.places, [1, 1, 1e-6, LENGTH, LENGTH, ANGLE, 1, 1]);
     const runs = new Runs(data, (i) => {
       const [width, height, , , , , dx, dy] = places[i];
       return { width, height, dx, dy };
     });
+    const values = table.map(valueOf);
     let [shown, picture] = [-1, null];
     return {
       colour: "muted",
+      isMap: !isCostmap,
+      /* What a place costs in one moment, and the obstacle that it comes from, if it comes from one: {text, from?}. */
+      tell(index, x, y) {
+        const [width, height, resolution, x0, y0, heading] = places[index];
+        const [c, s] = [Math.cos(heading) / resolution, Math.sin(heading) / resolution];
+        const [mx, my] = [c * (x - x0) + s * (y - y0), c * (y - y0) - s * (x - x0)].map(Math.floor);
+        const isThere = (i, j) => i >= 0 && j >= 0 && i < width && j < height;
+        if (!isThere(mx, my)) return { text: "outside" };
+        const cells = runs.seek(index);
+        shown = -1;
+        const value = values[cells[my * width + mx]];
+        if (value === undefined || value < 0) return { text: "unknown" };
+        if (!isCostmap) return { text: value >= 65 ? "occupied" : value ? `${value} %` : "free", value };
+        const isFull = (i, j) => isThere(i, j) && values[cells[j * width + i]] === 100;
+        const full = value ? nearest(isFull, mx, my, Math.round(REACH / resolution)) : null;
+        const [i, j] = full ? [(full.mx + 0.5) * resolution, (full.my + 0.5) * resolution] : [];
+        const turn = resolution * c;
+        const from = full && { x: x0 + turn * i - resolution * s * j, y: y0 + resolution * s * i + turn * j };
+        const why = full ? `inflated, ${(full.apart * resolution).toFixed(2)} m from an obstacle` : "inflated";
+        const words = { 0: "free", 99: `99, too near: ${why}`, 100: "100, an obstacle" };
+        return { text: words[value] ?? `about ${value}, ${why}`, value, from };
+      },
       draw(view, index) {
         const [width, height, resolution, x, y, heading] = places[index];
         if (shown !== index) [shown, picture] = [index, bitmap(runs.seek(index), width, height, table)];
@@ -230,6 +276,10 @@
       ...layer,
       name: data.name,
       kind: data.kind,
+      tellAt: layer.tell && ((time, x, y) => {
+        const index = lastAt(times, time);
+        return index < 0 ? { text: "not there yet" } : layer.tell(index, x, y);
+      }),
       draw(view, time, start, slot) {
         if (layer.always) return layer.drawAt(view, time);
         let index = lastAt(times, time);

@@ -91,7 +91,7 @@ margin:0;padding:.2rem .7rem .6rem}
 <span class="rr-view">${button("further", "Zoom out", "Page down")}${button("nearer", "Zoom in", "Page up")}${button("follow", "Follow the robot", "f")}${button("reset", "Reset the view", "0")}</span></div>
 <p class="rr-notes" hidden></p>
 <p class="rr-keys"><kbd>space</kbd> <kbd>\u2190</kbd> <kbd>\u2192</kbd> <kbd>Home</kbd> <kbd>End</kbd> time, <kbd>+</kbd> <kbd>\u2212</kbd> speed,
-<kbd>Page up</kbd> <kbd>Page down</kbd> or <kbd>Ctrl</kbd> and wheel zoom, <kbd>Shift</kbd> and arrows or drag move, <kbd>f</kbd> follow, <kbd>0</kbd> reset</p>
+<kbd>Page up</kbd> <kbd>Page down</kbd> or <kbd>Ctrl</kbd> and wheel zoom, <kbd>Shift</kbd> and arrows or drag move, <kbd>f</kbd> follow, <kbd>0</kbd> reset, <kbd>w</kbd> or <kbd>Shift</kbd> and click: what a place costs</p>
 <p role="status"></p>`;
   const PANE = '<h4 hidden></h4><canvas role="img"></canvas><dl></dl>';
 
@@ -313,6 +313,7 @@ margin:0;padding:.2rem .7rem .6rem}
       this.box = [x0, y0 - lacking, x1, y1 + lacking];
       list.innerHTML = readings(run, run.start).map(([key]) => `<div><dt></dt><dd data-read="${key}"></dd></div>`).join("");
       readings(run, run.start).forEach(([, label], i) => { list.querySelectorAll("dt")[i].textContent = label; });
+      this.asked = null;
     }
 
     /* Where the view is: as fitted, or zoomed around `camera.centre`, or around what it follows. */
@@ -330,6 +331,43 @@ margin:0;padding:.2rem .7rem .6rem}
         y: (metres) => top - (metres - y) * scale,
         metres: (px, py) => [x + (px - left) / scale, y - (py - top) / scale],
       };
+    }
+
+    /* Why a place costs what it costs, layer by layer. An obstacle is on the map, if one is shown, or else seen. */
+    why(time, [x, y]) {
+      const grids = this.run.layers.filter((layer) => layer.tellAt);
+      const maps = grids.filter((layer) => layer.isMap);
+      const isMapped = ({ x: atX, y: atY }) => maps.some((layer) => layer.tellAt(time, atX, atY).value >= 65);
+      return grids.map((layer) => {
+        const { text, from } = layer.tellAt(time, x, y);
+        const source = from && maps.length ? (isMapped(from) ? ", on the map" : ", seen by a sensor") : "";
+        return `${layer.name}: ${text}${source}`;
+      }).join("; ");
+    }
+
+    /* A cross where somebody has asked, and the answer below. */
+    answer(view, time) {
+      let row = this.list.querySelector("[data-read=why]")?.parentElement;
+      if (!this.asked) {
+        row?.remove();
+        return;
+      }
+      if (!row) {
+        this.list.insertAdjacentHTML("beforeend", `<div><dt></dt><dd data-read="why"></dd></div>`);
+        row = this.list.lastElementChild;
+      }
+      const { context } = view;
+      const [x, y] = [view.x(this.asked[0]), view.y(this.asked[1])];
+      context.beginPath();
+      for (const [dx, dy] of [[7, 0], [0, 7]]) {
+        context.moveTo(x - dx, y - dy);
+        context.lineTo(x + dx, y + dy);
+      }
+      context.lineWidth = 2;
+      context.strokeStyle = view.theme.ink;
+      context.stroke();
+      row.firstElementChild.textContent = `At ${number(this.asked[0], 2)}, ${number(this.asked[1], 2)} m`;
+      row.lastElementChild.textContent = this.why(time, this.asked);
     }
 
     /* What the view follows: the robot, or the first body. */
@@ -357,6 +395,7 @@ margin:0;padding:.2rem .7rem .6rem}
       for (const body of run.bodies) if (shown[`body ${body.name}`]) body.draw(view, time, body.trail);
       for (const layer of run.layers) if (layer.above && wanted(layer)) slot += layer.draw(view, time, run.start, slot) ? 1 : 0;
       draw.scaleBar(view);
+      this.answer(view, time);
       for (const [key, , text] of readings(run, time)) this.list.querySelector(`[data-read=${key}]`).textContent = text;
     }
 
@@ -431,7 +470,7 @@ margin:0;padding:.2rem .7rem .6rem}
         Home: () => this.seek(this.start), End: () => this.seek(this.end),
         "+": () => this.changeSpeed(1), "=": () => this.changeSpeed(1),
         "-": () => this.changeSpeed(-1), "_": () => this.changeSpeed(-1),
-        PageUp: deeds.nearer, PageDown: deeds.further, f: deeds.follow, 0: deeds.reset,
+        PageUp: deeds.nearer, PageDown: deeds.further, f: deeds.follow, 0: deeds.reset, w: () => this.inquire(),
       };
       const moves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
       root.addEventListener("keydown", (event) => {
@@ -499,7 +538,20 @@ margin:0;padding:.2rem .7rem .6rem}
         down.set(event.pointerId, now);
       });
       for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => down.delete(event.pointerId));
-      canvas.addEventListener("click", () => { if (moved <= CLICK) click(); });
+      canvas.addEventListener("click", (event) => {
+        if (moved > CLICK) return;
+        if (event.shiftKey) this.inquire(pane, pane.view(this.camera, this.at(pane)).metres(event.offsetX, event.offsetY));
+        else click();
+      });
+    }
+
+    /* Ask what a place costs; without a place, that in the middle of the view, or stop asking. */
+    inquire(pane = this.panes[0], place = null) {
+      if (!pane.run.layers.some((layer) => layer.tellAt)) return this.say("No map or costmap is shown here");
+      const middle = pane.middle.map((m, axis) => m + (this.camera.moved ?? this.offset(pane))[axis]);
+      pane.asked = place ?? (pane.asked ? null : middle);
+      this.ask();
+      return this.say(pane.asked ? pane.why(this.at(pane), pane.asked) : "No question");
     }
 
     /* Move the view by pixels, to the right and up. */

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from rosmini.errors import ParameterError, UsageError
+from rosmini.errors import ParameterError, ServiceException, UsageError
 from rosmini.graph import Graph
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.map_server import (
@@ -207,6 +207,9 @@ def test_with_simulated_time_the_map_waits_for_the_clock(files):
     bench.node = bench.graph.node("later")
     bench.start()
     assert bench.listen() == []
+    proxy = bench.reader.service_client("/static_map", service_class("nav_msgs/GetMap"))
+    with pytest.raises(ServiceException):  # amcl once got a map of 0 x 0 cells
+        proxy()
     clock = bench.reader.publisher("/clock", message_class("rosgraph_msgs/Clock"), queue_size=1)
     message = message_class("rosgraph_msgs/Clock")()
     message.clock.secs = 5
@@ -214,3 +217,4 @@ def test_with_simulated_time_the_map_waits_for_the_clock(files):
     clock.publish(message)
     bench.graph.run(0.1)
     assert bench.heard[0].header.stamp.to_sec() == 5.0
+    assert proxy().map == bench.heard[0]

@@ -25,6 +25,8 @@ from rosmini.navigation.nav_core import (
     pose_stamped,
 )
 from rosmini.packages import assets_dir
+from rosmini.sim.shapes import Box
+from rosmini.sim.world import Obstacle
 from rosmini.time import Time
 
 MAP = str(assets_dir() / "ros/rosmini_sim/maps/room.yaml")
@@ -349,3 +351,39 @@ def test_it_explains_itself(graph):
     assert "on its way to (1.90, 2.50) in map" in str(found)
     assert "the goal: cell" in str(found)
     assert "global_costmap" in str(found.show())
+
+
+def walled_in(rig):
+    """Boxes around where the robot stands, an arm's length off, as somebody might put them there; their names."""
+    x, y, _ = rig.sim.truth()
+    names = []
+    for number, (dx, dy) in enumerate([(0.5, 0.0), (-0.5, 0.0), (0.0, 0.5), (0.0, -0.5)]):
+        size = (0.1, 1.1) if dx else (0.88, 0.1)
+        names.append(f"box {number}")
+        rig.sim.engine.insert(Obstacle(names[-1], Box(*size), (x + dx, y + dy, 0.0), mass=50.0))
+    return names
+
+
+def test_a_robot_that_is_walled_in_says_so_and_goes_on_when_it_is_freed(graph):
+    """Nothing is played here: lasers see the boxes, the planner finds no way, recoveries run, the goal is aborted."""
+    rig = start(graph)
+    statuses = []
+    rig.node.subscriber("move_base/recovery_status", RecoveryStatus, statuses.append)
+    names = walled_in(rig)
+    graph.run(1.0)
+    target = goal(1.5, 0.0)
+    state, text = go(rig, target)
+    assert (state, text) == (
+        Status.ABORTED,
+        "Failed to find a valid plan. Even after executing recovery behaviors.",
+    )
+    order = ["conservative_reset", "rotate_recovery", "aggressive_reset", "rotate_recovery"]
+    assert [each.recovery_behavior_name for each in statuses] == order
+    said = str(rig.move_base.explain())
+    assert "no path leads from the start" in said
+    assert re.search(r"the nearest obstacle is \d+ cm from the footprint", said)
+    assert re.search(r"rotate_recovery \(planning\): ", said)
+    assert math.dist(rig.sim.truth()[:2], (0.0, 0.0)) < 0.1, "it turned, and went nowhere"
+    for name in names:
+        rig.sim.engine.take_away(name)
+    assert go(rig, target)[0] is Status.SUCCEEDED
