@@ -128,9 +128,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures to FILE, too")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the goals of nav (default: 1)")
     parser.add_argument("--quick", action="store_true", help="few goals of nav: under five minutes")
-    parser.add_argument(
-        "--rows", type=Path, metavar="FILE", help="write the table of nav's goals to FILE, too"
-    )
+    parser.add_argument("--rows", type=Path, metavar="FILE", help="write each of nav's goals to FILE, too")
     parser.add_argument("--no-peer", action="store_true", help="measure nothing else beside it")
     return parser
 
@@ -159,7 +157,7 @@ def main(args: argparse.Namespace) -> int:
         )
         print(f"written to {args.json}")
     if args.subject == "nav":
-        from . import nav_amcl, nav_explore, nav_hector, nav_quality
+        from . import nav_amcl, nav_explore, nav_hector, nav_quality, nav_rows
 
         nav_amcl.run(quick=args.quick)
         nav_hector.study(*((1, 30.0) if args.quick else (3, 120.0)))
@@ -167,7 +165,10 @@ def main(args: argparse.Namespace) -> int:
             nav_explore.run(worlds=("maze",), seeds=(args.seed,))
         else:
             nav_explore.run(seeds=range(args.seed, args.seed + 20))
-        nav_quality.run(args.seed, quick=args.quick, file=args.rows)
+        found = nav_quality.run(args.seed, quick=args.quick)
+        if args.rows is not None:
+            nav_rows.store(nav_rows.Kept(args.seed, nav_quality.commit(), found), args.rows)
+            print(f"written to {args.rows}")
     return 0
 
 

@@ -1,0 +1,39 @@
+"""Goals that are kept as data, and the page of the book that is made of them."""
+
+from __future__ import annotations
+
+import pytest
+import yaml
+from rosmini_bench import nav_quality, nav_rows
+from rosmini_bench.nav_goals import Errand
+from rosmini_bench.nav_trial import Outcome, Setup
+
+
+def test_the_page_is_what_is_made_of_the_committed_goals():
+    assert nav_rows.PAGE.read_text(encoding="utf-8") == nav_rows.page(nav_rows.load(nav_rows.FILE)), (
+        "run: PYTHONPATH=tests/benchmarks python -m rosmini_bench.nav_rows"
+    )
+
+
+def test_a_goal_counts_as_reached_within_the_tolerances_of_the_files():
+    for file in sorted(
+        (nav_rows.ROOT / "assets/ros/turtlebot3_navigation/param").glob("dwa_local_planner*.yaml")
+    ):
+        own = yaml.safe_load(file.read_text(encoding="utf-8"))["DWAPlannerROS"]
+        assert pytest.approx((own["xy_goal_tolerance"] + 0.02, own["yaw_goal_tolerance"] + 0.05)) == (
+            nav_quality.XY,
+            nav_quality.YAW,
+        )
+
+
+def test_what_is_stored_is_loaded_again(tmp_path):
+    errand = Errand(3, (1.0, 2.0, 0.5), (4.0, 2.0, -1.0), 3.25, 2.0)
+    good = Outcome(errand, "SUCCEEDED", "Goal reached.", 20.0, 3.5, 0.05, 0.1, (), ("walker 1",), 1.5)
+    bad = Outcome(errand, "ABORTED", "no", 20.0, 0.5, 3.0, 0.1, ("wall",), (), 1.5, ("rotate_recovery",))
+    changed = Setup("maze", overrides=(("planner_frequency", 2.0),), seed=4)
+    kept = nav_rows.Kept(4, "abc", [(Setup("house", seed=4), [good, bad]), (changed, [bad])])
+    nav_rows.store(kept, tmp_path / "rows.json")
+    assert nav_rows.load(tmp_path / "rows.json") == kept
+    made = nav_rows.page(kept)
+    assert "| house, burger | 1 of 2 | 9% to 91% | 1 | 1.08 | 1.08 | 1.29 | 1.29 |" in made
+    assert "| house, burger | 3 | 1.0, 2.0 | 4.0, 2.0 | ABORTED: no | 0.5 of 3.2 m | 1 |" in made
