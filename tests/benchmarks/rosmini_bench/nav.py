@@ -11,7 +11,7 @@ from typing import Any
 
 from rosmini.errors import RosminiError
 
-from . import Measure, nav_amcl, nav_control, nav_costmap, nav_hector, nav_planners, nav_trial
+from . import Measure, nav_amcl, nav_control, nav_costmap, nav_gmapping, nav_hector, nav_planners, nav_trial
 from .nav_trial import Setup
 
 ROBOTIS_RATES: tuple[tuple[str, Any], ...] = (
@@ -55,6 +55,7 @@ def measures(scale: float, seed: int = 1) -> Iterator[Measure]:
     )  # fmt: skip
     yield from nav_amcl.measures(scale)
     yield from nav_hector.measures(scale)
+    yield from nav_gmapping.measures(scale)
     goals = 4 if scale >= 1 else 1
     for name, rates in (("ROBOTIS's rates", ROBOTIS_RATES), ("our file", ())):
         yield Measure(
