@@ -90,6 +90,9 @@ class HectorMapping:
             self._odometry = node.publisher(
                 "scanmatch_odom", message_class("nav_msgs/Odometry"), queue_size=50
             )
+            self._odometry.expect_nobody()
+        for publisher in (self._pose_update, self._pose):
+            publisher.expect_nobody()
         if p.advertise_map_service:
             node.service("dynamic_map", service_class("nav_msgs/GetMap"), self._dynamic_map)
         node.service("reset_map", service_class("std_srvs/Trigger"), self._reset_map)
