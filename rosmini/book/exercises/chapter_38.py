@@ -35,7 +35,9 @@ def slopes(answer: Any) -> None:
             "return height, along_x, along_y",
         )
         wanted = surface(corners, fx, fy)
-        for name, mine, right in zip(("height", "slope along x", "slope along y"), found, wanted, strict=True):
+        for name, mine, right in zip(
+            ("height", "slope along x", "slope along y"), found, wanted, strict=True
+        ):
             expect(
                 abs(mine - right) < 1e-6,
                 f"The {name} at fx = {fx:.2f}, fy = {fy:.2f} between {a:.2f}, {b:.2f} (below) and {c:.2f}, {d:.2f} "
@@ -87,7 +89,9 @@ def begin(answer: Script) -> None:
         old = hector.slam.maps
         trial.start(answer)
         trial.run(3.0)
-        expect(hector.slam.maps is not old, "The map is the old one.", "rospy.ServiceProxy(name, ResetMapping)")
+        expect(
+            hector.slam.maps is not old, "The map is the old one.", "rospy.ServiceProxy(name, ResetMapping)"
+        )
         x, y, heading = hector.slam.pose
         expect(
             math.dist((x, y), (1.0, 0.5)) < 0.1,
