@@ -105,10 +105,10 @@ class SlamGmapping:
                 f"{frame} in {p.base_frame}): no map can be made of it"
             )
         self._upside_down = up < 0
-        self.node.loginfo(f"Laser is mounted {'upside down' if self._upside_down else 'upwards'}.")
         odometry = planar_transform(
             self.buffer.lookup_transform(p.odom_frame, p.base_frame, message.header.stamp, PATIENCE)
         )
+        self.node.loginfo(f"Laser is mounted {'upside down' if self._upside_down else 'upwards'}.")
         self._beams = len(message.ranges)
         return GridSlam(
             p.settings(message.range_max),

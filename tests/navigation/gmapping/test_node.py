@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+import os
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from rosmini import rosrun
+from rosmini.errors import ParameterError
 from rosmini.graph import Graph
 from rosmini.launch import roslaunch
 from rosmini.msgs import message_class, service_class
@@ -17,6 +20,8 @@ from rosmini.tf import StaticTransformBroadcaster, TransformBroadcaster
 from rosmini.tf.rigid import from_yaw
 from rosmini.time import Time
 
+DEFAULT = Path(__file__).resolve().parents[4] / "shared" / "data"
+BAG = Path(os.environ.get("ROSMINI_SHARED_DATA", DEFAULT)) / "real_robot.bag"
 Twist = message_class("geometry_msgs/Twist")
 
 
@@ -145,6 +150,34 @@ def test_scans_that_cannot_be(graph):
     laser.scan([math.nan, math.inf, 0.0, -1.0, 1.0, 1.0, 1.0, 1.0])
     assert np.isfinite(laser.mapper.slam.poses).all()
     laser.scan([1.0] * 8, header=message_class("std_msgs/Header")(frame_id="laser", stamp=first))
+
+
+def test_bounds_that_bound_nothing(graph):
+    with pytest.raises(ParameterError, match=r"xmin 3.0 to xmax -3.0"):
+        rosrun("gmapping", "slam_gmapping", "_xmin:=3.0", "_xmax:=-3.0", graph=graph).instance()
+
+
+def test_an_odometry_that_jumps(graph):
+    laser = Laser(graph)
+    laser.scan([1.0] * 8)
+    laser.tf.send_rigid("odom", "base_link", from_yaw(30.0, 0.0, 0.0))
+    laser.scan([1.0] * 8, odom=False)
+    assert laser.said("the odometry jumps to x 30.00 m")
+
+
+@pytest.mark.skipif(not BAG.is_file(), reason="the bag of a real robot is not there")
+def test_a_bag_of_a_real_robot(graph):
+    """It stands still, and its laser hangs upside down: 381 beams, one map, and one word about the laser."""
+    node, heard = listen(graph)
+    node.set_param("/use_sim_time", True)
+    mapper = rosrun("gmapping", "slam_gmapping", "__name:=gmapping", "_particles:=3", graph=graph).instance()
+    rosrun("rosbag", "play", "--clock", str(BAG), graph=graph)
+    graph.run(8.0)
+    assert [log.msg for log in heard["/rosout"] if "Laser" in log.msg] == ["Laser is mounted upside down."]
+    assert (mapper.slam.processed, mapper._beams) == (1, 381)
+    grid = heard["map"][-1]
+    assert (grid.info.width, grid.info.height) == (4000, 4000)
+    assert (np.asarray(grid.data) == 100).sum() > 100
 
 
 def test_parameter_files_of_robotis(graph):
