@@ -34,6 +34,6 @@ print("whole")
 
 def test_large_intermediate_results_in_a_callback_do_no_harm():
     done = subprocess.run(
-        [sys.executable, "-c", LARGE], capture_output=True, text=True, timeout=PATIENCE, check=False
+        [sys.executable, "-c", LARGE], capture_output=True, encoding="utf-8", timeout=PATIENCE, check=False
     )
     assert (done.returncode, done.stdout) == (0, "whole\n"), done.stderr[-500:]
