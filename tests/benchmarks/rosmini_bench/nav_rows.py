@@ -172,7 +172,8 @@ gap of two robot widths between cylinders. The local planner, which looks at all
 without a collision; the recoveries clear what the laser sees again a moment later, and the goal is aborted.
 {doc}`../notebooks/39_move_base` shows how `explain()` says so. In the office a second cause is a door
 that the robot saw closed and cannot see open, for its leaf hides the opening: the plan waits for a way that is
-free. Walkers and doors keep away from a robot, and a door that would press against it goes back.
+free. Doors keep away from a robot, and one that would press against it goes back: a robot that waits where the door
+swings waits for good, since the plan waits for the door, and the door for the robot.
 `carrot_planner` plans no way around a wall: it goes straight to the last free place before it.
 """
 
