@@ -18,7 +18,7 @@ from pathlib import Path
 
 from rosmini.sim.models import model as model_called
 
-from . import nav_trial
+from . import nav_crossing, nav_trial
 from .nav_goals import wilson
 from .nav_trial import FIELD, Outcome, Setup
 
@@ -143,7 +143,9 @@ def line(one: Row) -> str:
 def run(seed: int, *, quick: bool) -> list[tuple[Setup, list[Outcome]]]:
     """Try everything, and print the table."""
     print(HEAD)
-    return list(driven(seed, quick=quick, tell=lambda text: print(text, flush=True)))
+    found = list(driven(seed, quick=quick, tell=lambda text: print(text, flush=True)))
+    print(nav_crossing.report(4, range(seed, seed + (1 if quick else 20))))
+    return found
 
 
 def commit() -> str:

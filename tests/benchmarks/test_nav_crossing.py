@@ -1,0 +1,18 @@
+"""Robots that cross one another: two exchange places in the house, each with amcl, and nobody touches anybody."""
+
+from __future__ import annotations
+
+import pytest
+from rosmini_bench.nav_crossing import destinations, run
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_nobody_is_sent_to_where_it_is(seed):
+    found = destinations(4, seed)
+    assert sorted(found) == [0, 1, 2, 3]
+    assert all(index != target for index, target in enumerate(found))
+
+
+def test_two_robots_exchange_places_without_a_contact():
+    found = run(2, seed=1)
+    assert (found.reached, found.failures, found.charged) == (2, (), ())
