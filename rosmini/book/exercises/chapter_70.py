@@ -86,6 +86,8 @@ def home(answer: Script) -> None:
             heard: list[Any] = []
             desk.subscriber("move_base_simple/goal", PoseStamped, heard.append)
             poses = desk.publisher("amcl_pose", PoseWithCovarianceStamped, queue_size=5)
+            # who waits for one pose is not there for the next: without a listener, a publisher warns
+            desk.subscriber("amcl_pose", PoseWithCovarianceStamped, lambda _: None)
             ask = desk.publisher("home", Empty, queue_size=5)
             trial.start(answer)
             for pose in (BEGIN, LATER):
