@@ -23,7 +23,7 @@ from rosmini.navigation.costmap_2d.layer import Bounds, CostmapLayer, Window
 from rosmini.navigation.costmap_2d.parameters import LayerConfig
 from rosmini.navigation.costmap_2d.rays import line_cells
 from rosmini.navigation.nav_core.clouds import point_cloud
-from rosmini.navigation.nav_core.poses import planar_pose, planar_transform, pose_stamped
+from rosmini.navigation.nav_core.poses import planar_transform, pose_stamped
 from rosmini.tf import Buffer, TransformException
 from rosmini.time import Time
 
@@ -165,9 +165,11 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         """Where to drive next from a pose; refused if no frontier is left."""
         start = request.start_pose
         self._wait_until_drawn()
-        x, y, _ = planar_pose(start)
+        p = start.pose.position
         try:
-            here = moved(self.buffer, self.layered.global_frame, start.header.frame_id, np.array([[x, y]]))
+            here = moved(
+                self.buffer, self.layered.global_frame, start.header.frame_id, np.array([[p.x, p.y]])
+            )
         except TransformException as error:
             raise self._refused(
                 f"Couldn't transform from {self.layered.global_frame} to {start.header.frame_id}: {error}"

@@ -1,0 +1,132 @@
+"""What is right in the exercises of chapter 72, explore_lite."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rosmini.book.checks import Script, exercise, expect, expect_type
+from rosmini.book.trials import TurtleTrial
+from rosmini.msgs.sensor_msgs.msg import BatteryState
+from rosmini.msgs.std_msgs.msg import Bool
+
+Frontiers = list[tuple[float, int]]
+
+CASES: tuple[tuple[Frontiers, tuple[float, float, float, float], int | None, str], ...] = (
+    ([(1.0, 10), (2.0, 18), (6.0, 60)], (3.0, 1.0, 0.0, 0.05), 2, "size outweighs the way"),
+    (
+        [(1.0, 10), (2.0, 18), (6.0, 60)],
+        (24.0, 1.0, 0.0, 0.05),
+        0,
+        "with a large potential_scale the near one",
+    ),
+    ([(1.0, 10), (2.0, 18), (6.0, 60)], (24.0, 1.0, 0.75, 0.05), 1, "short ones are left out"),
+    ([(1.0, 10), (2.0, 15)], (3.0, 1.0, 0.75, 0.05), 1, "exactly the least length is long enough"),
+    ([(1.0, 10)], (3.0, 1.0, 0.75, 0.05), None, "none is long enough"),
+    ([], (3.0, 1.0, 0.0, 0.05), None, "there is none at all"),
+    (
+        [(3.0, 9), (1.0, 2)],
+        (1.0, 0.5, 0.0, 1.0),
+        0,
+        "the distance is in meters, the size in cells, both times r",
+    ),
+)
+
+
+@exercise("72.1", praise="Greedy, and right.")
+def cheapest(answer: Any) -> None:
+    """The index of the frontier that costs least."""
+    expect(callable(answer), f"cheapest is {answer!r}, not a function.", "def cheapest(...): ...")
+    for frontiers, numbers, wanted, why in CASES:
+        found = answer(list(frontiers), *numbers)
+        potential, gain, least, r = numbers
+        said = (
+            f"For {frontiers} with potential {potential}, gain {gain}, least {least} m and r {r} m it says "
+            f"{found!r}; right is {wanted!r}."
+        )
+        expect(found == wanted and isinstance(found, bool) is False, said, why)
+
+
+LEVELS = (
+    (0.9, None),
+    (0.5, None),
+    (0.19, False),
+    (0.1, None),
+    (0.3, None),
+    (0.79, None),
+    (0.81, True),
+    (0.9, None),
+    (0.5, None),
+    (0.25, None),
+    (0.15, False),
+    (0.85, True),
+)
+"""What the battery has, and what is to be said then."""
+
+
+@exercise("72.2", praise="It rests when it has to, and not a moment longer.")
+def guard(answer: Script) -> None:
+    """Stops the explorer for an empty battery, and lets it go on."""
+    with TurtleTrial(None) as trial:
+        node = trial.graph.node("board")
+        heard: list[bool] = []
+        node.subscriber("explore/resume", Bool, lambda message: heard.append(message.data))
+        battery = node.publisher("battery_state", BatteryState, queue_size=5)
+        trial.start(answer)
+        trial.run(2.0)
+        for level, wanted in LEVELS:
+            heard.clear()
+            battery.publish(BatteryState(percentage=level))
+            trial.run(0.5)
+            right = [] if wanted is None else [wanted]
+            expect(
+                heard == right,
+                f"At {level:.0%} it says {heard or 'nothing'} on explore/resume; right is {right or 'nothing'}.",
+                "False below 0.2, True above 0.8, each once, and first of all it has to have been low",
+            )
+
+
+R = 0.05
+"""The side of a cell [m]."""
+
+
+def _cost(potential: float, gain: float, distance: float, length: float) -> float:
+    return potential * distance * R - gain * length
+
+
+@exercise("72.3", praise="Careful, and home for dinner.")
+def cautious(answer: Any) -> None:
+    """Parameters that weigh as asked."""
+    expect_type(answer, dict, "parameters is", "a dictionary")
+    known = {"gain_scale", "potential_scale", "min_frontier_size", "progress_timeout", "return_to_init"}
+    expect(
+        answer.get("gain_scale") == 1,
+        f"gain_scale is {answer.get('gain_scale')!r}, not 1.",
+        "as the task says",
+    )
+    potential = answer.get("potential_scale")
+    ok = isinstance(potential, int | float) and not isinstance(potential, bool)
+    expect(ok, f"potential_scale is {potential!r}, no number.", "a number between two borders")
+    near, far = _cost(potential, 1.0, 2.0, 0.8), _cost(potential, 1.0, 5.0, 2.4)
+    expect(
+        near < far,
+        f"With potential_scale {potential:g} the near one costs {near:+.2f}, the large one at 5 m {far:+.2f}.",
+        "the way has to weigh more",
+    )
+    middle = _cost(potential, 1.0, 3.0, 2.4)
+    expect(
+        middle < near,
+        f"With potential_scale {potential:g} the near one costs {near:+.2f}, the large one at 3 m {middle:+.2f}.",
+        "the way has to weigh less",
+    )
+    for name, wanted in (("min_frontier_size", 0.6), ("progress_timeout", 15), ("return_to_init", True)):
+        expect(
+            name in answer and answer[name] == wanted,
+            f"{name} is {answer.get(name)!r}; right is {wanted!r}.",
+            "see the table of parameters",
+        )
+    others = sorted(set(answer) - known)
+    expect(
+        not others,
+        f"explore has no parameter {', '.join(map(str, others))} that matters here.",
+        "five are enough",
+    )
