@@ -96,7 +96,7 @@ def _step(name: str, particles: ArrayLike, weights: ArrayLike | None, truth: Any
     mean = shares @ poses[:, :2]
     spread = math.sqrt(float(shares @ np.square(poses[:, :2] - mean).sum(axis=1)))
     off = None if pose is None else math.dist(mean, pose[:2])
-    shown = _shown(np.round(given / given.max(), 6))
+    shown = _shown(np.round(given / given.max(), 3))
     return Step(name, poses[shown], given[shown] / given.max(), pose, len(poses), spread, off)
 
 
