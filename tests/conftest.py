@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import shutil
 import signal
+import sys
+from contextlib import contextmanager
 from pathlib import Path
 from types import CodeType
 from typing import TYPE_CHECKING, Any
@@ -79,6 +82,46 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker("processes")
 
 
+def state_of_process() -> dict[str, Any]:
+    """What a test may change while it runs."""
+    environment = {name: value for name, value in os.environ.items() if name != "PYTEST_CURRENT_TEST"}
+    graphs = getattr(sys.modules.get("rosmini.graph.graph"), "_default", {})
+    return {
+        "the working directory": os.getcwd(),
+        "the environment": environment,
+        "sys.path": list(sys.path),
+        "sys.argv": list(sys.argv),
+        "nodes of the default graph": [
+            name for graph in graphs.values() for name in graph.nodes if name != "/rosout"
+        ],
+        "the root logger's handlers": list(logging.root.handlers),
+    }
+
+
+@contextmanager
+def nothing_left(folder: Path) -> Iterator[None]:
+    """Fail if the process is not as it was: `state_of_process()`, and no module of a file below `folder`."""
+    before, modules = state_of_process(), set(sys.modules)
+    yield
+    after = state_of_process()
+    changed = [
+        f"{what}: {value} is now {after[what]}" for what, value in before.items() if after[what] != value
+    ]
+    changed += [
+        f"sys.modules: {name} of {file}"
+        for name in sys.modules.keys() - modules
+        if (file := str(getattr(sys.modules[name], "__file__", None))).startswith(f"{folder}{os.sep}")
+    ]
+    assert not changed, "\n".join(["the test has left behind:", *changed])
+
+
+@pytest.fixture(autouse=True)
+def nothing_left_in_the_process(shared_tmp: Path) -> Iterator[None]:
+    """A test leaves the process as it was, so that the next one passes in whatever order they run."""
+    with nothing_left(shared_tmp):
+        yield
+
+
 @pytest.fixture(scope="session")
 def root() -> Path:
     """The checkout."""
@@ -116,7 +159,7 @@ def book_html(shared_tmp: Path) -> Path:
     from book.tools.build import build_book
 
     output = shared_tmp / "book"
-    with FileLock(shared_tmp / "book.lock", timeout=240):
+    with FileLock(shared_tmp / "book.lock"):
         first = output / "_build" / "html" / "index.html"
         if not (output / "built").is_file():
             output.mkdir(exist_ok=True)

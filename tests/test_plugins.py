@@ -125,6 +125,8 @@ def test_other_distributions_bring_theirs(monkeypatch, tmp_path):
     (tmp_path / "broken_planner.py").write_text("import no_such_module\n", encoding="utf-8")
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setitem(sys.modules, "tests.test_plugins", sys.modules[__name__])
+    monkeypatch.setitem(sys.modules, "their_planner", None)  # so that it is gone afterwards
+    monkeypatch.delitem(sys.modules, "their_planner")
     found = [
         EntryPoint("their_pkg/TheirPlanner", "their_planner:Theirs", plugins.GROUP),
         EntryPoint("broken/Planner", "broken_planner:X", plugins.GROUP),

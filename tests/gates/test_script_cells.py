@@ -46,6 +46,7 @@ def mypys(folder: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     """What mypy says of them."""
     api = pytest.importorskip("mypy.api", reason="mypy is part of the dev extra only")
     monkeypatch.chdir(folder)
+    monkeypatch.setenv("MYPY_CONFIG_FILE_DIR", str(folder))  # mypy sets it, and would leave it
     write(folder / "typings", stub_files()[0])
     (folder / "mypy.ini").write_text(MYPY, encoding="utf-8")
     found = [

@@ -66,7 +66,7 @@ def root():
 
 
 def test_records_are_written_to_ros_log_folder(tmp_path, monkeypatch, root):
-    monkeypatch.delenv("ROS_LOG_FILENAME", raising=False)
+    monkeypatch.setenv("ROS_LOG_FILENAME", "")  # so that what it becomes is taken back
     env = {"ROS_HOME": str(tmp_path)}
     path = roslogging.configure_logging("talker", logging.WARNING, "run/talker.log", env)
     logging.getLogger("own").info("not this")
