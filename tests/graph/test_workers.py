@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 
-from ..processes import PATIENCE
+from ..processes import run
 
 LARGE = """
 import numpy
@@ -33,7 +32,5 @@ print("whole")
 
 
 def test_large_intermediate_results_in_a_callback_do_no_harm():
-    done = subprocess.run(
-        [sys.executable, "-c", LARGE], capture_output=True, encoding="utf-8", timeout=PATIENCE, check=False
-    )
+    done = run([sys.executable, "-c", LARGE])
     assert (done.returncode, done.stdout) == (0, "whole\n"), done.stderr[-500:]
