@@ -7,7 +7,7 @@ it stands on tf2.
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -272,7 +272,7 @@ class TransformBroadcaster:
         )
 
     def sendTransform(
-        self, translation: Sequence[float], rotation: Sequence[float], time: Time, child: str, parent: str
+        self, translation: Iterable[float], rotation: Iterable[float], time: Time, child: str, parent: str
     ) -> None:
         """Say where ``child`` is in ``parent``: translation [m] and quaternion (x, y, z, w), as they are."""
         x, y, z = (float(value) for value in translation)
