@@ -95,10 +95,14 @@ def test_a_tree_that_grows_without_end_is_cut(workspace: Path) -> None:
 
 def test_profile_says_where_the_time_goes(workspace: Path) -> None:
     (workspace / "zombie").mkdir()
-    lines = ROSPACK.run("profile").lines
+    every_folder = "--length=100000"  # the slowest come first, and which these are differs from run to run
+    lines = ROSPACK.run("profile", every_folder).lines
     assert any(line.endswith(f"* {workspace / 'zombie'}") for line in lines)
     assert any(line.endswith(f"  {workspace / 'alpha'}") for line in lines)
-    assert str(workspace / "zombie") in ROSPACK.run("profile", "--zombie-only").lines
+    assert str(workspace / "zombie") in ROSPACK.run("profile", every_folder, "--zombie-only").lines
+    times = [float(line.split()[0]) for line in ROSPACK.run("profile", "--length=3").lines[6:]]
+    assert len(times) == 3
+    assert times == sorted(times, reverse=True)
 
 
 def test_the_command_prints_and_returns_the_status(
