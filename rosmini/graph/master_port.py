@@ -106,6 +106,7 @@ class MasterProxy:
         self._is_over = is_over
         self.is_mute = False
         """Whether registrations are not taken back: the caller is dead."""
+        self._has_registered = False
         self._lock = threading.Lock()
         self._busy = False
         self._queue: deque[Waiter] = deque()
@@ -163,11 +164,14 @@ class MasterProxy:
         """
         port = self._host.master
         if port.is_local:
+            self._has_registered = True
             return self._reach(port, method, arguments)
         with self._turn():
             while True:
                 try:
-                    return self._reach(self._host.master, method, self._current(arguments))
+                    answer = self._reach(self._host.master, method, self._current(arguments))
+                    self._has_registered = True
+                    return answer
                 except MasterUnreachable as error:
                     if self._is_over() or not port.keeps_trying:
                         raise
@@ -205,6 +209,8 @@ class MasterProxy:
                 try:
                     self._reach(self._host.master, method, arguments)
                 except MasterUnreachable as error:
+                    if not self._has_registered:
+                        return  # nothing stays there
                     port.leave_by = port.leave_by or started + LEAVE_NS
                     if not port.keeps_trying or scheduler.now_ns() + RETRY_NS >= port.leave_by:
                         port.leave_by = started

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 from xml.parsers.expat import ExpatError
 
-from rosmini.errors import MasterUnreachable, ROSException, RosminiError, TransportException
+from rosmini.errors import MasterUnreachable, ROSException, RosminiError, TransportException, shown
 
 if TYPE_CHECKING:
     from typing import Self
@@ -170,11 +170,8 @@ class DirectMaster:
         try:
             return self._wire.call(self._wire.master_uri, method, self._caller_id, *arguments)
         except TransportException as error:
-            why = _reason(error.__cause__ or error)
-            raise MasterUnreachable(
-                f"the Master at {self._wire.master_uri} does not answer: {why}. Start it with `rosmini roscore`, or "
-                "set ROS_MASTER_URI to the address of one that runs"
-            ) from error.__cause__
+            cause = error.__cause__ or error
+            raise MasterUnreachable(_complaint(self._wire.master_uri, cause)) from error.__cause__
 
     def ask(self, method: str, *arguments: Any) -> Any:
         """Return the value of the answer. Raises ``ROSException`` for any code but 1, and ``MasterUnreachable``."""
@@ -199,6 +196,26 @@ class WallClock:
     def sleep_until(self, when_ns: int, reason: str | None = None) -> None:  # noqa: ARG002 - the protocol's
         """Block until that time."""
         time.sleep(max(when_ns - time.perf_counter_ns(), 0) / 1e9)
+
+
+def _complaint(uri: str, cause: BaseException) -> str:
+    """Return why there is no answer of a Master, and what to do about that."""
+    silent = f"the Master at {uri} does not answer: "
+    another = "set ROS_MASTER_URI to the address of one that runs"
+    if isinstance(cause, socket.gaierror):
+        host = shown(urlsplit(uri).hostname or "")
+        return f"{silent}the host name {host} does not resolve on this machine: add it to /etc/hosts here, or {another}"
+    if isinstance(cause, TimeoutError):
+        return (
+            f"{silent}{_reason(cause)}. It hangs, or the way there is blocked: start it again, or {another}"
+        )
+    if isinstance(cause, OSError):
+        return f"{silent}{_reason(cause)}. Start it with `rosmini roscore`, or {another}"
+    if isinstance(cause, xmlrpc.client.ProtocolError):
+        why = f"it answered with HTTP status {cause.errcode}"
+    else:
+        why = _reason(cause)
+    return f"what answers at {uri} is not a ROS Master: {why}. Set ROS_MASTER_URI to the address that roscore shows"
 
 
 def _reason(error: BaseException) -> str:

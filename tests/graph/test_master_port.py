@@ -177,6 +177,21 @@ def test_a_node_ends_although_the_master_does_not_answer(
     assert graph.nodes == {}
 
 
+def test_a_node_that_never_reached_the_master_ends_at_once(
+    graph: Graph, master: SlowMaster, capsys: pytest.CaptureFixture[str]
+) -> None:
+    master.before = refuse
+    lane = graph.scheduler.spawn("start", lambda: graph.node("lonely").publisher("t", String))
+    graph.run(0.5)
+    before = graph.now()
+    graph.nodes["/lonely"].shutdown()
+    assert (graph.now() - before).to_sec() <= 0.2
+    assert lane.waiter is None
+    said = capsys.readouterr().err
+    assert "Unable to register" in said
+    assert "The registration stays there" not in said
+
+
 def test_a_service_of_another_process_is_found_by_asking_again(graph: Graph, master: SlowMaster) -> None:
     """Nothing tells this process of a registration elsewhere."""
     node = graph.node("node")

@@ -19,13 +19,13 @@ from ..processes import free_port
 
 
 @contextmanager
-def answering(answer: Callable[[bytes], bytes]) -> Iterator[str]:
+def answering(answer: Callable[[bytes], bytes], status: int = 200) -> Iterator[str]:
     """A server that answers every request with XML; yields its address."""
 
     class Handler(BaseHTTPRequestHandler):
         def do_POST(self) -> None:
             body = answer(self.rfile.read(int(self.headers["Content-Length"])))
-            self.send_response(200)
+            self.send_response(status)
             self.send_header("Content-Type", "text/xml")
             self.send_header("Content-Length", str(len(body)))
             self.end_headers()
@@ -98,6 +98,16 @@ def test_nobody_is_there() -> None:
     assert nodes.why_silent(caught.value, "/n", uri) == f"ERROR: connection refused to [{uri}]"
     with pytest.raises(MasterUnreachable, match=r"the Master at .* does not answer: .*rosmini roscore"):
         DirectWire(uri).ask_as("/me").find("lookupNode", "/x")
+
+
+def test_why_there_is_no_master_and_what_to_do() -> None:
+    with pytest.raises(MasterUnreachable, match=r"name 'no-such-host.invalid' does not resolve.*/etc/hosts"):
+        DirectWire("http://no-such-host.invalid:11311").ask_as("/me").ask("getPid")
+    with (
+        answering(lambda _: b"no page", 404) as uri,
+        pytest.raises(MasterUnreachable, match=r"is not a ROS Master: it answered with HTTP status 404"),
+    ):
+        DirectWire(uri).ask_as("/me").ask("getPid")
 
 
 @pytest.mark.parametrize("uri", ["ftp://localhost:1/", "localhost", "http://[::1", "http://no host:1/"])
