@@ -12,14 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from rosmini.geometry.poses import Pose
 from rosmini.navigation.map_server import GridMap
-from rosmini.viz.embed import embed
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.map_colours import painted
-from rosmini.viz.map_pictures import gif_address
+from rosmini.viz.map_pictures import cells_element, gif_address
+from rosmini.viz.moving_view import MovingView
 from rosmini.viz.rounding import fixed
 from rosmini.viz.rviz.gifs import gif
 from rosmini.viz.svg import document, element
-from rosmini.viz.view import SVG_MIME, View, ViewError
+from rosmini.viz.view import ViewError
 from rosmini.viz.words import plural
 from rosmini.viz.world_pictures import pose_of
 
@@ -110,11 +110,15 @@ def _shown(weights: Floats) -> NDArray[np.int64]:
     return np.concatenate([rest[every], heavy])
 
 
-class FilterSteps(View):
+class FilterSteps(MovingView):
     """What `filter_steps` gives."""
 
+    scripts = ("rosmini-filter-steps.js",)
+    call = "rosminiFilterSteps.mount"
+    usual_name = "particle filter"
+
     def __init__(self, grid: GridMap, steps: list[Step], title: str | None) -> None:
-        self._grid, self._steps, self._title = grid, steps, title
+        self._grid, self._steps, self.title = grid, steps, title
         height, width = grid.occupancy.shape
         self._size = width * grid.resolution, height * grid.resolution
         self._ground = gif_address(gif(painted(grid.occupancy.view(np.uint8), "map")[::-1])[0])
@@ -122,7 +126,7 @@ class FilterSteps(View):
     @property
     def text(self) -> str:
         """How many steps, and what there was after the first and the last."""
-        lines = [f"{self._title or 'particle filter'}: {plural(len(self._steps), 'step')}"]
+        lines = [f"{self.name}: {plural(len(self._steps), 'step')}"]
         ends = self._steps if len(self._steps) == 1 else (self._steps[0], self._steps[-1])
         return "\n".join([*lines, *(each.text() for each in ends)])
 
@@ -143,10 +147,7 @@ class FilterSteps(View):
         def at(x: float, y: float) -> str:
             return f"{(x - left) * scale:.1f} {(high - y + low) * scale:.1f}"
 
-        image = element(
-            "image", href=self._ground, width=WIDTH, height=high * scale,
-            preserveAspectRatio="none", style="image-rendering:pixelated",
-        )  # fmt: skip
+        image = cells_element(self._ground, width=WIDTH, height=high * scale)
         strokes = "".join(
             f"M{at(x, y)}L{at(x + TICK * math.cos(yaw), y + TICK * math.sin(yaw))}"
             for x, y, yaw in last.particles.tolist()
@@ -157,36 +158,15 @@ class FilterSteps(View):
             parts.append(element("circle", cx=x, cy=y, r=7, class_="rm-truth"))
         css = ".rosmini-svg .rm-particles{stroke:#d55e00;stroke-width:1.5}"
         css += ".rosmini-svg .rm-truth{fill:none;stroke:#009e73;stroke-width:3}"
-        title = self._title or "particle filter"
+        title = self.name
         return document(
             "".join(parts), width=WIDTH, height=high * scale, title=title, alt=self.alt, css=css, colours=[]
         )
 
-    def _images(self) -> dict[str, bytes]:
-        return {SVG_MIME: self.svg.encode()}
-
     @property
-    def html(self) -> str:
-        """The slider: of the book, or self-contained, as `rosmini.viz.book_form.book_form` says."""
-        return self._html(None)
-
-    @property
-    def page(self) -> str:
-        """The slider with all that it needs, for a file of its own."""
-        return self._html(book=False)
-
-    def _html(self, book: bool | None) -> str:
-        return embed(
-            ("rosmini-filter-steps.js",),
-            "rosminiFilterSteps.mount",
-            self.data,
-            title=self._title or "particle filter",
-            alt=self.alt,
-            height=round(WIDTH * self._size[1] / self._size[0]) + CONTROLS,
-            fallback_html=self.svg,
-            caption=self._title,
-            book=book,
-        )
+    def height(self) -> int:
+        """With the controls, about [CSS px]."""
+        return int(round(WIDTH * self._size[1] / self._size[0]) + CONTROLS)
 
     @property
     def data(self) -> dict[str, Any]:

@@ -12,10 +12,10 @@ from rosmini.navigation.costmap_2d.costmap import FREE_SPACE, LETHAL_OBSTACLE, N
 from rosmini.navigation.costmap_2d.inflation import cell_distance, cost_table, inflate
 from rosmini.navigation.costmap_2d.layer import Window
 from rosmini.viz.costmap_pictures import cells_of, costmap_picture, published, shares
-from rosmini.viz.embed import embed
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.map_colours import colours_of
-from rosmini.viz.view import SVG_MIME, View, ViewError
+from rosmini.viz.moving_view import MovingView
+from rosmini.viz.view import ViewError
 
 LARGEST = 400
 """So many cells a side are in a page, at most."""
@@ -57,13 +57,17 @@ def inflation_dials(
     return InflationDials(base, inscribed_radius, inflation_radius, cost_scaling_factor, title)
 
 
-class InflationDials(View):
+class InflationDials(MovingView):
     """What `inflation_dials` gives; its image shows the costs by the numbers that were given."""
+
+    scripts = ("rosmini-canvas.js", "rosmini-inflation.js")
+    call = "rosminiInflation.mount"
+    usual_name = "inflation"
 
     def __init__(
         self, base: Costmap2D, inscribed: float, radius: float, scaling: float, title: str | None
     ) -> None:
-        self._base, self._title = base, title
+        self._base, self.title = base, title
         self._inscribed, self._radius, self._scaling = inscribed, radius, scaling
         reach = cell_distance(radius, base.resolution)
         self.inflated = Costmap2D.of(base.costs, base.resolution, base.origin)
@@ -76,7 +80,7 @@ class InflationDials(View):
     def text(self) -> str:
         """The numbers, and what they make of the cells."""
         return (
-            f"{self._title or 'inflation'}: {self._base.width} x {self._base.height} cells of "
+            f"{self.name}: {self._base.width} x {self._base.height} cells of "
             f"{self._base.resolution:g} m\ninflation_radius {self._radius:g} m, cost_scaling_factor {self._scaling:g}, "
             f"inscribed radius {self._inscribed:g} m\n{', '.join(shares(self.inflated.costs))}"
         )
@@ -92,31 +96,10 @@ class InflationDials(View):
         """The still picture."""
         return self._picture.svg or ""
 
-    def _images(self) -> dict[str, bytes]:
-        return {SVG_MIME: self.svg.encode()}
-
     @property
-    def html(self) -> str:
-        """The dials: of the book, or self-contained, as `rosmini.viz.book_form.book_form` says."""
-        return self._html(None)
-
-    @property
-    def page(self) -> str:
-        """The dials with all that they need, for a file of its own."""
-        return self._html(book=False)
-
-    def _html(self, book: bool | None) -> str:
-        return embed(
-            ("rosmini-canvas.js", "rosmini-inflation.js"),
-            "rosminiInflation.mount",
-            self.data,
-            title=self._title or "inflation",
-            alt=self.alt,
-            height=round(min(WIDTH * self._base.height / self._base.width, 480)) + CONTROLS,
-            fallback_html=self.svg,
-            caption=self._title,
-            book=book,
-        )
+    def height(self) -> int:
+        """With the controls, about [CSS px]."""
+        return round(min(WIDTH * self._base.height / self._base.width, 480)) + CONTROLS
 
     @property
     def data(self) -> dict[str, Any]:

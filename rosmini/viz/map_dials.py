@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 from rosmini.navigation.map_server.grid_map import GridMap
 from rosmini.navigation.map_server.map_io import MODES, Fields, MapFile, occupancy_of
-from rosmini.viz.embed import embed
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.map_colours import colours_of, painted
-from rosmini.viz.map_pictures import gif_address, shares
+from rosmini.viz.map_pictures import cells_element, gif_address, shares
+from rosmini.viz.moving_view import MovingView
 from rosmini.viz.rviz.gifs import gif
 from rosmini.viz.style import LABEL_SIZE
 from rosmini.viz.svg import document, element, escape
-from rosmini.viz.view import SVG_MIME, View, ViewError
+from rosmini.viz.view import ViewError
 
 LARGEST = 256
 """An image has so many pixels a side, at most: they are in the page."""
@@ -53,11 +53,15 @@ def map_dials(file: MapFile, *, title: str | None = None) -> MapDials:
     return MapDials(file.fields, pixels[..., 0], file.image.name, title)
 
 
-class MapDials(View):
+class MapDials(MovingView):
     """What `map_dials` gives; its image shows the map by the numbers of the file."""
 
+    scripts = ("rosmini-map-dials.js",)
+    call = "rosminiMapDials.mount"
+    usual_name = "map image"
+
     def __init__(self, fields: Fields, greys: NDArray[np.uint8], name: str, title: str | None) -> None:
-        self._fields, self._greys, self._name, self._title = fields, greys, name, title
+        self._fields, self._greys, self._name, self.title = fields, greys, name, title
         self._map = GridMap(occupancy_of(greys[..., None], fields), fields.resolution, fields.origin)
 
     @property
@@ -65,7 +69,7 @@ class MapDials(View):
         """The numbers of the file, and what they make of the image."""
         fields, (height, width) = self._fields, self._greys.shape
         return (
-            f"{self._title or 'map image'}: {self._name}, {width} x {height} pixels\n"
+            f"{self.name}: {self._name}, {width} x {height} pixels\n"
             f"mode {fields.mode}, negate {int(fields.negate)}, free_thresh {fields.free_thresh:g}, "
             f"occupied_thresh {fields.occupied_thresh:g}\n{', '.join(shares(self._map))}"
         )
@@ -86,54 +90,22 @@ class MapDials(View):
         parts = []
         for number, (cells, scheme, label) in enumerate(images):
             x = number * (wide + GAP)
-            data, _ = gif(painted(cells[::-1], scheme))
+            address = gif_address(gif(painted(cells[::-1], scheme))[0])
             parts.append(
                 element("text", escape(label), x=x, y=HEAD - 7, font_size=LABEL_SIZE, class_="rm-what")
             )
-            parts.append(
-                element(
-                    "image",
-                    href=gif_address(data),
-                    x=x,
-                    y=HEAD,
-                    width=wide,
-                    height=high,
-                    preserveAspectRatio="none",
-                    style="image-rendering:pixelated",
-                )
-            )
+            parts.append(cells_element(address, x=x, y=HEAD, width=wide, height=high))
         css = ".rosmini-svg .rm-what{fill:var(--rosmini-muted)}"
         return document(
-            "".join(parts), width=WIDTH, height=HEAD + high + 1, title=self._title or "map image", alt=self.alt,
+            "".join(parts), width=WIDTH, height=HEAD + high + 1, title=self.name, alt=self.alt,
             css=css, colours=["muted"],
         )  # fmt: skip
 
-    def _images(self) -> dict[str, bytes]:
-        return {SVG_MIME: self.svg.encode()}
-
     @property
-    def html(self) -> str:
-        """The dials: of the book, or self-contained, as `rosmini.viz.book_form.book_form` says."""
-        return self._html(None)
-
-    @property
-    def page(self) -> str:
-        """The dials with all that they need, for a file of its own."""
-        return self._html(book=False)
-
-    def _html(self, book: bool | None) -> str:
+    def height(self) -> int:
+        """With the controls, about [CSS px]."""
         height, width = self._greys.shape
-        return embed(
-            ("rosmini-map-dials.js",),
-            "rosminiMapDials.mount",
-            self.data,
-            title=self._title or "map image",
-            alt=self.alt,
-            height=round((WIDTH - GAP) / 2 * height / width) + CONTROLS,
-            fallback_html=self.svg,
-            caption=self._title,
-            book=book,
-        )
+        return int(round((WIDTH - GAP) / 2 * height / width) + CONTROLS)
 
     @property
     def data(self) -> dict[str, Any]:

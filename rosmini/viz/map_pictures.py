@@ -132,6 +132,13 @@ def gif_address(data: bytes) -> str:
     return f"data:image/gif;base64,{base64.b64encode(data).decode()}"
 
 
+def cells_element(address: str, **where: str | float) -> str:
+    """A GIF of cells as an element of SVG in which each cell stays a rectangle, with its place and other attributes."""
+    return element(
+        "image", href=address, **where, preserveAspectRatio="none", style="image-rendering:pixelated"
+    )
+
+
 def draw_frame(axes: Axes, cells: Cells, scale: float) -> None:
     """The edge of a grid, and at its origin two short axes: x red, y green, as in RViz."""
     corners = cells.corners()

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.navigation.nav_core import PlanningFailure
 from rosmini.navigation.navfn import Search
 from rosmini.viz.figures import WIDTH
-from rosmini.viz.map_pictures import gif_address
+from rosmini.viz.map_pictures import cells_element, gif_address
 from rosmini.viz.rounding import fixed
 from rosmini.viz.rviz.gifs import gif
 from rosmini.viz.svg import document, element
@@ -54,9 +52,8 @@ def search_picture(
         )
     scale = min(width / search.width, HEIGHT / search.height)
     w, h = search.width * scale, search.height * scale
-    data, _ = gif(_painted(search)[::-1])
-    still: dict[str, Any] = {"preserveAspectRatio": "none", "style": "image-rendering:pixelated"}
-    parts = [element("image", href=gif_address(data), x=0, y=0, width=w, height=h, **still)]
+    address = gif_address(gif(_painted(search)[::-1])[0])
+    parts = [cells_element(address, x=0, y=0, width=w, height=h)]
     if parents:
         parts.append(_line(_parent_lines(search, scale), "rm-parents"))
     path = path_of(search)

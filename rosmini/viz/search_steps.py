@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.navigation.navfn import Search
-from rosmini.viz.embed import embed
 from rosmini.viz.figures import WIDTH
-from rosmini.viz.map_pictures import gif_address
+from rosmini.viz.map_pictures import cells_element, gif_address
+from rosmini.viz.moving_view import MovingView
 from rosmini.viz.rviz.gifs import gif
 from rosmini.viz.search_pictures import SHADES, WAITING, greys_of, path_of, said_of, shades
 from rosmini.viz.style import LABEL_SIZE
 from rosmini.viz.svg import document, element, escape
-from rosmini.viz.view import SVG_MIME, View, ViewError
+from rosmini.viz.view import ViewError
 
 LARGEST = 16_384
 """Cells of a grid that is stepped in a page, at most: a byte of each is in it."""
@@ -65,11 +65,15 @@ def recorded(search: Search) -> NDArray[np.int64]:
     return when
 
 
-class SearchSteps(View):
+class SearchSteps(MovingView):
     """What `search_steps` gives."""
 
+    scripts = ("rosmini-search-steps.js",)
+    call = "rosminiSearchSteps.mount"
+    usual_name = "searches"
+
     def __init__(self, searches: dict[str, Search], title: str | None) -> None:
-        self._searches, self._title = searches, title
+        self._searches, self.title = searches, title
         taken = {name: recorded(each) for name, each in searches.items()}
         longest = max(each.expanded for each in searches.values())
         self.step = max(1, math.ceil(longest / (SHADES - 1)))
@@ -85,7 +89,7 @@ class SearchSteps(View):
     def text(self) -> str:
         """How each search ended."""
         lines = [f"{name}: {said_of(each)}" for name, each in self._searches.items()]
-        return "\n".join([self._title or "searches", *lines])
+        return "\n".join([self.name, *lines])
 
     @property
     def alt(self) -> str:
@@ -107,14 +111,11 @@ class SearchSteps(View):
             pixels[..., :3] = greys_of(search)[..., None]
             seen = self._when[name] > 0
             pixels[seen, :3] = shades()[self._shade(self._when[name][seen])]
-            data, _ = gif(pixels[::-1])
+            address = gif_address(gif(pixels[::-1])[0])
             parts.append(
                 element("text", escape(name), x=x, y=HEAD - 7, font_size=LABEL_SIZE, class_="rm-what")
             )
-            image = {"preserveAspectRatio": "none", "style": "image-rendering:pixelated"}
-            parts.append(
-                element("image", href=gif_address(data), x=x, y=HEAD, width=wide, height=high, **image)
-            )
+            parts.append(cells_element(address, x=x, y=HEAD, width=wide, height=high))
             path = path_of(search)
             if path is not None:
                 scale = wide / search.width
@@ -126,40 +127,19 @@ class SearchSteps(View):
         css = ".rosmini-svg .rm-what{fill:var(--rosmini-muted)}"
         css += ".rosmini-svg .rm-path{fill:none;stroke:#d55e00;stroke-width:2}"
         return document(
-            "".join(parts), width=WIDTH, height=HEAD + high + 1, title=self._title or "searches", alt=self.alt,
+            "".join(parts), width=WIDTH, height=HEAD + high + 1, title=self.name, alt=self.alt,
             css=css, colours=["muted"],
         )  # fmt: skip
 
     def _shade(self, frames: NDArray[np.uint8]) -> NDArray[np.int64]:
         return np.minimum((frames.astype(np.int64) - 1) * (SHADES - 1) // max(self.frames, 1), SHADES - 1)
 
-    def _images(self) -> dict[str, bytes]:
-        return {SVG_MIME: self.svg.encode()}
-
     @property
-    def html(self) -> str:
-        """The slider: of the book, or self-contained, as `rosmini.viz.book_form.book_form` says."""
-        return self._html(None)
-
-    @property
-    def page(self) -> str:
-        """The slider with all that it needs, for a file of its own."""
-        return self._html(book=False)
-
-    def _html(self, book: bool | None) -> str:
+    def height(self) -> int:
+        """With the controls, about [CSS px]."""
         first = next(iter(self._searches.values()))
         wide = (WIDTH - (len(self._searches) - 1) * GAP) / len(self._searches)
-        return embed(
-            ("rosmini-search-steps.js",),
-            "rosminiSearchSteps.mount",
-            self.data,
-            title=self._title or "searches",
-            alt=self.alt,
-            height=round(wide * first.height / first.width) + CONTROLS,
-            fallback_html=self.svg,
-            caption=self._title,
-            book=book,
-        )
+        return round(wide * first.height / first.width) + CONTROLS
 
     @property
     def data(self) -> dict[str, Any]:

@@ -15,14 +15,15 @@ from numpy.typing import ArrayLike, NDArray
 from rosmini.geometry.poses import transform_points
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
-from rosmini.viz.embed import embed
+from rosmini.viz.costmap_pictures import published
 from rosmini.viz.map_colours import colours_of, painted
 from rosmini.viz.map_pictures import gif_address
+from rosmini.viz.moving_view import MovingView
 from rosmini.viz.rounding import fixed, kept, snap
 from rosmini.viz.rviz.gifs import gif
 from rosmini.viz.style import LABEL_SIZE
 from rosmini.viz.svg import document, element, escape
-from rosmini.viz.view import SVG_MIME, View, ViewError
+from rosmini.viz.view import ViewError
 
 Floats = NDArray[np.float64]
 
@@ -79,8 +80,12 @@ def trajectory_window(
     return TrajectoryWindow(samples, costmap, path, outline, chosen, title)
 
 
-class TrajectoryWindow(View):
+class TrajectoryWindow(MovingView):
     """What `trajectory_window` gives."""
+
+    scripts = ("rosmini-canvas.js", "rosmini-trajectories.js")
+    call = "rosminiTrajectories.mount"
+    usual_name = "trajectories"
 
     def __init__(
         self,
@@ -92,7 +97,7 @@ class TrajectoryWindow(View):
         title: str | None,
     ) -> None:
         self._samples, self._costmap, self._plan = samples, costmap, plan
-        self._footprint, self._title = footprint, title
+        self._footprint, self.title = footprint, title
         totals = np.array([float(fixed(value, 6)) for value in samples.totals])
         # The cheapest first, then what was rejected, critic by critic.
         rank = np.where(samples.accepted, -1, samples.rejected_by)
@@ -112,7 +117,7 @@ class TrajectoryWindow(View):
         grid = self._costmap
         x0, y0 = grid.world_to_map_clamped(*low)
         x1, y1 = grid.world_to_map_clamped(*high)
-        self._costs = _published(grid.costs[y0 : y1 + 1, x0 : x1 + 1])[::-1]
+        self._costs = published(grid.costs[y0 : y1 + 1, x0 : x1 + 1])[::-1]
         size, (left, bottom) = grid.resolution, grid.origin
         return left + x0 * size, bottom + y0 * size, left + (x1 + 1) * size, bottom + (y1 + 1) * size
 
@@ -122,7 +127,7 @@ class TrajectoryWindow(View):
     def text(self) -> str:
         """How many there are, the best with what each critic added, and how many each critic rejected."""
         s = self._samples
-        lines = [f"{self._title or 'trajectories'}: {len(s)} of {len(s) + s.refused} velocities driven"]
+        lines = [f"{self.name}: {len(s)} of {len(s) + s.refused} velocities driven"]
         lines.append(self._said(self._chosen))
         counts = {name: count for name, count in s.counts().items() if name != "generator"}
         lines.append(
@@ -199,7 +204,7 @@ class TrajectoryWindow(View):
             for n in range(SHADES)
         )
         return document(
-            "".join(parts), width=width, height=LINE + height, title=self._title or "trajectories", alt=self.alt,
+            "".join(parts), width=width, height=LINE + height, title=self.name, alt=self.alt,
             css=_CSS + shadows, colours=["ink", "muted", "blue", "vermilion", "green", "orange"],
         )  # fmt: skip
 
@@ -226,33 +231,12 @@ class TrajectoryWindow(View):
         )
         return element("polygon", points=points, class_=kind)
 
-    def _images(self) -> dict[str, bytes]:
-        return {SVG_MIME: self.svg.encode()}
-
     # -- the page ------------------------------------------------------------------------------------------------
 
     @property
-    def html(self) -> str:
-        """The sliders: of the book, or self-contained, as `rosmini.viz.book_form.book_form` says."""
-        return self._html(None)
-
-    @property
-    def page(self) -> str:
-        """The sliders with all that they need, for a file of its own."""
-        return self._html(book=False)
-
-    def _html(self, book: bool | None) -> str:
-        return embed(
-            ("rosmini-canvas.js", "rosmini-trajectories.js"),
-            "rosminiTrajectories.mount",
-            self.data,
-            title=self._title or "trajectories",
-            alt=self.alt,
-            height=round((self._area[3] - self._area[1]) * self._scale) + CONTROLS,
-            fallback_html=self.svg,
-            caption=self._title,
-            book=book,
-        )
+    def height(self) -> int:
+        """With the controls, about [CSS px]."""
+        return round((self._area[3] - self._area[1]) * self._scale) + CONTROLS
 
     @property
     def data(self) -> dict[str, Any]:
@@ -278,14 +262,6 @@ class TrajectoryWindow(View):
             found["costs"] = self._costs.tobytes()
             found["colours"] = colours_of("costmap").tobytes()
         return found
-
-
-def _published(costs: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Costs as the bytes that RViz gets: 0 to 98, 99, 100 and 255."""
-    table = np.zeros(256, dtype=np.uint8)
-    table[1:253] = 1 + 97 * (np.arange(1, 253) - 1) // 251
-    table[253:] = 99, 100, 255
-    return table[costs]
 
 
 def _bytes(tracks: Sequence[Floats], area: Sequence[float]) -> bytes:

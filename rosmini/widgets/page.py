@@ -138,7 +138,7 @@ def _solid(sight: Chosen) -> dict[str, Any]:
     view = robot_3d(
         replace(sight.world, obstacles=(*sight.fixed(), *sight.moving())), sight.model, sight.look()
     )
-    return view.data()
+    return view.data
 
 
 def _maps(pad: Pad) -> list[str]:

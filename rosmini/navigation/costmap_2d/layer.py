@@ -50,6 +50,10 @@ class Window(NamedTuple):
         """Whether a cell is in it."""
         return self.x0 <= mx < self.xn and self.y0 <= my < self.yn
 
+    def fits(self, grid: Costmap2D) -> bool:
+        """Whether all of it is in a grid."""
+        return self.x0 >= 0 and self.y0 >= 0 and self.xn <= grid.width and self.yn <= grid.height
+
     def of(self, costs: Costs) -> Costs:
         """The part of a grid (h, w) that is in it, as a view."""
         return costs[self.y0 : self.yn, self.x0 : self.xn]

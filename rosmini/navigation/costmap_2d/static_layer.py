@@ -113,13 +113,7 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
 
     def _take_update(self, update: Any) -> None:
         window = Window(update.x, update.y, update.x + update.width, update.y + update.height)
-        inside = (
-            window.x0 >= 0
-            and window.y0 >= 0
-            and window.xn <= self.grid.width
-            and window.yn <= self.grid.height
-        )
-        if not inside or len(update.data) != update.width * update.height:
+        if not window.fits(self.grid) or len(update.data) != update.width * update.height:
             self.node.logerr(
                 f"An update of {update.width} x {update.height} cells at ({update.x}, {update.y}) with "
                 f"{len(update.data)} values does not fit the map of {self.grid.width} x {self.grid.height}: it is not "

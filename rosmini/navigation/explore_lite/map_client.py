@@ -99,13 +99,7 @@ class MapClient:
 
     def _update(self, update: Any) -> None:
         window = Window(update.x, update.y, update.x + update.width, update.y + update.height)
-        fits = (
-            window.x0 >= 0
-            and window.y0 >= 0
-            and window.xn <= self.grid.width
-            and window.yn <= self.grid.height
-        )
-        if not fits or len(update.data) != update.width * update.height:
+        if not window.fits(self.grid) or len(update.data) != update.width * update.height:
             self.node.logerr(
                 f"An update of {update.width} x {update.height} cells at ({update.x}, {update.y}) does not fit the "
                 f"map of {self.grid.width} x {self.grid.height}: it is not taken",

@@ -16,10 +16,11 @@ from rosmini.sim.models import RobotModel
 from rosmini.sim.recording import Recording
 from rosmini.sim.world import Pose, World
 from rosmini.viz import style
-from rosmini.viz.embed import MESHCAT, embed
+from rosmini.viz.embed import MESHCAT
+from rosmini.viz.moving_view import MovingView
 from rosmini.viz.replay.player import beside
 from rosmini.viz.rounding import fixed, snap
-from rosmini.viz.view import SVG_MIME, View, ViewError
+from rosmini.viz.view import ViewError
 from rosmini.viz.world_pictures import colour_of, pose_text
 
 from .drawing import draw
@@ -42,7 +43,7 @@ NEAR = 0.1
 """So far [m] the camera stays away from what is behind it."""
 
 
-class MeshcatView(View):
+class MeshcatView(MovingView):
     """A scene that can be turned, and played if something in it moves; its image is a drawing of the same scene.
 
     `title` is a caption under it and the first line of its text form; `label` names it for those who do not see it.
@@ -50,6 +51,11 @@ class MeshcatView(View):
     In the book, the page's one copy of meshcat's viewer shows the recorded commands, with no server. A page should hold
     at most six: browsers draw no more than some eight three-dimensional pictures at a time.
     """
+
+    scripts = ("rosmini-meshcat.js",)
+    assets = (MESHCAT,)
+    call = "rosminiMeshcat.mount"
+    height = HEIGHT
 
     def __init__(
         self, scene: Scene3D, *, label: str, text: str, alt: str, follow: str | None = None,
@@ -61,7 +67,7 @@ class MeshcatView(View):
         self._text = f"{title}\n{text}" if title else text
         self._alt = alt
         self._follow = follow
-        self._height = height
+        self.height = height
         self.extra: dict[str, Any] = {}
 
     @property
@@ -79,19 +85,7 @@ class MeshcatView(View):
         """The drawing: the scene as the viewer shows it first."""
         return draw(self.scene, title=self.label, alt=self.alt)
 
-    def _images(self) -> dict[str, bytes]:
-        return {SVG_MIME: self.svg.encode()}
-
     @property
-    def html(self) -> str:
-        """The viewer: in the book's form or the live form, as `rosmini.viz.book_form.book_form()` says."""
-        return self._html(None)
-
-    @property
-    def page(self) -> str:
-        """The viewer with all that it needs, for a file of its own."""
-        return self._html(book=False)
-
     def data(self) -> dict[str, Any]:
         """What the script of the viewer takes."""
         return {
@@ -104,11 +98,10 @@ class MeshcatView(View):
             **self.extra,
         }
 
-    def _html(self, book: bool | None) -> str:
-        return embed(
-            ["rosmini-meshcat.js"], "rosminiMeshcat.mount", self.data(), title=self.label, alt=self.alt,
-            height=self._height, fallback_html=self.svg, caption=self.title, assets=[MESHCAT], book=book,
-        )  # fmt: skip
+    @property
+    def name(self) -> str:
+        """What is in the scene, in a few words."""
+        return self.label
 
 
 def camera_for(

@@ -12,7 +12,7 @@ from typing import Any
 from rosmini.bag import Bag
 from rosmini.sim.models import RobotModel, model
 from rosmini.sim.recording import Recording
-from rosmini.viz.embed import embed
+from rosmini.viz.moving_view import MovingView
 from rosmini.viz.recording_pictures import RunScene, recording_picture
 from rosmini.viz.replay.encode import replay_data
 from rosmini.viz.replay.messages import BagLog, KeptLog, NothingToSee, run_of
@@ -20,7 +20,7 @@ from rosmini.viz.replay.run import BUDGET, Run, thinned
 from rosmini.viz.replay.still import still_of
 from rosmini.viz.rounding import fixed
 from rosmini.viz.svg import element
-from rosmini.viz.view import SVG_MIME, Picture, View, ViewError
+from rosmini.viz.view import Picture, ViewError
 
 SCRIPTS = ("rosmini-canvas.js", "rosmini-replay.js")
 LAYER_SCRIPT = "rosmini-replay-layers.js"
@@ -95,19 +95,24 @@ class Shown:
         return isinstance(self.source, Run) or self.layers is not None
 
 
-class ReplayView(View):
+class ReplayView(MovingView):
     """The player. As text it says how the runs went; as an image it is the first run's picture."""
+
+    call = "rosminiReplay.mount"
+    height = HEIGHT
 
     def __init__(self, runs: Sequence[Shown], *, title: str | None = None) -> None:
         self.runs = tuple(runs)
         self.title = title
+        layered = any(run.needs_layers for run in self.runs)
+        self.scripts = (*SCRIPTS, LAYER_SCRIPT) if layered else SCRIPTS
 
     @cached_property
     def text(self) -> str:
         """What happened, in numbers, as the pictures of the runs say it."""
         if len(self.runs) == 1:
-            return self.runs[0].text(self._name)
-        return "\n".join([self._name, *(run.text(run.name) for run in self.runs)])
+            return self.runs[0].text(self.name)
+        return "\n".join([self.name, *(run.text(run.name) for run in self.runs)])
 
     @cached_property
     def alt(self) -> str:
@@ -123,20 +128,23 @@ class ReplayView(View):
             ViewError: matplotlib, which draws it, is not installed.
 
         """
-        return self.runs[0].still(self._name)
+        return self.runs[0].still(self.name)
 
     @cached_property
-    def _stills(self) -> str:
+    def fallback(self) -> str:
+        """The runs in pictures, side by side."""
         if len(self.runs) == 1:
-            return self.still.svg or ""
+            return self.svg
         drawn = [
             element("div", run.still(run.name).svg or "", style="flex:1 1 18rem;min-width:0")
             for run in self.runs
         ]
         return element("div", "".join(drawn), style="display:flex;flex-wrap:wrap;gap:8px")
 
-    def _images(self) -> dict[str, bytes]:
-        return {SVG_MIME: (self.still.svg or "").encode()}
+    @property
+    def svg(self) -> str:
+        """The first run in one picture."""
+        return self.still.svg or ""
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -146,32 +154,9 @@ class ReplayView(View):
         each = BUDGET // len(self.runs)
         return {"runs": [{**run.data(each), "title": run.name} for run in self.runs]}
 
-    @cached_property
-    def html(self) -> str:
-        """The player: of the book, or self-contained, as `rosmini.viz.book_form.book_form` says."""
-        return self._html(None)
-
     @property
-    def page(self) -> str:
-        """The player with all that it needs, for a file of its own."""
-        return self._html(book=False)
-
-    def _html(self, book: bool | None) -> str:
-        layered = any(run.needs_layers for run in self.runs)
-        return embed(
-            (*SCRIPTS, LAYER_SCRIPT) if layered else SCRIPTS,
-            "rosminiReplay.mount",
-            self.data,
-            title=self._name,
-            alt=self.alt,
-            height=HEIGHT,
-            fallback_html=self._stills,
-            caption=self.title,
-            book=book,
-        )
-
-    @property
-    def _name(self) -> str:
+    def name(self) -> str:
+        """Its title, or what is played."""
         if self.title or len(self.runs) > 1:
             return self.title or f"Replay of {len(self.runs)} runs"
         return f"Replay of {self.runs[0].name}"
