@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import IllegalName, ROSInitException
+from rosmini.errors import IllegalName, ROSInitException, shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -310,14 +310,15 @@ def _is_parameter(source: str) -> bool:
 
 
 def _yaml(argument: str, text: str) -> Any:
-    import yaml  # slow to import, and few nodes get parameters this way
+    from rosmini.yaml_text import documents  # slow to import, and few nodes get parameters this way
 
-    try:
-        return yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        raise ROSInitException(
-            f"invalid command-line parameter {argument!r}: the value is not YAML ({error})"
-        ) from error
+    def failure(message: str, _source: str, _line: int | None) -> ROSInitException:
+        return ROSInitException(f"invalid command-line parameter {shown(argument)}: {message}")
+
+    found = [value for value, _ in documents(text, argument, failure)]
+    if len(found) > 1:
+        raise failure(f"it has {len(found)} YAML documents, and is to be one value", argument, None)
+    return found[0] if found else None
 
 
 class AnonymousNames:

@@ -62,8 +62,8 @@ def documents(
             yield reading.construct_document(node), node
     except (yaml.MarkedYAMLError, yaml.reader.ReaderError) as error:
         raise _no_yaml(error, source, failure) from error
-    # 2026-13-45, .e999, thousands of brackets, a list as a key
-    except (ValueError, RecursionError, OverflowError, TypeError) as error:
+    # 2026-13-45, .e999, thousands of brackets, a list as a key; !!float "", !!bool x, !!timestamp 1
+    except (ValueError, RecursionError, OverflowError, TypeError, LookupError, AttributeError) as error:
         raise failure(f"this is not YAML: {error}", source, None) from error
     finally:
         if reading is not None:

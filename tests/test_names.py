@@ -165,7 +165,14 @@ def test_an_empty_target_says_nothing() -> None:
     assert (found.private_parameters, found.names, found.special) == ({}, {}, {})
 
 
-@pytest.mark.parametrize("argument", ["a:=b:=c", "_p:=[1, 2", "_p:={"])
+@pytest.mark.parametrize(
+    "argument",
+    [
+        "a:=b:=c", "_p:=[1, 2", "_p:={", "_p:=2026-13-45", "_p:=" + "[" * 5000, "_p:=!!timestamp 1", "_p:=&a [*a]",
+        "_p:=" + "9" * 5000,
+    ],
+    ids=lambda argument: argument[:12],
+)  # fmt: skip
 def test_arguments_that_mean_nothing(argument: str) -> None:
     with pytest.raises(ROSInitException, match="invalid"):
         Remappings.from_argv([argument])

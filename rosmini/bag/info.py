@@ -6,7 +6,7 @@ import time
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-import yaml
+from rosmini.yaml_text import documents
 
 from .errors import ROSBagException
 from .records import Compression
@@ -147,10 +147,12 @@ def info_yaml(bag: Summaries, key: str | None = None, *, freq: bool = True) -> s
     text = _yaml(bag, freq=freq)
     if not key:
         return text
-    try:
-        tree = yaml.safe_load(text)
-    except yaml.YAMLError as error:  # the names of topics may be anything
-        raise ROSBagException(f'Error getting key "{key}": what the bag says is no YAML: {error}') from error
+
+    def failure(message: str, _source: str, _line: int | None) -> ROSBagException:
+        # the names of topics may be anything
+        return ROSBagException(f'Error getting key "{key}": what the bag says: {message}')
+
+    tree = next((value for value, _ in documents(text, "the bag", failure)), None)
     return _shown(_lookup(tree, key))
 
 

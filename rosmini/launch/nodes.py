@@ -110,7 +110,7 @@ def _test_options(loading: Loading, element: Element, scope: Scope) -> dict[str,
     return {
         "test_name": loading.required(element, scope, "test-name"),
         "time_limit": positive(element, "time-limit", limit, TIME_LIMIT_S),
-        "retry": min(int(retry), MOST_RETRIES),
+        "retry": min(int(retry.lstrip("0")[:9] or "0"), MOST_RETRIES),
     }
 
 

@@ -31,6 +31,9 @@ STAND_IN = "missing_"
 LONGEST = 1_000_000
 """How many characters a text may have, once everything is replaced."""
 
+MOST = 100_000_000
+"""How many characters all texts of a launch may have together, of those in which something is replaced."""
+
 _OPEN = re.compile(r"\$+\(([^)]*)\)")
 _FIND = re.compile(r"\$+\( *find +([^()$ ]+) *\)([^ ]*)")
 
@@ -55,6 +58,7 @@ class Substitution:
     ) -> None:
         self.packages, self.environ, self.anonymous, self.missing = packages, environ, anonymous, missing
         self._stand_ins: set[str] = set()
+        self._made = 0
 
     def is_incomplete(self, text: str) -> bool:
         """Return whether something that is missing should stand in a text."""
@@ -65,14 +69,36 @@ class Substitution:
         if "$" not in text:
             return text
         if text.startswith("$(eval ") and text.endswith(")"):
-            return self._eval(text[len("$(eval ") : -1], scope, element)
+            return self._counted(self._eval(text[len("$(eval ") : -1], scope, element), element)
         for inside in _OPEN.findall(text):
             self._check(inside, text, element)
-        replaced = _OPEN.sub(lambda found: self._replace(found, scope, element), text)
-        replaced = _FIND.sub(lambda found: self._path(found[1], found[2], element), replaced)
-        if len(replaced) > LONGEST:
-            raise element.error(f"a text of {len(replaced)} characters; {LONGEST} are allowed")
-        return replaced
+        replaced = self._sub(_OPEN, lambda found: self._replace(found, scope, element), text, element)
+        replaced = self._sub(_FIND, lambda found: self._path(found[1], found[2], element), replaced, element)
+        return self._counted(replaced, element)
+
+    def _sub(
+        self, what: re.Pattern[str], new: Callable[[re.Match[str]], str], text: str, element: Element
+    ) -> str:
+        """Replace as ``what.sub`` does, and stop before the text becomes too long."""
+        size = 0
+
+        def counted(found: re.Match[str]) -> str:
+            nonlocal size
+            made = new(found)
+            size += len(made)
+            if size > LONGEST:
+                raise element.error(f"a text of more than {LONGEST} characters: see what is replaced in it")
+            return made
+
+        return what.sub(counted, text)
+
+    def _counted(self, text: str, element: Element) -> str:
+        self._made += len(text)
+        if len(text) > LONGEST:
+            raise element.error(f"a text of {len(text)} characters; {LONGEST} are allowed")
+        if self._made > MOST:
+            raise element.error(f"all texts with something replaced have more than {MOST} characters")
+        return text
 
     def _check(self, inside: str, text: str, element: Element) -> None:
         if "$" in inside or "(" in inside:

@@ -19,12 +19,19 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from rosmini import rosparam, urdf
+from rosmini import launch, rosparam, urdf
+from rosmini.catkin.project import read_project
+from rosmini.dynamic_reconfigure.cfg_file import read_cfg
+from rosmini.dynamic_reconfigure.description import Description
 from rosmini.errors import RosminiError
+from rosmini.navigation.costmap_2d.footprint import footprint_from_text
 from rosmini.navigation.map_server import load_map
+from rosmini.navigation.nav_core import plugin_files
 from rosmini.packages import PackageIndex, assets_dir
 from rosmini.sim import sdf, stage
 from rosmini.urdf import meshes
+from rosmini.viz.rviz.config import Config
+from rosmini.widgets.rqt.perspective import Perspective
 
 ROUNDS = 150
 LONGEST = 20_000
@@ -125,6 +132,24 @@ def _read_package(path: Path) -> None:
         index.find(name)
 
 
+def _read_launch(path: Path) -> None:
+    launch.read(path, environ={"TURTLEBOT3_MODEL": "burger"}, packages=PACKAGES, lenient=True)
+
+
+def _read_rviz(path: Path) -> None:
+    config = Config.read(path)
+    config.strangers()
+    config.with_parts(
+        config.mappings("Displays"), config.options(), config.mapping("Views", "Current")
+    ).text()
+
+
+def _read_plugins(path: Path) -> None:
+    manifest = PACKAGE.replace(b"<metapackage/>", b'<nav_core plugin="${prefix}/plugins.xml"/>')
+    path.with_name("package.xml").write_bytes(manifest)
+    list(plugin_files._declared(PackageIndex([path.parent]).find("a")))
+
+
 STL = (
     b"solid a\nfacet normal 0 0 1\nouter loop\n" + b"vertex 1 2 3\n" * 3 + b"endloop\nendfacet\nendsolid a\n"
 )
@@ -203,6 +228,90 @@ PACKAGE = b"""<?xml version="1.0"?><package format="3"><name>a</name><version>1.
 </description><maintainer email="a@b.org">A</maintainer>
 <license>BSD</license><url type="website">http://a</url><buildtool_depend>catkin</buildtool_depend>
 <depend version_gte="1.0" condition="$ROS_VERSION == 1">b</depend><export><metapackage/></export></package>"""
+PERSPECTIVE = b"""{"keys": {}, "groups": {"mainwindow": {"keys": {}, "groups": {}}, "pluginmanager": {"keys": {
+"running-plugins": {"type": "repr", "repr": "{'rqt_graph/RosGraph': [1], 'rqt_plot/Plot': [1, 2]}"}}, "groups": {
+"plugin__rqt_plot__Plot__1": {"keys": {}, "groups": {"plugin": {"keys": {"topics": {"type": "repr",
+"repr": "['/odom/twist/twist/linear/x', {'a': (1.5, None, True)}]"}}, "groups": {}}}}}}}}"""
+CFG = b"""#!/usr/bin/env python3
+PACKAGE = "a"
+from dynamic_reconfigure.parameter_generator_catkin import *
+from math import pi
+gen = ParameterGenerator()
+size = gen.enum([gen.const("Small", int_t, 0, "A small one"),
+                 gen.const("Large", int_t, 1 << 4, "A large one")], "Sizes")
+gen.add("count", int_t, 0, "How many", 50, 0, 100)
+gen.add("angle", double_t, 0x1 | 2, "How far", .5, -pi, 2 * pi)
+group = gen.add_group("Deeper", type="tab", state=False)
+side = "left"
+group.add(side + "_on", bool_t, 0, "Whether %s is on" % side, True)
+group.add("size", int_t, 0, "A size", 1, 0, 3, edit_method=size)
+gen.add("text", str_t, 4, "A text", "hello")
+exit(gen.generate(PACKAGE, "a", "A"))
+"""
+CMAKE = b"""cmake_minimum_required(VERSION 3.0.2)
+project(a)
+find_package(catkin REQUIRED COMPONENTS rospy std_msgs message_generation dynamic_reconfigure)
+set(NAMES A B;C "d e" [[f]]) # a comment #[[ another ]]
+list(APPEND NAMES ${PROJECT_NAME} $ENV{HOME})
+foreach(name IN LISTS NAMES)
+  if(NOT name STREQUAL "A" AND (EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/msg OR 3 VERSION_LESS 4.0))
+    message(STATUS "${name}")
+  elseif(name MATCHES "^B+$")
+    set(${name}_it 1 CACHE STRING "it")
+  else()
+    unset(NAMES)
+  endif()
+endforeach()
+catkin_python_setup()
+add_message_files(FILES Num.msg)
+generate_messages(DEPENDENCIES std_msgs)
+generate_dynamic_reconfigure_options(cfg/A.cfg)
+catkin_package(CATKIN_DEPENDS rospy message_runtime)
+install(PROGRAMS scripts/a.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+if(CATKIN_ENABLE_TESTING)
+  find_package(rostest REQUIRED)
+  add_rostest(test/a.test)
+endif()
+"""
+PLUGINS = b"""<class_libraries><library path="a.planner"><class name="a/Planner" type="a::Planner"
+base_class_type="nav_core::BaseGlobalPlanner"><description>A</description></class></library>
+<library path="lib/libb"><class type="b::B" base_class_type="nav_core::RecoveryBehavior"/></library>
+</class_libraries>"""
+
+RVIZ = b"""Panels:
+  - Class: rviz/Displays
+    Name: Displays
+Visualization Manager:
+  Class: ""
+  Displays:
+    - {Alpha: 0.5, Cell Size: 1, Class: rviz/Grid, Color: 160; 160; 164, Enabled: true, Name: Grid, Value: true}
+    - Class: rviz/LaserScan
+      Name: Scan
+      Size (m): 0.03
+      Topic: /scan
+      Position Transformer: XYZ
+    - Class: rviz/Group
+      Displays: [{Class: rviz/Path, Name: Path, Offset: {X: 0, Y: 0, Z: 0}, Topic: /plan}]
+      Name: Group
+  Global Options: {Background Color: 48; 48; 48, Fixed Frame: map, Frame Rate: 30}
+  Tools:
+    - Class: rviz/SetGoal
+      Topic: /move_base_simple/goal
+  Views: {Current: {Class: rviz/Orbit, Distance: 10, Focal Point: {X: 0, Y: 0, Z: 0}, Pitch: 0.785}, Saved: ~}
+"""
+
+LAUNCH = b"""<launch>
+<arg name="model" default="$(env TURTLEBOT3_MODEL)" doc="burger"/><arg name="n" default="3"/>
+<group ns="tb$(arg n)" if="$(eval n > 2 and model == 'burger')"><remap from="scan" to="/front/scan"/>
+<param name="robot" type="str" value="$(eval 'a' + str(n * 2))"/><param name="yaml" type="yaml" value="{a: [1, 2.5]}"/>
+<node pkg="rospy_tutorials" type="talker.py" name="talker_$(anon it)" args="--rate $(arg n)" output="screen"
+respawn="true" respawn_delay="1.5"><rosparam>{b: true, c: [deg(90), 010]}</rosparam><remap from="a" to="b"/></node>
+</group><include file="$(find rospy_tutorials)/no.launch" pass_all_args="true"><arg name="n" value="4"/></include>
+<rosparam param="list" subst_value="true">[$(arg n), "x"]</rosparam><rosparam command="delete" param="list"/>
+<machine name="m" address="localhost" env-loader="a" timeout="10.0"/><env name="A" value="$(optenv B 1)"/>
+<test pkg="rospy_tutorials" type="t" test-name="t" time-limit="10.0" retry="2"/></launch>"""
+
+PACKAGES = PackageIndex()
 
 READERS: dict[str, tuple[str, Callable[[Path], object], list[bytes]]] = {
     "SDF": ("a.world", _read_sdf, [SDF, *_assets("turtlebot3_gazebo/worlds/turtlebot3_world.world")]),
@@ -216,6 +325,16 @@ READERS: dict[str, tuple[str, Callable[[Path], object], list[bytes]]] = {
     "PGM": ("a.pgm", _read_image, [_image("PPM"), b"P2 3 2 255\n1 2 3\n4 5 6\n"]),
     "PNG": ("a.png", _read_image, [_image("PNG")]),
     "parameters": ("a.yaml", rosparam.load_file, [YAML]),
+    "launch": ("a.launch", _read_launch, [LAUNCH]),
+    "CMake": ("CMakeLists.txt", lambda path: read_project(path.parent), [CMAKE]),
+    "cfg": ("A.cfg", lambda path: Description.of(read_cfg(path).tree), [CFG]),
+    "RViz": ("a.rviz", _read_rviz, [RVIZ]),
+    "perspective": ("a.perspective", lambda path: Perspective.parse(Perspective.read(path).dumps()), [PERSPECTIVE]),
+    "footprint": (
+        "footprint", lambda path: footprint_from_text(path.read_text("utf-8", "replace"), "footprint"),
+        [b"[[-0.205, -0.155], [-0.205, 0.155], [0.077, 0.155], [0.077, -0.155]]"],
+    ),
+    "plugins": ("plugins.xml", _read_plugins, [PLUGINS]),
     "package": ("package.xml", _read_package, [PACKAGE]),
 }  # fmt: skip
 

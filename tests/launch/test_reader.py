@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rosmini.launch import LaunchError, Plan, find_file, read
+from rosmini.launch.nodes import MOST_RETRIES
 from rosmini.packages import PackageIndex
 
 SHAPES = Path(__file__).parent / "data" / "shapes"
@@ -202,6 +203,25 @@ def test_a_file_that_doubles_is_refused(tmp_path: Path) -> None:
     )
     with pytest.raises(LaunchError, match="files are included"):
         read(file)
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        '<param name="p" value="{many}"/>',
+        '<param name="p" value="$(eval arg(\'a\'))"/>' * 200,
+        '<param name="p" value="$(arg a)b"/>' * 200,
+    ],
+    ids=["in one text", "in many that are evaluated", "in many"],
+)
+def test_an_argument_that_is_put_in_many_times_does_not_fill_the_memory(inside: str) -> None:
+    long = f'<arg name="a" value="{"x" * 900_000}"/>'
+    assert "characters" in str(refused(long + inside.format(many="$(arg a)" * 1000)))
+
+
+def test_a_number_of_retries_of_any_length_is_read() -> None:
+    plan = plan_of(f'<test pkg="p" type="t" test-name="n" retry="{"9" * 5000}"/>')
+    assert plan.tests[0].retry == MOST_RETRIES
 
 
 def test_entities_are_refused() -> None:

@@ -127,6 +127,17 @@ def test_a_dictionary_becomes_one_setting_for_each_value() -> None:
         ("a: 1\n---\n---\nb: 2\n", r"p\.yaml:3: this document is empty"),
         ("a: \x07", r"p\.yaml: this is not YAML: .*character 3"),
         ("a: 2026-13-45\n", r"p\.yaml: this is not YAML: month"),
+        *(
+            (f"a: {value}\n", r"p\.yaml: this is not YAML")
+            for value in (
+                "!!float ''",
+                "!!int ''",
+                "!!int '-'",
+                "!!bool maybe",
+                "!!timestamp 1",
+                "[!!float '']",
+            )
+        ),
     ],
 )
 def test_what_cannot_be_read_is_named_with_its_line(text: str, message: str) -> None:

@@ -14,17 +14,19 @@ import time
 import warnings
 from contextlib import contextmanager
 from dataclasses import dataclass
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np  # noqa: F401 - adds warning filters when it is imported
 import pytest
 
+import rosmini.rospy
 from rosmini.scripts import RunResult, ScriptSpec, run_scripts
 
 from ..processes import PATIENCE
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
 
@@ -93,6 +95,14 @@ def nothing_left() -> Iterator[None]:
     assert not replaced, f"modules were replaced: {replaced}"
 
 
+def enders(holds: Callable[[], bool]) -> tuple[ScriptSpec, dict[str, ModuleType]]:
+    """A script that ends the run, as Ctrl-C does, once a condition holds; and the modules it needs."""
+    host = ModuleType("host")
+    vars(host).update(holds=holds, stop=lambda: signal.raise_signal(signal.SIGINT))
+    source = "import host, time\nwhile not host.holds():\n    time.sleep(0.005)\nhost.stop()\n"
+    return ScriptSpec("end", (), source=source), {**rosmini.rospy.modules(), "host": host}
+
+
 class Runner:
     """Runs scripts, texts or files, several at once, in the clock of the test."""
 
@@ -105,11 +115,18 @@ class Runner:
         args: tuple[str, ...] = (),
         stdin: Any = "",
         prefix: bool = True,
+        until: str | None = None,
+        out: io.StringIO | None = None,
         **options: Any,
     ) -> Ran:
-        out = io.StringIO()
+        """Run them until all have ended, or as soon as the line `until` was printed. `out` has what they print."""
+        out = out or io.StringIO()
         whole = [spec if isinstance(spec, ScriptSpec) else self.text("script", spec, *args) for spec in specs]
         options = {"simulated": self.simulated, "grace": 0.3, **options}
+        if until is not None:
+            end, modules = enders(lambda: until in out.getvalue().splitlines())
+            whole.append(end)
+            options |= {"modules": modules, "duration": PATIENCE, "grace": 3.0}
         with nothing_left():
             result = run_scripts(whole, stdin=stdin, stdout=out, stderr=out, prefix=prefix, **options)
         return Ran(result, out.getvalue())

@@ -8,6 +8,8 @@ import pytest
 
 from rosmini.scripts import ScriptSpec
 
+from ..processes import PATIENCE
+
 HERE = Path(__file__).parent / "actionlib"
 
 
@@ -15,12 +17,12 @@ def said_by(ran, name):
     return [line.removeprefix(f"[{name}] ") for line in ran.lines if line.startswith(f"[{name}] ")]
 
 
-@pytest.mark.parametrize(("order", "status"), [(3, 0), (1000, 3)])
-def test_the_tutorials_server_and_client(run, order, status):
+@pytest.mark.parametrize(("order", "patience", "status"), [(3, 1000, 0), (1000, 2, 3)])
+def test_the_tutorials_server_and_client(run, order, patience, status):
     ran = run(
         ScriptSpec(str(HERE / "fibonacci_server.py")),
-        ScriptSpec(str(HERE / "fibonacci_client.py"), (str(order),)),
-        duration=6,
+        ScriptSpec(str(HERE / "fibonacci_client.py"), (str(order), str(patience))),
+        until="[fibonacci_client] listed [['/fibonacci_client', '1']]",
         rate=4,
     )
     told = said_by(ran, "fibonacci_client")
@@ -36,7 +38,7 @@ def test_the_tutorials_server_and_client(run, order, status):
 
 
 def test_handles_and_modules_by_their_names(run):
-    ran = run(ScriptSpec(str(HERE / "handles.py")), duration=10)
+    ran = run(ScriptSpec(str(HERE / "handles.py")), duration=PATIENCE)
     told = said_by(ran, "handles")
     assert "True" in told
     assert told[-3:] == ["3 added 3", "5 negative 0", "DONE DONE"]
@@ -95,4 +97,4 @@ def test_no_goal_is_taken_while_a_script_holds_the_servers_lock(run):
         with server.execute_condition:
             server.execute_condition.notify_all()
     """
-    assert run(source, prefix=False, duration=5).lines[-2:] == ["held []", "free [3]"]
+    assert run(source, prefix=False, duration=PATIENCE).lines[-2:] == ["held []", "free [3]"]

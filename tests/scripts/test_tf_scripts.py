@@ -17,9 +17,8 @@ def said_by(ran, name):
 
 def test_tf(run):
     # The listener starts first: on its first look nothing has come.
-    ran = run(
-        spec("turtle_tf_listener.py"), spec("turtle_tf_broadcaster.py"), duration=10 if run.simulated else 2
-    )
+    end = "[turtle_tf_listener] stands still: True"
+    ran = run(spec("turtle_tf_listener.py"), spec("turtle_tf_broadcaster.py"), until=end)
     assert said_by(ran, "turtle_tf_listener") == [
         "not yet: LookupException",
         "carrot at 1.50 1.00 yaw 90.0",
@@ -32,7 +31,7 @@ def test_tf(run):
 
 
 def test_tf2(run):
-    ran = run(spec("tf2_listener.py"), spec("turtle_tf_broadcaster.py"), duration=10 if run.simulated else 2)
+    ran = run(spec("tf2_listener.py"), spec("turtle_tf_broadcaster.py"), until="[tf2_listener] True")
     assert said_by(ran, "tf2_listener") == [
         "tip at 1.50 1.25",
         "pose at 1.50 2.25",

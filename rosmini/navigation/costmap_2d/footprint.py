@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.errors import ParameterError
+from rosmini.errors import ParameterError, shown
 from rosmini.geometry.poses import Pose, transform_points
 
 Footprint = NDArray[np.float64]
@@ -33,23 +33,31 @@ def footprint_from_list(points: Any, name: str) -> Footprint:
     Raises `ParameterError` for anything else, for fewer than three points and for numbers that are not finite.
     """
     if not isinstance(points, (list, tuple)) or len(points) < 3:
-        count = f"a list of {len(points)} points" if isinstance(points, (list, tuple)) else f"{points!r}"
+        count = f"a list of {len(points)} points" if isinstance(points, (list, tuple)) else shown(points)
         raise ParameterError(
             f"parameter {name} is {count}: You must specify at least three points for the robot footprint, as {EXAMPLE}"
         )
     for number, point in enumerate(points):
         if not isinstance(point, (list, tuple)) or len(point) != 2:
             raise ParameterError(
-                f"parameter {name}[{number}] is {point!r}: Points in the footprint specification must be pairs of "
+                f"parameter {name}[{number}] is {shown(point)}: Points in the footprint specification must be pairs of "
                 f"numbers, {EXAMPLE}"
             )
         for value in point:
-            if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+            if not _is_finite(value):
                 raise ParameterError(
-                    f"parameter {name}[{number}] is {point!r}: Values in the footprint specification must be numbers, "
-                    f"found {value!r}"
+                    f"parameter {name}[{number}] is {shown(point)}: Values in the footprint specification must be "
+                    f"numbers, found {shown(value)}"
                 )
     return np.array(points, dtype=np.float64)
+
+
+def _is_finite(value: Any) -> bool:
+    """Whether this is a number that a coordinate can be."""
+    try:
+        return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:  # a whole number beyond all floats
+        return False
 
 
 def footprint_from_text(text: str, name: str) -> Footprint:

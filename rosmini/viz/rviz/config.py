@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from rosmini import files
 from rosmini.errors import RosminiError
 from rosmini.packages import SCHEME, PackageIndex
 from rosmini.viz.view import ViewError
@@ -95,12 +96,9 @@ class Config:
         except RosminiError as error:
             raise ConfigError(f"the configuration {path} cannot be read: {error}") from error
         try:
-            with Path(path).open("rb") as file:
-                data = file.read(MOST_BYTES + 1)
+            data = files.read(path, MOST_BYTES)
         except OSError as error:
             raise ConfigError(f"the configuration {path} cannot be read: {error.strerror}") from error
-        if len(data) > MOST_BYTES:
-            raise ConfigError(f"the configuration {path} is larger than {MOST_BYTES} bytes")
         return cls.parse(data.decode(errors="replace"), Path(path).name)
 
     @classmethod

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from rosmini import files
 from rosmini.viz.view import ViewError
 
 LARGEST = 4_000_000
@@ -52,8 +53,7 @@ class Perspective:
     def read(cls, path: str | Path) -> Perspective:
         """Read a file. Raises ``ViewError`` with its name."""
         try:
-            with Path(path).open(encoding="utf-8") as file:
-                text = file.read(LARGEST + 1)
+            text = files.read(path, 4 * LARGEST).decode("utf-8")
         except (OSError, UnicodeDecodeError) as error:
             raise ViewError(f"{path} cannot be read: {error}") from error
         try:
@@ -140,5 +140,5 @@ def literal(text: object) -> Any:
         return None
     try:
         return ast.literal_eval(text)
-    except (ValueError, SyntaxError, RecursionError, MemoryError):
+    except (ValueError, SyntaxError, TypeError, RecursionError, MemoryError):  # {[]: 1} is a TypeError
         return None

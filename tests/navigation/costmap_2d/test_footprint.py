@@ -55,6 +55,7 @@ def test_a_text_goes_there_and_back():
         ),
         ('[[0.1, 0.1], [0.1, "a"], [0, 0]]', "must be numbers, found 'a'"),
         ("[[0.1, 0.1], [0.1, NaN], [0, 0]]", "must be numbers, found nan"),
+        (f"[[0.1, 0.1], [0.1, 1{'0' * 400}], [0, 0]]", "must be numbers, found"),
         ("[[0.1, 0.1", "Error parsing footprint parameter /x/footprint"),
         ("0.3", "is 0.3: You must specify at least three points"),
     ],

@@ -5,6 +5,6 @@ import dynamic_reconfigure.client
 import rospy
 
 rospy.init_node("tune")
-client = dynamic_reconfigure.client.Client("tuned", timeout=10)
+client = dynamic_reconfigure.client.Client("tuned", timeout=1000)
 print("was", client.get_configuration()["speed"])
 print("is", client.update_configuration({"speed": 50})["speed"])

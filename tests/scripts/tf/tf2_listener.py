@@ -20,7 +20,7 @@ if __name__ == '__main__':
     broadcaster.sendTransform(static)
 
     try:
-        trans = tfBuffer.lookup_transform("world", "tip", rospy.Time(), rospy.Duration(3.0))
+        trans = tfBuffer.lookup_transform("world", "tip", rospy.Time(), rospy.Duration(100.0))
     except (tf2_ros.LookupException, tf2_ros.ConnectivityException, tf2_ros.ExtrapolationException) as e:
         print("failed: %s" % e)
         raise
@@ -31,7 +31,7 @@ if __name__ == '__main__':
     pose.pose.position.x = 1
     moved = tf2_geometry_msgs.do_transform_pose(pose, trans)
     print("pose at %.2f %.2f" % (moved.pose.position.x, moved.pose.position.y))
-    moved = tfBuffer.transform(pose, "world", rospy.Duration(1.0))
+    moved = tfBuffer.transform(pose, "world", rospy.Duration(100.0))
     print("again at %.2f %.2f in %s" % (moved.pose.position.x, moved.pose.position.y, moved.header.frame_id))
     print(tfBuffer.can_transform("world", "nobody", rospy.Time(), rospy.Duration(0.05)))
     try:

@@ -13,7 +13,7 @@ if __name__ == '__main__':
         listener.lookupTransform('/world', '/turtle1', rospy.Time(0))
     except (tf.LookupException, tf.ConnectivityException, tf.ExtrapolationException) as e:
         print("not yet: %s" % type(e).__name__)
-    listener.waitForTransform("/world", "/carrot1", rospy.Time(0), rospy.Duration(4.0))
+    listener.waitForTransform("/world", "/carrot1", rospy.Time(0), rospy.Duration(100.0))
     rate = rospy.Rate(10.0)
     while not rospy.is_shutdown():
         try:
@@ -31,7 +31,7 @@ if __name__ == '__main__':
     print("point at %.2f %.2f in %s" % (q.point.x, q.point.y, q.header.frame_id))
 
     now = rospy.Time.now()
-    listener.waitForTransform("world", "turtle1", now, rospy.Duration(4.0))
+    listener.waitForTransform("world", "turtle1", now, rospy.Duration(100.0))
     print("waited for now: %s" % listener.canTransform("world", "turtle1", now))
     try:
         listener.waitForTransform("world", "nobody", rospy.Time(), rospy.Duration(0.1))

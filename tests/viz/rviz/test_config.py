@@ -114,6 +114,8 @@ def test_what_is_no_configuration_is_refused(text, said):
 def test_a_file_that_cannot_be_read_or_written_is_named(tmp_path):
     with pytest.raises(ConfigError, match=r"absent\.rviz"):
         Config.read(tmp_path / "absent.rviz")
+    with pytest.raises(ConfigError, match="cannot be read"):
+        Config.read("a\0b.rviz")
     with pytest.raises(ConfigError, match="nowhere"):
         Config().write(tmp_path / "nowhere" / "a.rviz")
 

@@ -71,6 +71,7 @@ def test_what_is_no_literal_is_left_out(tmp_path):
 @pytest.mark.parametrize(
     "text",
     ["", "[]", "{", "[" * 100_000, '{"groups": {"pluginmanager": 3}}', exported("[1]"), exported("__import__('os')"),
+     exported("{[]: 1}"),
      exported(repr({f"p{i}/P": list(range(20)) for i in range(20)}))],
 )  # fmt: skip
 def test_what_is_no_perspective_is_refused(text):

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
-import yaml
 
 from rosmini import tf
 from rosmini.msgs.tf import msg, srv
@@ -175,8 +174,7 @@ class Transformer:
 
     def getFrameStrings(self) -> list[str]:
         """Return the names of all frames that have a parent, as tf does."""
-        known = yaml.safe_load(self._buffer.all_frames_as_yaml()) or {}
-        return list(known)
+        return list(self._buffer.tree.edges)
 
     def allFramesAsString(self) -> str:
         """Return a sentence for each edge."""
