@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .events import Timer
+    from .inbox import Sleeper
 
 SIMULATED_START_NS = 1_000 * 10**9
 """Where simulated time starts: not at zero, because ``Time(0)`` means "the latest"."""
@@ -93,6 +94,10 @@ class EventQueue:
     def call_soon_threadsafe(self, callback: Callable[[], object]) -> None:
         """Like :meth:`call_soon`, through the inbox: the only door for other threads."""
         self._inbox.put(callback)
+
+    def sleep_in(self, sleeper: Sleeper | None) -> None:
+        """Have the hub sleep in ``sleeper`` when it has nothing to do; None: in the inbox."""
+        self._inbox.sleeper = sleeper
 
     def is_hub_thread(self) -> bool:
         """Tell whether the caller is in the thread that runs the queue."""

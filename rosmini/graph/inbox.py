@@ -5,9 +5,24 @@ from __future__ import annotations
 import threading
 from collections import deque
 from contextlib import suppress
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 T = TypeVar("T")
+
+
+class Sleeper(Protocol):
+    """Where the reader sleeps instead, to be woken by more than the inbox."""
+
+    is_asleep: bool
+
+    def sleep(self, timeout: float, nothing_came: Callable[[], bool]) -> None:
+        """Sleep for at most `timeout` seconds, unless something came before `is_asleep` was true."""
+
+    def wake(self) -> None:
+        """Wake the reader. From any thread, and from a signal's handler."""
 
 
 class Inbox(Generic[T]):
@@ -21,10 +36,15 @@ class Inbox(Generic[T]):
         self._items: deque[T] = deque()
         self._bell = threading.Lock()  # free while nobody has looked since something came
         self._bell.acquire()
+        self.sleeper: Sleeper | None = None
 
     def put(self, item: T) -> None:
         """Add something, and wake the reader."""
         self._items.append(item)
+        sleeper = self.sleeper
+        if sleeper is not None and sleeper.is_asleep:
+            sleeper.wake()
+            return
         with suppress(RuntimeError):  # it was free already
             self._bell.release()
 
@@ -38,5 +58,8 @@ class Inbox(Generic[T]):
 
     def wait(self, timeout: float) -> None:
         """Wait for at most `timeout` seconds until there is something; it may also return for no reason."""
-        if not self._items:
+        sleeper = self.sleeper
+        if sleeper is not None:
+            sleeper.sleep(timeout, self.empty)
+        elif not self._items:
             self._bell.acquire(timeout=timeout)

@@ -13,11 +13,15 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from rosmini.errors import TransportTerminated
 
+from .idle_reads import idle_reads
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
     from concurrent.futures import Future
 
     from rosmini.graph.scheduler import Scheduler
+
+    from .idle_reads import IdleReads
 
 T = TypeVar("T")
 
@@ -32,9 +36,15 @@ TURNS = 6
 
 
 class IoThread:
-    """Starts when it is first needed. After :meth:`close` it can be used again, with a new loop."""
+    """Starts when it is first needed. After :meth:`close` it can be used again, with a new loop.
 
-    def __init__(self) -> None:
+    Where it is told a scheduler, that one's hub reads what it may while it is idle.
+    """
+
+    def __init__(self, scheduler: Scheduler | None = None) -> None:
+        self._scheduler = scheduler
+        self.idle: IdleReads | None = None
+        """The sockets that an idle hub reads; None where it does not. Only in the loop's thread."""
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._thread: threading.Thread | None = None
@@ -50,6 +60,8 @@ class IoThread:
                 self._thread = threading.Thread(
                     target=_run, args=(loop, self.closers), name="rosmini-net", daemon=True
                 )
+                if self._scheduler is not None:
+                    loop.call_soon(self._begin_idle, loop, self._scheduler)
                 self._thread.start()
             return self._loop
 
@@ -57,6 +69,11 @@ class IoThread:
     def runs(self) -> bool:
         """True between the first use and :meth:`close`."""
         return self._loop is not None
+
+    def _begin_idle(self, loop: asyncio.AbstractEventLoop, scheduler: Scheduler) -> None:
+        self.idle = idle_reads(loop, scheduler)
+        if self.idle is not None:
+            self.closers[self.idle.close] = None
 
     def call(self, function: Callable[..., object], *arguments: Any) -> None:
         """Call a function in the loop's thread soon. From any thread."""
@@ -120,6 +137,7 @@ class IoThread:
         with self._lock:
             loop, self._loop = self._loop, None
             thread, self._thread = self._thread, None
+            self.idle = None
         if loop is not None and thread is not None:
             loop.call_soon_threadsafe(loop.stop)
             thread.join(LEAVE_S)

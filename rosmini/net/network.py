@@ -41,7 +41,7 @@ class Network:
     def __init__(self, scheduler: Scheduler, where: Addresses = HERE) -> None:
         self.scheduler = scheduler
         self.where = where
-        self.io = IoThread()
+        self.io = IoThread(scheduler)
         self.client = XmlRpcClient(self.io, scheduler)
         self._gates = LogGates()
         self.transport = TcpTransport(self)

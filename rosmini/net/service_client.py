@@ -42,6 +42,7 @@ class TcpServiceLink:
         stream.source = self._next
         stream.on_frames = self._arrived
         stream.on_end = self._ended
+        stream.share()
         stream.resume()
 
     def call(self, request: Any, reply: Reply) -> None:

@@ -36,6 +36,7 @@ class TcpClient:
         stream.source = self._next
         stream.on_frames = self._arrived
         stream.on_end = self._ended
+        stream.share()
 
     def open(self, header: bytes, *, is_probe: bool) -> None:
         """Send the header, and then answer; one who only probes learns the header."""
@@ -46,7 +47,7 @@ class TcpClient:
         elif self._requests:
             self._handle()
 
-    # -- in the I/O thread ---------------------------------------------------------------------------------------
+    # -- in the I/O thread, or in an idle hub's ---------------------------------------------------------------------
 
     def _arrived(self, frames: list[bytes]) -> None:
         self._requests.extend(frames)

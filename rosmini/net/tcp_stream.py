@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .frames import FrameReader
+    from .idle_reads import IdleReads
     from .io_thread import IoThread
 
 LINGER_S = 2.0
@@ -26,6 +27,8 @@ READS = 16
 
 class Stream:
     """Reads frames in the I/O thread, where it is made; what the socket does not take at once is written there, too.
+
+    A ``shared`` one is read in the hub's thread while that one is idle: ``on_frames`` may be called there, then.
 
     ``source`` gives the next bytes to send, b"" when there are none; it is called with :attr:`lock` held, which
     whoever fills it takes, too. ``on_frames`` and ``on_end`` are called in the I/O thread; ``on_end`` once, with what
@@ -46,6 +49,8 @@ class Stream:
         self._is_closing = False
         self._is_shut = False
         self._reads = False
+        self._is_shared = False
+        self._idle: IdleReads | None = None
         sock.setblocking(False)
         self._call(self._register)
 
@@ -64,21 +69,34 @@ class Stream:
 
     # -- reading, in the I/O thread ------------------------------------------------------------------------------
 
+    def share(self) -> None:
+        """Have an idle hub read it, too. From any thread, while nobody reads."""
+        self._is_shared = True
+
     def resume(self) -> None:
         """Begin to read, or go on. From any thread."""
         self._call(self.start)
 
     def start(self) -> None:
         """Begin to read, or go on."""
-        if not self._is_shut and not self._reads:
-            self._reads = True
+        if self._is_shut or self._reads:
+            return
+        self._reads = True
+        if self._is_shared and self._idle is None:
+            self._idle = self._io.idle
+        if self._idle is not None:
+            self._idle.add(self._socket, self._readable)
+        else:
             self._loop.add_reader(self._socket, self._readable)
 
     def pause(self) -> None:
         """Read nothing for now: the peer has to wait."""
         if self._reads:
             self._reads = False
-            self._loop.remove_reader(self._socket)
+            if self._idle is not None:
+                self._idle.remove(self._socket)
+            else:
+                self._loop.remove_reader(self._socket)
 
     def _readable(self) -> None:
         """Take what has come: all of it, unless it is so much that others would wait long."""
@@ -89,10 +107,10 @@ class Stream:
             except (BlockingIOError, InterruptedError):
                 return
             except OSError as error:
-                self._end(error)
+                self._stop(error)
                 return
             if not data:
-                self._end(None)
+                self._stop(None)
                 return
             if (
                 not self._is_closing
@@ -100,12 +118,20 @@ class Stream:
                 try:
                     frames = self._frames.feed(data)
                 except DeserializationError as error:
-                    self._end(error)
+                    self._stop(error)
                     return
                 if frames:
                     self.on_frames(frames)
             if len(data) < wanted or not self._reads or self._is_shut:
                 return
+
+    def _stop(self, error: Exception | None) -> None:
+        """Read no more, and end it in the I/O thread."""
+        if self._idle is None:
+            self._end(error)
+        else:
+            self.pause()
+            self._call(partial(self._end, error))
 
     def _end(self, error: Exception | None) -> None:
         tell = not self._is_closing and not self._is_shut
@@ -120,7 +146,7 @@ class Stream:
             if self._is_shut:
                 return
             self._is_shut = True
-        self._loop.remove_reader(self._socket)
+        self.pause()
         self._loop.remove_writer(self._socket)
         self._socket.close()
 

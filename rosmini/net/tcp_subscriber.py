@@ -46,11 +46,12 @@ class TopicInlet:
         receiver.on_drained = self._more
         stream.on_frames = self._arrived
         stream.on_end = self._ended
+        stream.share()
         if first:
             self._arrived(first)
         stream.resume()
 
-    # -- in the I/O thread ---------------------------------------------------------------------------------------
+    # -- in the I/O thread, or in an idle hub's ---------------------------------------------------------------------
 
     def _arrived(self, frames: list[bytes]) -> None:
         size = self._receiver.queue_size
