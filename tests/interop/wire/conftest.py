@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
@@ -13,18 +12,27 @@ from .harness import Stage
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from .harness import Peer
 
-HERE = Path(__file__).parent
-ESSENTIAL = [HERE / "test_graph.py"]
-"""What one node asks of another, in both directions and under both Masters: part of every run, in 20 seconds."""
-IS_ALL = os.environ.get("ROSMINI_TEST_WIRE") == "1"
-"""Whether the others, which take six minutes, are run, too."""
+BOTH = ["ours", "real"]
+MASTERS = {"test_graph": BOTH, "test_our_tools": ["real"]}
+"""Under whose Masters a module's tests run each time: ours, where none is named. Whoever dies, stops or is driven there
+is of both kinds; ROS's tools are tried at our Master, and ours at the real one."""
 
-collect_ignore = [] if IS_ALL else [str(path) for path in HERE.glob("test_*.py") if path not in ESSENTIAL]
+IS_ALL = os.environ.get("ROSMINI_TEST_WIRE") == "1"
+"""Whether all of them run under both Masters, which takes twice as long."""
 
 PROGRAMS = ["roscore", "rosnode", "rostopic", "rosservice", "rosparam", "rosbag", "roslaunch"]
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Choose the Masters under which a module's tests run."""
+    name = metafunc.module.__name__.rpartition(".")[2]
+    for fixture in {"core", "site"} & set(metafunc.fixturenames):
+        masters = BOTH if IS_ALL else MASTERS.get(name, ["ours"])
+        metafunc.parametrize(fixture, masters, indirect=True, scope="module")
 
 
 @pytest.fixture
@@ -35,7 +43,7 @@ def stage(tmp_path: Path) -> Iterator[Stage]:
         yield found
 
 
-@pytest.fixture(scope="module", params=["ours", "real"])
+@pytest.fixture(scope="module")
 def core(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stage]:
     """A stage with a roscore that the tests of a module share, ours or the real one."""
     need_ros(*PROGRAMS, modules="rospy, actionlib, tf2_ros, dynamic_reconfigure")

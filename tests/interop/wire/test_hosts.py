@@ -50,7 +50,7 @@ def hosts() -> Iterator[Hosts]:
         yield found
 
 
-@pytest.fixture(scope="module", params=["ours", "real"])
+@pytest.fixture(scope="module")
 def site(
     hosts: Hosts, request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Site]:
