@@ -185,14 +185,14 @@ def test_a_master_dies_and_returns(stage: Stage, kind: str) -> None:
 
 
 def test_the_network_goes_down_and_up(stage: Stage) -> None:
-    """What was published meanwhile arrives, our nodes say what happened, and no thread or descriptor is left of it."""
+    """What was published meanwhile arrives, our nodes say what happened, and no thread or descriptor is left of it.
+
+    Where the system refuses namespaces it is the Master that is out of reach: it stands.
+    """
     with lone_host() as host:
-        if host is None:
-            pytest.skip(
-                "no namespaces here; tests/net/test_hostile_network.py has a proxy that drops everything"
-            )
-        stage.roscore("ours", "--core", within=host.within)
-        peers = [stage.peer("ours", name, within=host.within).ready() for name in ("reader", "writer")]
+        within = [] if host is None else host.within
+        core = stage.roscore("ours", "--core", within=within)
+        peers = [stage.peer("ours", name, within=within).ready() for name in ("reader", "writer")]
         reader, writer = peers
         reader.ask("subscribe", "/news", STRING)
         writer.ask("advertise", "/news", STRING)
@@ -201,11 +201,17 @@ def test_the_network_goes_down_and_up(stage: Stage) -> None:
         assert reader.ask("call", "/mend", INFO, {}, persistent=True) == ANSWER
         assert reader.ask("call_now", "/mend", INFO) == ANSWER
         before = [(peer.threads(), peer.descriptors()) for peer in peers]
-        run([*host.within, *LOOPBACK, "down"], check=True)
+        if host is None:
+            core.pause()
+        else:
+            run([*within, *LOOPBACK, "down"], check=True)
         for peer in peers:
             peer.wait_for(r"\[WARN\].* the Master at .* does not answer any more: ")
         writer.ask("publish", "/news", ["in the dark"])
-        run([*host.within, *LOOPBACK, "up"], check=True)
+        if host is None:
+            core.resume()
+        else:
+            run([*within, *LOOPBACK, "up"], check=True)
         for peer in peers:
             peer.wait_for(rf"\[WARN\].* the Master at .* is back: {peer.node} registers again")
         assert reader.ask("hear", "/news") == [{"data": "in the dark"}]
