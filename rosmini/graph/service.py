@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 
 _OTHER = "service of another type"
+NO_TEXT = "b''"
+"""What rospy shows of an error whose text is empty, as a refusal of a node in C++ is."""
 
 
 class ServiceServer:
@@ -280,7 +282,7 @@ class ServiceClient:
             msg = (
                 problem
                 if problem.startswith("transport error")
-                else f"service [{self.name}] responded with an error: {problem}"
+                else f"service [{self.name}] responded with an error: {problem or NO_TEXT}"
             )
             raise ServiceException(msg)
         return receive(response, self.service_class._response_class, link.header, numpy=self._numpy)

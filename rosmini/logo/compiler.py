@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
+from .absent import advice
 from .errors import LogoError, suggestion
 from .reader import Token, tokens
 from .values import DEEPEST, LogoList, Value, show
@@ -98,7 +99,8 @@ class Words(NamedTuple):
             return LogoError(
                 f"{token.text} stands only at the start of a line, outside of brackets", token.line
             )
-        guess = suggestion(str(token.value), [*self.primitives, *self.procedures])
+        known = [*self.primitives, *self.procedures]
+        guess = advice(token.text, known) or suggestion(str(token.value), known)
         return LogoError(f"I don't know how to {token.text}{guess}", token.line)
 
 

@@ -333,6 +333,8 @@ class Machine:
             return None
         call = frames[at]
         while not isinstance(call, Call) and at > 0:
+            if type(call).leave is not Frame.leave:  # what is called still needs what would be restored
+                return None
             at -= 1
             call = frames[at]
         if not isinstance(call, Call) or call.mode == ("nothing" if is_output else "value"):

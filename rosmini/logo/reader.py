@@ -197,7 +197,10 @@ def _definition(title: LogoList, rest: Iterator[LogoList]) -> Definition:
     inputs = []
     for item in title.items[2:]:
         if not isinstance(item, str) or not item.startswith(":") or not _NAME.fullmatch(item[1:]):
-            advice = "after the name come only inputs, such as :side; instructions begin in the next line"
+            if isinstance(item, LogoList) or number_in(item) is not None:
+                advice = "inputs that may be left out are not here: each input is a word such as :side"
+            else:
+                advice = "after the name come only inputs, such as :side; instructions begin in the next line"
             raise LogoError(f"to {words[1]}: {advice}", line)
         if item[1:].lower() in inputs:
             raise LogoError(f"to {words[1]}: the input {item} is there twice", line)

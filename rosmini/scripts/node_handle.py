@@ -172,4 +172,4 @@ def _check_arguments(executable: Executable, entry: Callable[..., Any], others: 
         raise ScriptError(
             f"{executable.package}/{executable.name} does not take the arguments {list(others)}: {error}. "
             "A parameter is given as _name:=value, a name is changed as from:=to."
-        ) from error
+        ) from None

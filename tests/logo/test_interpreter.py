@@ -281,7 +281,7 @@ def test_the_same_chance_on_each_run():
         ("for [i 1 a] []", "I don't know how to a"),
         ('for [i 1 "a] []', "for doesn't like a"),
         ("while [] []", "the condition gives no value"),
-        ("print ?", "? stands for something inside foreach only"),
+        ("print ?", "? stands for something inside foreach, map and filter only"),
         ("setpencolor 16", "setpencolor doesn't like 16"),
         ('setpencolor "orenge', "did you mean orange?"),
         ("setpencolor [1 2]", "setpencolor doesn't like [1 2]"),
@@ -468,3 +468,69 @@ def test_what_show_prints_reads_back(value):
     text = show(value)
     found = read_list(text)
     assert show(found) == f"[{text}]"
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [
+        ("map [? * ?] [1 2 3]", "[1 4 9]"),
+        ('map "uppercase "abc', "ABC"),
+        ("map [list ? ?] []", "[]"),
+        ("map [map [? + 1] ?] [[1 2] [3]]", "[[2 3] [4]]"),
+        ("filter [? > 2] [1 2 3 4]", "[3 4]"),
+        ('filter [memberp ? "aeiou] "education', "euaio"),
+        ('filter "numberp [1 a 2]', "[1 2]"),
+        ('catch "found [foreach [3 8 5] [if ? > 4 [(throw "found ?)]]]', "8"),
+        ('catch "out [catch "in [(throw "out 1)] 2]', "1"),
+    ],
+)
+def test_templates_and_catch_give_values(expression: str, value: str) -> None:
+    assert printed(f"show {expression}") == [value]
+
+
+def test_throw_leaves_procedures_and_restores_what_they_changed() -> None:
+    program = (
+        'to f :n\nif :n > 3 [throw "done]\nprint :n\nf :n + 1\nend\nmake "n "old\ncatch "done [f 1]\nprint :n'
+    )
+    assert printed(program) == ["1", "2", "3", "old"]
+
+
+def test_a_test_belongs_to_its_procedure() -> None:
+    program = 'to f\ntest 1 = 2\niffalse [print "inner]\nend\ntest 1 = 1\nf\niftrue [print "outer]\nift [print "still]'
+    assert printed(program) == ["inner", "outer", "still"]
+
+
+@pytest.mark.parametrize(
+    ("program", "value"),
+    [
+        ("to g\nfor [i 1 3] [output f]\nend\nto f\noutput :i\nend\nprint g", "1"),
+        ("to g\nforeach [5 6] [output f]\nend\nto f\noutput ?\nend\nprint g", "5"),
+        (
+            'newturtle "b\nask "b [setxy 7 7]\nto g\nask "b [output f]\nend\nto f\noutput xcor\nend\nprint g',
+            "7",
+        ),
+        ('to g\ncatch "t [output f]\noutput 2\nend\nto f\nthrow "t\nend\nprint g', "2"),
+    ],
+)
+def test_what_is_called_last_still_has_what_surrounds_it(program: str, value: str) -> None:
+    assert printed(program) == [value]
+
+
+@pytest.mark.parametrize(
+    ("program", "words"),
+    [
+        ("map [forward 1] [1]", "line 1: map needs a value for each member"),
+        ("filter [5] [1]", "filter doesn't like 5 as input: it needs true or false"),
+        ('throw "away', "throw away: no catch of this tag is waiting; nothing catches here"),
+        ("iftrue [fd 1]", "iftrue needs a test before it"),
+        ('make "a array 3', "I don't know how to array; there are no arrays here: keep a list"),
+        ("do.while [fd 1] [1 = 1]", "take while or until"),
+        ("to poly :n [:size 50]\nend", "to poly: inputs that may be left out are not here"),
+        ("fd10", "a space is missing: fd 10"),
+        ("repeat 4 {fd 10}", "lists stand in [ ]"),
+        ('print "hello world"', "more words are a list: [hello world]"),
+        ("print 2^3", "take power: power 2 3"),
+    ],
+)  # fmt: skip
+def test_what_other_logos_have_is_answered(program: str, words: str) -> None:
+    assert words in refused(program)

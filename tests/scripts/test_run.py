@@ -1,5 +1,6 @@
 """Runs: several scripts at once, their ends and statuses, their output and errors."""
 
+import builtins
 import io
 import os
 import re
@@ -92,6 +93,13 @@ def test_exit_status(run, end, status, said):
     assert said in ran.text
     assert "[good] fine" in ran.text
     assert "not here" not in ran.text
+
+
+@pytest.mark.parametrize(("end", "status"), [("exit()", 0), ("exit(2)", 2), ("quit(3)", 3)])
+def test_exit_and_quit_are_there_while_ipython_hides_them(run, monkeypatch, end, status):
+    for name in ("exit", "quit"):
+        monkeypatch.delattr(builtins, name, raising=False)
+    assert run(f"print('before')\n{end}\nprint('after')").status == status
 
 
 def test_argparse_error_ends_the_script_only(run):

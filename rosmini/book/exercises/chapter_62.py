@@ -93,7 +93,7 @@ def wall(answer: Script) -> Any:
         with TurtleTrial() as trial:
             turtle = _turtle(trial)
             turtle.teleport_absolute(*start)
-            _run_to_the_end(trial, answer, 10.0)
+            _run_to_the_end(trial, answer, 40.0)
             left = sorted(min(place, EDGE - place) for place in (turtle.x, turtle.y))
             expect(
                 left[0] < 0.05,

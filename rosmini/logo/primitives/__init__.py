@@ -1,4 +1,4 @@
-"""Logo's own words: one row each, with its inputs, its short forms and what it does, in four tables."""
+"""Logo's own words: one row each, with its inputs, its short forms and what it does, in tables."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from .arithmetic import ARITHMETIC
 from .control import CONTROL
 from .data import DATA
 from .drawing import DRAWING
+from .templates import TEMPLATES
 
 if TYPE_CHECKING:
     from rosmini.logo.compiler import Primitive
 
 TABLES: dict[str, tuple[Primitive, ...]] = {
     "turtles": DRAWING,
-    "control": CONTROL,
+    "control": (*CONTROL, *TEMPLATES),
     "words and lists": DATA,
     "arithmetic": ARITHMETIC,
 }

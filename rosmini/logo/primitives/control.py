@@ -134,28 +134,6 @@ class While(Frame):
         self.code, self.pc = self.test if self.asks else self.body, 0
 
 
-class ForEach(Loop):
-    """For each member of a list; `?` is the member."""
-
-    __slots__ = ("items", "saved")
-
-    def __init__(self, code: Code, items: tuple[Value, ...] | str) -> None:
-        super().__init__(code)
-        self.items = items
-        self.saved: dict[str, Value | None] = {}
-
-    def goes_on(self, machine: Machine) -> bool:
-        """Take the next member."""
-        if self.turn > len(self.items):
-            return False
-        machine.bind(self.saved, "?", self.items[self.turn - 1])
-        return True
-
-    def leave(self, machine: Machine) -> None:
-        """Forget the member."""
-        machine.restore(self.saved)
-
-
 class Ask(Frame):
     """A list that other turtles listen to."""
 
@@ -218,18 +196,6 @@ def _for(machine: Machine, span: Value, block: Value) -> None:
     machine.push(ForSpan(code, count, word(items.items[0], "a name").lower(), machine.code_of(_block(block))))
 
 
-def _foreach(machine: Machine, items: Value, block: Value) -> None:
-    members = items.items if isinstance(items, LogoList) else word(items)
-    ForEach(machine.code_of(_block(block)), members).begin(machine)
-
-
-def _question(machine: Machine) -> Value:
-    found = machine.variables.get("?")
-    if found is None:
-        raise LogoError("? stands for something inside foreach only")
-    return found
-
-
 def _output(machine: Machine, value: Value | None) -> None:
     if value is None:
         raise LogoError("output needs a value, and what comes next gave none")
@@ -282,13 +248,6 @@ CONTROL = (
     _row("while", "list list", _while, "does the second list as long as the first gives true"),
     _row("until", "list list", _until, "does the second list until the first gives true"),
     _row("for", "span list", _for, "counts: for [i 1 10] or for [i 10 0 -2]"),
-    _row(
-        "foreach",
-        "list list",
-        _foreach,
-        "does the second list for each member of the first, which is ? there",
-    ),
-    Primitive("?", (), _question, "the member that foreach is at", reports=True),
     _row("run", "list", _run, "does what is in the list, or gives its value"),
     _row("output", "thing", _output, "ends the procedure, with this value", short=("op",)),
     _row("stop", "", _stop, "ends the procedure"),

@@ -8,7 +8,7 @@ import importlib as real_importlib
 import signal as real_signal
 import sys as real_sys
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from . import as_builtins, copy_of
 
@@ -178,7 +178,7 @@ class _Alarm:
 
 
 def make_builtins_module(context: Script) -> ModuleType:
-    """Make the builtins of one script: with its own ``__import__``, ``input`` and ``print``."""
+    """Make the builtins of one script: with its own ``__import__``, ``input``, ``print``, ``exit`` and ``quit``."""
     module = copy_of(real_builtins)
 
     def read_input(prompt: object = "", /) -> str:
@@ -194,6 +194,9 @@ def make_builtins_module(context: Script) -> ModuleType:
     def print_line(*values: object, file: Any = None, **options: Any) -> None:
         real_builtins.print(*values, file=context.get_own("stdout") if file is None else file, **options)
 
-    as_builtins(module, input=read_input, print=print_line)
+    def leave(code: object = None, /) -> NoReturn:
+        raise SystemExit(code)  # IPython hides Python's own while a cell runs
+
+    as_builtins(module, input=read_input, print=print_line, exit=leave, quit=leave)
     module.__dict__["__import__"] = context.importer.import_name
     return module

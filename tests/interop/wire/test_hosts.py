@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -196,3 +197,56 @@ def test_an_address_that_others_do_not_reach_is_explained(
             )
         watcher.ask("unsubscribe", topic)
         lost.interrupt()
+
+
+@contextmanager
+def walled(host: Host) -> Iterator[None]:
+    """Be a firewall: drop, without an answer, what others send to the ports on which this host listens now.
+
+    Neither iptables nor nft is needed for that: rules of routing know ports, and may come before the local table.
+    What the host has begun itself, and answers to it, still pass.
+    """
+    listening = run([*host.within, "ss", "-Htln"]).stdout
+    ports = sorted({line.split()[3].rpartition(":")[2] for line in listening.splitlines()})
+    rules = ["ip rule add pref 20 lookup local", "ip rule del pref 0"]
+    rules += [f"ip rule add pref 10 iif eth0 ipproto tcp dport {port} blackhole" for port in ports]
+    back = ["ip rule add pref 0 lookup local", "ip rule del pref 20", *["ip rule del pref 10"] * len(ports)]
+    for commands in rules, back:
+        done = run([*host.within, "sh", "-ec", "\n".join(commands)])
+        assert done.returncode == 0, done.stderr
+        if commands is rules:
+            yield
+
+
+def test_behind_a_firewall_a_turtle_obeys_and_nobody_hears_it(site: Site, hosts: Hosts) -> None:
+    """Calls go out and none come in: what chapter 63 calls one direction only, and how it is recognised."""
+    if not hosts.are_apart:
+        pytest.skip("the hosts of this machine have one network")
+    words = [*ROSMINI, "rosrun", "turtlesim", "turtle_teleop_key"]
+    teleop: Child = site.start("keys", words, {"ROS_IP": hosts.a.address}, within=hosts.a.within)
+    teleop.wait_for("'q' to quit.\n")
+    words = [*ROSMINI, "rosrun", "turtlesim", "turtlesim_node", "__name:=walled_turtle"]
+    turtle: Child = site.start("walled_turtle", words, {"ROS_IP": hosts.c.address}, within=hosts.c.within)
+    turtle.wait_for("Spawning turtle .*\n")
+    wait_until(
+        lambda: (
+            "/teleop_turtle" in ask(site, hosts.c, *ROSMINI, "rosnode", "info", "/walled_turtle")[0].split()
+        ),
+        "the turtle to be connected",
+    )
+    with walled(hosts.c):
+        ping = [*ROSMINI, "rosnode", "ping", "-c", "1", "/walled_turtle"]
+        _, said = ask(site, hosts.a, *ping)
+        assert "connection to [/walled_turtle] timed out" in said
+        assert "look for a firewall" in said
+        heard, said = ask(
+            site, hosts.a, "timeout", "-s", "INT", "25", *ROSMINI, "rostopic", "echo", "/turtle1/pose"
+        )
+        assert "x:" not in heard
+        assert "/walled_turtle" in said, heard + said
+        assert "xmlrpc reply from" in ask(site, hosts.c, *ping)[0]
+        teleop.process.stdin.write("A" * 30)
+        teleop.process.stdin.flush()
+        turtle.wait_for("Oh no! I hit the wall!")
+    for child in (teleop, turtle):
+        child.interrupt()
