@@ -1,4 +1,4 @@
-"""From a bag to an MCAP file (https://mcap.dev/spec), which Foxglove opens: the same bytes in another container.
+"""Bags as MCAP files (https://mcap.dev/spec), which Foxglove opens, and back: the same bytes in another container.
 
 The profile is `ros1`: messages are as on ROS 1's wire (`ros1`), schemas are message definitions (`ros1msg`), and the
 metadata of a channel are the fields of the connection header (https://mcap.dev/spec/registry).
@@ -7,13 +7,21 @@ metadata of a channel are the fields of the connection header (https://mcap.dev/
 from __future__ import annotations
 
 import os
+import struct
 from contextlib import suppress
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any, BinaryIO
+
+from rosmini.errors import DefinitionError, UnknownPackage, UnknownType, shown
+from rosmini.msgs.full_text import class_from
+from rosmini.time import Time
 
 from .bag import Bag
 from .errors import ROSBagException
 from .tools import Copied, two_files
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 IN_OTHER_FIELDS = ("topic", "type", "message_definition")
 """Fields of the connection header that have a place of their own in the file."""
@@ -73,3 +81,71 @@ def _copy(bag: Bag, writer_of: Any, file: IO[bytes]) -> Copied:
     writer.finish()
     total = sum(counts.values()) + len(counts)
     return Copied(total, total)
+
+
+def from_mcap(source: str | os.PathLike[str], target: str | os.PathLike[str] | BinaryIO) -> Copied:
+    """Write all messages of an MCAP file whose profile is ROS 1 into a bag, in the order of their times.
+
+    Raises:
+        ROSBagException: it is no MCAP file or is damaged, a channel is not ROS 1's, or the package `mcap` is not
+            installed. No file is left behind.
+        OSError: a file cannot be read or written.
+
+    """
+    if isinstance(target, str | os.PathLike):
+        two_files(source, target)
+        part = Path(f"{os.fspath(target)}.active")
+        try:
+            with part.open("wb") as made:
+                copied = from_mcap(source, made)
+            part.replace(target)
+        except BaseException:
+            with suppress(OSError):
+                part.unlink()
+            raise
+        return copied
+    with Path(source).open("rb") as file, Bag(target, "w") as bag:
+        written = 0
+        connections: dict[int, tuple[Any, dict[str, str]]] = {}
+        for schema, channel, message in _messages(file, os.fspath(source)):
+            if channel.id not in connections:
+                connections[channel.id] = _connection(schema, channel, os.fspath(source))
+            cls, header = connections[channel.id]
+            raw = (header["type"], message.data, header["md5sum"], cls)
+            time = Time(*divmod(message.log_time, 10**9))
+            bag.write(channel.topic, raw, time, raw=True, connection_header=header)
+            written += 1
+    return Copied(written, written)
+
+
+def _messages(file: IO[bytes], name: str) -> Iterator[tuple[Any, Any, Any]]:
+    try:
+        from mcap.exceptions import McapError
+        from mcap.reader import make_reader
+    except ImportError as error:
+        raise ROSBagException(
+            "MCAP files are read with the package mcap, which is not installed here: `pip install 'rosmini[mcap]'`"
+        ) from error
+    try:
+        yield from make_reader(file, validate_crcs=True).iter_messages()
+    except (McapError, ValueError, struct.error) as error:
+        raise ROSBagException(f"{name} is no MCAP file, or is damaged: {error}") from error
+
+
+def _connection(schema: Any, channel: Any, name: str) -> tuple[Any, dict[str, str]]:
+    """The class of a channel's messages, and its connection header."""
+    encodings = (channel.message_encoding, None if schema is None else schema.encoding)
+    if encodings != ("ros1", "ros1msg"):
+        raise ROSBagException(
+            f"{channel.topic} in {name} is encoded as {encodings[0]!r:.40} with a schema of {encodings[1]!r:.40}: only "
+            "ROS 1's messages ('ros1', 'ros1msg') can be read here"
+        )
+    definition = schema.data.decode("utf-8", "replace")
+    try:
+        cls = class_from(schema.name, definition)
+    except (UnknownType, UnknownPackage, DefinitionError) as error:
+        raise ROSBagException(
+            f"the definition of {shown(schema.name)} in {name} is broken: {error}"
+        ) from error
+    known = {"topic": channel.topic, "type": schema.name, "message_definition": definition}
+    return cls, {"md5sum": cls._md5sum, **channel.metadata, **known}

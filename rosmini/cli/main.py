@@ -146,7 +146,7 @@ COMMANDS: dict[str, Entry] = {
     "catkin_create_pkg": Entry("rosmini.cli.catkin_create_pkg", "make a new package", is_magic=True),
     "catkin_make": Entry("rosmini.cli.catkin_make", "build a catkin workspace", is_magic=True),
     "stubs": Entry("rosmini.cli.stubs", "write type stubs of rospy and of messages, for editors"),
-    "mcap": Entry("rosmini.cli.mcap", "write a bag as an MCAP file, which Foxglove opens"),
+    "mcap": Entry("rosmini.cli.mcap", "write a bag as an MCAP file, which Foxglove opens, or back"),
     "gz": Entry("rosmini.cli.gz", "Gazebo's own tool: topics, models, time, SDF files"),
     "world": Entry("rosmini.cli.world", "list worlds, and check files of worlds, maps and robots"),
     "book": Entry("book.tools.book", "build the book from the stored outputs and open it", "."),

@@ -29,7 +29,7 @@ class JointStatePublisher:
 
     Raises:
         ParameterNotSet: there is no `robot_description`.
-        ParameterError: a parameter has the wrong type, or asks for the window that this node had once.
+        ParameterError: a parameter has the wrong type.
         UrdfError: the description is broken.
 
     """
@@ -37,8 +37,8 @@ class JointStatePublisher:
     def __init__(self, node: Node) -> None:
         self.node = node
         for name, where in GONE.items():
-            if self._parameter(name, None) is not None:
-                raise ParameterError(f"{node.name} has no parameter {name}: {where}")
+            if self._parameter(name, None):  # Noetic's takes no notice of it, and launch files still set it
+                node.logwarn(f"{node.name} has no parameter {name}: {where}")
         self.robot = read_description(node)
         self.positions = Positions(
             self.robot,

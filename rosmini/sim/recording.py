@@ -293,6 +293,9 @@ class Recording:
             scans=True: show what the laser saw
             title=None: a caption under the picture, and the first words of its text form
             height=420: of the viewer [CSS px]
+            topics=None: of what was kept beside the robots, only these topics; None: all
+            frame=None: what that is drawn in; None: map, odom or world, whichever there is first
+            robot=None: not needed here, since the recording knows its robot
         """
         return show("replay_3d", self, **options)
 

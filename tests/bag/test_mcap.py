@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from rosmini.bag import Bag, ROSBagException
-from rosmini.bag.mcap import to_mcap
+from rosmini.bag.mcap import from_mcap, to_mcap
 from rosmini.msgs import message_class
 from rosmini.time import Time
 
@@ -76,3 +76,35 @@ def test_without_the_library_it_says_what_to_install(bag, tmp_path, monkeypatch)
     monkeypatch.setitem(sys.modules, "mcap.writer", None)
     with pytest.raises(ROSBagException, match=r"pip install 'rosmini\[mcap\]'"):
         to_mcap(bag, tmp_path / "drive.mcap")
+
+
+def test_a_bag_comes_back_out_of_a_file_to_the_byte(bag, tmp_path):
+    to_mcap(bag, tmp_path / "drive.mcap")
+    assert from_mcap(tmp_path / "drive.mcap", tmp_path / "back.bag") == (61, 61)
+    with Bag(bag) as source, Bag(tmp_path / "back.bag") as back:
+        wanted = [(c.topic, c.type, c.md5sum, c.definition, t, d) for c, t, d, *_ in source.read_raw()]
+        assert [(c.topic, c.type, c.md5sum, c.definition, t, d) for c, t, d, *_ in back.read_raw()] == wanted
+        latched = [c for c in back.connections() if c.header.get("latching")]
+        assert [(c.topic, c.text("callerid")) for c in latched] == [("/chatter", "/map")]
+
+
+@pytest.mark.parametrize("text", [b"", b"#ROSBAG V2.0\n", b"\x89MCAP0\r\n" + 40 * b"\x05"])
+def test_what_is_no_mcap_file_is_refused_and_leaves_nothing(tmp_path, text):
+    (tmp_path / "a.mcap").write_bytes(text)
+    with pytest.raises(ROSBagException, match="no MCAP file, or is damaged"):
+        from_mcap(tmp_path / "a.mcap", tmp_path / "a.bag")
+    assert [path.name for path in tmp_path.iterdir()] == ["a.mcap"]
+
+
+def test_messages_of_ros_2_are_named_as_such(tmp_path):
+    from mcap.writer import Writer
+
+    with (tmp_path / "a.mcap").open("wb") as file:
+        writer = Writer(file)
+        writer.start(profile="ros2", library="t")
+        schema = writer.register_schema("std_msgs/msg/String", "ros2msg", b"string data")
+        channel = writer.register_channel("/chatter", "cdr", schema)
+        writer.add_message(channel, 1, b"\0\1\0\0\1\0\0\0\0", 1)
+        writer.finish()
+    with pytest.raises(ROSBagException, match=r"/chatter in .* is encoded as 'cdr'"):
+        from_mcap(tmp_path / "a.mcap", tmp_path / "a.bag")

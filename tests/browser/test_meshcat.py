@@ -24,6 +24,7 @@ from rosmini.urdf import load
 from rosmini.urdf.xacro import expand
 from rosmini.viz.embed import MESHCAT, STATIC, asset_path
 from rosmini.viz.meshcat import replay_3d, robot_3d, urdf_3d, world_3d
+from rosmini.viz.replay import Body, Grid, Grids, Run, Shape, Shapes
 from rosmini.viz.rviz import Scene, turnable
 
 pytestmark = pytest.mark.browser
@@ -48,6 +49,20 @@ def two_in_gazebo():
         for i, name in enumerate(("a", "b")):
             server.spawn(burger, name, (0.0, 0.3 * i, 0.0), namespace=name)
         return server.show3d(focus="a", distance=1.2)
+
+
+def layered():
+    """A robot drives along x for 10 s; half of the ground is occupied from the start, all of it from 5 s on."""
+    times = np.linspace(0.0, 10.0, 21)
+    half = np.zeros((40, 40), dtype=np.uint8)
+    half[:20] = 100
+    maps = tuple(Grid(cells, 0.1, (-2.0, -2.0, 0.0)) for cells in (half, np.full_like(half, 100)))
+    body = Body("base_footprint", times, np.column_stack([0.1 * times, 0 * times, 0 * times]))
+    plan = Shapes(
+        "/plan", np.array([0.0]), ((Shape("line", np.array([(0.0, 1.0), (1.5, 1.0)]), "#00ff00"),),)
+    )
+    run = Run("layered", 0.0, 10.0, (body,), (Grids("/map", np.array([0.0, 5.0]), maps), plan))
+    return replay_3d(run, robot="burger", focus="world", elevation=80)
 
 
 def rviz_scene():
@@ -87,6 +102,7 @@ def site(tmp_path_factory):
         "urdf": urdf_3d(load("package://turtlebot3_description/urdf/turtlebot3_waffle.urdf.xacro")),
         "gazebo": two_in_gazebo(),
         "rviz": rviz_scene(),
+        "layered": layered(),
     }
     head = '<head><meta charset="utf-8"><title>t</title><link rel="stylesheet" href="{}_static/rosmini.css"></head>'
     for name, chosen in {**{n: [n] for n in views}, "three": ["robot", "replay", "robot"]}.items():
@@ -293,6 +309,37 @@ def test_the_player_has_the_controls_of_the_other_one(open_page):
     slider.focus()
     page.keyboard.press("f")
     assert not page.get_by_role("checkbox", name="follow").is_checked()
+
+
+def test_maps_and_plans_lie_on_the_ground_and_can_be_switched(open_page, shared_tmp):
+    page = open_page("deep/er/layered.html")
+    slider = page.get_by_role("slider", name="Time")
+
+    def dark():
+        return (pixels(page).max(axis=2) < 90).mean()
+
+    at_first = dark()
+    slider.fill("6")
+    page.screenshot(path=shared_tmp / "meshcat-layered.png")
+    assert dark() > 1.5 * at_first > 0.05
+    assert ((pixels(page)[..., 1] > 180) & (pixels(page)[..., 0] < 120)).sum() > 50, "the plan"
+    page.get_by_role("checkbox", name="/map").uncheck()
+    assert dark() < at_first / 2
+    page.get_by_role("checkbox", name="/map").check()
+    slider.fill("1")
+    assert dark() == pytest.approx(at_first, rel=0.2)
+    assert viewer(page, f"{node('meshcat/robots/robot')}.position.x") == pytest.approx(0.1, abs=0.01)
+    before = camera(page)
+    page.get_by_role("button", name="Zoom in").click()
+    assert np.linalg.norm(camera(page)) < np.linalg.norm(before)
+
+
+def test_lines_and_the_laser_can_be_switched(open_page):
+    page = open_page("deep/er/replay.html")
+    for name, path in (("truth", "meshcat/trails/truth"), ("laser", "meshcat/robots/robot/scan")):
+        assert viewer(page, f"{node(path)}.visible") is True
+        page.get_by_role("checkbox", name=name).uncheck()
+        assert viewer(page, f"{node(path)}.visible") is False
 
 
 def test_the_path_that_is_still_to_come_is_not_shown(open_page):

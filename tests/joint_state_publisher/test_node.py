@@ -3,6 +3,7 @@ import pytest
 from rosmini import rosrun
 from rosmini.errors import ParameterError, ParameterNotSet
 from rosmini.graph import Graph
+from rosmini.msgs.rosgraph_msgs.msg import Log
 from rosmini.msgs.sensor_msgs.msg import JointState
 from rosmini.tf import TransformListener
 from rosmini.urdf import UnknownJoint
@@ -71,7 +72,6 @@ def test_with_robot_state_publisher_all_frames_are_there(graph):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["_use_gui:=true"], "joint_state_publisher_gui"),
         (["_rate:=0"], "rate is above 0 Hz"),
         (["_rate:=fast"], "is needed"),
     ],
@@ -79,6 +79,17 @@ def test_with_robot_state_publisher_all_frames_are_there(graph):
 def test_parameters_that_cannot_be(graph, arguments, message):
     with pytest.raises(ParameterError, match=message):
         start(graph, *arguments)
+
+
+@pytest.mark.parametrize(("asked", "is_told"), [("true", True), ("false", False)])
+def test_launch_files_that_speak_of_the_window_still_work(graph, asked, is_told):
+    """ROBOTIS's turtlebot3_model.launch does; Noetic's node takes no notice of it."""
+    told = []
+    graph.node("reader").subscriber("/rosout", Log, lambda log: told.append(log.msg))
+    _, heard = start(graph, f"_use_gui:={asked}")
+    graph.run(0.55)
+    assert len(heard) >= 4
+    assert any("joint_state_publisher_gui" in text for text in told) is is_told
 
 
 def test_without_a_description():

@@ -6,10 +6,12 @@ import os
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import cached_property
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 from rosmini.bag import Bag
+from rosmini.bag.mcap import from_mcap
 from rosmini.sim.models import RobotModel, model
 from rosmini.sim.recording import Recording
 from rosmini.viz.moving_view import MovingView
@@ -74,12 +76,10 @@ class Shown:
         run = self.source
         if isinstance(run, Run):
             return run.alt()
-        layers = [] if self.layers is None else [layer.name for layer in self.layers.layers]
-        more = f" Layers that can be switched: {', '.join(layers)}." if layers else ""
         return (
             f"Player of a run of {run.model.name} in the world {run.world.name}, {fixed(run.duration, 1)} seconds "
             f"long. The robot drives {fixed(run.distance, 2)} m; at the end its odometry is off by "
-            f"{fixed(float(run.drift().position[-1]), 2)} m.{beside(run)}{more}"
+            f"{fixed(float(run.drift().position[-1]), 2)} m.{beside(run)}{switched(self.layers)}"
         )
 
     def still(self, title: str) -> Picture:
@@ -169,6 +169,12 @@ def beside(run: Recording) -> str:
     return f" Beside it drive {others}{more}." if others else ""
 
 
+def switched(run: Run | None) -> str:
+    """A sentence about the layers of a run; empty if there are none."""
+    names = [] if run is None else [layer.name for layer in run.layers]
+    return f" Layers that can be switched: {', '.join(names)}." if names else ""
+
+
 def replay(
     *sources: Source,
     title: str | None = None,
@@ -183,12 +189,12 @@ def replay(
     each layer, and keys for all of it.
 
     Args:
-        sources: runs: recordings of robots, bags (or their paths), runs made from layers.
+        sources: runs: recordings of robots, bags, paths of bags and of MCAP files, runs made from layers.
         title: a caption, and the first words of the text form.
         names: of the runs, shown above each if there are several.
         topics: show only these topics of a bag, and of what a recorder kept beside the robots; None: all that can be.
         frame: what the messages are drawn in; None: map, odom or world, whichever there is first.
-        robot: what the robot of a bag looks like from above: a model or its name; None: an arrow head.
+        robot: what the robots of a bag look like from above: a model or its name; None: an arrow head.
 
     Raises:
         ViewError: it is nothing that can be played, or there is nothing to see in it.
@@ -200,36 +206,52 @@ def replay(
             f"replay needs at least one run, and as many names as runs, not {len(sources)} and {names}"
         )
     given: Sequence[str | None] = names or [None] * len(sources)
-    outline = None
-    if robot is not None:
-        outline = tuple(
-            (float(x), float(y)) for x, y in (model(robot) if isinstance(robot, str) else robot).footprint
-        )
+    known = model(robot) if isinstance(robot, str) else robot
     options: dict[str, Any] = {"topics": topics, "frame": frame}
     return ReplayView(
-        [_shown(source, name, outline, options) for source, name in zip(sources, given, strict=True)],
+        [_shown(source, name, known, options) for source, name in zip(sources, given, strict=True)],
         title=title,
     )
 
 
-def _shown(source: Source, name: str | None, outline: Any, options: dict[str, Any]) -> Shown:
+def _shown(source: Source, name: str | None, robot: RobotModel | None, options: dict[str, Any]) -> Shown:
     if isinstance(source, Recording):
-        return Shown(source, _kept(source, options), name=name)
+        return Shown(source, kept_run(source, **options), name=name)
+    return Shown(run_in(source, robot=robot, **options), name=name)
+
+
+def run_in(
+    source: Run | Bag | str | os.PathLike[str], *, robot: RobotModel | None = None, **options: Any
+) -> Run:
+    """The run in a bag or in an MCAP file, or a run as it is; `options` are those of `run_of`.
+
+    Raises:
+        ViewError: it is nothing that can be played, or there is nothing to see in it.
+        ROSBagException: a bag cannot be read.
+
+    """
     if isinstance(source, Run):
-        return Shown(source, name=name)
+        return source
     if isinstance(source, Bag):
-        return Shown(run_of(BagLog(source), outline=outline, **options), name=name)
-    if isinstance(source, str | os.PathLike) and Path(source).suffix == ".bag":
+        outline = None if robot is None else tuple((float(x), float(y)) for x, y in robot.footprint)
+        return run_of(BagLog(source), outline=outline, **options)
+    suffix = Path(source).suffix if isinstance(source, str | os.PathLike) else ""
+    if suffix == ".bag":
         with Bag(source) as bag:
-            return _shown(bag, name, outline, options)
+            return run_in(bag, robot=robot, **options)
+    if suffix == ".mcap":
+        with BytesIO() as file:
+            from_mcap(source, file)
+            run = run_in(Bag(file), robot=robot, **options)
+            return replace(run, name=Path(source).name)
     what = repr(source) if isinstance(source, str) else f"a {type(source).__name__}"
     raise ViewError(
-        f"replay shows a Recording, a bag or a Run, not {what}: record a run with rosmini.sim.Recorder, and "
-        "give what its recording() returns, or give the path of a .bag"
+        f"replay shows a Recording, a bag, an MCAP file or a Run, not {what}: record a run with rosmini.sim.Recorder, "
+        "and give what its recording() returns, or give the path of a .bag or .mcap"
     )
 
 
-def _kept(recording: Recording, options: dict[str, Any]) -> Run | None:
+def kept_run(recording: Recording, **options: Any) -> Run | None:
     """What a recorder kept beside the robot, laid on where the robot really was; None if that is nothing."""
     messages = recording.messages
     if not messages:

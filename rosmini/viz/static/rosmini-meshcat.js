@@ -4,7 +4,8 @@
    `commands` (base64 of packed commands), `themes` (colours of paths on light and dark pages), `duration` [s] of the
    animation or 0, `follow` (the path of what the camera follows, or null), `legend` (names and colours of lines), and
    `scan` with a recorded laser (or absent), `copies` with pairs of paths: at the second is once more what is at the first (or absent),
-   `background` with the scene's own colour (or absent: that of the page), `labels` with words at points (or absent).
+   `background` with the scene's own colour (or absent: that of the page), `labels` with words at points (or absent),
+   `layered` with what `rosmini-meshcat-layers.js` lays on the ground (or absent).
    With `options.driven` the robot is under somebody's keys: that function is called with `put(pose)`, which moves it and
    the camera behind it, and neither mouse nor keys turn the scene.
 
@@ -22,10 +23,12 @@
   };
   const STEP = Math.PI / 24;
   const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]; // as rosmini-replay.js has them
+  const ZOOM = 1.5; // of one press, as there
   const JUMP = 0.2; // seconds
   const EARLY = 1; // seconds: a scan that comes so soon after the start is there from the start
   const SAMPLES = 240; // of the way that a robot has come
   const [BEHIND, ABOVE, AHEAD] = [0.75, 0.55, 0.2]; // metres: where the camera is from a robot that is driven, and where it looks
+  const LASER = "var(--rosmini-vermilion, #d55e00)";
   const ROBOT = "/meshcat/robots/robot";
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
@@ -79,10 +82,13 @@
     const frame = make("iframe", { title: options.title }, {
       display: "block", width: "100%", height: `${options.height}px`, border: "0", borderRadius: "4px",
     });
-    const state = { time: 0, playing: false, following: data.follow !== null, viewer: null };
+    const state = { time: 0, playing: false, following: data.follow !== null, viewer: null, frame, shown: {} };
     const bar = data.duration > 0 ? playerBar(state, data, options) : null;
     host.append(frame, ...(bar ? [bar.element] : []));
-    onTheme(() => state.viewer && paint(state.viewer, data));
+    onTheme(() => {
+      if (state.viewer) paint(state.viewer, data);
+      bar?.seek(state.time);
+    });
     if (options.driven) frame.style.pointerEvents = "none"; // a click is for the keys around it
     frame.addEventListener("load", () => {
       if (frame.contentDocument.getElementById("pane")) start(frame, address, data, options, state, bar);
@@ -190,7 +196,7 @@
     }, { capture: true });
     canvas.addEventListener("keydown", (event) => {
       const turn = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-      const zoom = { "+": 1 / 1.15, "=": 1 / 1.15, "-": 1.15 }[event.key];
+      const zoom = { "+": 1 / 1.15, "=": 1 / 1.15, "-": 1.15, PageUp: 1 / ZOOM, PageDown: ZOOM }[event.key];
       if (event.ctrlKey || event.metaKey || event.altKey) return;
       if (turn) orbit(viewer, turn[0] * STEP, turn[1] * STEP, 1);
       else if (zoom) orbit(viewer, 0, 0, zoom);
@@ -365,8 +371,9 @@
       api.home();
     };
     const [back, forward] = [-1, 1].map((way) => () => { toggle(false); seek(state.time + way * JUMP); });
+    const closer = (factor) => () => state.viewer && orbit(state.viewer, 0, 0, factor);
     element.append(small("\u25c2\u2758", "Step back", back), button, small("\u2758\u25b8", "Step forward", forward), slider, clock, speed,
-      small("reset", "Reset the view", reset));
+      small("\u2212", "Zoom out", closer(ZOOM)), small("+", "Zoom in", closer(1 / ZOOM)), small("reset", "Reset the view", reset));
     let box = null;
     if (data.follow !== null) {
       box = make("input", { type: "checkbox", checked: true });
@@ -376,14 +383,21 @@
       element.append(label);
     }
 
-    for (const [name, colour] of data.legend) {
+    const layered = data.layered ? globalThis.rosminiMeshcatLayers.decode(data.layered) : null;
+    const solid = data.legend.map(([name, colour]) => [`/meshcat/trails/${name}`, name, colour]);
+    if (data.scan) solid.push([data.scan.path, "laser", LASER]);
+    for (const [key, name, colour] of [...solid, ...(layered?.switches ?? [])]) {
       const line = make("span", { ariaHidden: "true" }, {
-        display: "inline-block", width: "1.4em", height: "0.25em", margin: "0 0.4em 0.2em 0", background: colour,
+        display: "inline-block", width: "1.4em", height: "0.25em", margin: "0 0.4em 0.2em 0.3em",
+        background: colour,
       });
-      const label = make("span");
-      label.append(line, name);
+      const label = make("label", {}, { cursor: "pointer" });
+      const chosen = make("input", { type: "checkbox", checked: true });
+      chosen.addEventListener("change", () => { state.shown[key] = chosen.checked; seek(state.time); });
+      label.append(chosen, line, name);
       element.append(label);
     }
+    if (layered?.notes.length) element.append(make("small", { textContent: layered.notes.join(" ") }, { flexBasis: "100%" }));
 
     function seek(time) {
       state.time = Math.min(Math.max(time, 0), data.duration);
@@ -396,6 +410,8 @@
       viewer.animator.seek(state.time);
       grow(trails(), state.time / data.duration);
       if (data.scan) showScan(viewer, data.scan, state.time);
+      for (const [path] of solid) find(viewer, path).visible = state.shown[path] !== false;
+      layered?.show(state.frame, viewer, state.time, state.shown);
       if (data.follow !== null && state.following) follow(state, data);
       viewer.set_dirty();
     }
@@ -422,7 +438,7 @@
       ArrowLeft: back, ArrowDown: back, ArrowRight: forward, ArrowUp: forward,
       Home: () => { toggle(false); seek(0); }, End: () => { toggle(false); seek(data.duration); },
       "+": () => faster(1), "=": () => faster(1), "-": () => faster(-1), "_": () => faster(-1),
-      f: () => api.follow(), 0: reset,
+      PageUp: closer(1 / ZOOM), PageDown: closer(ZOOM), f: () => api.follow(), 0: reset,
     };
     element.addEventListener("keydown", (event) => {
       const { target, key } = event;

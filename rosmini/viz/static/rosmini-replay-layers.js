@@ -3,7 +3,7 @@
    A plain script that needs `rosmini-canvas.js` and `rosmini-replay.js` and sets `globalThis.rosminiReplayLayers`:
 
      decode(data)             a layer from what `rosmini.viz.replay.layers` (grids, images) made:
-                              {name, colour, bounds?, draw(view, time), words(time)}; times are seconds.
+                              {name, colour, moment(time, start), draw(view, time, start, slot)}; times are seconds.
      body(data)               something that moves: {name, colour, at(time), isThere(time), draw(view, time)}.
 
    A layer shows what came last, and nothing before its first moment. */
@@ -280,11 +280,16 @@
         const index = lastAt(times, time);
         return index < 0 ? { text: "not there yet" } : layer.tell(index, x, y);
       }),
+      /* What it shows at a time: which of its moments, -1 for nothing. */
+      moment(time, start) {
+        if (layer.always) return time;
+        const index = lastAt(times, time);
+        // what a laser measures a moment after the start is there from the start
+        return index < 0 && layer.early && times[0] - start < 1 ? 0 : index;
+      },
       draw(view, time, start, slot) {
         if (layer.always) return layer.drawAt(view, time);
-        let index = lastAt(times, time);
-        // what a laser measures a moment after the start is there from the start
-        if (index < 0 && layer.early && times[0] - start < 1) index = 0;
+        const index = this.moment(time, start);
         if (index < 0) return false;
         layer.draw(view, index, slot);
         return true;

@@ -33,6 +33,7 @@ from rosmini.viz.meshcat.drawing import HEIGHT, WIDTH, draw
 from rosmini.viz.meshcat.scene3d import keyframes, planar, ribbon
 from rosmini.viz.meshcat.solids import Ball, Prism, Rod, triangulate
 from rosmini.viz.meshcat.view import camera_for
+from rosmini.viz.replay import Body, Run, Shape, Shapes
 
 from ...processes import run as run_process
 
@@ -563,3 +564,25 @@ def test_no_wall_stands_between_the_camera_and_the_robot(place, heading):
     angle = math.atan2(y - place[1], x - place[0])
     clear = math.inf == raycast(room.segments, room.discs, *place, angle, 1.0, 1, way)[0]
     assert clear or z > room.wall_height
+
+
+def test_a_run_of_layers_has_its_robots_and_what_lies_on_the_ground():
+    times = np.linspace(0.0, 4.0, 9)
+    along = np.column_stack([times / 4, 0 * times, 0 * times])
+    bodies = (Body("base_link", times, along), Body("/odom", times, along))
+    plan = Shapes("/plan", np.array([1.0]), ((Shape("line", along[:, :2]),),))
+    view = replay_3d(Run("drive.bag", 0.0, 4.0, bodies, (plan,)), robot="burger")
+    assert [
+        name for name in view.scene.nodes if name.startswith(("robots", "others")) and name.count("/") == 1
+    ] == ["robots/robot"], "what a topic says of the robot is no robot of its own"
+    tracks, _ = keys(view)
+    assert np.array(tracks["/meshcat/robots/robot", ".position"][1])[-1, 0] == pytest.approx(1.0)
+    laid = view.data["layered"]
+    assert [each["name"] for each in laid["layers"]] == ["/plan"]
+    assert [each["name"] for each in laid["bodies"]] == ["base_link", "/odom"]
+    assert view.text.startswith("3D replay: drive.bag: 4.0 s\nbase_link: start (0.00, 0.00, 0.0 deg)")
+    assert "rosmini-meshcat-layers.js" in view._html(book=True)
+    assert "rosmini-meshcat-layers.js" not in replay_3d(run())._html(book=True)
+    flat = replay_3d(Run("drive.bag", 0.0, 4.0, bodies, (plan,)))
+    assert flat.data["follow"] is None
+    assert not any(name.startswith("robots") for name in flat.scene.nodes)

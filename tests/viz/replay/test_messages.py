@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rosmini.bag import Bag
+from rosmini.bag.mcap import to_mcap
 from rosmini.geometry.angles import quaternion_from_yaw
 from rosmini.graph import Graph
 from rosmini.msgs import message_class
@@ -361,3 +362,12 @@ def test_a_map_of_slam_is_laid_where_the_robot_started():
     view = recorder.recording().replay()
     place = columns(view.data["layers"][0]["places"], 8)[0]
     assert place[3:5] / 1000 == pytest.approx((1.0, 0.5), abs=0.01)
+
+
+def test_an_mcap_file_is_played_as_the_bag_it_was_made_from(bag, tmp_path):
+    pytest.importorskip("mcap")
+    source = bag(*driving())
+    to_mcap(source, tmp_path / "demo.mcap")
+    played, wanted = replay(tmp_path / "demo.mcap"), replay(source)
+    assert {**played.data, "name": ""} == {**wanted.data, "name": ""}
+    assert played.text.startswith("Replay of demo.mcap: 4.0 s")

@@ -298,7 +298,9 @@ def test_a_run_of_one_sample_and_one_without_scans_can_be_replayed():
 
 def test_what_is_no_run_is_refused():
     recording = run(1.0)
-    with pytest.raises(ViewError, match="replay shows a Recording, a bag or a Run, not 'recording'"):
+    with pytest.raises(
+        ViewError, match="replay shows a Recording, a bag, an MCAP file or a Run, not 'recording'"
+    ):
         replay("recording")
     with pytest.raises(RecordingError, match="at least one sample"):
         replace(recording, times=np.empty(0), truth=np.empty((0, 3)), odom=np.empty((0, 3)))

@@ -1,0 +1,214 @@
+"""Runs in three dimensions: a recording, a bag or a run of layers, to play in meshcat's viewer."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rosmini.sim.models import RobotModel, model
+from rosmini.sim.recording import Recording
+from rosmini.sim.world import Pose, World
+from rosmini.viz.replay.player import LAYER_SCRIPT, SCRIPTS, Source, beside, kept_run, run_in, switched
+from rosmini.viz.replay.run import BUDGET, Run, thinned
+from rosmini.viz.replay.still import still_of
+from rosmini.viz.rounding import fixed, snap
+from rosmini.viz.world_pictures import colour_of, pose_text
+
+from .scene3d import ROBOT, Scene3D, obstacle_node
+from .view import HEIGHT, Focus, MeshcatView, camera_for, node_of, title_of
+
+Floats = NDArray[np.float64]
+CLOSE = 1.5
+"""How far the camera is from a robot that it follows [m]."""
+
+LAYERED = (*SCRIPTS, LAYER_SCRIPT, "rosmini-meshcat-layers.js")
+"""What a viewer needs for layers beside its own script: they are drawn as on the canvas, and laid on the ground."""
+LEAST = 120_000
+"""What layers may take in a page, however much the world and the robots do [bytes]."""
+RATE = 10.0
+"""Of the poses of a robot that messages tell of [Hz]."""
+
+
+def replay_3d(
+    source: Source, *, focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
+    elevation: float | None = None, scans: bool = True, title: str | None = None, height: int = HEIGHT,
+    topics: Collection[str] | None = None, frame: str | None = None, robot: str | RobotModel | None = None,
+) -> MeshcatView:  # fmt: skip
+    """A run to play: the robot on its way, and on the ground what was published: maps, costmaps, plans, particles.
+
+    The camera follows the robot, or stands still if the focus is the world. `scans` shows what the laser of a recording
+    saw, each beam from where the robot was when it was measured. `topics` and `frame` are those of `replay`; `robot` is
+    the model of the robots of a bag, which are flat arrow heads without.
+
+    Raises:
+        ViewError: it is nothing that can be played, or there is nothing to see in it; the focus or the distance is
+            impossible.
+        ROSBagException: a bag cannot be read.
+
+    """
+    look = {"focus": focus, "distance": distance, "azimuth": azimuth, "elevation": elevation}
+    known = model(robot) if isinstance(robot, str) else robot
+    if isinstance(source, Recording):
+        kept = kept_run(source, topics=topics, frame=frame)
+        view = _recording(source, kept, look, scans=scans, title=title, height=height)
+    else:
+        kept = run_in(source, topics=topics, frame=frame, robot=known)
+        view = _run(kept, known, look, title=title, height=height)
+    if kept is not None:
+        _lay(view, kept)
+    return view
+
+
+def _recording(
+    recording: Recording, kept: Run | None, look: dict[str, Any], *, scans: bool, title: str | None, height: int
+) -> MeshcatView:  # fmt: skip
+    """A simulated robot in its world; `kept` is what a recorder kept beside it."""
+    world, model, truth = recording.world, recording.model, recording.truth
+    start: Pose = tuple(truth[0].tolist())
+    is_close = look["focus"] == "robot"
+    if is_close and look["distance"] is None:
+        look = {**look, "distance": CLOSE}
+    scene = Scene3D(camera_for(world, start, **look))
+    begin = float(recording.times[0])
+    scene.add_world(recording.world_at(begin) if recording.things else world)
+    believed = recording.odom_in_map()
+    scene.add_trail("odometry", believed[:, :2], "orange", 0.004)
+    scene.add_trail("truth", truth[:, :2], "blue", 0.006)
+    for i, other in enumerate(recording.others):
+        scene.add_trail(other.name, other.truth[:, :2], colour_of(i), 0.005)
+        scene.add_robot(other.model, other.pose_at(begin), node_of(other.name))
+    scene.add_robot(model, start)
+    seen = _scan_track(recording) if scans and len(recording.scans) else None
+    if seen is not None:
+        scene.add_scan(model, np.full(seen["beams"], np.inf))
+    scene.animate(recording.times - begin, _all_tracks(scene, recording))
+    label = f"{model.title or model.name} in {title_of(world)}: a run in 3D"
+    driven = f"{fixed(recording.duration, 1)} s, {fixed(recording.distance, 2)} m"
+    off = fixed(float(recording.drift().position[-1]), 2)
+    text = (
+        f"3D replay: {model.name} in {world.name}, {driven}\n"
+        f"from {pose_text(start)} to {pose_text(tuple(truth[-1].tolist()))}; odometry ends {off} m off"
+        + "".join(
+            f"\n{each.name} ({each.model.name}): {fixed(each.distance, 2)} m" for each in recording.others
+        )
+        + "".join(f"\n{line}" for line in (kept.text().splitlines()[1:] if kept is not None else ()))
+    )
+    alt = (
+        f"A player with {model.title or model.name} in {title_of(world)}, in three dimensions: it drives {driven}. "
+        f"Lines on the ground show its way and, {off} m off at its end, the way that odometry believes in."
+        f"{beside(recording)}{switched(kept)}"
+    )
+    view = MeshcatView(
+        scene, label=label, text=text, alt=alt, title=title, height=height,
+        follow=f"/meshcat/{ROBOT}" if is_close else None,
+    )  # fmt: skip
+    if seen is not None:
+        view.extra["scan"] = seen
+    return view
+
+
+def _run(
+    run: Run, robot: RobotModel | None, look: dict[str, Any], *, title: str | None, height: int
+) -> MeshcatView:
+    """What messages tell of: bare ground, and robots on it if it is known what they look like."""
+    x0, y0, x1, y1 = run.extent()
+    # what a topic says of where a robot is (names with a slash) lies flat under the robot itself
+    own = [body for body in run.bodies if not body.name.startswith("/")] or list(run.bodies[:1])
+    bodies = own if robot is not None else []
+    start = bodies[0].poses[0].tolist() if bodies else None
+    if start is None:
+        look = {**look, "focus": "world"} if look["focus"] == "robot" else look
+    elif look["focus"] == "robot" and look["distance"] is None:
+        look = {**look, "distance": CLOSE}
+    fence = np.array([(x0, y0, x1, y0), (x1, y1, x0, y1)])
+    scene = Scene3D(camera_for(World("ground", (), walls=fence), start and tuple(start), **look))
+    scene.add_ground((x0, y0, x1, y1))
+    times = np.linspace(run.start, run.end, 1 + min(1200, int(RATE * run.duration)))
+    tracks: list[tuple[str, str, Floats]] = []
+    for i, body in enumerate(bodies):
+        assert robot is not None  # noqa: S101 - there are no bodies without
+        node = node_of(body.name) if i else ROBOT
+        poses = _sampled(times, body.times, body.poses)
+        scene.add_robot(robot, tuple(poses[0].tolist()), node)
+        tracks += _tracks(robot, poses, node, wheels=f"{node}/wheel_left" in scene.nodes)
+    scene.animate(times - run.start, tracks)
+    label, alt = f"{run.name}: a run in 3D", run.alt().replace("seen from above", "in three dimensions")
+    view = MeshcatView(
+        scene, label=label, text=run.text(f"3D replay: {run.name}"), alt=alt, title=title, height=height,
+        follow=f"/meshcat/{ROBOT}" if bodies and look["focus"] == "robot" else None,
+    )  # fmt: skip
+    view.svg = (
+        still_of(run, title=label, alt=run.alt()).svg or ""
+    )  # a drawing of bare ground would say nothing
+    return view
+    return view
+
+
+def _lay(view: MeshcatView, run: Run) -> None:
+    """Give a viewer what lies on its ground, thinned until the page is small."""
+    used = 4 * sum(len(command) for command in view.scene.commands) // 3
+    layers, notes = thinned(run.layers, max(LEAST, BUDGET - used))
+    view.scripts = (*LAYERED, *view.scripts)
+    view.extra["layered"] = {
+        "start": run.start, "bounds": [round(side, 3) for side in view.scene.bounds], "layers": layers,
+        "bodies": [body.data() for body in run.bodies], "notes": [*run.notes, *notes],
+    }  # fmt: skip
+
+
+def _all_tracks(scene: Scene3D, recording: Recording) -> list[tuple[str, str, Floats]]:
+    """How all that moves moves, at the recording's times."""
+    times = recording.times
+    tracks = _tracks(recording.model, recording.truth, ROBOT, wheels=f"{ROBOT}/wheel_left" in scene.nodes)
+    for other in recording.others:
+        node, poses = node_of(other.name), _sampled(times, other.times, other.truth)
+        tracks += _tracks(other.model, poses, node, wheels=f"{node}/wheel_left" in scene.nodes)
+    for thing in recording.things:
+        poses = _sampled(times, thing.times, thing.poses)
+        tracks += _tracks(recording.model, poses, obstacle_node(thing.obstacle.name), wheels=False)
+    return tracks
+
+
+def _sampled(times: Floats, known: Floats, poses: Floats) -> Floats:
+    """Poses (n, 3) at `times` (n,), linear between those at the times `known`."""
+    return np.column_stack([np.interp(times, known, column) for column in poses.T])
+
+
+def _tracks(model: RobotModel, truth: Floats, node: str, *, wheels: bool) -> list[tuple[str, str, Floats]]:
+    """How a robot and its wheels, if it has some, move: the wheels roll without slipping along the true way."""
+    place = np.column_stack([truth[:, :2], np.zeros(len(truth))])
+    steps, turns = np.diff(truth[:, :2], axis=0), np.diff(truth[:, 2])
+    towards = truth[:-1, 2] + turns / 2
+    way = (steps[:, 0] * np.cos(towards) + steps[:, 1] * np.sin(towards)) / np.sinc(turns / 2 / np.pi)
+    turning: list[tuple[str, str, Floats]] = []
+    for side, sign in (("left", -1), ("right", 1)) if wheels else ():
+        rolled = np.cumsum(way + sign * turns * model.wheel_separation / 2) / model.wheel_radius
+        turning.append((f"{node}/wheel_{side}", "rotation[y]", np.concatenate([[0.0], rolled])))
+    return [(node, "position", place), (node, "rotation[z]", truth[:, 2]), *turning]
+
+
+MOST_SCANS = 120
+BEAM_STEP = 2
+
+
+def _scan_track(recording: Recording) -> dict[str, Any]:
+    """Every second beam of at most `MOST_SCANS` scans, in millimetres as 16-bit numbers; 0 where nothing was hit."""
+    every = -(-len(recording.scans) // MOST_SCANS)
+    ranges = recording.scans[::every, ::BEAM_STEP]
+    hit = np.isfinite(ranges)
+    millimetres = np.where(hit, snap(np.where(hit, ranges, 0.0)) * 1000, 0.0)
+    times = snap(recording.scan_times[::every] - recording.times[0])
+    lidar = recording.model.laser
+    fan = lidar.angle_max is not None or lidar.angle_min
+    return {
+        **(
+            {"start": round(lidar.angle_min, 8), "step": round(BEAM_STEP * lidar.increment, 8)} if fan else {}
+        ),
+        **({"increment": round(BEAM_STEP * recording.time_increment, 9)} if recording.time_increment else {}),
+        "path": f"/meshcat/{ROBOT}/scan",
+        "beams": ranges.shape[1],
+        "times": [round(t, 3) for t in times.tolist()],
+        "ranges": np.rint(np.clip(millimetres, 0, 65535)).astype("<u2").tobytes(),
+    }
