@@ -144,8 +144,8 @@ class UnknownType(RosminiError):
     """No message, service or action type of this name is known."""
 
 
-class DefinitionError(RosminiError):
-    """A ``.msg``, ``.srv``, ``.action`` or manifest file is broken at ``file``, line ``line`` (counted from 1)."""
+class LocatedError(RosminiError):
+    """Something is wrong in ``file``, at line ``line`` (counted from 1), where these are known."""
 
     def __init__(self, message: str, file: str | Path | None = None, line: int | None = None) -> None:
         self.message = message
@@ -156,6 +156,10 @@ class DefinitionError(RosminiError):
     def __str__(self) -> str:
         place = ":".join(str(part) for part in (self.file, self.line) if part is not None)
         return f"{place}: {self.message}" if place else self.message
+
+
+class DefinitionError(LocatedError):
+    """A ``.msg``, ``.srv``, ``.action`` or manifest file is broken."""
 
 
 class MasterUnreachable(ROSException):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import ROSException, TransportInitError, TypeMismatch
 
 from .mismatch import describe_mismatch, recast
+from .topic_handle import TopicHandle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -275,7 +276,7 @@ class Publication:
         self._connections_changed()
 
 
-class Publisher:
+class Publisher(TopicHandle):
     """Publishes messages of one type on one topic.
 
     Made by :meth:`Node.publisher <rosmini.graph.node.Node.publisher>`.
@@ -401,10 +402,6 @@ class Publisher:
             lambda: f"{self.num_connections()} of {count} subscribers of {self.topic} are connected",
         )
 
-    def unregister(self) -> None:
-        """Stop publishing. The topic is left when the node's last publisher of it has gone. Harmless when repeated."""
-        self.node.scheduler.on_hub(self._unregister)
-
     def _unregister(self) -> None:
         publication, self._publication = self._publication, None
         if publication is not None:
@@ -415,18 +412,3 @@ class Publisher:
     def detach(self) -> None:
         """Learn that the node has shut down."""
         self._publication = None
-
-    def connected(self, peer: str) -> None:
-        """Learn that the node ``peer`` connected."""
-        self._tell(self._on_connect, peer)
-
-    def disconnected(self, peer: str) -> None:
-        """Learn that the node ``peer`` disconnected."""
-        self._tell(self._on_disconnect, peer)
-
-    def _tell(self, callback: Callable[[str], object] | None, peer: str) -> None:
-        if callback is not None:
-            self.node.spawn(
-                f"{self.node.name} connections of {self.topic}",
-                lambda: self.node.guarded(callback, peer, what=f"connection callback of {self.topic}"),
-            )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .callbacks import Callback
+from .topic_handle import TopicHandle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
     from .subscription_port import SubscriptionPort
 
 
-class Subscriber:
+class Subscriber(TopicHandle):
     """Receives messages of one type on one topic. Made by :meth:`Node.subscriber <rosmini.graph.node.Node.subscriber>`.
 
     ``numpy`` chooses how numeric arrays arrive: as read-only numpy arrays, or as rospy's tuples and bytes. What the
@@ -71,10 +72,6 @@ class Subscriber:
         """Return the number of connected publishers."""
         return 0 if self._subscription is None else self._subscription.num_open()
 
-    def unregister(self) -> None:
-        """Stop receiving. The topic is left when the node's last subscriber of it has gone. Harmless when repeated."""
-        self.node.scheduler.on_hub(self._unregister)
-
     def _unregister(self) -> None:
         subscription, self._subscription = self._subscription, None
         if subscription is not None:
@@ -83,18 +80,3 @@ class Subscriber:
     def detach(self) -> None:
         """Learn that the node has shut down."""
         self._subscription = None
-
-    def connected(self, peer: str) -> None:
-        """Learn that a publisher was connected."""
-        self._tell(self._on_connect, peer)
-
-    def disconnected(self, peer: str) -> None:
-        """Learn that a publisher was disconnected."""
-        self._tell(self._on_disconnect, peer)
-
-    def _tell(self, callback: Callable[[str], object] | None, peer: str) -> None:
-        if callback is not None:
-            self.node.spawn(
-                f"{self.node.name} connections of {self.topic}",
-                lambda: self.node.guarded(callback, peer, what=f"connection callback of {self.topic}"),
-            )

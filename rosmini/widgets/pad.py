@@ -25,21 +25,19 @@ from typing import TYPE_CHECKING, Any
 from rosmini.errors import ROSException, ROSInterruptException, RosminiError
 from rosmini.graph import Graph, Node
 from rosmini.graph.graph_core import GraphCore
-from rosmini.graph.notebook import kernel_shell
 from rosmini.msgs import message_class
 from rosmini.names import resolve
 from rosmini.sim.simulation import Simulation
 from rosmini.turtlesim import TurtleSim
-from rosmini.viz.book_form import book_form
-from rosmini.viz.view import MimeBundle, View
 
 from .chosen import Chosen
 from .driven_turtle import DrivenTurtle
 from .key_maps import key_map
+from .live_view import LiveView
 from .teleop import PERIOD, Limits, Teleop, TeleopError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection
+    from collections.abc import Callable
 
     from rosmini.graph.clock import Timer
 
@@ -53,7 +51,7 @@ class PadNode(Node):
     """The node of a pad. A new pad of its name takes its place without a complaint: a cell was run again."""
 
 
-class TeleopPad(View):
+class TeleopPad(LiveView):
     """An ordinary node that publishes velocities as ROS's teleoperation programs do; in a notebook a pad with keys.
 
     A key publishes at once, and then every 0.1 s what has come nearer to the target. When nothing is wanted and
@@ -135,7 +133,6 @@ class TeleopPad(View):
         self._twist = self.twist_class()
         self._timer: Timer | None = None
         self._listeners: list[Callable[[Any], object]] = []
-        self._link: Any = None
         self._meet_listeners()
 
     def _see(self, driven: Simulation | TurtleSim, robot: str) -> Chosen | DrivenTurtle:
@@ -362,15 +359,6 @@ class TeleopPad(View):
 
         return static_html(self, caption=self.title)
 
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> MimeBundle:
-        """A live widget in a notebook; in the book, and where no kernel runs, the page that stands alone."""
-        if book_form() or kernel_shell() is None:
-            return super()._repr_mimebundle_(include, exclude)
-        data, metadata = self.link.widget._repr_mimebundle_()
-        return {**data, "text/plain": self.text}, metadata
-
     def serve(self, port: int = 0) -> PageServer:
         """Serve the live pad as a page on loopback, for a program in a terminal that drives the graph.
 
@@ -381,11 +369,7 @@ class TeleopPad(View):
 
         return PageServer(self.link.widget, title=self.title or f"Drive on {self.topic}", port=port)
 
-    @property
-    def link(self) -> Any:
-        """What goes between this pad and its page in a live notebook. Raises `TeleopError` without anywidget."""
-        if self._link is None:
-            from .live import Link
+    def _new_link(self) -> Any:
+        from .live import Link
 
-            self._link = Link(self)
-        return self._link
+        return Link(self)

@@ -14,27 +14,23 @@ burger is at (1.00, -1.00, 90.0 deg)
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
 
 from rosmini.errors import RosminiError
 from rosmini.geometry.poses import Pose
-from rosmini.graph.notebook import kernel_shell
 from rosmini.sim.simulation import Simulation
-from rosmini.viz.book_form import book_form
 from rosmini.viz.rounding import fixed
-from rosmini.viz.view import SVG_MIME, MimeBundle, Picture, View, ViewError
+from rosmini.viz.view import SVG_MIME, Picture, ViewError
 from rosmini.viz.world_pictures import pose_text
 
+from .live_view import LiveView
 from .watch import STEP_S, Watch
-
-if TYPE_CHECKING:
-    from .view_link import ViewLink
 
 T = TypeVar("T")
 
 
-class SimulationView(View):
+class SimulationView(LiveView):
     """A running world from above, in a notebook; `drag` and `turn` are what a browser's pointer and keys call too.
 
     In a live notebook it follows the simulation, whoever drives the graph. In the book, and where no kernel runs, it
@@ -59,7 +55,6 @@ class SimulationView(View):
         self.title = title
         self.message = ""
         """What the last drag, turn or button did, or why it was refused."""
-        self._link: ViewLink | None = None
 
     # -- what is done --------------------------------------------------------------------------------------------
 
@@ -191,20 +186,7 @@ class SimulationView(View):
         """The still picture: what moves needs the simulation, which runs in Python."""
         return self.still().html
 
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> MimeBundle:
-        """A live widget in a notebook; in the book, and where no kernel runs, the still picture."""
-        if book_form() or kernel_shell() is None:
-            return super()._repr_mimebundle_(include, exclude)
-        data, metadata = self.link.mimebundle()
-        return {**data, "text/plain": self.text}, metadata
+    def _new_link(self) -> Any:
+        from .view_link import ViewLink
 
-    @property
-    def link(self) -> ViewLink:
-        """What goes between this view and its page in a live notebook. Raises `ViewError` without anywidget."""
-        if self._link is None:
-            from .view_link import ViewLink
-
-            self._link = ViewLink(self)
-        return self._link
+        return ViewLink(self)

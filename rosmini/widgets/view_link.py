@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rosmini.errors import RosminiError
-from rosmini.viz.view import MimeBundle, ViewError
+from rosmini.viz.view import ViewError
 
 from .teleop import TeleopError
 
@@ -105,10 +105,6 @@ class ViewLink:
         )
         answer_in_subshells(self.widget.comm)
         self.widget.on_msg(self.receive)
-
-    def mimebundle(self) -> MimeBundle:
-        """The widget for Jupyter."""
-        return self.widget._repr_mimebundle_() or ({}, {})
 
     # -- from the page, in any thread ----------------------------------------------------------------------------
 

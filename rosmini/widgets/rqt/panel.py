@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from rosmini.errors import RosminiError, nearest
 from rosmini.graph import Node
-from rosmini.graph.notebook import kernel_shell
 from rosmini.names import resolve
-from rosmini.viz.book_form import book_form
 from rosmini.viz.svg import element
-from rosmini.viz.view import MimeBundle, View, ViewError
+from rosmini.viz.view import ViewError
+from rosmini.widgets.live_view import LiveView
 
 from .markup import page
 from .parts import Bar, Control, Part, Words, controls, text_of
@@ -32,7 +31,7 @@ class PanelNode(Node):
     """The node of a panel. A new panel of its name takes its place without a complaint: a cell was run again."""
 
 
-class Panel(View):
+class Panel(LiveView):
     """A tool of rqt on a graph. What a hand does in a page, :meth:`set` does in a script.
 
     Args:
@@ -55,7 +54,6 @@ class Panel(View):
         """What the last thing that was done did."""
         self.problem = ""
         """Why the last thing that :meth:`set` was to do was refused."""
-        self._link: Any = None
         self._node = node or _own_node(graph, name or self.tool)
 
     @property
@@ -169,23 +167,10 @@ class Panel(View):
         """The panel as a page has it: as it stands, and nothing in it can be operated."""
         return element("figure", self.markup(live=False), class_="rosmini-figure", style="margin:0.5em 0")
 
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> MimeBundle:
-        """A live widget in a notebook; in the book, and where no kernel runs, the page."""
-        if book_form() or kernel_shell() is None:
-            return super()._repr_mimebundle_(include, exclude)
-        data, metadata = self.link.mimebundle()
-        return {**data, "text/plain": self.text}, metadata
+    def _new_link(self) -> Any:
+        from .panel_link import PanelLink
 
-    @property
-    def link(self) -> Any:
-        """What goes between this panel and its page in a live notebook. Raises `ViewError` without anywidget."""
-        if self._link is None:
-            from .panel_link import PanelLink
-
-            self._link = PanelLink(self)
-        return self._link
+        return PanelLink(self)
 
 
 def _own_node(graph: Graph, name: str) -> PanelNode:

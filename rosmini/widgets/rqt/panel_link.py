@@ -13,7 +13,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 from rosmini.errors import RosminiError
-from rosmini.viz.view import MimeBundle, ViewError
+from rosmini.viz.view import ViewError
 from rosmini.widgets.page import module
 from rosmini.widgets.teleop import TeleopError
 
@@ -70,10 +70,6 @@ class PanelLink:
         self.widget = PageWidget(_esm=module(SCRIPTS, "rosminiRqt"), data={"html": self._last})
         answer_in_subshells(self.widget.comm)
         self.widget.on_msg(self.receive)
-
-    def mimebundle(self) -> MimeBundle:
-        """The widget for Jupyter."""
-        return self.widget._repr_mimebundle_() or ({}, {})
 
     def receive(self, _widget: object, content: dict[str, Any], _buffers: object) -> None:
         """Take a message of the page, in any thread: see `rosmini-rqt.js`."""
