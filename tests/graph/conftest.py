@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 import threading
@@ -29,6 +30,9 @@ LONG = PATIENCE * WALL_RATE
 
 RESTLESS = "restless-master"
 """The kind of graph whose Master takes its time and does not always answer."""
+
+SEED = int(os.environ.get("ROSMINI_RESTLESS_SEED", "1"))
+"""What is random of that Master follows from it: another one for every run that one likes to make."""
 
 KINDS: dict[str, tuple[Any, bool]] = {
     "local-simulated": (LocalTransport, True),
@@ -68,7 +72,7 @@ def make(kind: str, **options: Any) -> Graph:
         transports=[transport], simulated=simulated, rate=1.0 if simulated else WALL_RATE, **options
     )
     if kind == RESTLESS:
-        RestlessMaster(graph, seed=1)
+        RestlessMaster(graph, SEED)
     return graph
 
 

@@ -124,7 +124,7 @@ def test_the_end_is_told(page):
 
 
 def test_a_notebook_gets_a_widget_and_a_page_gets_html(page, monkeypatch):
-    monkeypatch.setattr("rosmini.widgets.rqt.panel.kernel_shell", object)
+    monkeypatch.setattr("rosmini.widgets.live_view.kernel_shell", object)
     monkeypatch.delenv("ROSMINI_DISPLAY", raising=False)
     data, _ = page.panel._repr_mimebundle_()
     assert "application/vnd.jupyter.widget-view+json" in data
