@@ -420,7 +420,7 @@ def test_goals_from_a_real_thread():
             diary.client.send_goal(FibonacciGoal(order))
             ended.append(
                 (
-                    diary.client.wait_for_result(20),
+                    diary.client.wait_for_result(PATIENCE),
                     diary.client.get_state(),
                     diary.client.get_result().sequence[0],
                 )

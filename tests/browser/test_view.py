@@ -15,6 +15,8 @@ from rosmini.viz.embed import STATIC
 from rosmini.widgets import SimulationView
 from rosmini.widgets.view_link import SCRIPTS, ViewLink
 
+from ..processes import wait_until
+
 pytestmark = pytest.mark.browser
 
 BRIDGE = """(data) => {
@@ -57,6 +59,16 @@ class Viewed:
         data = self.link.widget.data
         page.evaluate(BRIDGE, {**data, "scans": text_of(data["scans"])})
         self.pump()
+        wait_until(self.is_fitted, "drawing as wide as the page leaves it")
+
+    def is_fitted(self) -> bool:
+        """Whether the drawing has the width of its element: on a busy machine it learns that some frames later."""
+        return bool(
+            self.page.evaluate(
+                "(canvas) => canvas.width === Math.round(canvas.clientWidth * devicePixelRatio)",
+                self.page.query_selector(".rosmini-view canvas, #view canvas"),
+            )
+        )
 
     def live(self) -> None:
         self.graph._live = SimpleNamespace(running=True, stop=lambda: None)

@@ -23,7 +23,7 @@ from rosmini.sim.simulator import Simulator
 from rosmini.sim.world import World, WorldError
 from rosmini.sim.worlds import world
 
-from ..processes import run
+from ..processes import PATIENCE, run
 
 Twist = message_class("geometry_msgs/Twist")
 TOPICS = {
@@ -515,10 +515,10 @@ def test_a_computer_that_stalls_does_not_make_the_robot_jump():
         driver.publisher.wait_for_subscribers()
         driver.command.linear.x = 0.2
         driver.publisher.publish(driver.command)
-        graph.run(5.0, until=lambda: len(driver.heard["odom"]) > 2)
+        graph.run(PATIENCE, until=lambda: len(driver.heard["odom"]) > 2)
         graph.scheduler._mono_start -= 3_000_000_000  # the clock jumps on by 3 s
         count = len(driver.heard["odom"])
-        graph.run(5.0, until=lambda: len(driver.heard["odom"]) > count + 2)
+        graph.run(PATIENCE, until=lambda: len(driver.heard["odom"]) > count + 2)
         steps = np.diff([message.pose.pose.position.x for message in driver.heard["odom"]])
         assert steps.max() < 0.02
 
