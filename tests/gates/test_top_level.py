@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import subprocess
 from pathlib import Path
 
 import pytest
+
+from ..processes import run
 
 ROOT = Path(__file__).resolve().parents[2]
 ALLOWED = {
@@ -17,6 +18,8 @@ ALLOWED = {
 def test_only_the_projects_own_files_lie_at_the_top():
     if not (ROOT / ".git").exists():
         pytest.skip("not a checkout of git: what a build puts beside the sources cannot be told from them")
-    tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True)
-    top = {line.partition("/")[0] for line in tracked.stdout.splitlines()}
+    top = {
+        line.partition("/")[0]
+        for line in run(["git", "ls-files"], cwd=ROOT, text=True, check=True).stdout.splitlines()
+    }
     assert {name for name in top if not name.startswith(".")} <= ALLOWED
