@@ -7,9 +7,12 @@ executables are of `rosmini.nodes`. So no floor below `rosmini.viz` imports it, 
 from __future__ import annotations
 
 from importlib.metadata import entry_points
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError, nearest
+
+if TYPE_CHECKING:
+    from .graph_core import GraphCore
 
 GROUP = "rosmini.renderers"
 
@@ -39,3 +42,8 @@ def show(kind: str, thing: object, **options: Any) -> Any:
     Raises `UnknownExtension` if no installed package has one.
     """
     return find_extension(GROUP, kind)(thing, **options)
+
+
+def has_own_process(graph: GraphCore) -> bool:
+    """Return whether this process is but one of a graph's, in wall time, and no notebook that goes on by itself."""
+    return not (graph.simulated or graph.master.is_local or graph.is_live)

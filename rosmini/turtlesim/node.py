@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import IllegalName, ParameterError, RosminiError, ServiceRefused
 from rosmini.graph.clock import GraphClock
-from rosmini.graph.show import show
+from rosmini.graph.show import has_own_process, show
 from rosmini.msgs import message_class, service_class
 from rosmini.names import check_name
 from rosmini.parameters import Parameters, parameter
@@ -85,6 +85,8 @@ class TurtleSim:
         self._due_ns = self._clock.now_ns() + STEP_NS
         self._cancel = self._clock.call_at(self._due_ns, self._wake)
         node.on_shutdown(self._end)
+        if has_own_process(node.graph):
+            show("turtle_window", self)
 
     def __repr__(self) -> str:
         return f"<TurtleSim {self.node.name}: {', '.join(self.frame.turtles) or 'no turtles'}>"

@@ -12,6 +12,7 @@ import webbrowser
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from rosmini.graph.show import has_own_process
 from rosmini.introspection.options import Parser
 from rosmini.packages import address_of
 from rosmini.viz.rviz import Config
@@ -20,7 +21,6 @@ from .rviz import RVizWindow
 
 if TYPE_CHECKING:
     from rosmini.graph import Graph, Node
-    from rosmini.graph.graph_core import GraphCore
 
     from .loopback import PageServer
 
@@ -78,11 +78,6 @@ def _parser() -> Parser:
     parser.add_option("-d", "--display-config", metavar="FILE", help="a .rviz file")
     parser.add_option("-f", "--fixed-frame", metavar="FRAME", help="the frame in which everything is drawn")
     return parser
-
-
-def has_own_process(graph: GraphCore) -> bool:
-    """Return whether this process is but one of a graph's, in wall time, and no notebook that goes on by itself."""
-    return not (graph.simulated or graph.master.is_local or graph.is_live)
 
 
 def has_screen() -> bool:
