@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from rosmini.turtlesim import TurtleSim
 
+    from .live import Link
     from .pad import TeleopPad
 
 PATIENCE_S = 10.0
@@ -62,7 +63,7 @@ class PadOnDemand:
         """Take what its page says."""
         self._link().widget.hear(content)
 
-    def _link(self) -> Any:
+    def _link(self) -> Link:
         with self._lock:
             if self._pad is None or self._pad.node.is_shutdown():
                 made: Future[TeleopPad] = Future()
@@ -71,7 +72,8 @@ class PadOnDemand:
                     lambda: node.spawn("the window of turtlesim", lambda: self._make(made))
                 )
                 self._pad = made.result(PATIENCE_S)
-            return self._pad.link
+            link: Link = self._pad.link
+            return link
 
     def _make(self, made: Future[TeleopPad]) -> None:
         try:
