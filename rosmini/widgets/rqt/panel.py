@@ -47,6 +47,8 @@ class Panel(LiveView):
     """What rqt's menu calls it: ``Console``."""
     plugin: ClassVar[str]
     """What a perspective calls it: ``rqt_console/Console``."""
+    look_s: ClassVar[float] = 0.2
+    """How often a page that shows it looks at it [s]."""
 
     def __init__(self, graph: Graph, *, name: str | None = None, node: Node | None = None) -> None:
         self.graph = graph

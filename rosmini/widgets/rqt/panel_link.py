@@ -10,7 +10,7 @@ from __future__ import annotations
 import time
 from contextlib import suppress
 from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from rosmini.errors import RosminiError
 from rosmini.viz.view import ViewError
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from rosmini.graph import Graph, Node
 
 SCRIPTS = ("rosmini-rqt.js",)
-LOOK_S = 0.2
-"""How often what a panel shows is looked at [s]."""
+REST = 2.0
+"""After a look a graph is left alone for so many times as long as the look took."""
 QUIET_S = 0.6
 """How often a page learns that the kernel answers, where nothing has changed [s]."""
 
@@ -41,6 +41,8 @@ class LinkedPanel(Protocol):
     """A panel, as its page sees it: :class:`~rosmini.widgets.rqt.panel.Panel`."""
 
     graph: Graph
+    look_s: ClassVar[float]
+    """How often what it shows is looked at [s]."""
 
     @property
     def node(self) -> Node:
@@ -115,10 +117,11 @@ class PanelLink:
             return
         if now - self._heard > LEFT_S:
             return
-        if at_once or now - self._last_sent >= LOOK_S:
+        if at_once or now - self._last_sent >= 0.9 * self.panel.look_s:  # timers may be early
             self._show(now)
+        wait = max(self.panel.look_s, REST * (self._clock() - now))
         scheduler = self.panel.graph.scheduler
-        self._cancel = scheduler.call_at(scheduler.now_ns() + round(LOOK_S * 1e9), self._due).cancel
+        self._cancel = scheduler.call_at(scheduler.now_ns() + round(wait * 1e9), self._due).cancel
 
     def _due(self) -> None:
         self._cancel = None

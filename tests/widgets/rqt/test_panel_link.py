@@ -11,7 +11,7 @@ import pytest
 from rosmini.errors import RosminiError
 from rosmini.viz.view import ViewError
 from rosmini.widgets.rqt import MessagePublisher
-from rosmini.widgets.rqt.panel_link import LOOK_S, PanelLink
+from rosmini.widgets.rqt.panel_link import REST, PanelLink
 
 
 class Page:
@@ -71,8 +71,33 @@ def test_a_sheet_is_sent_when_something_changed_and_else_a_sign_of_life(page):
     page.run(3.0)
     assert set(page.kinds()[1:]) == {"alive"}
     page.panel.add("/x", "std_msgs/Float64")
-    page.run(2 * LOOK_S)
+    page.run(2 * page.panel.look_s)
     assert page.kinds()[-1] == "sheet"
+
+
+def test_a_panel_that_is_dear_to_draw_leaves_the_graph_most_of_its_time(page):
+    """Drawing takes 0.4 s of the wall's: it is drawn a few times in ten seconds, not fifty."""
+    page.live()
+    drawn = []
+
+    def markup(*, live):
+        page.wall += 0.4
+        drawn.append(page.graph.now().to_sec())
+        return f"<p>{len(drawn)}</p>"
+
+    page.panel.markup = markup
+    page.say("hello")
+    page.run(10)
+    assert 5 <= len(drawn) <= 10 / (REST * 0.4) + 2
+
+
+def test_a_panel_says_how_often_it_is_looked_at(page):
+    page.live()
+    page.panel.look_s = 0.05
+    page.panel.markup = lambda *, live: f"<p>{page.graph.now()}</p>"
+    page.say("hello")
+    page.run(2)
+    assert page.kinds().count("sheet") >= 30
 
 
 def test_nobody_looks_and_nothing_is_sent(page):
