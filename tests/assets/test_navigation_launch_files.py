@@ -102,6 +102,20 @@ def test_a_map_and_no_way_back_are_arguments(model):
     assert of_many.settings["/tb3_7/move_base/global_costmap/scan/sensor_frame"].value == "tb3_7/base_scan"
 
 
+def test_a_careful_robot_plans_for_a_disc_of_its_model(model):
+    radii = {}
+    for name in ("burger", "waffle", "waffle_pi"):
+        plan = plan_of("turtlebot3_navigation", "turtlebot3_navigation.launch", model=name, careful=True)
+        assert plan.settings["/move_base/global_costmap/footprint"].value == "[]"
+        radii[name] = plan.settings["/move_base/global_costmap/robot_radius"].value
+    assert radii == {"burger": 0.12, "waffle": 0.15, "waffle_pi": 0.15}
+    plan = plan_of(
+        "turtlebot3_navigation", "turtlebot3_navigation.launch", careful=True, move_forward_only=True
+    )
+    assert plan.settings["/move_base/DWAPlannerROS/min_vel_x"].value == 0.0
+    assert plan.settings["/move_base/last_reset/force_updating"].value is True
+
+
 @pytest.mark.parametrize("files", [
     ("turtlebot3_navigation", "turtlebot3_navigation.launch"), ("turtlebot3_slam", "turtlebot3_slam.launch"),
     ("turtlebot3_bringup", "turtlebot3_model.launch"), ("turtlebot3_gazebo", "turtlebot3_world.launch"),

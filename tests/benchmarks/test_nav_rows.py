@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 import yaml
 from rosmini_bench import nav_quality, nav_rows
+from rosmini_bench.nav_explore import Explored
 from rosmini_bench.nav_goals import Errand
 from rosmini_bench.nav_trial import Outcome, Setup
 
@@ -30,10 +31,15 @@ def test_what_is_stored_is_loaded_again(tmp_path):
     errand = Errand(3, (1.0, 2.0, 0.5), (4.0, 2.0, -1.0), 3.25, 2.0)
     good = Outcome(errand, "SUCCEEDED", "Goal reached.", 20.0, 3.5, 0.05, 0.1, (), ("walker 1",), 1.5)
     bad = Outcome(errand, "ABORTED", "no", 20.0, 0.5, 3.0, 0.1, ("wall",), (), 1.5, ("rotate_recovery",))
-    changed = Setup("maze", overrides=(("planner_frequency", 2.0),), seed=4)
-    kept = nav_rows.Kept(4, "abc", [(Setup("house", seed=4), [good, bad]), (changed, [bad])])
+    changed = Setup("maze", overrides=(("planner_frequency", 2.0),), careful=False, seed=4)
+    ends = ("Exploration stopped.", "")
+    explored = tuple(
+        Explored("maze", "explore_lite", n, ends[n], 400.0, 80.0, 0.98 - n / 2, 60, n, 20.0) for n in (0, 1)
+    )
+    kept = nav_rows.Kept(4, "abc", [(Setup("house", seed=4), [good, bad]), (changed, [bad])], explored)
     nav_rows.store(kept, tmp_path / "rows.json")
     assert nav_rows.load(tmp_path / "rows.json") == kept
     made = nav_rows.page(kept)
-    assert "| house, burger | 1 of 2 | 9% to 91% | 1 | 1.08 | 1.08 | 1.29 | 1.29 |" in made
-    assert "| house, burger | 3 | 1.0, 2.0 | 4.0, 2.0 | ABORTED: no | 0.5 of 3.2 m | 1 |" in made
+    assert "| house, burger, careful | 1 of 2 | 9% to 91% | 1 | 1.08 | 1.08 | 1.29 | 1.29 |" in made
+    assert "| house, burger, careful | 3 | 1.0, 2.0 | 4.0, 2.0 | ABORTED: no | 0.5 of 3.2 m | 1 |" in made
+    assert "| maze | explore_lite | 1 of 2 | 9% to 91% | 1 of 2 | 73% | 48% | 400 s | 80 m | 60 | 1 |" in made

@@ -116,14 +116,19 @@ def _way(move_base: MoveBase, found: Explanation) -> None:
         return
     x, y, away = place
     found.numbers["narrowest"] = place
+    # The controller's: plans may be made for a disc instead.
+    inscribed, circumscribed = (
+        move_base.local_costmap.inscribed_radius,
+        move_base.local_costmap.circumscribed_radius,
+    )
     enough = (
         "enough for every heading"
-        if away > costmap.circumscribed_radius
+        if away > circumscribed
         else "enough for some headings only"
-        if away > costmap.inscribed_radius
+        if away > inscribed
         else "not enough"
     )
     found.lines.append(
         f"the narrowest place on the way is at ({x:.2f}, {y:.2f}), {away:.2f} m from an obstacle: {enough} (the "
-        f"footprint's radii are {costmap.inscribed_radius:.2f} m and {costmap.circumscribed_radius:.2f} m)"
+        f"footprint's radii are {inscribed:.2f} m and {circumscribed:.2f} m)"
     )

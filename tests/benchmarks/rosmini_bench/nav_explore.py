@@ -28,6 +28,8 @@ from .nav_trial import LOOK, Watch, place
 WORLDS = ("house", "maze", "office")
 FRONTIER, LITE = "frontier_exploration", "explore_lite"
 FILES = {FRONTIER: "global_map.launch", LITE: "explore.launch"}
+ARGUMENTS = {FRONTIER: "", LITE: '<arg name="progress_timeout" value="120"/>'}
+"""In the house a frontier is near as the crow flies, and far on wheels."""
 ENDS = ("Finished exploring room", "Failed exploration", "Exploration stopped.")
 """What an explorer says when it is over."""
 LONGEST = 2400.0
@@ -49,8 +51,10 @@ LAUNCH = """
     <arg name="model" value="burger"/>
   </include>
   {settings}
-  <include file="$(find turtlebot3_navigation)/launch/move_base.launch"><arg name="model" value="burger"/></include>
-  <include file="$(find {method})/launch/{file}"/>
+  <include file="$(find turtlebot3_navigation)/launch/move_base.launch">
+    <arg name="model" value="burger"/> <arg name="careful" value="true"/>
+  </include>
+  <include file="$(find {method})/launch/{file}">{arguments}</include>
 </launch>
 """
 
@@ -100,7 +104,9 @@ def _explore(graph: Graph, world: str, method: str, seed: int, longest: float) -
         f'<param name="/turtlebot3_slam_gmapping/{name}" value="{value}"/>'
         for name, value in SETTINGS.items()
     )
-    text = LAUNCH.format(world=world, method=method, file=FILES[method], settings=settings)
+    text = LAUNCH.format(
+        world=world, method=method, file=FILES[method], arguments=ARGUMENTS[method], settings=settings
+    )
     launch_file = file.parent / f"explore_{method}_{seed}.launch"
     launch_file.write_text(text, encoding="utf-8")
     cpu, begin = time.process_time(), graph.scheduler.now_ns()

@@ -60,6 +60,7 @@ LAUNCH = """
   <include file="$(find turtlebot3_navigation)/launch/turtlebot3_navigation.launch">
     <arg name="model" value="{model}"/>
     <arg name="map_file" value="{map}"/>
+    <arg name="careful" value="{careful}"/>
   </include>
   {more}
 </launch>
@@ -77,6 +78,8 @@ class Setup:
     """Parameters set after the launch file's: names below /move_base and values."""
     gap: float | None = None
     """In a world of cylinders that are not in the map: how many robot widths are between any two of them."""
+    careful: bool = True
+    """Whether `careful.yaml` is loaded over the files that are in the shape of ROBOTIS's."""
     seed: int = 0
 
     @property
@@ -84,7 +87,8 @@ class Setup:
         """A row's name."""
         where = self.world if self.gap is None else f"cylinders, gaps of {self.gap:g} widths"
         changed = "".join(f", {name.rpartition('/')[2]} {value}" for name, value in self.overrides)
-        return f"{where}, {self.model}{'' if self.sweep else ', no sweep'}{changed}"
+        sweep, care = "" if self.sweep else ", no sweep", ", careful" if self.careful else ""
+        return f"{where}, {self.model}{sweep}{changed}{care}"
 
 
 @dataclass(frozen=True)
@@ -229,6 +233,7 @@ def _run(graph: Graph, setup: Setup, errand: Errand, file: Path, *, watched: boo
         world=file if setup.world == FIELD else setup.world,
         model=setup.model,
         sweep=str(setup.sweep).lower(),
+        careful=str(setup.careful).lower(),
         x=x,
         y=y,
         yaw=yaw,

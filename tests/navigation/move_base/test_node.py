@@ -79,13 +79,13 @@ def graph():
         yield graph
 
 
-def start(graph):
+def start(graph, *, careful=False):
     """The room with a burger, and what stands around `move_base`."""
     said = io.StringIO()
     console = {"stdout": said, "stderr": said}
     for package, file, arguments in (
         ("rosmini_sim", "simulator.launch", {"world": "room", "noise": "0"}),
-        ("turtlebot3_navigation", "turtlebot3_navigation.launch", {"map_file": MAP}),
+        ("turtlebot3_navigation", "turtlebot3_navigation.launch", {"map_file": MAP, "careful": careful}),
     ):
         roslaunch(package, file, graph=graph, console=console, model="burger", **arguments)
     graph.run(3.0)
@@ -351,6 +351,38 @@ def test_it_explains_itself(graph):
     assert "on its way to (1.90, 2.50) in map" in str(found)
     assert "the goal: cell" in str(found)
     assert "global_costmap" in str(found.show())
+
+
+def test_careful_plans_keep_the_robots_width_and_it_backs_out_of_a_corner(graph):
+    """Its nose is between boxes: neither ahead nor round, the corners of its outline would hit them."""
+    rig = start(graph, careful=True)
+    move_base = rig.move_base
+    local = move_base.local_costmap
+    assert (
+        local.inscribed_radius
+        < 0.105
+        < move_base.global_costmap.inscribed_radius
+        < local.circumscribed_radius
+    )
+    for costmap in (move_base.global_costmap, local):
+        (layer,) = (each for each in costmap.layers if each.name == "obstacle_layer")
+        assert [source.settings.inf_is_valid for source in layer.sources] == [True]
+    assert [each.name for each in move_base.recovery_behaviors][-2:] == ["second_reset", "last_reset"]
+    assert "will clear nothing" not in rig.said()
+    x, y, _ = rig.sim.truth()
+    for number, (dx, dy) in enumerate([(0.16, 0.0), (-0.06, 0.22), (-0.06, -0.22)]):
+        size = (0.1, 0.6) if dx > 0 else (0.3, 0.1)
+        rig.sim.engine.insert(Obstacle(f"box {number}", Box(*size), (x + dx, y + dy, 0.0), mass=50.0))
+    graph.run(1.0)
+    go(rig, goal(1.5, 0.0), seconds=45.0)
+    assert math.dist(rig.sim.truth()[:2], (x, y)) > 0.3
+    assert min(forward for forward, _ in rig.commands) < 0
+    assert not rig.sim.engine.touching(rig.sim.name)
+    radii = local.inscribed_radius, local.circumscribed_radius
+    said = str(move_base.explain())
+    assert "(the footprint's radii are {:.2f} m and {:.2f} m)".format(*radii) in said, (
+        "those that the controller checks"
+    )
 
 
 def walled_in(rig):
