@@ -137,6 +137,19 @@ def test_kill_ends_a_script_that_never_ends(runs, source):
     assert runs.said == []
 
 
+def test_rosnode_kill_ends_a_loop_as_in_rospy(runs, simulated):
+    """Whose sleep raises in simulated time only."""
+    loop = "rate = rospy.Rate(10)\nwhile not rospy.is_shutdown():\n    rate.sleep()"
+    handle = runs.script(NODE + loop)
+    runs.run(0.5)
+    runs.graph.nodes["/worker"].shutdown_requested("/rosnode", "user request")
+    assert handle.wait(timeout=5) == (1 if simulated else 0)
+    assert [line.partition(":")[0] for line in runs.said if "shutdown request" not in line][:1] == [
+        "[worker] bye"
+    ]
+    assert any("ROSInterruptException" in line for line in runs.said) == simulated
+
+
 @pytest.mark.parametrize("name", ["deaf", "after the shutdown", "in the hook"])
 def test_terminate_gets_harder(simulated_runs, name):
     graph = simulated_runs.graph
@@ -301,7 +314,8 @@ def test_two_scripts_and_a_node(runs):
     assert isinstance(counter.node, Node)
     counter.terminate()
     assert counter.wait(timeout=30) == 0
-    assert sorted(line.split("] ")[1] for line in runs.said) == ["got True"] * 5
+    said = [line for line in runs.said if "[WARN]" not in line]  # a busy machine does not keep the rate
+    assert sorted(line.split("] ")[1] for line in said) == ["got True"] * 5
 
 
 def test_a_node_ends_with_the_status_of_its_object_and_starts_anew(simulated_runs):

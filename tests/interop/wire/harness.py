@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from types import TracebackType
 
 PEER = Path(__file__).with_name("peer.py")
+REAL = PEER.with_name("real_tools.py")
+REAL_TOOLS = {"rosnode", "rostopic", "rosservice", "rosparam"}
 ROSMINI = [sys.executable, str(PEER.with_name("ours.py"))]
 PACKAGE = "wire_peers"
 ALL_REAL = os.environ.get("ROSMINI_WIRE_ALL_REAL") == "1"
@@ -213,6 +215,7 @@ class Stage:
         self.children: list[Child] = []
         self.pair: dict[str, Peer] = {}
         """The two peers that the tests of a module share."""
+        self._tools: Child | None = None
         self._stack = ExitStack()
         self._packages = home / "packages"
         self.marker = str(home / ".ros")
@@ -312,13 +315,27 @@ class Stage:
         child: Child = self.start(f"second_{kind}", [*words, "-p", self.port])
         return child
 
-    def tool(self, *words: Any, **env: str) -> str:
+    def tool(self, *words: Any) -> str:
         """Run a tool to its end and return what it wrote; it has to succeed."""
-        found = run(words, env=self.environment(**env), cwd=self.home)
-        assert found.returncode == 0, (
-            f"{words} ended with {found.returncode}:\n{found.stdout}\n{found.stderr}"
-        )
-        return str(found.stdout)
+        status, out, err = self._real_tool(words) if words[0] in REAL_TOOLS else self._program(words)
+        assert status == 0, f"{words} ended with {status}:\n{out}\n{err}"
+        return out
+
+    def _program(self, words: Sequence[Any]) -> tuple[int, str, str]:
+        found = run(words, env=self.environment(), cwd=self.home)
+        return found.returncode, found.stdout, found.stderr
+
+    def _real_tool(self, words: Sequence[Any]) -> tuple[int, str, str]:
+        """Run one of ROS's tools in a process that has imported it already."""
+        if self._tools is None:
+            self._tools = self.start("tools", [SYSTEM_PYTHON, REAL])
+        tools, files = self._tools, [str(self.home / f"tool.{name}") for name in ("out", "err")]
+        before = tools.output.count("\n")
+        tools.process.stdin.write(json.dumps([[str(word) for word in words], *files]) + "\n")
+        tools.process.stdin.flush()
+        tools.wait(lambda: tools.output.count("\n") > before, f"the end of {words}")
+        out, err = (Path(file).read_text(encoding="utf-8") for file in files)
+        return int(tools.output.splitlines()[before]), out, err
 
     def play(self, words: list[Any], topic: str, listeners: Sequence[Peer]) -> Child:
         """Play a bag that has /gate, too, by a program that waits for subscribers of all topics.

@@ -24,25 +24,32 @@ KINDS = pytest.mark.parametrize("kind", ["ours", "real"])
 """Which of the two dies or stops."""
 
 
+@pytest.fixture
+def partners(pair: Peers) -> dict[str, Peer]:
+    """The two nodes that are there all the time, by their kind."""
+    return {"ours": pair[0], "real": pair[1]}
+
+
 def test_two_nodes_of_one_name(core: Stage) -> None:
     """The Master has the older one shut down, with the reason."""
-    for older, newer in (("ours", "real"), ("real", "ours"), ("ours", "ours")):
-        first = core.peer(older, "twin").ready()
-        second = core.peer(newer, "twin").ready()
-        first.wait_for("new node registered with same name")
-        first.process.stdin.close()
-        assert first.ended() == 0
-        assert core.master("lookupNode", "/twin") == second.uri
-        second.ask("subscribe", "/twin_topic", STRING)
+    older = core.peer("ours", "twin").ready()
+    for kind in ("real", "ours", "ours"):
+        newer = core.peer(kind, "twin").ready()
+        older.wait_for("new node registered with same name")
+        older.process.stdin.close()
+        assert older.ended() == 0
+        assert core.master("lookupNode", "/twin") == newer.uri
+        newer.ask("subscribe", "/twin_topic", STRING)
         core.wait_for("/twin_topic", "subscribers", "/twin")
-        second.interrupt()
-        wait_until(lambda: "/twin" not in core.nodes(), "the end of /twin")
+        older = newer
+    older.interrupt()
+    wait_until(lambda: "/twin" not in core.nodes(), "the end of /twin")
 
 
 @KINDS
-def test_a_publisher_is_killed_and_returns(core: Stage, kind: str) -> None:
+def test_a_publisher_is_killed_and_returns(core: Stage, partners: dict[str, Peer], kind: str) -> None:
     topic = f"/news_{kind}"
-    reader = core.peer(OTHER[kind], f"reader_{kind}").ready()
+    reader = partners[OTHER[kind]]
     reader.ask("subscribe", topic, STRING)
     for text in ("first", "second"):
         writer = core.peer(kind, f"writer_{kind}").ready()
@@ -55,14 +62,13 @@ def test_a_publisher_is_killed_and_returns(core: Stage, kind: str) -> None:
     writer.ask("advertise", topic, STRING, latch=True)
     writer.ask("publish", topic, ["third"])
     assert reader.ask("hear", topic) == [{"data": "third"}]
-    for peer in (writer, reader):
-        peer.interrupt()
+    writer.interrupt()
 
 
 @KINDS
-def test_a_subscriber_is_killed_and_returns(core: Stage, kind: str) -> None:
+def test_a_subscriber_is_killed_and_returns(core: Stage, partners: dict[str, Peer], kind: str) -> None:
     topic = f"/news_of_{kind}"
-    writer = core.peer(OTHER[kind], f"source_{kind}").ready()
+    writer = partners[OTHER[kind]]
     writer.ask("advertise", topic, STRING)
     for text in ("first", "second"):
         reader = core.peer(kind, f"sink_{kind}").ready()
@@ -72,13 +78,12 @@ def test_a_subscriber_is_killed_and_returns(core: Stage, kind: str) -> None:
         assert reader.ask("hear", topic) == [{"data": text}]
         reader.kill()
         writer.ask("publish_until_alone", topic)
-    writer.interrupt()
 
 
 @KINDS
-def test_a_server_is_killed_and_returns(core: Stage, kind: str) -> None:
+def test_a_server_is_killed_and_returns(core: Stage, partners: dict[str, Peer], kind: str) -> None:
     service = f"/mend_{kind}"
-    client = core.peer(OTHER[kind], f"client_{kind}").ready()
+    client = partners[OTHER[kind]]
     for _ in range(2):
         server = core.peer(kind, f"server_{kind}").ready()
         server.ask("serve", service, INFO, ANSWER)
@@ -88,15 +93,16 @@ def test_a_server_is_killed_and_returns(core: Stage, kind: str) -> None:
         gone = client.ask("call_now", service, INFO)
         assert "error" in gone, gone
         client.ask("forget_proxy", service)
-    client.interrupt()
 
 
 @KINDS
-def test_a_stopped_subscriber_does_not_block_the_publisher(core: Stage, kind: str) -> None:
+def test_a_stopped_subscriber_does_not_block_the_publisher(
+    core: Stage, partners: dict[str, Peer], kind: str
+) -> None:
     """What does not go through is dropped, the oldest first; who still listens gets all of it."""
     topic = f"/flood_{kind}"
-    writer = core.peer(OTHER[kind], f"flooder_{kind}").ready()
-    stopped, awake = (core.peer(kind, f"{name}_{kind}").ready() for name in ("stopped", "awake"))
+    writer, awake = partners[OTHER[kind]], partners[kind]
+    stopped = core.peer(kind, f"stopped_{kind}").ready()
     writer.ask(
         "advertise", topic, STRING, queue_size=5
     )  # first: rospy has no queue for who connects meanwhile
@@ -114,16 +120,17 @@ def test_a_stopped_subscriber_does_not_block_the_publisher(core: Stage, kind: st
     while heard[-1] != [7, 1]:
         heard += stopped.ask("hear", topic)
     assert len(heard) <= 31
-    for peer in (stopped, awake, writer):
-        peer.interrupt()
+    stopped.interrupt()
 
 
 @KINDS
-def test_a_stopped_publisher_does_not_hang_its_subscribers(core: Stage, kind: str) -> None:
+def test_a_stopped_publisher_does_not_hang_its_subscribers(
+    core: Stage, partners: dict[str, Peer], kind: str
+) -> None:
     """A node that stands answers nobody: the others go on, and connect to it when it wakes."""
     asleep = core.peer(kind, f"asleep_{kind}").ready()
-    other = core.peer(OTHER[kind], f"busy_{kind}").ready()
-    third = core.peer("ours", f"third_{kind}").ready()
+    other = partners[OTHER[kind]]
+    third = partners["ours"] if kind == "ours" else core.peer("ours", "third").ready()
     asleep.ask("advertise", f"/from_asleep_{kind}", STRING, latch=True)
     asleep.ask("publish", f"/from_asleep_{kind}", ["good morning"])
     asleep.pause()
@@ -136,13 +143,13 @@ def test_a_stopped_publisher_does_not_hang_its_subscribers(core: Stage, kind: st
     asleep.resume()
     for peer in (other, third):
         assert peer.ask("hear", f"/from_asleep_{kind}") == [{"data": "good morning"}]
-    for peer in (asleep, other, third):
+    for peer in {asleep, third} - {partners["ours"]}:
         peer.interrupt()
 
 
-def test_a_stopped_node_does_not_hang_the_master(core: Stage) -> None:
+def test_a_stopped_node_does_not_hang_the_master(core: Stage, partners: dict[str, Peer]) -> None:
     """Its notices wait for it; the other nodes' do not."""
-    asleep, reader = (core.peer(kind, f"{kind}_hears").ready() for kind in ("real", "ours"))
+    asleep, reader = core.peer("real", "real_hears").ready(), partners["ours"]
     for peer in (asleep, reader):
         peer.ask("subscribe", "/notices", STRING)
     asleep.pause()
@@ -152,7 +159,7 @@ def test_a_stopped_node_does_not_hang_the_master(core: Stage) -> None:
     assert reader.ask("hear", "/notices") == [{"data": "now"}]
     asleep.resume()
     assert asleep.ask("hear", "/notices") == [{"data": "now"}]
-    for peer in (asleep, reader, writer):
+    for peer in (asleep, writer):
         peer.interrupt()
 
 
