@@ -48,6 +48,11 @@ class FrameReader:
         """How many bytes to ask the socket for: up to the end of a large frame, so that none is copied twice."""
         return min(max(self._missing, CHUNK), LARGE)
 
+    @property
+    def is_cut(self) -> bool:
+        """Whether a frame has begun that is not complete."""
+        return bool(self._missing or self._start)
+
     def feed(self, data: bytes) -> list[bytes]:
         """Return the frames that these bytes complete. Raises ``DeserializationError`` for a length over the limit."""
         if self.is_deaf:

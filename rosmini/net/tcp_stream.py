@@ -54,6 +54,11 @@ class Stream:
         sock.setblocking(False)
         self._call(self._register)
 
+    @property
+    def is_cut(self) -> bool:
+        """Whether what has come ends in the middle of a frame."""
+        return self._frames.is_cut
+
     def describe(self, host: str | None = None) -> str:
         """Return what ``getBusInfo`` says of the connection, in ROS's words; ``host`` as the peer calls itself."""
         try:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from rosmini.errors import DeserializationError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from rosmini.graph.scheduler import Scheduler
     from rosmini.graph.transport import DirectReceiver
 
@@ -31,9 +33,15 @@ class TopicInlet:
     """Takes the frames of one publisher; they stay bytes until the callbacks have taken those before."""
 
     def __init__(
-        self, scheduler: Scheduler, stream: Stream, receiver: DirectReceiver, first: list[bytes]
+        self,
+        scheduler: Scheduler,
+        stream: Stream,
+        receiver: DirectReceiver,
+        first: list[bytes],
+        on_cut: Callable[[], None],
     ) -> None:
         self._scheduler = scheduler
+        self._on_cut = on_cut
         self._stream = stream
         self._receiver = receiver
         self._frames: deque[bytes] = deque()
@@ -128,6 +136,8 @@ class TopicInlet:
     def _finish(self) -> None:
         self._is_over = True
         if self._error is None or isinstance(self._error, OSError):
+            if self._stream.is_cut:
+                self._on_cut()
             self._receiver.closed()
         else:
             self._receiver.failed(self._error)

@@ -164,7 +164,14 @@ class TcpTransport:
         )
         end = cast("DirectReceiver", receiver)
         end.info = stream.describe(host)
-        inlet = TopicInlet(network.scheduler, stream, end, more)
+        name, topic = header["callerid"], header["topic"]
+
+        def complain() -> None:
+            who = f"its publisher at {host}:{port}"
+            text = f"{name} lost a message on {topic}: {who} closed the connection in the middle of it"
+            network.warn(text, (name, topic, host, "cut"))
+
+        inlet = TopicInlet(network.scheduler, stream, end, more, complain)
         return reply, inlet.close
 
     def connect_service(

@@ -131,13 +131,16 @@ def test_garbage_is_told_once_and_tried_again_ever_more_seldom(
 @pytest.mark.parametrize("answer", [encode_header(HEADER), encode_header(HEADER) + GOOD])
 @pytest.mark.parametrize("cut", [b"", b"\x08", frame(frame(b"cut off"))[:-3]])
 def test_a_publisher_that_closes_at_once_is_not_asked_all_the_time(
-    graph: Graph, delays: list[float], answer: bytes, cut: bytes
+    graph: Graph, delays: list[float], answer: bytes, cut: bytes, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """What was cut off is told, once."""
     with unharmed(graph):
         graph.node("victim").subscriber(TOPIC, String)
         with publishing(graph, answer + cut) as raw:
             until(graph, lambda: raw.count == 10 and len(delays) == 10, "ten attempts")
         graph.nodes["/victim"].shutdown()
+    said = capsys.readouterr().err
+    assert said.count(f"/victim lost a message on {TOPIC}: its publisher at 127.0.0.1:") == bool(cut)
     assert delays[0] == 0.0
     assert min(delays[1:]) == RETRY_S
 
