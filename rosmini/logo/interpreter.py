@@ -51,6 +51,8 @@ class Logo:
         seed: int = 0,
         limits: Limits | None = None,
     ) -> None:
+        self.node: Node | None = None
+        """Its node, where it is one of a graph."""
         self.flock = Paper() if flock is None else flock
         self.machine = Machine(
             PRIMITIVES, self.flock, say=say, pause=pause, seed=seed, limits=limits or Limits()
@@ -70,7 +72,17 @@ class Logo:
         Without ``names`` it takes what is there: the first turtle of turtlesim, or all robots, or a turtle on paper.
         Raises ``LogoError`` for a name that nobody has.
         """
-        return cls(flock_on(node, list(names)), say=say, pause=node.sleep, seed=seed, limits=limits)
+        made = cls(flock_on(node, list(names)), say=say, pause=node.sleep, seed=seed, limits=limits)
+        made.node = node
+        return made
+
+    def look_around(self) -> None:
+        """Drive turtlesim or robots that have come since it began on paper; what was defined stays."""
+        if self.node is None or not isinstance(self.flock, Paper):
+            return
+        found = flock_on(self.node, [])
+        if not isinstance(found, Paper):
+            self.flock = self.machine.flock = found
 
     @property
     def drawing(self) -> Drawing:
@@ -82,6 +94,7 @@ class Logo:
 
         Raises ``LogoError`` if it is not understood: then nothing of it is defined.
         """
+        self.look_around()
         self.flock.look()
         found = read(program, first_line)
         self.machine.define(

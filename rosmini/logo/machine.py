@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 class Limits:
     """When a program is stopped."""
 
-    steps: int = 5_000_000
+    steps: int = 2_000_000
     """So many instructions; making a large list counts as several."""
 
     moves: int = 20_000

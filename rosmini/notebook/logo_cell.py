@@ -38,6 +38,7 @@ def logo(session: Session, line: str, cell: str) -> Any:
         raise UsageError(f"unknown option {wrong!r}. Usage: {USAGE}")
     session.look()
     interpreter = session.logo(tuple(words), lambda: _begin(session, words))
+    interpreter.look_around()
     before = len(interpreter.drawing.lines)
     try:
         interpreter.run(cell, first_line=2)

@@ -156,3 +156,16 @@ def test_wait_takes_time(sim, node):
     before = node.now().to_sec()
     logo.run("wait 120")
     assert node.now().to_sec() - before >= 2.0
+
+
+def test_who_began_on_paper_drives_a_turtlesim_that_comes_later(graph):
+    logo = Logo.on(graph.node("logo"))
+    logo.run("to twice :n\nfd :n fd :n\nend\ntwice 10")
+    paper = logo.flock
+    logo.run("fd 5")
+    assert logo.flock is paper
+    assert len(logo.drawing.lines) == 3
+    sim = TurtleSim(graph.node("turtlesim"))
+    graph.run(0.1)
+    logo.run("twice 20")
+    assert place(sim) == pytest.approx((0, 40, pi / 2), abs=1e-4)
