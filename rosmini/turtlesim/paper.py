@@ -158,8 +158,8 @@ def _paint_thin(
     steep = abs(end[0] - start[0]) < abs(end[1] - start[1])
     (u, v), (end_u, end_v) = sorted((start[::-1], end[::-1]) if steep else (start, end))
     slope = (end_v - v) / (end_u - u) if end_u > u else 0.0
-    first, last = _span(u, end_u, 0.0)
-    steps = np.arange(max(first, math.floor(max(u, -1.0))), min(last, math.floor(min(end_u, SIZE)) + 1))
+    first, last = (math.floor(min(max(each, -1.0), float(SIZE))) for each in (u, end_u))
+    steps = np.arange(max(first, 0), min(last + 1, SIZE))
     across = np.floor(v + (steps + (0.5 if slope > 0 else 0.0) - u) * slope)
     inside = (across >= 0) & (across < SIZE)
     columns, rows = steps[inside], across[inside].astype(np.intp)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rosmini.turtlesim import paper as module
@@ -98,6 +98,7 @@ def test_pixels_are_those_that_qt_paints(line: tuple[float, float, float, float,
     assert len(painted(paper) ^ qt) <= (width > 1)  # a corner may fall on the other side of a pixel's middle
 
 
+@example((2.0**63, 0.0), (2.0**63, 0.0), 1)
 @given(st.tuples(anywhere, anywhere), st.tuples(anywhere, anywhere), st.integers(1, 255))
 def test_any_line_can_be_painted(start, end, width) -> None:
     paper = Paper()
