@@ -62,6 +62,7 @@ def start(words: Sequence[object], *, env: Mapping[str, str] | None = None, **op
     """
     environment = dict(os.environ if env is None else env)
     environment.setdefault("PYTHONIOENCODING", "utf-8")
+    environment.setdefault("BROWSER", "true")  # a node with a window opens none on a developer's screen
     environment[MARK] = mark()
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "encoding": "utf-8"}
     process = subprocess.Popen(
