@@ -334,6 +334,20 @@ def test_maps_and_plans_lie_on_the_ground_and_can_be_switched(open_page, shared_
     assert np.linalg.norm(camera(page)) < np.linalg.norm(before)
 
 
+def test_a_place_is_asked_what_it_costs(open_page):
+    page = open_page("deep/er/layered.html")
+    slider = page.get_by_role("slider", name="Time")
+    slider.focus()
+    page.keyboard.press("w")
+    answer = page.locator("small[role=status]")
+    # the view turns around (0, 0), where the free half begins
+    assert answer.inner_text() == "At 0.00, 0.00 m: /map: free"
+    slider.fill("6")
+    assert answer.inner_text().endswith("/map: occupied")
+    page.get_by_role("button", name="What the place in the middle costs").click()
+    assert answer.inner_text() == ""
+
+
 def test_lines_and_the_laser_can_be_switched(open_page):
     page = open_page("deep/er/replay.html")
     for name, path in (("truth", "meshcat/trails/truth"), ("laser", "meshcat/robots/robot/scan")):

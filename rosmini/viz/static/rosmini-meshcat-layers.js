@@ -3,14 +3,17 @@
    A plain script that needs `rosmini-canvas.js`, `rosmini-replay.js` and `rosmini-replay-layers.js`, whose layers it has
    draw as on their canvas: that canvas lies on the ground as a texture. It sets `globalThis.rosminiMeshcatLayers`:
 
-     decode(data)    {switches, notes, show(frame, viewer, time, shown)} from `layered` of `rosmini/viz/meshcat/runs.py`.
-                     switches are [key, name, colour]; time is seconds after the start; `shown[key]` says what is on. */
+     decode(data)    {switches, notes, show(frame, viewer, time, shown), why(time, place)} from `layered` of
+                     `rosmini/viz/meshcat/runs.py`. switches are [key, name, colour]; time is seconds after the start;
+                     `shown[key]` says what is on, and `shown.asked` at which place, [x, y] [m], there is a cross. `why` is
+                     absent where there is no map. */
 
 (() => {
   "use strict";
 
   const FINEST = 100; // pixels a metre
   const MOST = 2048; // pixels a side
+  const REFRESH = 0.1; // seconds: what moves is drawn so often on the ground, since a texture is dear
   const HEIGHT = 0.003; // metres: above the grid on the ground, under the lines that robots leave
 
   /* The texture on the ground of one viewer, and the canvas for pictures above it. */
@@ -40,6 +43,17 @@
     return { viewer, view, map, above, drawn: null };
   }
 
+  function cross({ context, theme, x, y }, [px, py]) {
+    context.beginPath();
+    for (const [dx, dy] of [[12, 0], [0, 12]]) {
+      context.moveTo(x(px) - dx, y(py) - dy);
+      context.lineTo(x(px) + dx, y(py) + dy);
+    }
+    context.lineWidth = 3;
+    context.strokeStyle = theme.ink;
+    context.stroke();
+  }
+
   function decode(data) {
     const more = globalThis.rosminiReplayLayers;
     const layers = data.layers.map((each) => more.decode(each));
@@ -61,13 +75,14 @@
       const now = data.start + time;
       const moving = bodies.filter(isOn(shown, "body"));
       const still = flat.filter(isOn(shown, "layer"));
-      const key = JSON.stringify([theme.ink, still.map((layer) => [layer.name, layer.moment(now, data.start)]), moving.map((each) => [each.name, each.at(now)])]);
+      const key = JSON.stringify([theme.ink, still.map((layer) => [layer.name, layer.moment(now, data.start)]), moving.map((each) => [each.name, each.at(Math.floor(now / REFRESH) * REFRESH)]), shown.asked]);
       if (key !== made.drawn) {
         const { view, map } = made;
         view.theme = theme;
         view.context.clearRect(0, 0, view.width, view.height);
         for (const layer of still) layer.draw(view, now, data.start);
         for (const body of moving) body.draw(view, now, body.trail);
+        if (shown.asked) cross(view, shown.asked);
         map.needsUpdate = true;
         made.drawn = key;
       }
@@ -83,7 +98,8 @@
       for (const layer of seen) slot += layer.draw(view, now, data.start, slot) ? 1 : 0;
     }
 
-    return { switches, notes: data.notes, show };
+    const why = layers.some((layer) => layer.tellAt) && ((time, place) => more.why(layers, data.start + time, place));
+    return { switches, notes: data.notes, show, why };
   }
 
   globalThis.rosminiMeshcatLayers = { decode };

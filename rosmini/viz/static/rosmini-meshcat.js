@@ -397,6 +397,15 @@
       label.append(chosen, line, name);
       element.append(label);
     }
+    const answer = make("small", {}, { flexBasis: "100%" });
+    answer.setAttribute("role", "status");
+    /* Ask what the place costs around which the view turns, or stop asking. */
+    const inquire = () => {
+      const [target, root] = [state.viewer?.controls.target, state.viewer && find(state.viewer, "/meshcat").position];
+      state.shown.asked = state.shown.asked || !target ? null : [target.x - root.x, -target.z - root.y];
+      seek(state.time);
+    };
+    if (layered?.why) element.append(small("cost?", "What the place in the middle costs", inquire), answer);
     if (layered?.notes.length) element.append(make("small", { textContent: layered.notes.join(" ") }, { flexBasis: "100%" }));
 
     function seek(time) {
@@ -412,6 +421,8 @@
       if (data.scan) showScan(viewer, data.scan, state.time);
       for (const [path] of solid) find(viewer, path).visible = state.shown[path] !== false;
       layered?.show(state.frame, viewer, state.time, state.shown);
+      const { asked } = state.shown;
+      answer.textContent = asked ? `At ${(asked[0] + 0).toFixed(2)}, ${(asked[1] + 0).toFixed(2)} m: ${layered.why(state.time, asked)}` : "";
       if (data.follow !== null && state.following) follow(state, data);
       viewer.set_dirty();
     }
@@ -438,7 +449,7 @@
       ArrowLeft: back, ArrowDown: back, ArrowRight: forward, ArrowUp: forward,
       Home: () => { toggle(false); seek(0); }, End: () => { toggle(false); seek(data.duration); },
       "+": () => faster(1), "=": () => faster(1), "-": () => faster(-1), "_": () => faster(-1),
-      PageUp: closer(1 / ZOOM), PageDown: closer(ZOOM), f: () => api.follow(), 0: reset,
+      PageUp: closer(1 / ZOOM), PageDown: closer(ZOOM), f: () => api.follow(), 0: reset, w: () => layered?.why && inquire(),
     };
     element.addEventListener("keydown", (event) => {
       const { target, key } = event;

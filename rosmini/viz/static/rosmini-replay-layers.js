@@ -4,6 +4,7 @@
 
      decode(data)             a layer from what `rosmini.viz.replay.layers` (grids, images) made:
                               {name, colour, moment(time, start), draw(view, time, start, slot)}; times are seconds.
+     why(layers, time, [x, y])   what a place costs, layer by layer, in words.
      body(data)               something that moves: {name, colour, at(time), isThere(time), draw(view, time)}.
 
    A layer shows what came last, and nothing before its first moment. */
@@ -356,5 +357,17 @@
     };
   }
 
-  globalThis.rosminiReplayLayers = { decode, body };
+  /* Why a place costs what it costs, layer by layer. An obstacle is on the map, if one is shown, or else seen. */
+  function why(layers, time, [x, y]) {
+    const grids = layers.filter((layer) => layer.tellAt);
+    const maps = grids.filter((layer) => layer.isMap);
+    const isMapped = ({ x: atX, y: atY }) => maps.some((layer) => layer.tellAt(time, atX, atY).value >= 65);
+    return grids.map((layer) => {
+      const { text, from } = layer.tellAt(time, x, y);
+      const source = from && maps.length ? (isMapped(from) ? ", on the map" : ", seen by a sensor") : "";
+      return `${layer.name}: ${text}${source}`;
+    }).join("; ");
+  }
+
+  globalThis.rosminiReplayLayers = { decode, body, why };
 })();

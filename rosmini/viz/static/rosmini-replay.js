@@ -333,16 +333,8 @@ margin:0;padding:.2rem .7rem .6rem}
       };
     }
 
-    /* Why a place costs what it costs, layer by layer. An obstacle is on the map, if one is shown, or else seen. */
-    why(time, [x, y]) {
-      const grids = this.run.layers.filter((layer) => layer.tellAt);
-      const maps = grids.filter((layer) => layer.isMap);
-      const isMapped = ({ x: atX, y: atY }) => maps.some((layer) => layer.tellAt(time, atX, atY).value >= 65);
-      return grids.map((layer) => {
-        const { text, from } = layer.tellAt(time, x, y);
-        const source = from && maps.length ? (isMapped(from) ? ", on the map" : ", seen by a sensor") : "";
-        return `${layer.name}: ${text}${source}`;
-      }).join("; ");
+    why(time, place) {
+      return globalThis.rosminiReplayLayers.why(this.run.layers, time, place);
     }
 
     /* A cross where somebody has asked, and the answer below. */
