@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import os
+import shlex
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -70,7 +71,7 @@ def check_script(path: Path) -> Iterator[Finding]:
             "the first line does not say how to run it; it should be #!/usr/bin/env python3", path, 1
         )
     if os.name != "nt" and not os.access(path, os.X_OK):
-        yield warning(f"may not be run, and rosrun will not find it: chmod +x {path}", path)
+        yield warning(f"may not be run, and rosrun will not find it: chmod +x {shlex.quote(str(path))}", path)
     if path.suffix == ".py" or b"python" in first:
         try:
             with warnings.catch_warnings():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,15 +47,20 @@ class Workspace:
     def _what_is_wrong(self) -> str:
         if (self.base / MANIFEST).is_file():
             above = next((each.parent for each in self.base.parents if each.name == "src"), None)
-            where = f": cd {above}" if above else ", the folder above the src in which the package is"
+            where = (
+                f": cd {shlex.quote(str(above))}"
+                if above
+                else ", the folder above the src in which the package is"
+            )
             return f"{self.base} is a package; catkin_make is run in the workspace{where}"
         if self.base.name == "src" or any((each / MANIFEST).is_file() for each in self._folders()):
-            return f"{self.base} is a source space; run catkin_make in the folder above it: cd {self.base.parent}"
+            parent = shlex.quote(str(self.base.parent))
+            return f"{self.base} is a source space; run catkin_make in the folder above it: cd {parent}"
         above = next(
             (each for each in self.base.parents if (each / "src").is_dir() and each != Path("/usr")), None
         )
         if above and ((above / "devel").is_dir() or (above / "src" / CMAKE).exists()):
-            return f"the workspace is above: cd {above}"
+            return f"the workspace is above: cd {shlex.quote(str(above))}"
         return f"a workspace has a folder src for its packages: mkdir -p {self.source}"
 
     def _folders(self) -> list[Path]:
@@ -67,7 +73,8 @@ class Workspace:
                 f"the path of the workspace has a {os.pathsep!r}, which separates paths in lists: {self.base}"
             )
         if self.base.name == "src" and (self.base.parent / "devel").is_dir():
-            raise CatkinError(f"{self.base} is the source space of a workspace: cd {self.base.parent}")
+            parent = shlex.quote(str(self.base.parent))
+            raise CatkinError(f"{self.base} is the source space of a workspace: cd {parent}")
         for folder in (self.build, self.devel):
             mark = folder / ".built_by"
             other = mark.read_text(encoding="utf-8", errors="replace").strip() if mark.is_file() else TOOL

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -119,7 +120,7 @@ def _make(workspace: Workspace, given: argparse.Namespace, call: Call, say: Call
     say(f"{len(report.built)} built, {len(report.fresh)} up to date, {len(report.failed)} failed")
     complaints = (f"not built: {', '.join(report.failed)}",) if report.failed else ()
     if report.built and not report.failed and call.in_terminal:
-        say(f"In each shell that uses it: . {workspace.devel / 'setup.sh'}")
+        say(f"In each shell that uses it: . {shlex.quote(str(workspace.devel / 'setup.sh'))}")
     return Made(report=report, complaints=complaints, status=report.status)
 
 

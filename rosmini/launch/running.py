@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
@@ -276,11 +277,12 @@ def on_machine(plan: Plan, node: NodePlan) -> str:
     machine = plan.machines[node.machine]
     user = f"{machine.user}@" if machine.user else ""
     port = f" -p {machine.ssh_port}" if machine.ssh_port != 22 else ""
-    loader = f"{machine.env_loader} " if machine.env_loader else ""
+    loader = [machine.env_loader] if machine.env_loader else []
+    command = [*loader, "rosrun", node.package, node.type, *node.words(with_namespace=True)]
+    there = " ".join(shlex.quote(shlex.quote(word)) for word in command)  # two shells read it
     return (
         f"{node.full_name} belongs on the machine {machine.name!r} ({user}{machine.address}), and rosmini starts "
-        f"nothing over SSH. There: ssh{port} {user}{machine.address} {loader}rosrun {node.package} {node.type} "
-        f"{' '.join(node.words(with_namespace=True))}"
+        f"nothing over SSH. There: ssh{port} {shlex.quote(user + machine.address)} {there}"
     )
 
 

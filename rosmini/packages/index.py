@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -221,7 +222,8 @@ class PackageIndex:
     def _no_executable(self, package: str, name: str, folder: Path | None) -> str:
         files = [] if folder is None else [path for path in files_of(folder) if path.name == name]
         if files:
-            return f"{package}/{name} exists but is not executable; allow it to run: chmod +x {files[0]}"
+            path = shlex.quote(str(files[0]))
+            return f"{package}/{name} exists but is not executable; allow it to run: chmod +x {path}"
         there = self.executables(package)
         guess = nearest(name, there)
         if not there:

@@ -50,6 +50,7 @@ rosmini run src/example_pkg/scripts/talker.py
 {catkin_make}
 """
 EDIT = """
+import os
 import sys
 from pathlib import Path
 folder = Path("src/example_pkg") if len(sys.argv) > 1 else Path()
@@ -72,6 +73,7 @@ else:
            (messages, "add_message_files(\\n  FILES\\n  Num.msg\\n)"), (generate, generate.replace("#", "")))
 """
 TALKER = """#!/usr/bin/env python
+import os
 import sys
 from example_pkg.msg import Num
 if "imported" in sys.argv:
@@ -165,3 +167,21 @@ def test_where_nothing_can_be_written(
     status, _, err = command(capsys, "catkin_make")
     assert status == 1
     assert f"cannot write {tmp_path / 'devel'}" in err
+
+
+def test_a_command_to_copy_does_what_it_says_in_a_folder_of_any_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "my $(touch mark) ws"
+    (folder / "src").mkdir(parents=True)
+    monkeypatch.chdir(folder / "src")
+    assert command(capsys, "catkin_create_pkg", "robot", "rospy")[0] == 0
+    script = folder / "src/robot/scripts/it.py"
+    script.parent.mkdir(exist_ok=True)
+    script.write_text("#!/usr/bin/env python3\n", encoding="utf-8")
+    script.chmod(0o644)
+    monkeypatch.chdir(folder)
+    _, out, err = command(capsys, "catkin_make")
+    assert f"In each shell that uses it: . '{folder / 'devel/setup.sh'}'" in out + err
+    if os.name != "nt":
+        assert f"chmod +x '{script}'" in err

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import shlex
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -172,3 +173,13 @@ def test_what_one_process_cannot_do_is_told(tmp_path: Path) -> None:
     assert "/m, which rosmini brings, does not see LEVEL in one graph" in builtin
     assert 'cwd="node" is for a process: in one graph /t works in the folder of this one' in folder
     assert "There: ssh -p 2222 robot@far.example.com rosrun a b __name:=c __ns:=/" in machine
+    hostile = read(
+        text='<launch><machine name="far" address="far; touch mark"/>'
+        '<node pkg="a" type="b" name="c" machine="far" args="$ (touch mark)"/></launch>'
+    )
+    (machine,) = differences(hostile)
+    # It can be copied: two shells, one here and one there, leave the words as they are.
+    shown = machine.partition("There: ssh ")[2]
+    here, *there = shlex.split(shown)
+    assert here == "far; touch mark"
+    assert shlex.split(" ".join(there))[:5] == ["rosrun", "a", "b", "$", "(touch"]

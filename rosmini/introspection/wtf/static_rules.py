@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -147,7 +148,7 @@ def _problem(script: Path) -> str:
     if b"python" not in head:
         return f"its first line starts {head[2:60].decode('utf-8', 'replace').strip()}, not python3"
     if not _may_run(script):
-        return f"it has no run bit: chmod +x {script}"
+        return f"it has no run bit: chmod +x {shlex.quote(str(script))}"
     return ""
 
 
