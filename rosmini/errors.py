@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "CallbackError",
+    "CommandError",
     "DefinitionError",
     "DeserializationError",
     "DuplicateNode",
@@ -185,7 +186,20 @@ class ScriptError(RosminiError):
     """A script is not there, is not Python, or failed while it was being loaded."""
 
 
-class UsageError(RosminiError):
+class CommandError(RosminiError):
+    """A command of ROS's failed: its text is all that a terminal shows, and a cell shows no causes either."""
+
+    def _render_traceback_(self) -> list[str]:
+        """What IPython shows."""
+        cause, context, quiet = self.__cause__, self.__context__, self.__suppress_context__
+        self.__cause__ = self.__context__ = None
+        try:
+            return short_traceback(self)
+        finally:
+            self.__cause__, self.__context__, self.__suppress_context__ = cause, context, quiet
+
+
+class UsageError(CommandError):
     """A command line that makes no sense."""
 
 

@@ -185,14 +185,13 @@ class _Work:
     def publish_one(self, values: list[Any]) -> Published:
         """Publish one message: once, latched, or again and again."""
         message = self._filled(self._class(), values)
-        duration = duration_ns(self._given, self._call)
+        is_brief = self._given.once and self._given.duration is None
+        duration = round(ONCE_S * SECOND) if is_brief else duration_ns(self._given, self._call)
         if self._rate is not None:
             self._repeat(message, values, self._rate, duration)
             return self._result()
         self._say_latched(message, brief=self._given.once)
         self._send(message)
-        if self._given.once and self._given.duration is None:
-            duration = round(ONCE_S * SECOND)
         self._stay(duration)
         return self._result()
 

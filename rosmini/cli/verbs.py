@@ -19,7 +19,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, cast
 
-from rosmini.errors import MasterUnreachable, RosminiError, UsageError, nearest
+from rosmini.errors import CommandError, MasterUnreachable, RosminiError, UsageError, nearest
 from rosmini.names import is_remapping
 
 from .signals import end_as_ctrl_c
@@ -38,7 +38,7 @@ NOT_A_VERB = 64
 """The exit status of ROS's tools where the first word is none of their commands."""
 
 
-class VerbError(RosminiError):
+class VerbError(CommandError):
     """A verb could not do what it was asked to; ``status`` is the exit status."""
 
     def __init__(self, message: str, status: int = 1) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from rosmini.errors import (
     MasterUnreachable,
@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from .lanes import LaneContext
     from .master_port import MasterProxy
     from .scheduler import Scheduler
+
+TICKS_PER_REFUSAL = 100
+"""What a blocking call of a node that was shut down weighs in a loop that never blocks: raising is dear."""
 
 POLL_NS = 100_000_000
 """How often a Master in another process is asked for what may have changed there."""
@@ -62,7 +65,7 @@ class BlockingApi:
         if span <= 0 and not self._stopped:
             self.scheduler.give_way()  # a loop that cannot keep its rate must not keep the others waiting
         if self._stopped:
-            raise ROSInterruptException(self._shutdown_message())
+            self._refuse_to_block()
         if span <= 0:
             return
         clock = self.clock
@@ -111,7 +114,7 @@ class BlockingApi:
         Raises ``ROSInterruptException`` when the node shuts down meanwhile.
         """
         if self._stopped:
-            raise ROSInterruptException(self._shutdown_message())
+            self._refuse_to_block()
         if timeout is not None and timeout_ns is None:
             timeout_ns = int(timeout * 1e9)
         self._waiters[waiter] = None
@@ -119,6 +122,11 @@ class BlockingApi:
             return waiter.wait(timeout_ns)
         finally:
             self._waiters.pop(waiter, None)
+
+    def _refuse_to_block(self) -> NoReturn:
+        """Raise ``ROSInterruptException``; a loop that takes no notice of it lets the others have their turn."""
+        self.scheduler.tick(TICKS_PER_REFUSAL)
+        raise ROSInterruptException(self._shutdown_message())
 
     def wait_until(
         self, condition: Callable[[], bool], timeout: float | None, reason: str, failure: Callable[[], str]
@@ -139,9 +147,16 @@ class BlockingApi:
             raise ROSException(msg)
 
     def wait_for_master(
-        self, is_so: Callable[[], bool], timeout: float | None, reason: str, failure: Callable[[], str]
+        self,
+        is_so: Callable[[], bool],
+        timeout: float | None,
+        reason: str,
+        failure: Callable[[], str],
+        look_again: Callable[[], bool] = lambda: False,
     ) -> None:
         """Block until ``is_so()``, which asks the Master, returns True: it is called again and again.
+
+        After each change at the Master, and now and then if the Master is in another process or while ``look_again()``.
 
         Raises ``ROSException`` with the text ``failure()`` after ``timeout`` seconds.
         """
@@ -156,7 +171,7 @@ class BlockingApi:
                 if self._is_answered(is_so):
                     return
                 span = None if end is None else max(end - scheduler.now_ns(), 0)
-                if not self.graph.master.is_local:
+                if not self.graph.master.is_local or look_again():
                     span = POLL_NS if span is None else min(span, POLL_NS)
                 if not self.wait(waiter, timeout_ns=span) and end is not None and scheduler.now_ns() >= end:
                     msg = f"timeout exceeded after {timeout:g} s while waiting for {reason}: {failure()}"

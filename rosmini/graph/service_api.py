@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, cast
 
-from rosmini.errors import ROSException, TransportInitError
+from rosmini.errors import ROSException, TransportException, TransportInitError
 
 from .parameter_api import ParameterApi
 from .service import ServiceClient, ServiceServer, Session
@@ -83,14 +83,33 @@ class ServiceApi(ParameterApi):
         self.master.unregister("unregisterService", server.name, uri, warn=self.logwarn)
 
     def wait_for_service(self, name: str, timeout: float | None = None) -> None:
-        """Block until somebody offers the service. Raises ``ROSException`` after ``timeout`` seconds."""
+        """Block until somebody offers the service, and answers there: a node that was killed is still listed.
+
+        Raises ``ROSException`` after ``timeout`` seconds.
+        """
         resolved = self.resolve(name)
+        silent: list[str] = []
+
+        def is_there() -> bool:
+            uri = self.master.find("lookupService", resolved)
+            silent[:] = [] if uri is None or self._answers(resolved, uri) else [uri]
+            return uri is not None and not silent
+
         self.wait_for_master(
-            lambda: self.master.find("lookupService", resolved) is not None,
+            is_there,
             timeout,
             f"the service {resolved} to be offered",
-            lambda: f"nobody offers {resolved}",
+            lambda: f"nobody answers at {silent[0]}" if silent else f"nobody offers {resolved}",
+            look_again=lambda: bool(silent),
         )
+
+    def _answers(self, service: str, uri: str) -> bool:
+        header = {"callerid": self.name, "md5sum": "*", "probe": "1", "service": service}
+        try:
+            self.graph.transport.probe_service(uri, header, self.uri)
+        except TransportException:
+            return False
+        return True
 
     def accept_client(self, header: Header) -> Session:
         """Take a service client's connection."""

@@ -18,7 +18,7 @@ from os import getpid
 from socket import gethostname
 from typing import TYPE_CHECKING, Any, Protocol
 
-from rosmini.errors import TransportTerminated, nearest
+from rosmini.errors import TransportTerminated
 from rosmini.msgs.message import Message
 
 if TYPE_CHECKING:
@@ -415,9 +415,7 @@ class LocalTransport:
         """Return the node at ``uri``, of its slave API or its services."""
         found = self._endpoints.get(slave_uri(uri))
         if found is None:
-            hint = nearest(uri, self._endpoints)
-            msg = f"no node answers at {uri}: it has been shut down. {hint}".rstrip()
-            raise TransportTerminated(msg)
+            raise TransportTerminated(f"no node answers at {uri}: it has been shut down")
         return found
 
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:

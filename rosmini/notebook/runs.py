@@ -120,6 +120,9 @@ class Runs:
         except StillRunning:
             run.handle.kill()
             self._say(f"{run.title} did not end within {GRACE_S:g} s of Ctrl-C, and was killed.")
+        except KeyboardInterrupt:  # the reader will not wait for it
+            run.handle.kill()
+            raise
 
     def _ended(self, run: Run, status: int) -> None:
         node = run.handle.node

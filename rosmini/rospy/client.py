@@ -166,14 +166,18 @@ def _check_name(name: Any) -> None:
 
 
 def _second_call(session: Session, arguments: _Arguments) -> str:
-    before = session.arguments
+    before = _Arguments(*session.arguments) if session.arguments else arguments
     how = (
         "For more nodes in one program use the object API, rosmini.Node('name'), or end this one with "
         "rospy.signal_shutdown('')."
         if session.is_main
         else "One script is one node: run a second script for a second node."
     )
-    return f"rospy.init_node() has already been called with different arguments: {before}, now {arguments}. {how}"
+    differ = [name for name in _Arguments._fields if getattr(before, name) != getattr(arguments, name)]
+    was, now = (
+        ", ".join(f"{name}={getattr(given, name)!r}" for name in differ) for given in (before, arguments)
+    )
+    return f"rospy.init_node() has already been called with different arguments: {was}, now {now}. {how}"
 
 
 def spin() -> None:

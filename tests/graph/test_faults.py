@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rosmini import Graph
-from rosmini.errors import RosminiError, ServiceException
+from rosmini.errors import RosminiError, ROSException, ServiceException
 from rosmini.graph.gates import FaultError
 from rosmini.msgs.std_msgs.msg import Int32, String, UInt8MultiArray
 from rosmini.msgs.std_srvs.srv import Trigger
@@ -195,6 +195,19 @@ def test_a_service_is_cut_off_also_while_it_is_called(graph):
     graph.scheduler.call_at(graph.scheduler.now_ns() + 500_000_000, lambda: graph.faults.cut("/it"))
     with pytest.raises(ServiceException, match="cut off on purpose"):
         call()
+
+
+def test_who_waits_for_a_service_waits_until_it_answers(graph):
+    server, client = graph.node("server"), graph.node("client")
+    server.service("add", Trigger, lambda _: (True, ""))
+    graph.faults.cut("/add")
+    with pytest.raises(ROSException, match=r"after 2 s while .*nobody answers at rosrpc://"):
+        client.wait_for_service("add", timeout=2.0)
+    graph.scheduler.call_at(graph.scheduler.now_ns() + 10**9, lambda: graph.faults.clear("/add"))
+    client.wait_for_service("add", timeout=2.0)
+    graph.faults.kill("/server")
+    with pytest.raises(ROSException, match="nobody answers"):
+        client.wait_for_service("add", timeout=2.0)
 
 
 def test_clocks_jump_and_loops_go_on(graph):

@@ -192,9 +192,12 @@ def test_a_node_that_never_reached_the_master_ends_at_once(
     assert "The registration stays there" not in said
 
 
-def test_a_service_of_another_process_is_found_by_asking_again(graph: Graph, master: SlowMaster) -> None:
+def test_a_service_of_another_process_is_found_by_asking_again(
+    graph: Graph, master: SlowMaster, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Nothing tells this process of a registration elsewhere."""
     node = graph.node("node")
+    monkeypatch.setattr(graph.transport, "probe_service", lambda uri, *_: {"callerid": uri})  # it answers
 
     def elsewhere() -> None:
         master.behind._notifier.registrations_changed = lambda: None  # type: ignore[attr-defined]

@@ -96,6 +96,32 @@ def test_what_does_not_end_is_killed_after_three_seconds(notebook: Notebook) -> 
     assert notebook.session.graph.now().to_sec() == before + 3
 
 
+def test_a_node_that_sleeps_on_after_its_end_is_killed_too_and_soon(notebook: Notebook) -> None:
+    deaf = (
+        "import rospy\nrospy.init_node('deaf')\ntries = 0\nwhile True:\n    try:\n        rospy.sleep(1)\n"
+        "    except rospy.ROSInterruptException:\n        tries += 1\n        assert tries < 100_000\n"
+    )
+    notebook.ok(f"%%node deaf.py\n{deaf}")
+    written = notebook.ok(f"%%node deaf.py\n{deaf}")
+    assert written == "deaf.py did not end within 3 s of Ctrl-C, and was killed.\n"
+
+
+def test_an_interrupt_while_the_earlier_run_ends_kills_it(
+    notebook: Notebook, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    notebook.ok(f"%%node talker.py\n{TALKER}")
+    run = next(iter(notebook.session.runs._runs.values()))
+
+    def interrupted(*_: object) -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(run.handle, "send_signal", lambda _: None)  # it does not listen
+    monkeypatch.setattr(run.handle, "wait", interrupted)
+    notebook.run(f"%%node talker.py\n{TALKER}")
+    assert notebook.ok("import rosmini; rosmini.wait(2)") == ""
+    assert not run.is_running
+
+
 def test_the_same_file_under_another_name_is_another_run(notebook: Notebook) -> None:
     notebook.ok(f"%%node talker.py\n{TALKER}")
     notebook.ok("%rosrun notebook talker.py __name:=second")

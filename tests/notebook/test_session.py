@@ -212,6 +212,16 @@ def test_what_is_amiss_is_printed_in_order_with_the_rest(notebook: Any, capsys: 
     assert written.count("WARNING: topic [/nowhere]") == 1
 
 
+@pytest.mark.parametrize(
+    ("line", "words"), [("rostopic list --bogus", "no such option"), ("rosmsg show std_msgs/Strng", "did you mean")]
+)
+def test_an_error_of_a_tool_stands_alone(notebook: Any, line: str, words: str) -> None:
+    error, written = notebook.run(f"%{line}")
+    assert words in written
+    assert "exception" not in written  # what happened within is nothing to somebody who mistyped
+    assert error.__cause__ is not None or error.__context__ is not None
+
+
 def test_the_tools_of_a_terminal_obey_the_masters_address(notebook: Any) -> None:
     """Another Master than the notebook's is none that they reach, as on a robot whose Master is off."""
     said = notebook.ok(
