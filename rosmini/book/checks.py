@@ -12,6 +12,7 @@ import importlib
 import importlib.util
 import math
 import re
+import sys
 import types
 from dataclasses import dataclass
 from enum import Enum
@@ -133,6 +134,24 @@ def expect(condition: object, message: str, hint: str = "") -> None:
         raise Wrong(message, hint)
 
 
+def call_bounded(answer: Callable[..., Any], *arguments: Any, lines: int = 200_000) -> Any:
+    """Return what an answer returns; expect it to come back within so many lines of Python."""
+    left = lines
+
+    def watch(_frame: object, event: str, _argument: object) -> Any:
+        nonlocal left
+        left -= event == "line"
+        expect(left > 0, "It never comes back.", "which loop goes on for ever, and what should end it?")
+        return watch
+
+    before = sys.gettrace()
+    sys.settrace(watch)
+    try:
+        return answer(*arguments)
+    finally:
+        sys.settrace(before)
+
+
 def expect_type(
     found: object, kinds: type | UnionType | tuple[type, ...], said: str, wanted: str, hint: str = ""
 ) -> None:
@@ -187,8 +206,9 @@ def check(number: str, *answer: Any) -> None:
     Without an answer it is the script that a `%%node` cell with `# Exercise 11.2` in its second line has written.
     Raises `UnknownExercise` if there is no such exercise, and `NoAnswer` if no such cell was run.
     """
+    exercise = find(number)
     given = answer or (written(number),)
-    verdict = find(number).grade(*given)
+    verdict = exercise.grade(*given)
     print(verdict.text + _where(given[0], verdict))
     if verdict.view is not None:
         from IPython.core.display_functions import display

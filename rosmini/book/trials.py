@@ -73,7 +73,8 @@ class Trial:
     def start(self, script: Script, *args: str) -> ScriptHandle:
         """Start a script with the arguments that rosrun would hand over, and return its handle."""
         spec = ScriptSpec(script.name, args, source=script.source)
-        handle = ScriptHandle(self.graph, spec, lambda: self._console, owns_console=False)
+        seed = str(len(self._scripts) or "")  # two copies of a script choose by chance, each by its own
+        handle = ScriptHandle(self.graph, spec, lambda: self._console, seed=seed, owns_console=False)
         self._scripts.append(handle)
         handle.start()
         return handle

@@ -173,7 +173,9 @@ def _second_call(session: Session, arguments: _Arguments) -> str:
         if session.is_main
         else "One script is one node: run a second script for a second node."
     )
-    differ = [name for name in _Arguments._fields if getattr(before, name) != getattr(arguments, name)]
+    differ = [
+        name for name in _Arguments.__annotations__ if getattr(before, name) != getattr(arguments, name)
+    ]
     was, now = (
         ", ".join(f"{name}={getattr(given, name)!r}" for name in differ) for given in (before, arguments)
     )

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rosmini import Graph
-from rosmini.errors import RosminiError, ROSException, ServiceException
+from rosmini.errors import ROSException, RosminiError, ServiceException
 from rosmini.graph.gates import FaultError
 from rosmini.msgs.std_msgs.msg import Int32, String, UInt8MultiArray
 from rosmini.msgs.std_srvs.srv import Trigger

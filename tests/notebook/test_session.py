@@ -213,7 +213,8 @@ def test_what_is_amiss_is_printed_in_order_with_the_rest(notebook: Any, capsys: 
 
 
 @pytest.mark.parametrize(
-    ("line", "words"), [("rostopic list --bogus", "no such option"), ("rosmsg show std_msgs/Strng", "did you mean")]
+    ("line", "words"),
+    [("rostopic list --bogus", "no such option"), ("rosmsg show std_msgs/Strng", "did you mean")],
 )
 def test_an_error_of_a_tool_stands_alone(notebook: Any, line: str, words: str) -> None:
     error, written = notebook.run(f"%{line}")

@@ -44,7 +44,7 @@ while not rospy.is_shutdown():
 @exercise("10.1", praise="Whoever changes a description has to think of these.")
 def users(answer: object) -> None:
     """The packages that need turtlebot3_description, sorted."""
-    expect_type(answer, (list, tuple), "users is", "a list")
+    expect_type(answer, (list, tuple), "users is", "a list", 'the names between brackets: ["one", "another"]')
     names = [str(each) for each in answer]  # type: ignore[attr-defined]
     for name in OTHERS:
         expect(name in names, "One package is missing.", "rospack depends-on turtlebot3_description")
@@ -78,6 +78,7 @@ def mended(answer: object) -> None:
     """The manifest of patrol: a licence, and the three packages that it imports."""
     expect_type(answer, str, "mended is", "a text")
     expect("<license>" in str(answer), "It has no licence.", "<license>MIT</license>")
+    expect(">TODO<" not in str(answer), "TODO is no licence.", "<license>MIT</license>")
     package = _package(str(answer))
     expect(package.name == "patrol", f"The package is called {package.name!r} now, not patrol.")
     missing = [name for name in NEEDS if name not in package.exec_depends]
@@ -114,8 +115,10 @@ def launch(answer: object) -> Any:
     )
     given = {name.rpartition("/")[2]: value for name, value in plan.parameters.items()}
     space = plan.nodes[0].full_name
+    words = [word.partition(":=") for word in plan.nodes[0].args.split()]
+    own = {name.removeprefix("_"): value for name, _, value in words}
     for name, wanted in (("model", "waffle"), ("world", "maze")):
-        value = plan.parameters.get(f"{space}/{name}")
+        value = own.get(name, plan.parameters.get(f"{space}/{name}"))
         said = f"~{name} is {value!r}, not {wanted!r}." if value else f"The node has no parameter {name}."
         elsewhere = name in given and value is None
         hint = (

@@ -21,6 +21,15 @@ if TYPE_CHECKING:
 CURES = {1: "c", 2: "a", 3: "e", 4: "b"}
 """The command, of those in the text, that mends what each message complains of."""
 
+COMMANDS = {
+    "chmod +x scripts/drive.py": "a",
+    "catkin_make": "b",
+    "source devel/setup.bash": "c",
+    "roscore": "d",
+    "mkdir src": "e",
+}
+"""The letter of each command: who answers with the command itself is right, too."""
+
 
 @exercise("18.1", praise="Who reads the message is half way out.")
 def cures(answer: object) -> None:
@@ -29,7 +38,10 @@ def cures(answer: object) -> None:
     given: dict[object, object] = dict(answer)  # type: ignore[call-overload]
     missing = [number for number in CURES if number not in given]
     expect(not missing, f"Message {next(iter(missing), None)} has no command.")
-    wrong = [number for number, letter in CURES.items() if given[number] != letter]
+    letters = {
+        number: COMMANDS.get(str(word).strip(), str(word).strip().lower()) for number, word in given.items()
+    }
+    wrong = [number for number, letter in CURES.items() if letters[number] != letter]
     said = f"{len(wrong)} of 4 would not help; look at message {next(iter(wrong), None)} first."
     expect(not wrong, said, "read it aloud")
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rosmini.book.checks import Wrong, exercise, expect, expect_type
+from rosmini.book.checks import Wrong, call_bounded, exercise, expect, expect_type
 from rosmini.catkin import CatkinError, Report, Workspace, make
 
 # ---- 92.1: in which order ----
@@ -34,7 +34,7 @@ CIRCLES: tuple[dict[str, list[str]], ...] = (
 def build_order(answer: Any) -> None:
     """An order of the packages in which each comes after those that it needs; ValueError for a circle."""
     for needs in WORKSPACES:
-        found = answer({name: list(each) for name, each in needs.items()})
+        found = call_bounded(answer, {name: list(each) for name, each in needs.items()})
         expect_type(found, list, "It returned", "a list", "return the names in a list")
         twice = [name for name in found if found.count(name) > 1]
         expect(not twice, f"{twice[0] if twice else ''} is built twice.")
@@ -50,7 +50,7 @@ def build_order(answer: Any) -> None:
                 )
     for needs in CIRCLES:
         try:
-            found = answer({name: list(each) for name, each in needs.items()})
+            found = call_bounded(answer, {name: list(each) for name, each in needs.items()})
         except ValueError:
             continue
         except RecursionError as error:

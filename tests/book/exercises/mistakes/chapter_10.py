@@ -63,6 +63,7 @@ MISTAKES = {
     ],
     "10.3": [
         wrong(MANIFEST, "  <license>MIT</license>\n"),
+        wrong(MANIFEST, "MIT", "TODO"),
         wrong(MANIFEST, "  <exec_depend>sensor_msgs</exec_depend>\n"),
         wrong(MANIFEST, "<exec_depend>rospy", "<build_depend>rospy"),
         wrong(MANIFEST, "</package>", "  <exec_depend>turtlebot3_gazebo</exec_depend>\n</package>"),

@@ -50,6 +50,18 @@ def blind_to_circles() -> Callable[[Mapping[str, Sequence[str]]], list[str]]:
     return build_order
 
 
+def waiting_for_ever() -> Callable[[Mapping[str, Sequence[str]]], list[str]]:
+    def build_order(needs: Mapping[str, Sequence[str]]) -> list[str]:
+        order: list[str] = []
+        while len(order) < len(needs):
+            for name in needs:
+                if name not in order and all(other in order or other not in needs for other in needs[name]):
+                    order.append(name)
+        return order
+
+    return build_order
+
+
 def round_and_round() -> Callable[[Mapping[str, Sequence[str]]], list[str]]:
     def build_order(needs: Mapping[str, Sequence[str]]) -> list[str]:
         order: list[str] = []
@@ -83,6 +95,7 @@ MISTAKES = {
         alphabetical,
         blind_to_circles,
         round_and_round,
+        waiting_for_ever,
         with_what_is_built_already,
         lambda: lambda needs: [],
         lambda: ", ".join,
