@@ -18,8 +18,11 @@ if TYPE_CHECKING:
 
 __all__ = ["SimpleActionServer"]
 
-BUMPED = "another goal arrived, and this server works on one at a time"
-"""Why a goal is cancelled by the server itself."""
+BUMPED = "This goal was canceled because another goal was received by the simple action server"
+"""Why a goal is cancelled by the server itself, in the words that clients of real servers know."""
+
+ACCEPTED = "This goal has been accepted by the simple action server"
+"""The status of a goal that is worked on, in the same words."""
 
 
 class SimpleActionServer:
@@ -132,7 +135,7 @@ class SimpleActionServer:
             old.set_canceled(None, BUMPED)
         self.current_goal, self.new_goal = new, False
         self.preempt_request, self.new_goal_preempt_request = self.new_goal_preempt_request, False
-        new.set_accepted("accepted")
+        new.set_accepted(ACCEPTED)
         return new.get_goal()
 
     # -- how the current goal ends -------------------------------------------------------------------------------
@@ -216,7 +219,7 @@ class SimpleActionServer:
         except Exception as error:  # a goal whose work failed is over, and its client has to hear of it
             if isinstance(error, ROSInterruptException) and self.node.is_shutdown():
                 return
-            self._abort(handle, f"the execute callback raised {type(error).__name__}: {error}")
+            self._abort(handle, f"Exception in execute callback: {error}")
             self.node.callback_failed(
                 error, self.execute_callback, f"a goal of {self.action_server.ns}", goal
             )
@@ -226,7 +229,7 @@ class SimpleActionServer:
                 f"the execute callback of {self.action_server.ns} returned and has not said how the goal ended: it is "
                 "ABORTED. End it with set_succeeded(), set_aborted() or set_preempted()."
             )
-            self._abort(handle, "the execute callback did not say how the goal ended")
+            self._abort(handle, "No terminal state was set.")
 
     def _abort(self, handle: ServerGoalHandle, text: str) -> None:
         if not handle.state.is_terminal:

@@ -17,6 +17,9 @@ __all__ = ["Timeout", "seconds_of", "wait_on"]
 Timeout = float | Duration | None
 """Seconds; None and zero (rospy's default) are "for ever"."""
 
+AFTER_NS = 10_000_000
+"""How long a wait of a node takes that has been shut down [ns]."""
+
 
 def seconds_of(timeout: Timeout) -> float | None:
     """Return a time-out in seconds, None for "for ever"."""
@@ -27,8 +30,11 @@ def seconds_of(timeout: Timeout) -> float | None:
 def wait_on(node: Node, waiter: Waiter, timeout: Timeout, holds: Callable[[], bool]) -> bool:
     """Block until ``waiter`` is woken, for at most ``timeout`` of the node's time; return ``holds()``.
 
-    A node that shuts down meanwhile ends the wait, as in rospy: what it says then is what holds.
+    A node that shuts down meanwhile ends the wait, as in rospy: what it says then is what holds. A wait that begins
+    later lasts ``AFTER_NS``: a loop around it (``while not client.wait_for_server(timeout)``) does not see the end of
+    its node, and who ends it by force has to get a turn.
     """
+    is_over = node.is_shutdown()
     seconds = seconds_of(timeout)
     cancel = None
     if seconds is not None:
@@ -38,6 +44,8 @@ def wait_on(node: Node, waiter: Waiter, timeout: Timeout, holds: Callable[[], bo
         if not holds():
             node.wait(waiter)
     except ROSInterruptException:
+        if is_over:
+            node.scheduler.waiter(f"the end of {node.name}").wait(AFTER_NS)
         return holds()
     finally:
         if cancel is not None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib
 import re
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rosmini.errors import RosminiError
@@ -31,6 +32,8 @@ def candidates(words: Sequence[str], peers: Peers) -> list[str]:
     if len(given) < 2:
         return _beginning(given[0] if given else "", COMMANDS)
     name, *before, last = given
+    if name == "rosrun":
+        return _beginning(last, _executables([word for word in before if word[:1] != "-"]))
     found = _tool(name)
     if found is None:
         return []
@@ -42,7 +45,8 @@ def candidates(words: Sequence[str], peers: Peers) -> list[str]:
     if last.startswith("-"):
         return _beginning(last, _options(verb))
     try:
-        return _beginning(last, _names(verb, [word for word in before[1:] if word[:1] != "-"], peers))
+        words = before if found.only_verb else before[1:]
+        return _beginning(last, _names(verb, [word for word in words if word[:1] != "-"], peers))
     except RosminiError:
         return []
 
@@ -72,6 +76,8 @@ def _names(verb: Verb, before: Sequence[str], peers: Peers) -> list[str]:
     kinds = verb.takes.split()
     if not kinds:
         return []
+    if kinds[0] == "launch":
+        return _of_launch_files(before)
     kind = kinds[min(len(before), len(kinds) - 1)]
     if kind == "msg" and kinds[0] == "topic":
         from rosmini.introspection import topics
@@ -81,6 +87,43 @@ def _names(verb: Verb, before: Sequence[str], peers: Peers) -> list[str]:
         except (KeyError, RosminiError):
             return _of_kind(kind, peers)
     return _of_kind(kind, peers)
+
+
+def _executables(before: Sequence[str]) -> list[str]:
+    """Return what `rosrun` may go on with: a package, and then what is in it."""
+    from rosmini.packages import PackageIndex
+
+    packages = PackageIndex()
+    if not before:
+        return packages.names()
+    try:
+        return packages.executables(before[0]) if len(before) == 1 else []
+    except RosminiError:
+        return []
+
+
+def _of_launch_files(before: Sequence[str]) -> list[str]:
+    """Return what `roslaunch` may go on with: a package, its launch files, and the arguments that such a file takes."""
+    from rosmini.launch import read
+    from rosmini.packages import PackageIndex
+    from rosmini.packages.executables import files_of
+
+    packages = PackageIndex()
+    if not before:
+        return packages.names()
+    direct = Path(before[0])
+    if direct.is_file():
+        file: Path | None = direct
+    else:
+        inside = [path for path in files_of(packages.path(before[0])) if path.suffix in (".launch", ".test")]
+        if len(before) == 1:
+            return [path.name for path in inside]
+        file = next((path for path in inside if path.name == before[1]), None)
+    return (
+        []
+        if file is None
+        else [f"{name}:=" for name in read(file, packages=packages, lenient=True).arguments]
+    )
 
 
 def _of_kind(kind: str, peers: Peers) -> list[str]:

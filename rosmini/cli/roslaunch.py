@@ -120,7 +120,7 @@ class Launched(Result):
     launch: Launch
 
 
-@TOOL.verb("start the nodes of launch files", parser=parser, name="launch")
+@TOOL.verb("start the nodes of launch files", parser=parser, name="launch", takes="launch")
 def _launch_here(given: Values, call: Call) -> Result:
     from rosmini.launch.running import Launch, differences, in_graph
 
@@ -275,7 +275,7 @@ def answer(given: Values, plan: Plan, packages: PackageIndex) -> Lines:
     elif given.dump_params:
         text = plan.dump()
     elif given.file_list:
-        text = "\n".join(plan.files())
+        text = "\n".join(os.path.abspath(path) for path in plan.files())  # noqa: PTH100 - not resolved
     else:
         text = plan.text()
     return Lines(lines=(text,))

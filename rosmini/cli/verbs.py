@@ -367,7 +367,9 @@ class Tool:
             )
         from rosmini.graph import Graph
 
-        with Graph() as graph:
+        with Graph(
+            strict=False
+        ) as graph:  # what goes wrong in a node is told by that node, and the tool goes on
             if nodes:
                 _start(nodes, graph)
             return verb.act(given, Call(graph))
@@ -420,10 +422,12 @@ def _before_plus(words: Sequence[str]) -> tuple[list[str], list[str]]:
 
 def _start(nodes: Sequence[str], graph: Graph) -> None:
     """Start what stands after a `+`, and let it settle."""
-    from rosmini.scripts import rosrun
+    from rosmini.scripts import NodeHandle, rosrun
 
     while nodes:
         words, nodes = _before_plus(nodes)
         package, _, executable = words[0].partition("/")
-        rosrun(package, executable, *words[1:], graph=graph).instance()
+        handle = rosrun(package, executable, *words[1:], graph=graph)
+        if isinstance(handle, NodeHandle):
+            handle.instance()
     graph.run(SETTLE_S)

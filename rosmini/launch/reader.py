@@ -213,7 +213,9 @@ class Reader(Loading):
         outside = scope.child()
         given = self._given(element, outside, dict(scope.args) if takes_all else {}, takes_all=takes_all)
         space = self.space(element, scope)
-        inside = outside.included(path, space, given, takes_all=takes_all)
+        inside = outside.included(
+            path, space, given, at=f"{element.path}:{element.line}", takes_all=takes_all
+        )
         inside.private = scope.private or {}
         self.clear(element, scope, inside.namespace, named=bool(space))
         if not is_file(path):

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import GraphEnded, ParameterNotSet, RosminiError
-from rosmini.packages import PackageIndex, built_in_nodes
+from rosmini.packages import PackageIndex
 from rosmini.rosparam import ParamClient
 from rosmini.scripts import Console, NodeHandle, NodeSpec, ScriptHandle, ScriptSpec
 from rosmini.scripts.handle import SIGINT_TIMEOUT_S, SIGTERM_TIMEOUT_S, LaneHandle, shell_status
@@ -243,7 +243,9 @@ def in_graph(
         words = node.words(with_namespace=True)
         handle: LaneHandle
         if found.path is None:
-            handle = NodeHandle(graph, NodeSpec(found, words), lambda: shared, owns_console=False)
+            handle = NodeHandle(
+                graph, NodeSpec(found, words, node.environment), lambda: shared, owns_console=False
+            )
         else:
             spec = ScriptSpec(str(found.path), words, environ=node.environment)
             handle = ScriptHandle(graph, spec, lambda: shared, seed=f"0/{name}", owns_console=False)
@@ -261,12 +263,6 @@ def differences(plan: Plan) -> Iterator[str]:
             yield (
                 f'{node.place}: cwd="{node.cwd}" is for a process: in one graph {node.full_name} works in the folder '
                 "of this one"
-            )
-        if node.environment and node.type in built_in_nodes(node.package):
-            names = ", ".join(name for name, _ in node.environment)
-            yield (
-                f"{node.place}: <env> is for scripts and processes: {node.full_name}, which rosmini brings, does not "
-                f"see {names} in one graph"
             )
         if node.machine and not plan.machines[node.machine].is_local:
             yield f"{node.place}: {on_machine(plan, node)}; here it runs in this process"

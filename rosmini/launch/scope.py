@@ -28,6 +28,8 @@ class Scope:
     """Parameters that every node below gets as its own, by name without the tilde."""
     environment: dict[str, str] = field(default_factory=dict)
     remappings: dict[str, str] = field(default_factory=dict)
+    included_at: str = ""
+    """Where the ``<include>`` of this file is; empty in a file that was named itself."""
     takes_all: bool = False
     """True at the top of a file that is included with ``pass_all_args``."""
 
@@ -46,11 +48,11 @@ class Scope:
         )
 
     def included(
-        self, file: str, namespace: str | None, args: Mapping[str, str], *, takes_all: bool
+        self, file: str, namespace: str | None, args: Mapping[str, str], *, at: str, takes_all: bool
     ) -> Scope:
-        """Return the scope of an included file: it knows the arguments that it is given, and no others."""
+        """Return the scope of a file that is included ``at`` a place: it knows only the arguments that it is given."""
         made = self.child(namespace)
-        made.file, made.takes_all = file, takes_all
+        made.file, made.included_at, made.takes_all = file, at, takes_all
         made.args, made.declared, made.anonymous = dict(args), set(), {}
         made.private = (
             self.private or {}

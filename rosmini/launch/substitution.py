@@ -153,7 +153,10 @@ class Substitution:
         if name in scope.args:
             return scope.args[name]
         if name in scope.declared:
-            said = f"requires the '{name}' arg to be set: give it as {name}:=VALUE"
+            way = f"give it as {name}:=VALUE"
+            if scope.included_at:
+                way = f'give it in the <include> at {scope.included_at}: <arg name="{name}" value="..."/>'
+            said = f"requires the '{name}' arg to be set: {way}"
         else:
             hint = nearest(name, scope.args.keys() | scope.declared)
             said = (

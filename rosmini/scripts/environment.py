@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rosmini.graph.lanes import LaneContext
 
 _Environ: Any = type(os.environ)
 
@@ -46,6 +50,38 @@ class ScriptEnviron(_Environ):  # type: ignore[misc]  # the class of os.environ 
             else:
                 os.unsetenv(key)
         self._changed.clear()
+
+
+class OwnEnviron:
+    """The context of a built-in node's lanes, where its environment is not the host's.
+
+    ``changes`` are what it has more or else; ``inner`` is the context that it has besides, if any.
+    """
+
+    def __init__(self, changes: Iterable[tuple[str, str]], inner: LaneContext | None) -> None:
+        self._own = ScriptEnviron()
+        self._own.update(changes)
+        self._inner = inner
+        self._host: Any = os.environ
+
+    def enter(self) -> None:
+        """Make it ``os.environ``."""
+        if self._inner is not None:
+            self._inner.enter()
+        self._host, os.environ = os.environ, self._own
+
+    def leave(self) -> None:
+        """Restore the host's."""
+        os.environ = self._host  # noqa: B003 - another object, whose environment the process has
+        if self._inner is not None:
+            self._inner.leave()
+
+    def cut_short(self) -> None:
+        """Nothing: a built-in node has no exit status to change."""
+
+    def finish(self) -> None:
+        """Give the process its environment back: the node has ended."""
+        self._own.give_back()
 
 
 def folders_of_the_users() -> list[str]:

@@ -16,6 +16,7 @@ from rosmini.errors import ROSException, ROSInterruptException, ScriptError
 from rosmini.graph import Graph, LaneExit, Node
 from rosmini.names import Remappings
 
+from .environment import OwnEnviron
 from .handle import LaneHandle
 from .streams import OwnStreams
 
@@ -35,10 +36,11 @@ PATIENCE = 60.0
 
 @dataclass(frozen=True)
 class NodeSpec:
-    """A built-in node to run, with its ROS arguments."""
+    """A built-in node to run, with its ROS arguments; ``environ`` are changes to its environment."""
 
     executable: Executable
     args: tuple[str, ...] = ()
+    environ: tuple[tuple[str, str], ...] = ()
 
 
 class NodeHandle(LaneHandle):
@@ -55,6 +57,7 @@ class NodeHandle(LaneHandle):
     ) -> None:
         super().__init__(graph, spec.args, console, owns_console=owns_console)
         self.executable = spec.executable
+        self._changes = spec.environ
         self._entry = spec.executable.load()
         self._others = Remappings.other_arguments(spec.args)
         _check_arguments(spec.executable, self._entry, self._others)
@@ -67,6 +70,7 @@ class NodeHandle(LaneHandle):
         self._awaited = False
         self._forced: int | None = None
         self._streams: OwnStreams | None = None
+        self._environ: OwnEnviron | None = None
 
     @property
     def name(self) -> str:
@@ -106,15 +110,17 @@ class NodeHandle(LaneHandle):
         namespace = os.environ.get("ROS_NAMESPACE", "")
         label = self._remappings.node_name or name
         streams = self._streams = OwnStreams(self.console.sink, label) if self.console.is_apart else None
+        self._environ = OwnEnviron(self._changes, streams) if self._changes else None
+        context = self._environ or streams
         node = self.node = Node(
-            name, self.graph, namespace=namespace, remappings=self._remappings, context=streams
+            name, self.graph, namespace=namespace, remappings=self._remappings, context=context
         )
         node.logger.streams = streams
         node.on_exit = lambda: self._ended(node)
         node.process = self
         ready = self._ready = self.scheduler.waiter(f"the node {node.name} to be set up")
         self._set_up_lane = self.scheduler.spawn(
-            f"{node.name} set-up", lambda: self._set_up(node, ready), node=node, context=streams
+            f"{node.name} set-up", lambda: self._set_up(node, ready), node=node, context=context
         )
 
     def _set_up(self, node: Node, ready: Waiter) -> None:
@@ -140,8 +146,9 @@ class NodeHandle(LaneHandle):
     def _ended(self, node: Node) -> None:
         if node is not self.node or not self._running:
             return
-        if self._streams is not None:
-            self._streams.finish()
+        for own in (self._streams, self._environ):
+            if own is not None:
+                own.finish()
         status = 1 if self._problem is not None else getattr(self._instance, "exit_status", 0)
         self._has_ended(status if self._forced is None else self._forced)
 

@@ -136,7 +136,7 @@ def test_of_several_that_wait_the_newest_is_kept(sim):
     ]
     assert (
         others[0].client.get_goal_status_text()
-        == "another goal arrived, and this server works on one at a time"
+        == "This goal was canceled because another goal was received by the simple action server"
     )
 
 
@@ -341,7 +341,7 @@ def test_an_execute_callback_that_fails(sim, lenient, log):
     diary.send(1)
     assert diary.client.wait_for_result(1)
     assert diary.client.get_state() is Status.ABORTED
-    assert diary.client.get_goal_status_text() == "the execute callback raised ZeroDivisionError: no"
+    assert diary.client.get_goal_status_text() == "Exception in execute callback: no"
     assert "called for a goal of /fibonacci, raised ZeroDivisionError: no" in log()
     served, diary = start(sim)
     served.server.execute_callback = fail

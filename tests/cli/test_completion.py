@@ -32,6 +32,11 @@ BECOMES = [
     ("rosservice find std_srvs/Set", ["std_srvs/SetBool"]), ("rossrv package std_s", ["std_srvs"]),
     ("rosmsg show geometry_msgs/PoseSt", ["geometry_msgs/PoseStamped"]), ("rosparam get /us", ["/use_sim_time"]),
     ("rostopic echo --no", ["--noarr", "--nostr"]), ("rosbag inf", ["info"]), ("rosnode nothing /t", []),
+    ("roslaunch turtlebot3_gaz", ["turtlebot3_gazebo"]), ("rosrun turtlesi", ["turtlesim", "turtlesim_cleaner"]),
+    ("roslaunch turtlebot3_gazebo turtlebot3_wo", ["turtlebot3_world.launch"]),
+    ("roslaunch turtlebot3_gazebo turtlebot3_world.launch x_pos:=1 mo", ["model:="]),
+    ("roslaunch no_such_package ", []), ("rosrun no_such_package ", []),
+    ("rosrun turtlesim turtle_te", ["turtle_teleop_key"]),
     ("nothing at all", []), ("lab x", []), ("rosnode cleanup x", []), ("rosservice no", []),
 ]  # fmt: skip
 

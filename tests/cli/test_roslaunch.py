@@ -94,6 +94,7 @@ class TestAnswers:
         )
         file = source / "speaking" / "launch" / "demo.launch"
         assert self.said(capsys, "--files", str(file))[1] == f"{file}\n"
+        assert self.said(capsys, "--files", os.path.relpath(file))[1] == f"{file}\n"
         assert self.said(capsys, "--find-node", "/stp", str(file))[1] == f"{file}\n"
 
     def test_tree(self, capsys: Any) -> None:

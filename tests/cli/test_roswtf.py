@@ -16,6 +16,7 @@ from rosmini.msgs.geometry_msgs.msg import TransformStamped, Twist
 from rosmini.msgs.std_msgs.msg import Int32, String
 from rosmini.msgs.tf2_msgs.msg import TFMessage
 
+from ..launch.workspace import make
 from ..processes import free_port
 
 
@@ -206,3 +207,17 @@ def test_help_and_words_that_make_no_sense(graph: Graph, capsys: pytest.CaptureF
         cli.main(["roswtf", "-h"])
     assert ended.value.code == 0
     assert "rosmini roswtf" in capsys.readouterr().out
+
+
+def test_scripts_after_a_plus_are_looked_at(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    scripts = make(tmp_path) / "speaking" / "scripts"
+    text = (scripts / "talker.py").read_text(encoding="utf-8")
+    ear = text.replace('"talker"', '"ear"').replace("String", "Int32").replace('"hello"', "5")
+    (scripts / "ear.py").write_text(ear, encoding="utf-8")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "src"))
+    assert cli.main(["roswtf", "+", "speaking/talker.py", "+", "speaking/ear.py"]) == 0
+    printed = capsys.readouterr().out
+    assert "Nodes disagree about the type of a topic" in printed
+    assert "std_msgs/Int32: /ear" in printed

@@ -114,6 +114,15 @@ def test_one_missing_thing_is_named_at_its_place() -> None:
     assert str(error) == "<text>:3: requires the 'model' arg to be set: give it as model:=VALUE"
 
 
+def test_an_arg_that_an_include_lacks_is_given_there(tmp_path: Path) -> None:
+    inner = tmp_path / "inner.launch"
+    text = '<launch><arg name="a"/><group><param name="b" value="$(arg a)"/></group></launch>'
+    inner.write_text(text, encoding="utf-8")
+    error = refused(f'<include file="{inner}"/>')
+    way = 'give it in the <include> at <text>:2: <arg name="a" value="..."/>'
+    assert str(error) == f"{inner}:1: requires the 'a' arg to be set: {way}"
+
+
 def test_a_default_needs_nothing_where_a_value_is_given() -> None:
     plan = plan_of(
         '<arg name="a" default="$(env NOBODY_HAS_THIS)"/><param name="b" value="$(arg a)"/>', args={"a": "5"}

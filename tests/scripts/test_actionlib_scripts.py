@@ -98,3 +98,13 @@ def test_no_goal_is_taken_while_a_script_holds_the_servers_lock(run):
             server.execute_condition.notify_all()
     """
     assert run(source, prefix=False, duration=PATIENCE).lines[-2:] == ["held []", "free [3]"]
+
+
+def test_a_loop_around_a_wait_for_a_server_ends_with_the_run(run):
+    """It does not see the end of its node: every wait is over at once then, and time has to go on around it."""
+    text = (
+        "import rospy, actionlib\nfrom actionlib_tutorials.msg import FibonacciAction\nrospy.init_node('w')\n"
+        "client = actionlib.SimpleActionClient('nobody', FibonacciAction)\n"
+        "while not client.wait_for_server(rospy.Duration(1)):\n    rospy.loginfo('waiting')\n"
+    )
+    assert run(ScriptSpec("w.py", (), text), duration=3, rate=4).result.reason == "time"

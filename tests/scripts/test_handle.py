@@ -1,7 +1,9 @@
 """Handles: scripts and nodes that go on with the graph, how they end, and that nothing of them is left."""
 
 import io
+import os
 import signal
+import subprocess
 
 import pytest
 
@@ -31,12 +33,12 @@ class Runs:
         handle.start()
         return handle
 
-    def node(self, entry, *args, name="built_in"):
+    def node(self, entry, *args, name="built_in", environ=()):
         class Loaded(Executable):
             def load(self):
                 return entry
 
-        handle = NodeHandle(self.graph, NodeSpec(Loaded("here", name), args), self.console)
+        handle = NodeHandle(self.graph, NodeSpec(Loaded("here", name), args, environ), self.console)
         handle.start()
         return handle
 
@@ -417,3 +419,20 @@ def test_a_script_waits_for_what_it_started(simulated_runs, tmp_path, monkeypatc
     with pytest.raises(ScriptError, match="no such object"):
         again.instance()
     assert (again.wait(), again.output) == (8, "child\n")
+
+
+def test_a_built_in_node_has_an_environment_of_its_own(runs):
+    """At its start, and in its callbacks; the host's is as it was."""
+    seen = []
+
+    def entry(node):
+        seen.append(os.environ.get("LEVEL"))
+        node.timer(0.1, lambda _: seen.append(os.environ.get("LEVEL")), oneshot=True)
+
+    handle = runs.node(entry, name="seeing", environ=(("LEVEL", "3"),))
+    runs.run(0.5)
+    assert seen == ["3", "3"]
+    assert "LEVEL" not in os.environ
+    handle.terminate()
+    runs.run(0.5)
+    assert subprocess.run(["printenv", "LEVEL"], check=False, capture_output=True).stdout == b""
