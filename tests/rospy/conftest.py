@@ -9,8 +9,14 @@ import pytest
 
 from rosmini import Graph, set_default_graph
 
+from ..processes import PATIENCE
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+
+
+WALL_RATE = 10.0
+"""How much faster than the clock wall time goes here."""
 
 
 class Program:
@@ -57,9 +63,11 @@ class Programs:
         return Program(self.graph, main, ["prog", *arguments])
 
     def __call__(
-        self, *mains: Callable[[], object], arguments: tuple[str, ...] = (), limit: float = 5.0
+        self, *mains: Callable[[], object], arguments: tuple[str, ...] = (), limit: float | None = None
     ) -> Any:
-        """Run all; return what the last one returned, or raise what it raised."""
+        """Run all; return what the last one returned, or raise what it raised. `limit` is of graph time."""
+        if limit is None:
+            limit = 5.0 if self.graph.scheduler.simulated else PATIENCE * WALL_RATE
         programs = [self.start(main, *arguments) for main in mains]
         self.graph.run(limit, until=lambda: programs[-1].done)
         last = programs[-1]
@@ -77,7 +85,7 @@ def simulated(request: pytest.FixtureRequest) -> bool:
 @pytest.fixture
 def graph(simulated: bool) -> Iterator[Graph]:
     """The default graph, which logs what callbacks raise. Its wall time runs ten times too fast."""
-    made = Graph(simulated=simulated, strict=False, rate=1.0 if simulated else 10.0)
+    made = Graph(simulated=simulated, strict=False, rate=1.0 if simulated else WALL_RATE)
     made.notebook = False  # nbval has imported ipykernel into this process
     set_default_graph(made)
     yield made

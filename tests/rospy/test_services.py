@@ -24,7 +24,7 @@ def add(request):
 
 def test_a_client_needs_no_node(programs):
     def client():
-        rospy.wait_for_service("service", timeout=rospy.Duration(2))
+        rospy.wait_for_service("service", timeout=rospy.Duration(1000))
         proxy = rospy.ServiceProxy("service", AddTwoInts)
         return [proxy(1, 2).sum, proxy(a=3, b=4).sum, proxy.call(AddTwoIntsRequest(5, 6)).sum]
 
@@ -37,7 +37,7 @@ def test_a_client_with_a_node(programs, persistent):
     def client():
         rospy.init_node("client")
         proxy = rospy.ServiceProxy("service", AddTwoInts, persistent=persistent)
-        proxy.wait_for_service(timeout=2)
+        proxy.wait_for_service(timeout=1000)
         result = [proxy(1, 1).sum, proxy(2, 2).sum]
         proxy.close()
         return result

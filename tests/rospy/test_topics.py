@@ -235,7 +235,7 @@ def test_numpy_msg_gives_arrays(programs):
         rospy.sleep(0.2)
         waited = []
         rospy.Timer(rospy.Duration(0.2), lambda _: publisher.publish(Floats([3.0])), oneshot=True)
-        waited.append(rospy.wait_for_message("floats", numpy_msg(Floats), timeout=2))
+        waited.append(rospy.wait_for_message("floats", numpy_msg(Floats), timeout=1000))
         return got[0], waited[0]
 
     arrays, waited = programs(main)
@@ -357,7 +357,7 @@ def test_wait_for_message(programs):
 
     def main():
         rospy.init_node("main")
-        message = rospy.wait_for_message("t", String, timeout=rospy.Duration(5))
+        message = rospy.wait_for_message("t", String, timeout=rospy.Duration(1000))
         with pytest.raises(rospy.ROSException, match=r"timeout exceeded.*/nothing.*nobody publishes"):
             rospy.wait_for_message("nothing", String, timeout=0.2)
         return message

@@ -15,6 +15,7 @@ from rosmini.packages import Executable
 from rosmini.scripts import Console, NodeHandle, NodeSpec, ScriptHandle, ScriptSpec, StillRunning
 from rosmini.scripts.handle import shell_status
 
+from ..processes import PATIENCE
 from .conftest import nothing_left
 
 
@@ -135,7 +136,7 @@ def test_kill_ends_a_script_that_never_ends(runs, source):
     runs.run(0.05)
     assert handle.poll() is None
     handle.kill()
-    assert handle.wait(timeout=5) == -9
+    assert handle.wait(timeout=PATIENCE) == -9
     assert runs.said == []
 
 
@@ -184,7 +185,7 @@ def test_terminate_is_an_interrupt_first(runs, source, returncode, said):
     runs.run(0.5)
     handle.terminate()
     assert handle.poll() is None
-    assert handle.wait(timeout=5) == returncode
+    assert handle.wait(timeout=PATIENCE) == returncode
     assert runs.said == said
     handle.terminate()
     handle.kill()
@@ -310,12 +311,12 @@ for _ in range(int(sys.argv[1])):
 def test_two_scripts_and_a_node(runs):
     counter = runs.node(Counter)
     first, second = runs.script(LISTENER, "2", name="first"), runs.script(LISTENER, "3", name="second")
-    assert (first.wait(timeout=30), second.wait(timeout=30)) == (0, 0)
+    assert (first.wait(timeout=PATIENCE), second.wait(timeout=PATIENCE)) == (0, 0)
     assert counter.poll() is None
     assert counter.instance().value >= 2
     assert isinstance(counter.node, Node)
     counter.terminate()
-    assert counter.wait(timeout=30) == 0
+    assert counter.wait(timeout=PATIENCE) == 0
     said = [line for line in runs.said if "[WARN]" not in line]  # a busy machine does not keep the rate
     assert sorted(line.split("] ")[1] for line in said) == ["got True"] * 5
 

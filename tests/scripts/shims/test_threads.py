@@ -182,7 +182,7 @@ def test_locks(run):
         lock.acquire()
         print(lock.acquire(False), lock.acquire(timeout=0.001))
         threading.Timer(0.002, lock.release).start()
-        print(lock.acquire(timeout=5))
+        print(lock.acquire(timeout=1000))
         r = threading.RLock()
         with r:
             with r:
@@ -241,7 +241,7 @@ def test_condition_wait_for_and_notify_all(run):
         items, got = [], []
         def take(n):
             with c:
-                ok = c.wait_for(lambda: len(items) >= n, timeout=5)
+                ok = c.wait_for(lambda: len(items) >= n, timeout=1000)
                 got.append((n, ok))
         ts = [threading.Thread(target=take, args=(n,)) for n in (1, 2)]
         [t.start() for t in ts]
@@ -267,7 +267,7 @@ def test_event_semaphore_barrier_timer_local(run):
         print(e.wait(5)); e.clear(); print(e.wait(0))
         s = threading.BoundedSemaphore(2)
         print(s.acquire(), s.acquire(), s.acquire(False), s.acquire(timeout=0.001)); s.release(); print(s.acquire())
-        b = threading.Barrier(2, timeout=5)
+        b = threading.Barrier(2, timeout=1000)
         out = []
         t = threading.Thread(target=lambda: out.append(b.wait())); t.start()
         out.append(b.wait()); t.join(); print(sorted(out), b.broken)

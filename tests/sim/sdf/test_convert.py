@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 
 import numpy as np
 import pytest
@@ -356,13 +355,12 @@ def test_thin_walls_are_written_as_boxes():
     assert after.bounds == pytest.approx((0, -0.01, 2.01, 1))
 
 
-def test_a_world_of_100_000_sides_is_read_in_reasonable_time():
+def test_a_world_of_100_000_sides_is_read():
+    """In about 3 s; with work for each pair of sides it would be ended by pytest's time limit."""
     many = "".join(
         f"<model name='m{i}'><static>1</static><pose>{i % 160 * 2} {i // 160 * 2} 0.25 0 0 {i}</pose><link "
         f"name='l'>{geometry(BOX)}</link></model>\n"
         for i in range(25_000)
     )
-    begin = time.process_time()
     world, _ = flat(many)
     assert world.segments.shape == (100_000, 4)
-    assert time.process_time() - begin < 20  # it takes about 3 s
