@@ -55,8 +55,8 @@ class CellStream(io.TextIOBase):
         return len(text)
 
     def flush(self) -> None:
-        """Flush the cell's stream."""
-        if not self.is_muted:
+        """Flush the cell's stream, unless that was closed first."""
+        if not self.is_muted and not self._target.closed:
             self._target.flush()
 
 

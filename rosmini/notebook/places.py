@@ -111,8 +111,9 @@ class ShownStream(io.TextIOBase):
         return len(text)
 
     def flush(self) -> None:
-        """Flush what is behind it."""
-        self._target.flush()
+        """Flush what is behind it, unless that was closed first: a stream that is forgotten is flushed, too."""
+        if not self._target.closed:
+            self._target.flush()
 
     def __getattr__(self, name: str) -> Any:
         """Return what only the stream behind it has: that of a kernel is told to which cell it writes."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 from pathlib import Path
 
@@ -23,6 +24,14 @@ def test_paths_are_shown_as_on_a_robot(places: Places) -> None:
     assert places.shown(text) == (
         f'~: ~/ws/src, "/opt/ros/noetic/share/turtlebot3_description"; {places.home}-other'
     )
+
+
+def test_a_stream_can_be_dropped_after_what_is_behind_it(places: Places) -> None:
+    """Python 3.13 and later complain of what a stream's end raises."""
+    target = io.StringIO()
+    stream = ShownStream(target, places)
+    target.close()
+    stream.close()
 
 
 def test_folders_that_are_one_on_a_robot_are_listed_once(places: Places) -> None:
