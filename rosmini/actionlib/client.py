@@ -115,7 +115,7 @@ class ClientGoalHandle:
             client.node.logdebug(f"goal {self.id} is {self.get_comm_state().name}: cancel() has no effect")
 
     def reset(self) -> None:
-        """Stop to follow this goal: no callback comes any more. The goal itself goes on."""
+        """Stop following this goal: no callback comes any more. The goal itself goes on."""
         self._following = False
         self._client.forget(self)
 

@@ -329,7 +329,7 @@ class Player:
         if self.options.clock:
             self._publishers["/clock"].publish(clock=Time.from_nsec(self.end))
         if self.options.loop:
-            # what latches starts anew as well; a turn without a length would never let time pass
+            # what latches restarts as well; a turn without a length would never let time pass
             self._rewind(self._scheduler.now_ns() + int(max(self.options.delay, 1e-3) * 1e9))
             return
         self.done = True

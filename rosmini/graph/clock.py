@@ -91,7 +91,7 @@ class TopicClock:
                 self._scheduler.ready.append(callback)
 
     def close(self) -> None:
-        """Stop to look out for a missing ``/clock``."""
+        """Stop watching for a missing ``/clock``."""
         self._watch.cancel()
 
     def _nobody(self) -> None:

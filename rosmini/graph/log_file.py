@@ -47,7 +47,7 @@ class LogFile:
 
     Args:
         path: of the file.
-        simulated: times are those of the graph, shown in UTC, and the file is begun anew; else they are in local time,
+        simulated: times are those of the graph, shown in UTC, and the file is replaced; else they are in local time,
             and a file that is there is continued, as rospy does.
 
     """

@@ -89,13 +89,13 @@ class Subscription:
             del self.connections[connection.uri]
 
     def gave_up(self, connection: Connection) -> None:
-        """Drop a connection that came to nothing; if its publisher left meanwhile and is back, connect to it anew."""
+        """Drop a connection that came to nothing; if its publisher left meanwhile and is back, reconnect."""
         self.forget(connection)
         if connection.was_left:
             self._connect(connection.uri)
 
     def closed(self, connection: Connection) -> None:
-        """Learn that a publisher closed a connection; if it is on the topic again meanwhile, connect to it anew."""
+        """Learn that a publisher closed a connection; if it is on the topic again meanwhile, reconnect."""
         self.forget(connection)
         if not self._try_again(connection):
             self._connect(connection.uri)

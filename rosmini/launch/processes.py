@@ -124,7 +124,7 @@ class ProcessHandle(LaneHandle):
             self._schedule_poll()
         else:
             self._guard.ended(process.pid)
-            self._has_ended(process.returncode)
+            self._conclude(process.returncode)
 
     def _signal(self, signum: signal.Signals) -> None:
         process = self._process
@@ -147,7 +147,7 @@ class ProcessHandle(LaneHandle):
                     process.kill()
             process.wait()
             self._guard.ended(process.pid)
-        self._has_ended(returncode)
+        self._conclude(returncode)
 
 
 def _spawn(spec: ProcessSpec, output: IO[bytes] | None) -> subprocess.Popen[bytes]:

@@ -58,7 +58,7 @@ class Network:
         sys.stderr.write(f"[WARN] {line}{'...' if len(text) > LONGEST_WARNING else ''}\n")
 
     def close(self) -> None:
-        """End the I/O thread and close what is open, within two seconds; what is used again begins anew."""
+        """End the I/O thread and close what is open, within two seconds; what is used again is restarted."""
         self.io.close()
 
 

@@ -204,7 +204,7 @@ class TcpTransport:
         return TransportException(f"{error}. {self.network.where.advice(error.host, error.__cause__)}")
 
     def close(self) -> None:
-        """End the network of this graph; it begins anew when needed."""
+        """End the network of this graph; it restarts when needed."""
         for uri in list(self._places):
             self.detach(uri)
         self.network.close()

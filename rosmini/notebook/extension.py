@@ -75,7 +75,7 @@ def tell_which_ros() -> None:
 
 
 def roscore(session: Session, line: str) -> None:
-    """End the graph with all that runs in it, and begin anew: the same time, the same seed, a new Master.
+    """End the graph with all that runs in it, and restart: the same time, the same seed, a new Master.
 
     Raises ``UsageError`` for arguments: this roscore takes none.
     """

@@ -114,7 +114,7 @@ class RobotStatePublisher:
         now, stamp = self.node.clock.now_ns(), state.header.stamp.to_nsec()
         if self._last_ns > now:
             self.node.logwarn(
-                "Time moved backwards, as a clock or a bag that starts again: telling all joints anew"
+                "Time moved backwards, as a clock or a bag that starts again: telling all joints again"
             )
             self._told.clear()
         self._last_ns = now

@@ -178,7 +178,7 @@ class LaneHandle(ABC):
             self.start()
         except RosminiError as error:  # the script's file has gone, for instance
             self.console.report(self.name, error)
-            self._has_ended(1)
+            self._conclude(1)
 
     def poll(self) -> int | None:
         """Return ``returncode``."""
@@ -272,9 +272,9 @@ class LaneHandle(ABC):
         """Cancel a respawn that is to come."""
         if self._next_step is not None:
             self._cancel_step()
-            self._has_ended(KILLED)
+            self._conclude(KILLED)
 
-    def _has_ended(self, returncode: int) -> None:
+    def _conclude(self, returncode: int) -> None:
         """Note the end, and let those who wait for it go on."""
         self._running = False
         self.returncode = returncode

@@ -150,7 +150,7 @@ class NodeHandle(LaneHandle):
             if own is not None:
                 own.finish()
         status = 1 if self._problem is not None else getattr(self._instance, "exit_status", 0)
-        self._has_ended(status if self._forced is None else self._forced)
+        self._conclude(status if self._forced is None else self._forced)
 
     def ask_to_end(self, reason: str) -> None:
         """Shut the node down, in a lane of its own."""

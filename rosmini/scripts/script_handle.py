@@ -241,7 +241,7 @@ class ScriptHandle(LaneHandle):
         if self.spec.source is not None:
             forget_lines(context.filename)
         status = self._status or (INTERRUPTED if context.was_cut_short else 0)
-        self._has_ended(status if self._forced is None else self._forced)
+        self._conclude(status if self._forced is None else self._forced)
 
     def ask_to_end(self, reason: str) -> bool:
         """Let its client library shut the node down; return False if it has none."""

@@ -198,7 +198,7 @@ class Recorder:
         )
 
     def went_back(self, topic: str, by: float) -> None:
-        """The clock went back [s]: say so, and begin anew."""
+        """The clock went back [s]: say so, and restart."""
         self.node.logwarn(
             f"the time on {self.node.resolve(topic)} went back by {by:.3f} s: a new recording begins"
         )

@@ -128,7 +128,7 @@ class Simulator(Simulation):
         if own.obstacles:
             self.host.add(ObstacleMarkers(self.host))
         self.robots: dict[str, TurtleBot] = {}
-        """Those that are in the world, by name, in the sequence of their coming."""
+        """Those that are in the world, by name, in order of arrival."""
         for start in starts:
             self._bring(start)
         self._service = node.service(

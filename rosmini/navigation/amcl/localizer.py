@@ -87,7 +87,7 @@ class Localizer:
         self.configure(parameters)
 
     def configure(self, parameters: AmclParameters) -> None:
-        """Take parameters: the filter begins anew around what it believed."""
+        """Take parameters: the filter restarts around what it believed."""
         self.parameters = p = parameters
         before = getattr(self, "filter", None)
         self.filter = ParticleFilter(

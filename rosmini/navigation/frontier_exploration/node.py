@@ -173,7 +173,7 @@ class ExploreServer:
         self.move_base.send_goal(goal, done_cb=self._done, feedback_cb=self._feed)
 
     def _wait(self) -> None:
-        """Until it is time to look again: a period, or until the robot has arrived."""
+        """Until the next search is due: a period, or until the robot has arrived."""
         frequency = self.parameters.frequency
         if frequency > 0:
             self.node.sleep(1 / frequency)

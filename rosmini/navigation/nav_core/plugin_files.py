@@ -189,7 +189,7 @@ def _module(declared: Declared) -> Any:
 
 @contextmanager
 def _importing_from(root: Path, top: str) -> Iterator[None]:
-    """Let modules be found in a folder, all of them and those of the package `top` anew, and ROS's by their names."""
+    """Let modules be found in a folder, all of them, those of the package `top` reloaded, and ROS's by their names."""
     for name, module in list(sys.modules.items()):
         file = getattr(module, "__file__", None)
         if name.partition(".")[0] == top or (file and Path(file).is_relative_to(root)):

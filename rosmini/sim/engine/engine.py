@@ -143,7 +143,7 @@ class Engine:
         return new
 
     def _changed(self, pose: Pose, reach: float) -> None:
-        """Let those look again that may come to what came, or went, or was put there."""
+        """Invalidate the clearance of what may reach what came, or went, or was put there."""
         self._all.changed += 1
         self._stepper.lift(self.contacts.near(pose[0], pose[1], reach + VIEW))
 

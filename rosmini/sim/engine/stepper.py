@@ -210,7 +210,7 @@ class Stepper:
                 self._crates.append((i, body.owner))
 
     def _keep_apart(self) -> None:
-        """Let those look again who went in steps, and nobody else come nearer to them than circles around them."""
+        """Renew the clearance of who went in steps, and let nobody else come nearer than circles around them."""
         if self._group is None:
             return
         now, members = self._instant.ns, self._group.bodies

@@ -81,7 +81,7 @@ def title(name: str) -> str:
 def world(name: str | os.PathLike[str]) -> World:
     """The world of this name or file, which is given by its path or `package://` address.
 
-    A file is a Gazebo world (SDF), a Stage world or a ROS map (YAML), told apart by its content; a relative path starts
+    A file is a Gazebo world (SDF), a Stage world or a ROS map (YAML), as its content shows; a relative path starts
     at the working directory. Raises `WorldError` for an unknown name, with the nearest one; `SdfError`, `StageError` or
     `MapError` for a broken file; `UnknownPackage` or `RosminiError` for an address that leads nowhere.
     """

@@ -285,7 +285,7 @@ class Measure(Tool, plugin="rviz/Measure"):
         return float(np.linalg.norm(self.points[1] - self.points[0])) if len(self.points) == 2 else None
 
     def release(self, at: Floats) -> str:
-        """Take a point; the third begins anew."""
+        """Take a point; the third starts another line."""
         self.points = [*(self.points if len(self.points) < 2 else []), at]
         return self.hint if self.length is None else f"[Length: {self.length:.6g}m] {self.hint}"
 
