@@ -122,6 +122,11 @@ def test_an_interrupt_while_the_earlier_run_ends_kills_it(
     assert not run.is_running
 
 
+@pytest.mark.parametrize("name", ["get_ipython", "display"])
+def test_a_script_has_no_more_than_on_a_robot(notebook: Notebook, name: str) -> None:
+    assert f"NameError: name '{name}' is not defined" in notebook.ok(f"%%node notebook_only.py\n{name}\n")
+
+
 def test_the_same_file_under_another_name_is_another_run(notebook: Notebook) -> None:
     notebook.ok(f"%%node talker.py\n{TALKER}")
     notebook.ok("%rosrun notebook talker.py __name:=second")

@@ -199,4 +199,6 @@ def make_builtins_module(context: Script) -> ModuleType:
 
     as_builtins(module, input=read_input, print=print_line, exit=leave, quit=leave)
     module.__dict__["__import__"] = context.importer.import_name
+    for name in ("get_ipython", "display"):  # IPython's, which no robot has
+        module.__dict__.pop(name, None)
     return module
