@@ -92,11 +92,14 @@ class IdleReads:
                 self._turn(on=False)
             self.is_asleep = True
         events: list[tuple[int, int]] = []
+        came = True
         try:
             if nothing_came():
+                came = False
                 events = self._wait(timeout)
+                came = bool(events)
         finally:
-            self._wake_up(something_came=bool(events))
+            self._wake_up(something_came=came)
         self._read(events)
 
     def _wait(self, timeout: float) -> list[tuple[int, int]]:

@@ -100,6 +100,18 @@ def test_a_sleeping_hub_is_woken_for_what_others_want(wire: Wire) -> None:
         thread.join()
 
 
+def test_a_hub_that_has_something_to_do_already_reads_by_itself_the_next_time(
+    wire: Wire, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The I/O thread is not given the reading back: whoever answers fast would keep it there."""
+    monkeypatch.setattr(idle_reads, "BEAT_S", 1000.0)
+    wire.idle.sleep(0.0, lambda: False)
+    assert wire.idle.beats
+    wire.there.send(b"x")
+    wire.idle.sleep(100.0, lambda: True)
+    assert wire.read == [(b"x", threading.current_thread().name)]
+
+
 def test_a_connection_that_was_closed_is_read_to_its_end_once(wire: Wire) -> None:
     wire.there.send(b"last")
     wire.there.close()
