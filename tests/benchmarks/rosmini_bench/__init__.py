@@ -101,7 +101,7 @@ def table(figures: Iterable[Figure]) -> str:
     )
 
 
-SUBJECTS = ("graph", "wire", "sim", "rviz", "turtles", "nav")
+SUBJECTS = ("graph", "wire", "tools", "sim", "rviz", "turtles", "nav")
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> object:
@@ -113,7 +113,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "subject",
         nargs="?",
         choices=SUBJECTS,
-        help="graph, wire between processes, simulator, RViz, turtles or navigation (default: all)",
+        help="graph, wire between processes, tools, simulator, RViz, turtles or navigation (default: all)",
     )
     parser.add_argument(
         "--rounds", type=int, default=3, metavar="N", help="rounds of which the median is shown (default: 3)"
@@ -198,18 +198,19 @@ def _measures(args: argparse.Namespace, peers: ExitStack) -> Iterator[Measure]:
         from . import transforms
 
         yield from transforms.measures(rospy, args.scale)
-        from . import launch_files
-
-        yield from launch_files.measures(rospy, args.scale)
-        from . import tools
-
-        yield from tools.measures(rospy, args.scale)
         from . import bags
 
         folder = bags.Folder()
         peers.callback(folder.close)
         rosbag = None if args.no_peer else bags.find_rosbag(folder.path)
         yield from bags.measures(folder.path, rosbag, args.scale)
+    if args.subject in (None, "tools"):
+        from . import launch_files
+
+        yield from launch_files.measures(rospy, args.scale)
+        from . import tools
+
+        yield from tools.measures(rospy, args.scale)
     if args.subject in (None, "rviz"):
         from . import displays
 
