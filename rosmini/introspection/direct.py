@@ -1,21 +1,23 @@
 """The Master and nodes elsewhere, asked one question after another by a program that does nothing else.
 
 A tool such as ``rostopic list`` asks two questions and ends. A graph with its scheduler and I/O thread would take
-longer to start than the answers take to come, so this asks by itself, with time-outs and bounded answers.
+longer to start than the answers take to come, so this asks by itself: :mod:`xmlrpc.client` over plain HTTP, with
+time-outs, bounded answers, and no document types in the XML.
 """
 
 from __future__ import annotations
 
+import http.client
 import os
 import socket
 import struct
 import time
+import xmlrpc.client
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
+from xml.parsers.expat import ExpatError
 
 from rosmini.errors import MasterUnreachable, ROSException, RosminiError, TransportException, shown
-
-from .lean_rpc import RefusedAnswer, decode_answer, encode_call, post
 
 if TYPE_CHECKING:
     from typing import Self
@@ -31,6 +33,64 @@ NODE_S = 3.0
 LONGEST = 64 * 1024 * 1024
 """How many bytes an answer may have."""
 
+_PIECE = 65536
+
+
+class RefusedXml(xmlrpc.client.ResponseError):
+    """The answer is XML that no ROS program sends."""
+
+
+class _Parser(xmlrpc.client.ExpatParser):
+    """The standard library's parser; entities, which can grow without bounds, are refused where they are declared."""
+
+    def __init__(self, target: Any) -> None:
+        super().__init__(target)
+        expat: Any = vars(self)["_parser"]
+        expat.StartDoctypeDeclHandler = expat.EntityDeclHandler = self._refuse
+
+    @staticmethod
+    def _refuse(*_declaration: object) -> None:
+        raise RefusedXml("the answer declares a document type or an entity, which XML-RPC does not have")
+
+
+class _Transport(xmlrpc.client.Transport):
+    """The standard library's transport, with a time-out and a bound."""
+
+    user_agent = "rosmini"
+    accept_gzip_encoding = False
+
+    def __init__(self, timeout: float) -> None:
+        super().__init__()
+        self._timeout = timeout
+
+    def make_connection(self, host: Any) -> http.client.HTTPConnection:
+        """Return the open connection to a host, or a new one."""
+        if self._connection[0] != host:
+            self.close()
+            self._connection = host, http.client.HTTPConnection(host, timeout=self._timeout)
+        connection: http.client.HTTPConnection = self._connection[1]  # type: ignore[assignment]
+        return connection
+
+    def getparser(self) -> tuple[Any, Any]:
+        """Return a parser and what gathers its results."""
+        target = xmlrpc.client.Unmarshaller(use_builtin_types=True)
+        return _Parser(target), target
+
+    def parse_response(self, response: Any) -> Any:
+        """Return the values in an answer. Raises ``ResponseError`` for one that is too long."""
+        parser, target = self.getparser()
+        size = 0
+        while data := response.read(_PIECE):
+            size += len(data)
+            if size > LONGEST:
+                raise RefusedXml(f"the answer has more than {LONGEST:,} bytes")
+            parser.feed(data)
+        parser.close()
+        return target.close()
+
+
+_FAILURES = (OSError, http.client.HTTPException, xmlrpc.client.Error, ExpatError, ValueError)
+
 
 class DirectWire:
     """The Master at an address, and its nodes; see :class:`~rosmini.introspection.peers.Peers`."""
@@ -38,12 +98,16 @@ class DirectWire:
     def __init__(self, master_uri: str, *, master_s: float = MASTER_S, node_s: float = NODE_S) -> None:
         self.master_uri = master_uri
         self._master_s, self._node_s = master_s, node_s
+        self._servers: dict[str, xmlrpc.client.ServerProxy] = {}
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_error: object) -> None:
-        """Nothing: no connection outlives its question."""
+        """Close the connections."""
+        for server in self._servers.values():
+            server("close")()
+        self._servers.clear()
 
     @property
     def transport(self) -> DirectWire:
@@ -62,9 +126,12 @@ class DirectWire:
     def call(self, uri: str, method: str, *arguments: Any) -> Triple:
         """Call a method of a Master or of a node. Raises ``TransportException``, which says why nobody answered."""
         try:
-            patience = self._master_s if uri == self.master_uri else self._node_s
-            answer: Any = decode_answer(post(uri, encode_call(method, arguments), patience, LONGEST))
-        except (OSError, ValueError, RefusedAnswer) as error:
+            server = self._servers.get(uri)
+            if server is None:
+                patience = self._master_s if uri == self.master_uri else self._node_s
+                server = self._servers[uri] = xmlrpc.client.ServerProxy(uri, _Transport(patience))
+            answer: Any = getattr(server, method)(*arguments)
+        except _FAILURES as error:
             raise TransportException(f"no answer from {uri}: {_reason(error)}") from error
         if not isinstance(answer, list) or len(answer) != 3:
             raise TransportException(
@@ -144,7 +211,10 @@ def _complaint(uri: str, cause: BaseException) -> str:
         )
     if isinstance(cause, OSError):
         return f"{silent}{_reason(cause)}. Start it with `rosmini roscore`, or {another}"
-    why = _reason(cause)
+    if isinstance(cause, xmlrpc.client.ProtocolError):
+        why = f"it answered with HTTP status {cause.errcode}"
+    else:
+        why = _reason(cause)
     return f"what answers at {uri} is not a ROS Master: {why}. Set ROS_MASTER_URI to the address that roscore shows"
 
 
