@@ -248,6 +248,9 @@ class BlockingApi:
         """Tell whether the node has been shut down."""
         return self._stopped
 
+    def _why_over(self) -> str | None:
+        return self._shutdown_message() if self._stopped else None
+
     def _shutdown_message(self) -> str:
         return f"node {self.name} was shut down" + (
             f": {self.shutdown_reason}" if self.shutdown_reason else ""

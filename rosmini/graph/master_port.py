@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
-from rosmini.errors import MasterUnreachable, ROSException
+from rosmini.errors import MasterUnreachable, ROSException, ROSInterruptException
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -97,13 +97,13 @@ class MasterProxy:
     """The Master as one caller sees it.
 
     Its calls reach the Master one after another, in the order in which they were made. ``caller_id`` is the node's or
-    the tool's name. ``is_over`` says that a registration need not be tried again.
+    the tool's name. ``why_over`` says why a registration need not be tried again.
     """
 
-    def __init__(self, host: MasterHost, caller_id: str, is_over: Callable[[], bool] = lambda: False) -> None:
+    def __init__(self, host: MasterHost, caller_id: str, why_over: Callable[[], str | None] = lambda: None) -> None:
         self._host = host
         self._caller_id = caller_id
-        self._is_over = is_over
+        self._why_over = why_over
         self.is_mute = False
         """Whether registrations are not taken back: the caller is dead."""
         self._has_registered = False
@@ -158,9 +158,9 @@ class MasterProxy:
         return value if code == 1 else None
 
     def insist(self, method: str, *arguments: Any, warn: Callable[[str], None]) -> Triple:
-        """Do as :meth:`call`, but keep trying while the Master does not answer and the caller goes on.
+        """Do as :meth:`call`, but keep trying while the Master does not answer; ``warn`` once.
 
-        ``warn`` once.
+        Raises ``ROSInterruptException`` when the caller ends meanwhile.
         """
         port = self._host.master
         if port.is_local:
@@ -173,14 +173,18 @@ class MasterProxy:
                     self._has_registered = True
                     return answer
                 except MasterUnreachable as error:
-                    if self._is_over() or not port.keeps_trying:
+                    if not port.keeps_trying:
                         raise
-                    warn(
-                        f"Unable to register with master node [{self._host.master.uri}]: "
-                        f"master may not be running yet. Will keep trying. ({error})"
-                    )
-                    warn = _silent
-                    self._pause()
+                    over = self._why_over()
+                    if over is not None:
+                        raise ROSInterruptException(over) from error
+                    silence = str(error)
+                warn(
+                    f"Unable to register with master node [{self._host.master.uri}]: "
+                    f"master may not be running yet. Will keep trying. ({silence})"
+                )
+                warn = _silent
+                self._pause()
 
     def _current(self, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
         return tuple(self._moved.get(each, each) if isinstance(each, str) else each for each in arguments)

@@ -88,7 +88,7 @@ class Node(ServiceApi):
         if anonymous and remappings.node_name is None:
             base = graph.anonymous_name(base)
         self.name = resolve(base, self.namespace)
-        self.master = MasterProxy(graph, self.name, self.is_shutdown)
+        self.master = MasterProxy(graph, self.name, self._why_over)
         self.shutdown_reason: str | None = None
         self.is_registered = False
         """True once the Master has heard of the node."""
