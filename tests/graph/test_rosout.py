@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
+import weakref
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -45,6 +46,17 @@ def test_a_log_message_says_where_the_users_code_stands(graph: Graph) -> None:
     assert message.topics == ["/rosout", "/chatter"]
     assert message.header.stamp.to_sec() >= 1000
     assert message.header.seq >= 1
+
+
+def test_what_a_caller_has_deleted_is_not_kept_by_what_it_logged(graph: Graph) -> None:
+    class Thing:
+        """Something large."""
+
+    node, thing = graph.node("talker"), Thing()
+    gone = weakref.ref(thing)
+    node.logwarn("a word")
+    del thing
+    assert gone() is None
 
 
 def test_everything_arrives_on_rosout_agg(graph: Graph) -> None:
