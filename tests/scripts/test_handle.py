@@ -3,7 +3,6 @@
 import io
 import os
 import signal
-import subprocess
 
 import pytest
 
@@ -15,7 +14,7 @@ from rosmini.packages import Executable
 from rosmini.scripts import Console, NodeHandle, NodeSpec, ScriptHandle, ScriptSpec, StillRunning
 from rosmini.scripts.handle import shell_status
 
-from ..processes import PATIENCE
+from ..processes import PATIENCE, run
 from .conftest import nothing_left
 
 
@@ -436,4 +435,4 @@ def test_a_built_in_node_has_an_environment_of_its_own(runs):
     assert "LEVEL" not in os.environ
     handle.terminate()
     runs.run(0.5)
-    assert subprocess.run(["printenv", "LEVEL"], check=False, capture_output=True).stdout == b""
+    assert run(["printenv", "LEVEL"], text=True).stdout == ""
