@@ -100,7 +100,9 @@ class MasterProxy:
     the tool's name. ``why_over`` says why a registration need not be tried again.
     """
 
-    def __init__(self, host: MasterHost, caller_id: str, why_over: Callable[[], str | None] = lambda: None) -> None:
+    def __init__(
+        self, host: MasterHost, caller_id: str, why_over: Callable[[], str | None] = lambda: None
+    ) -> None:
         self._host = host
         self._caller_id = caller_id
         self._why_over = why_over

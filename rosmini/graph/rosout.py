@@ -196,7 +196,10 @@ def function_of(frame: FrameType) -> str:
     """Return what rospy calls the function of a frame: ``Class.method`` where there is a ``self``."""
     code = frame.f_code
     # Before Python 3.13 a frame whose locals were looked at holds what they were until it ends.
-    if "self" not in (*code.co_varnames, *code.co_cellvars, *code.co_freevars) or "self" not in frame.f_locals:
+    if (
+        "self" not in (*code.co_varnames, *code.co_cellvars, *code.co_freevars)
+        or "self" not in frame.f_locals
+    ):
         return code.co_name
     return f"{type(frame.f_locals['self']).__name__}.{code.co_name}"
 
