@@ -368,7 +368,7 @@ def _in_terminal(verb: str, check_words: Callable[[Sequence[str]], object]) -> C
         check_words(Remappings.other_arguments(list(own)))
         if "+" not in words:
             keys = ["--keys"] if verb == "play" and sys.stdin.isatty() else []
-            return rosrun.main(argparse.Namespace(package="rosbag", executable=verb, words=[*keys, *words]))
+            return rosrun.run_node("rosbag", verb, [*keys, *words])
         line = [f"rosbag/{verb}", *words, "--"]
         return run.main(argparse.Namespace(words=line, sim_time=False, wall_time=True, duration=None))
 

@@ -58,11 +58,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def main(args: argparse.Namespace) -> int:
     """Run it to its end; the exit status is its own."""
     from rosmini.launch.executables import ROSRUN
-    from rosmini.names import Remappings
-    from rosmini.net import connect
-    from rosmini.scripts import NodeSpec, ScriptSpec, find, run_scripts
 
-    words = tuple(args.words)
     program = _program(args.package, args.executable)
     if args.debug:
         print(
@@ -71,10 +67,20 @@ def main(args: argparse.Namespace) -> int:
         )
     if args.prefix:
         command = (program,) if program else (*ROSRUN, args.package, args.executable)
-        return _become((*shlex.split(args.prefix), *command, *words))
+        return _become((*shlex.split(args.prefix), *command, *args.words))
     if program:
-        return _become((program, *words))
-    found = find(f"{args.package}/{args.executable}")
+        return _become((program, *args.words))
+    return run_node(args.package, args.executable, args.words)
+
+
+def run_node(package: str, executable: str, arguments: Sequence[str]) -> int:
+    """Run a built-in node or a script, in this process, on the graph of the Master; return its status."""
+    from rosmini.names import Remappings
+    from rosmini.net import connect
+    from rosmini.scripts import NodeSpec, ScriptSpec, find, run_scripts
+
+    words = tuple(arguments)
+    found = find(f"{package}/{executable}")
     if found.path is not None:
         _warn_of_a_robot(found.path)
     if dashed := dashed_remapping(words):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import socket
 from collections.abc import Iterator
 from datetime import datetime
+from functools import partial
 from typing import Any
 from xmlrpc.client import Binary, Fault, ServerProxy
 
@@ -55,7 +56,8 @@ def test_it_answers_while_the_graph_stands_still_and_wakes_who_waits_in_it(io: I
         node = graph.node("waiting")
         with ServerProxy(f"http://127.0.0.1:{server.port}") as proxy:
             proxy.registerService("/far", "/far/start", "rosrpc://127.0.0.1:1", "http://127.0.0.1:2/")
-        node.wait_for_service("/far/start", 60)
+        registered = partial(node.master.find, "lookupService", "/far/start")
+        node.wait_for_master(lambda: registered() is not None, 60, "/far/start", lambda: "it is not there")
         server.close()
 
 
