@@ -96,6 +96,7 @@ def test_a_map_and_no_way_back_are_arguments(model):
         "turtlebot3_navigation", "turtlebot3_navigation.launch", map_file="/my.yaml", move_forward_only=True
     )
     assert plan.node("/map_server").args == "/my.yaml"
+    assert plan.node("/amcl").type == "amcl"
     assert plan.settings["/move_base/DWAPlannerROS/min_vel_x"].value == 0.0
     of_many = plan_of("turtlebot3_navigation", "multi_turtlebot3_navigation.launch", ns="tb3_7")
     assert of_many.settings["/tb3_7/move_base/DWAPlannerROS/min_vel_x"].value == -0.1

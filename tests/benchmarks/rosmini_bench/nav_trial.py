@@ -61,6 +61,7 @@ LAUNCH = """
     <arg name="model" value="{model}"/>
     <arg name="map_file" value="{map}"/>
     <arg name="careful" value="{careful}"/>
+    <arg name="localization" value="fake_localization"/>
   </include>
   {more}
 </launch>

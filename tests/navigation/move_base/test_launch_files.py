@@ -40,7 +40,8 @@ def send(graph, x, y, yaw=0.0):
 
 @pytest.mark.parametrize("model", ["waffle", "waffle_pi"])
 def test_each_model_has_its_files(graph, model):
-    where = {"map_file": str(assets_dir() / "ros/rosmini_sim/maps/house.yaml"), "model": model}
+    house = str(assets_dir() / "ros/rosmini_sim/maps/house.yaml")
+    where = {"map_file": house, "model": model, "localization": "fake_localization"}
     said = launch(
         graph,
         ("rosmini_sim", "simulator.launch", {"world": "house", "model": model}),

@@ -29,7 +29,7 @@ from rosmini.sim.shapes import Box
 from rosmini.sim.world import Obstacle
 from rosmini.time import Time
 
-MAP = str(assets_dir() / "ros/rosmini_sim/maps/room.yaml")
+ROOM = {"map_file": str(assets_dir() / "ros/rosmini_sim/maps/room.yaml"), "localization": "fake_localization"}
 IN_A_WALL = (2.44, 1.3, 0.0)
 
 
@@ -85,7 +85,7 @@ def start(graph, *, careful=False):
     console = {"stdout": said, "stderr": said}
     for package, file, arguments in (
         ("rosmini_sim", "simulator.launch", {"world": "room", "noise": "0"}),
-        ("turtlebot3_navigation", "turtlebot3_navigation.launch", {"map_file": MAP, "careful": careful}),
+        ("turtlebot3_navigation", "turtlebot3_navigation.launch", {**ROOM, "careful": careful}),
     ):
         roslaunch(package, file, graph=graph, console=console, model="burger", **arguments)
     graph.run(3.0)
