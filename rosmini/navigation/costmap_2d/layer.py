@@ -157,6 +157,11 @@ class Layer(Plugin, ABC):
     def on_initialize(self) -> None:
         """Read parameters, subscribe to topics."""
 
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """The topics, with their full names, from which it learns of the world."""
+        return ()
+
     @abstractmethod
     def update_bounds(self, robot: Pose, bounds: Bounds) -> None:
         """Let every cell that it will change be in `bounds`. `robot`: its pose in the costmap's frame."""

@@ -43,6 +43,11 @@ class StaticLayer(CostmapLayer, plugin="costmap_2d::StaticLayer"):
         self._listen()
         self._server = Server(self.node, LayerConfig, self._reconfigure, namespace=self.namespace)
 
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """The map's, and that of its updates if they are subscribed to."""
+        return tuple(each.topic for each in self._subscribers)
+
     def _listen(self) -> None:
         """Read the parameters; subscribe to the map, unless that is done, and wait for it."""
         node = self.node

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from rosmini.actionlib import SimpleActionServer
 from rosmini.dynamic_reconfigure import Server
 from rosmini.errors import ROSInterruptException, RosminiError
+from rosmini.graph.show import show
 from rosmini.msgs import message_class, service_class
 from rosmini.navigation.costmap_2d import FREE_SPACE
 from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
@@ -143,6 +144,10 @@ class MoveBase:
     def explain(self) -> Explanation:
         """Why the robot is where it is, in words, numbers and a picture."""
         return explain(self)
+
+    def show(self, **options: Any) -> Any:
+        """A picture of the parts that are loaded, and of what comes from other nodes, or goes to them."""
+        return show("move_base", self, **options)
 
     def _now(self) -> float:
         return self.node.clock.now_ns() * 1e-9

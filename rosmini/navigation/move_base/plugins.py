@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import ROSInterruptException
+from rosmini.graph import Subscriber
 from rosmini.navigation.nav_core import BaseGlobalPlanner, BaseLocalPlanner
 from rosmini.navigation.nav_core.plugin_files import create, short_name
 from rosmini.plugins import PluginError
@@ -75,6 +76,10 @@ class Planners:
             raise PluginError(
                 f"initialize() of the {which} planner {name} raised {type(error).__name__}: {error}"
             ) from error
+
+    def hears(self, which: str) -> frozenset[str]:
+        """The topics that a planner has subscribed to."""
+        return frozenset(each.topic for each in self._made[which] if isinstance(each, Subscriber))
 
     def _withdraw(self, which: str) -> None:
         """Withdraw what the planner advertised, so that the next one can have the same names."""

@@ -63,11 +63,15 @@ class MoveSlowAndClear(RecoveryBehavior, plugin="move_slow_and_clear/MoveSlowAnd
         self._start = (0.0, 0.0)
         self._timer: Timer | None = None
 
+    def costmaps(self) -> list[Any]:
+        """Both."""
+        return [self.global_costmap, self.local_costmap]
+
     def run_behavior(self) -> None:
         """Clear the square, and limit the speeds until the robot has left where it is now."""
         self.node.logwarn("Move slow and clear recovery behavior started.")
         try:
-            for costmap in (self.global_costmap, self.local_costmap):
+            for costmap in self.costmaps():
                 self._clear(costmap)
             self._start = self._here()
         except TransformMissing as error:

@@ -86,6 +86,10 @@ class RecoveryBehavior(Plugin, ABC):
         self.name, self.buffer = name, buffer
         self.global_costmap, self.local_costmap = global_costmap, local_costmap
 
+    def costmaps(self) -> list[Costmap2DROS]:
+        """The costmaps in which it clears something; none by default."""
+        return []
+
     @abstractmethod
     def run_behavior(self) -> None:
         """Do it. It may take its time: the caller's lane waits."""

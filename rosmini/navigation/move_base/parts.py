@@ -1,0 +1,120 @@
+"""What a running `move_base` is made of: the plugins that it has loaded, what they hear, and what passes between them.
+
+All of it is asked of the objects that are there, so a planner of one's own or a layer more is in it, too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from rosmini.graph import Publisher
+
+from .plugins import GLOBAL, LOCAL
+from .state_machine import State
+
+if TYPE_CHECKING:
+    from rosmini.navigation.costmap_2d.costmap_ros import Costmap2DROS
+
+    from .node import MoveBase
+
+STATES, TRANSFORMS, RECOVERIES = "states", "transforms", "recovery behaviors"
+"""Names of parts; the planners are called `global planner` and `local planner`, costmaps by their own names."""
+ACTION = "move_base/"
+"""The namespace of the action's topics."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the node: its unique name, lines that say what it is, and the topics that it hears and publishes."""
+
+    name: str
+    lines: tuple[str, ...]
+    hears: frozenset[str] = frozenset()
+    says: frozenset[str] = frozenset()
+
+
+class Link(NamedTuple):
+    """What one part gives another."""
+
+    source: str
+    target: str
+    what: str
+
+
+@dataclass(frozen=True)
+class Inside:
+    """All parts of a `move_base`, and what passes between them."""
+
+    parts: tuple[Part, ...]
+    links: tuple[Link, ...]
+
+
+def inside(move_base: MoveBase) -> Inside:
+    """The parts of a `move_base`, as it is now."""
+    costmaps = (move_base.global_costmap, move_base.local_costmap)
+    parts = [_states(move_base), Part(TRANSFORMS, (TRANSFORMS,), hears=frozenset(("/tf", "/tf_static")))]
+    links = [Link(STATES, _planner(GLOBAL), "goal"), Link(_planner(GLOBAL), _planner(LOCAL), "plan")]
+    for costmap in costmaps:
+        parts.append(_costmap(costmap))
+        links.append(Link(TRANSFORMS, costmap.name, "robot's pose"))
+    for which, planner in ((GLOBAL, move_base.planner), (LOCAL, move_base.controller)):
+        parts.append(_of_planner(move_base, which))
+        links += [
+            Link(each.name, _planner(which), "costs")
+            for each in costmaps
+            if getattr(planner, "costmap", None) is each
+        ]
+    if move_base.recovery_behaviors:
+        parts.append(_recoveries(move_base))
+        links.append(Link(STATES, RECOVERIES, "stuck"))
+        links += [Link(RECOVERIES, each.name, "clear") for each in costmaps if _is_cleared(move_base, each)]
+    return Inside(tuple(parts), tuple(links))
+
+
+def _planner(which: str) -> str:
+    return f"{which} planner"
+
+
+def _states(move_base: MoveBase) -> Part:
+    """What decides: it hears of goals, by the action and by clicks."""
+    resolve = move_base.node.resolve
+    action, simple = resolve(ACTION + "goal"), resolve("move_base_simple/goal")
+    lines = ("state machine", *(state.name for state in State))
+    return Part(STATES, lines, hears=frozenset((action, simple)))
+
+
+def _of_planner(move_base: MoveBase, which: str) -> Part:
+    """A planner; what the local one finds goes out on `cmd_vel`."""
+    planners = move_base.planners
+    says = frozenset((move_base.node.resolve("cmd_vel"),)) if which == LOCAL else frozenset()
+    return Part(
+        _planner(which), (_planner(which), planners.names[which]), hears=planners.hears(which), says=says
+    )
+
+
+def _costmap(costmap: Costmap2DROS) -> Part:
+    """A costmap with its layers, in the order in which they write, and what they hear."""
+    grid = costmap.grid
+    size = f"{grid.width} x {grid.height} cells, frame {costmap.global_frame}"
+    kinds = [type(layer).plugin_name.replace("/", "::") or type(layer).__name__ for layer in costmap.layers]
+    rows = [f"{layer.name}: {kind}" for layer, kind in zip(costmap.layers, kinds, strict=True)]
+    hears = frozenset(topic for layer in costmap.layers for topic in layer.topics)
+    return Part(costmap.name, (costmap.name, size, *rows), hears=hears)
+
+
+def _recoveries(move_base: MoveBase) -> Part:
+    """All of them in one part, in their order."""
+    rows = [f"{number}. {each.name}" for number, each in enumerate(move_base.recovery_behaviors, 1)]
+    says = {
+        value.topic
+        for _, behavior in move_base.recovery_behaviors
+        for value in vars(behavior).values()
+        if isinstance(value, Publisher)
+    }
+    return Part(RECOVERIES, (RECOVERIES, *rows), says=frozenset(says))
+
+
+def _is_cleared(move_base: MoveBase, costmap: Costmap2DROS) -> bool:
+    """Whether a recovery behaviour says that it clears this costmap."""
+    return any(costmap in behavior.costmaps() for _, behavior in move_base.recovery_behaviors)

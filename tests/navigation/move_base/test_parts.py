@@ -1,0 +1,86 @@
+"""What a running `move_base` is made of."""
+
+import io
+
+import pytest
+
+from rosmini.graph import Graph
+from rosmini.launch import roslaunch
+from rosmini.navigation.move_base.parts import RECOVERIES, STATES, TRANSFORMS, Link, inside
+from rosmini.navigation.move_base.plugins import GLOBAL
+from rosmini.navigation.nav_core import BaseGlobalPlanner
+
+
+class Blind(BaseGlobalPlanner, plugin="test_parts/Blind"):
+    """Needs no costmap."""
+
+    def initialize(self, name, costmap):
+        self.name = name
+
+    def make_plan(self, start, goal):
+        return [start, goal]
+
+
+@pytest.fixture(scope="module")
+def move_base():
+    said = io.StringIO()
+    with Graph() as graph:
+        console = {"stdout": said, "stderr": said}
+        roslaunch("rosmini_sim", "navigation.launch", graph=graph, console=console, world="room", noise="0")
+        graph.run(3.0)
+        yield graph.nodes["/move_base"].program
+
+
+def parts(move_base):
+    return {part.name: part for part in inside(move_base).parts}
+
+
+def test_layers_and_planners_say_what_they_hear(move_base):
+    found = parts(move_base)
+    assert {name: part.hears for name, part in found.items()} == {
+        STATES: {"/move_base/goal", "/move_base_simple/goal"},
+        TRANSFORMS: {"/tf", "/tf_static"},
+        "global_costmap": {"/map", "/scan"},
+        "local_costmap": {"/scan"},
+        "global planner": set(),
+        "local planner": {"/odom"},
+        RECOVERIES: set(),
+    }
+    heard = frozenset().union(*(part.hears for part in found.values()))
+    assert heard <= set(move_base.node.subscriptions)
+    assert {name for name, part in found.items() if part.says == {"/cmd_vel"}} == {
+        "local planner",
+        RECOVERIES,
+    }
+
+
+def test_the_lines_name_what_is_loaded(move_base):
+    found = parts(move_base)
+    assert found["global planner"].lines == ("global planner", "navfn/NavfnROS")
+    assert found["local_costmap"].lines[1:] == (
+        "60 x 60 cells, frame odom",
+        "obstacle_layer: costmap_2d::ObstacleLayer",
+        "inflation_layer: costmap_2d::InflationLayer",
+    )
+    assert found[RECOVERIES].lines[1:3] == ("1. conservative_reset", "2. rotate_recovery")
+
+
+def test_another_planner_takes_the_place_of_the_old_one(move_base):
+    costs = Link("global_costmap", "global planner", "costs")
+    assert costs in inside(move_base).links
+    move_base.planners.load(GLOBAL, "test_parts/Blind")
+    try:
+        assert parts(move_base)["global planner"].lines[1] == "test_parts/Blind"
+        assert costs not in inside(move_base).links
+    finally:
+        move_base.planners.load(GLOBAL, "navfn/NavfnROS")
+
+
+def test_recoveries_are_there_if_there_are_any(move_base, monkeypatch):
+    links = set(inside(move_base).links)
+    assert {Link(RECOVERIES, each, "clear") for each in ("global_costmap", "local_costmap")} < links
+    turns = [each for each in move_base.recovery_behaviors if each.name == "rotate_recovery"]
+    monkeypatch.setattr(move_base, "recovery_behaviors", turns)
+    assert not [link for link in inside(move_base).links if link.what == "clear"]
+    monkeypatch.setattr(move_base, "recovery_behaviors", [])
+    assert RECOVERIES not in parts(move_base)
