@@ -40,6 +40,10 @@ SILENCE = 15.0
 """After so long without a scan there is a warning [s]."""
 BACK_NS = 1_000_000_000
 """Scans of several lasers may come out of order by less than this; more is a jump back in time."""
+STRAIGHT = 1e-3
+"""A map is turned if its origin's heading is larger [rad]."""
+LEAP = 5.0
+"""Farther no robot drives between two updates [m]."""
 DIAGNOSED = 1.0
 """Between two messages on `/diagnostics` [s]."""
 PLACES = ((0, 0), (0, 1), (1, 0), (1, 1))
@@ -182,10 +186,16 @@ class Amcl:
                 "topics"
             )
         try:
-            self.localizer.set_map(GridMap.from_message(grid))
+            taken = GridMap.from_message(grid)
+            self.localizer.set_map(taken)
         except RosminiError as error:
             self.node.logerr(f"the map cannot be used, and the one before stays: {error}")
             return False
+        if abs(taken.origin[2]) > STRAIGHT:
+            self.node.logwarn(
+                f"the map's origin is turned by {math.degrees(taken.origin[2]):.1f} degrees, and amcl takes it as if it "
+                "were not: scans will not fit; give it a map whose origin has the yaw 0"
+            )
         first, self._map = self._map is None, grid
         self._lasers = {}
         if first:
@@ -230,10 +240,10 @@ class Amcl:
                 f'"{p.global_frame_id}"'
             )
             return
-        pose = planar_pose(message.pose.pose)
-        covariance = planar_covariance(message.pose.covariance)
-        if not (all(map(math.isfinite, pose)) and np.isfinite(covariance).all()):
-            self.node.logwarn(f"ignoring an initial pose with numbers that are not finite: {pose}")
+        try:
+            pose, covariance = checked_pose(message.pose)
+        except RosminiError as error:
+            self.node.logwarn(f"ignoring an initial pose: {error}")
             return
         pose = compose(pose, self._motion_since(message.header.stamp))
         self.node.loginfo(
@@ -286,6 +296,7 @@ class Amcl:
             self.node.logerr(error, throttle=5.0)
             return
         self._notice_jump(stamp)
+        self._warn_of_leap(odometry)
         news = self.localizer.update(frame, scan, odometry)
         if news is not None:
             self._publish_cloud(stamp)
@@ -309,6 +320,15 @@ class Amcl:
             )
             self.localizer.initialize(pose, self._start_covariance())
 
+    def _warn_of_leap(self, odometry: Pose) -> None:
+        before = self.localizer.odometry
+        if before is not None and math.dist(before[:2], odometry[:2]) > LEAP:
+            self.node.logwarn(
+                f"the odometry jumps from ({before[0]:.2f}, {before[1]:.2f}) to ({odometry[0]:.2f}, {odometry[1]:.2f}), "
+                f"over {LEAP:.0f} m between two scans: the particles go with it; give an initial pose if the robot "
+                "did not"
+            )
+
     def _laser(self, frame: str) -> tuple[Pose, bool]:
         """Where a laser is on the robot, and whether it is upside down."""
         if frame not in self._lasers:
@@ -328,10 +348,11 @@ class Amcl:
         """A scan, as far as it can be used."""
         p = self.parameters
         ranges = np.asarray(message.ranges, dtype=np.float64)
-        if len(ranges) < 2 or not math.isfinite(message.angle_increment) or message.angle_increment == 0:
+        known = all(map(math.isfinite, (message.angle_min, message.angle_increment, message.range_min)))
+        if len(ranges) < 2 or not known or message.angle_increment == 0:
             raise RosminiError(
-                f"a scan of {message.header.frame_id} has {len(ranges)} ranges and the angle_increment "
-                f"{message.angle_increment}: it is left out"
+                f"a scan of {message.header.frame_id} has {len(ranges)} ranges, the angle_min {message.angle_min}, the "
+                f"angle_increment {message.angle_increment} and the range_min {message.range_min}: it is left out"
             )
         top = message.range_max if p.laser_max_range <= 0 else min(message.range_max, p.laser_max_range)
         low = message.range_min if p.laser_min_range <= 0 else max(message.range_min, p.laser_min_range)
@@ -407,6 +428,16 @@ class Amcl:
         }
         for name, value in values.items():
             self.node.set_param(f"~initial_{name}", float(value))
+
+
+def checked_pose(posed: Any) -> tuple[Pose, NDArray[np.float64]]:
+    """Pose and covariance (3, 3) of a `geometry_msgs/PoseWithCovariance`. Raises `RosminiError` for what is neither."""
+    pose, covariance = planar_pose(posed.pose), planar_covariance(posed.covariance)
+    if not (all(map(math.isfinite, pose)) and np.isfinite(covariance).all()):
+        raise RosminiError(f"it has numbers that are not finite: {pose}")
+    if (covariance.diagonal() < 0).any():
+        raise RosminiError(f"it has a variance below 0: {', '.join(f'{v:g}' for v in covariance.diagonal())}")
+    return pose, covariance
 
 
 def planar_covariance(values: Any) -> NDArray[np.float64]:

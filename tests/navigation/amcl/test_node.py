@@ -216,6 +216,41 @@ def test_initial_poses_that_are_of_no_use(graph):
     assert amcl.localizer.filter.mean().mean[:2] == pytest.approx((2.0, 2.0), abs=0.05)
 
 
+def test_initial_poses_that_are_no_poses(graph):
+    """What `rostopic pub` sends with only a position has the quaternion (0, 0, 0, 0)."""
+    robot, amcl = ready(graph)
+    before = amcl.localizer.filter.mean().mean
+    message = Posed()
+    message.header.frame_id, message.pose.pose.position.x = "map", 3.0
+    robot.initial.publish(message)
+    robot.say(3.0, 1.0, variance=-1.0)
+    assert robot.heard("ignoring an initial pose: x=0.0, y=0.0, z=0.0, w=0.0 is no rotation")
+    assert robot.heard("ignoring an initial pose: it has a variance below 0: -1, -1, -1")
+    assert amcl.localizer.filter.mean().mean == before
+    request = {"map": hall(resolution=0.1).to_message("map", robot.node.now()), "initial_pose": Posed()}
+    assert call(graph, "/set_map", "nav_msgs/SetMap", **request).success
+    assert amcl.localizer.filter.mean().mean == pytest.approx(before, abs=0.1)
+
+
+def test_an_odometry_that_leaps(graph):
+    robot, _ = ready(graph)
+    robot.drive(2)
+    assert not robot.heard("the odometry jumps")
+    robot.odometry = compose(robot.odometry, (30.0, 0.0, 0.0))
+    robot.tell()
+    robot.scan()
+    graph.run(0.2)
+    assert robot.heard("over 5 m between two scans")
+
+
+def test_a_map_whose_origin_is_turned(graph):
+    robot, _ = ready(graph)
+    assert not robot.heard("the map's origin is turned")
+    robot.maps.publish(hall(origin=(0.0, 0.0, 0.5)).to_message("map", robot.node.now()))
+    graph.run(0.1)
+    assert robot.heard("the map's origin is turned by 28.6 degrees")
+
+
 def test_an_update_after_an_initial_pose_can_be_forced(graph):
     robot, amcl = ready(graph, "_force_update_after_initialpose:=true")
     robot.drive(2)
@@ -385,8 +420,9 @@ def test_scans_that_are_none(graph):
     robot, amcl = ready(graph)
     robot.step(ranges=[])
     assert robot.heard("has 0 ranges")
-    robot.step(range_max=math.nan)
-    assert amcl.localizer.odometry is None
+    for name in ("range_max", "range_min", "angle_min", "angle_increment"):
+        robot.step(**{name: math.nan})
+        assert amcl.localizer.odometry is None, name
     robot.step(ranges=np.full(45, 2.0), angle_increment=math.tau / 45)
     assert amcl.localizer.odometry is not None
 
