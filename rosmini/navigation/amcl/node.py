@@ -193,8 +193,8 @@ class Amcl:
             return False
         if abs(taken.origin[2]) > STRAIGHT:
             self.node.logwarn(
-                f"the map's origin is turned by {math.degrees(taken.origin[2]):.1f} degrees, and amcl takes it as if it "
-                "were not: scans will not fit; give it a map whose origin has the yaw 0"
+                f"the map's origin is turned by {math.degrees(taken.origin[2]):.1f} degrees, and amcl takes it as if "
+                "it were not: scans will not fit; give it a map whose origin has the yaw 0"
             )
         first, self._map = self._map is None, grid
         self._lasers = {}
@@ -324,9 +324,9 @@ class Amcl:
         before = self.localizer.odometry
         if before is not None and math.dist(before[:2], odometry[:2]) > LEAP:
             self.node.logwarn(
-                f"the odometry jumps from ({before[0]:.2f}, {before[1]:.2f}) to ({odometry[0]:.2f}, {odometry[1]:.2f}), "
-                f"over {LEAP:.0f} m between two scans: the particles go with it; give an initial pose if the robot "
-                "did not"
+                f"the odometry jumps from ({before[0]:.2f}, {before[1]:.2f}) to ({odometry[0]:.2f}, "
+                f"{odometry[1]:.2f}), over {LEAP:.0f} m between two scans: the particles go with it; give an initial "
+                "pose if the robot did not"
             )
 
     def _laser(self, frame: str) -> tuple[Pose, bool]:

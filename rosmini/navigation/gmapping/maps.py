@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rosmini.errors import RosminiError
 from rosmini.geometry.machine_code import machine_code
 from rosmini.navigation.kernels import kernel
 
@@ -24,6 +25,8 @@ SIDE = 32
 """Cells along the side of a patch."""
 FULL = 0.1
 """A cell is full if more than this share of its visits were ends."""
+LARGEST = 1 << 20
+"""Patches of a map: 1.6 km x 1.6 km with cells of 5 cm."""
 NONE = 0
 """In a table: the patch that stays empty, where no beam ever came."""
 
@@ -85,8 +88,15 @@ class SharedMaps:
     # -- room ----------------------------------------------------------------------------------------------------
 
     def cover(self, left: float, bottom: float, right: float, top: float) -> None:
-        """Let all maps reach over this box [m], and a patch farther, so that what is around a cell is a cell."""
+        """Let all maps reach over this box [m], and a patch farther, so that what is around a cell is a cell.
+
+        Raises `RosminiError` for a box that is none, and for maps that would be too large; then they stay as they were.
+        """
         block = SIDE * self.resolution
+        if not np.isfinite((left, bottom, right, top)).all():
+            raise RosminiError(
+                f"a scan seen from ({left}, {bottom}) to ({right}, {top}) m is nowhere on a map"
+            )
         x0, y0 = int(np.floor(left / block)) - 1, int(np.floor(bottom / block)) - 1
         x1, y1 = int(np.floor(right / block)) + 2, int(np.floor(top / block)) + 2
         _, rows, columns = self.tables.shape
@@ -95,6 +105,12 @@ class SharedMaps:
             here_x, here_y = x0, y0
         west, south = max(0, here_x - x0), max(0, here_y - y0)
         east, north = max(0, x1 - here_x - columns), max(0, y1 - here_y - rows)
+        if (rows + south + north) * (columns + west + east) > LARGEST:
+            raise RosminiError(
+                f"maps would have to reach from ({left:.4g}, {bottom:.4g}) to ({right:.4g}, {top:.4g}) m, too: with "
+                f"cells of {self.resolution} m more than {LARGEST * SIDE * SIDE:.1g} of them; look for an odometry "
+                "that jumps, or for a maxUrange that is too long"
+            )
         if west or south or east or north or not rows:
             self.tables = np.pad(self.tables, ((0, 0), (south, north), (west, east)), constant_values=NONE)
             self.low = ((here_x - west) * SIDE, (here_y - south) * SIDE)

@@ -6,6 +6,7 @@ odometry's frame; `dynamic_map` returns the map. A scan waits until its transfor
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -68,6 +69,7 @@ class SlamGmapping:
             return
         p, stamp = self.parameters, message.header.stamp
         try:
+            check(message, p.maxRange)
             if self.slam is None:
                 self.slam = self._begin(message)
             odometry = planar_transform(
@@ -91,11 +93,6 @@ class SlamGmapping:
     def _begin(self, message: Any) -> GridSlam:
         """Learn from the first scan where the laser is, and how far it sees."""
         p, frame = self.parameters, message.header.frame_id.lstrip("/")
-        if len(message.ranges) < 2 or not message.angle_increment or not message.range_max > 0:
-            raise RosminiError(
-                f"a scan of {frame} has {len(message.ranges)} ranges, the angle_increment {message.angle_increment} "
-                f"and the range_max {message.range_max}: no map can be made of it"
-            )
         found = self.buffer.lookup_transform(p.base_frame, frame, Time(0), PATIENCE)
         q = found.transform.rotation
         up = 1 - 2 * (q.x * q.x + q.y * q.y)
@@ -134,7 +131,11 @@ class SlamGmapping:
                 f"the odometry jumps to x {odometry[0]:.2f} m, y {odometry[1]:.2f} m, over {JUMP:.0f} m from where it "
                 "was: the map goes on from there, and is likely to be bent"
             )
-        report = slam.process(ranges, bearings, odometry, message.header.stamp.to_sec())
+        try:
+            report = slam.process(ranges, bearings, odometry, message.header.stamp.to_sec())
+        except RosminiError as error:
+            self.node.logerr(error, throttle=5.0)
+            return
         if report is None:
             return
         x, y, yaw = slam.poses[slam.best]
@@ -178,3 +179,20 @@ class SlamGmapping:
             return
         self._sent = when
         self.broadcaster.send_rigid(p.map_frame, p.odom_frame, from_yaw(*self._correction), when)
+
+
+def check(message: Any, longest: float | None) -> None:
+    """Raises `RosminiError` for a scan that says nothing of where its beams ended; `longest` is ~maxRange."""
+    reach = message.range_max if longest is None else min(message.range_max, longest)
+    numbers = message.angle_min, message.angle_increment, message.range_min, reach
+    if (
+        len(message.ranges) < 2
+        or not all(map(math.isfinite, numbers))
+        or message.angle_increment == 0
+        or reach <= 0
+    ):
+        raise RosminiError(
+            f"a scan of {message.header.frame_id} has {len(message.ranges)} ranges, the angle_min {message.angle_min}, "
+            f"the angle_increment {message.angle_increment} and ranges from {message.range_min} to "
+            f"{message.range_max}: no map can be made of it"
+        )

@@ -152,6 +152,35 @@ def test_scans_that_cannot_be(graph):
     laser.scan([1.0] * 8, header=message_class("std_msgs/Header")(frame_id="laser", stamp=first))
 
 
+@pytest.mark.parametrize("name", ["angle_min", "angle_increment", "range_min", "range_max"])
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_scans_whose_numbers_are_none(graph, name, value):
+    """Machine code that counts cells to nowhere ended the whole process."""
+    laser = Laser(graph)
+    laser.scan([1.0] * 8, **{name: value})
+    assert laser.mapper.slam is None
+    assert laser.said("no map can be made of it")
+    laser.scan([1.0] * 8)
+    laser.scan([1.0] * 8, **{name: value})
+    assert laser.mapper.slam.processed == 1
+
+
+def test_a_laser_without_a_range_max(graph):
+    """Some drivers say inf; then ~maxRange has to be set."""
+    graph.master.setParam("/test", "/gmapping/maxRange", 3.0)
+    laser = Laser(graph)
+    laser.scan([1.0] * 7 + [9.0], range_max=math.inf)
+    assert laser.mapper.slam.processed == 1
+
+
+def test_an_odometry_that_jumps_beyond_all_maps(graph):
+    laser = Laser(graph)
+    laser.scan([1.0] * 8)
+    laser.tf.send_rigid("odom", "base_link", from_yaw(1e8, 0.0, 0.0))
+    laser.scan([1.0] * 8, odom=False)
+    assert laser.said("maps would have to reach")
+
+
 def test_bounds_that_bound_nothing(graph):
     with pytest.raises(ParameterError, match=r"xmin 3.0 to xmax -3.0"):
         rosrun("gmapping", "slam_gmapping", "_xmin:=3.0", "_xmax:=-3.0", graph=graph).instance()
