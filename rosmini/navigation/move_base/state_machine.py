@@ -13,6 +13,8 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
@@ -252,3 +254,29 @@ class StateMachine:
         self._patience(now)
         self.recovery_index += 1
         self._enter(now, Event.RECOVERED, State.PLANNING)
+
+
+def recovery_steps(names: Sequence[str]) -> list[tuple[str, str, str]]:
+    """What becomes of a robot that cannot plan: (from, what happens, to), with recovery behaviours of these names.
+
+    The machine itself is run for that: without any plan until it gives up, and after each behaviour with one.
+    """
+    machine, limits = StateMachine(Limits(), len(names)), Limits()
+    found, before, now = [], "navigate", 0.0
+    machine.begin(now)
+    while True:
+        now += 2 * limits.planner_patience
+        machine.plan_failed(now)
+        decision = machine.step()
+        if not isinstance(decision, Recover):
+            return [*found, (before, "stuck", "abort")]
+        row = f"{decision.number + 1}. {names[decision.number]}"
+        found.append((before, "stuck", row))
+        machine.recovered(now)
+        machine.step()  # asks for a plan
+        freed = deepcopy(machine)
+        freed.plan_found(now)
+        freed.plan_taken()
+        if isinstance(freed.step(), Follow):
+            found.append((row, "free", "navigate"))
+        before = row
