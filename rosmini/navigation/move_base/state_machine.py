@@ -262,7 +262,8 @@ def recovery_steps(names: Sequence[str]) -> list[tuple[str, str, str]]:
     The machine itself is run for that: without any plan until it gives up, and after each behaviour with one.
     """
     machine, limits = StateMachine(Limits(), len(names)), Limits()
-    found, before, now = [], "navigate", 0.0
+    found: list[tuple[str, str, str]] = []
+    before, now = "navigate", 0.0
     machine.begin(now)
     while True:
         now += 2 * limits.planner_patience
