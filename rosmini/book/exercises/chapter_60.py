@@ -24,11 +24,12 @@ def frog(answer: Any) -> Any:
         words = shlex.split(line)
     except ValueError as error:
         raise Wrong(f"A shell cannot read it: {error}.", "quotes come in pairs") from error
+    space, words = _namespace(words)
     words = words[words[:1] == ["rosmini"] :]  # the same command, in a terminal of rosmini
     expect(words[:3] == START, f"The command begins with {' '.join(START)}.", "then come the words with :=")
     with TurtleTrial(None) as trial:
         try:
-            trial.open(*words[3:])
+            trial.open(*words[3:], *space)
         except RosminiError as error:
             raise Wrong(
                 f"It does not start: {error}", "each word has := in it, and nothing around that"
@@ -44,6 +45,14 @@ def frog(answer: Any) -> Any:
             red == 0, f"The red part of the background is {red}, not 0.", "_background_r:=0, one underscore"
         )
         return trial.view()
+
+
+def _namespace(words: list[str]) -> tuple[list[str], list[str]]:
+    """A namespace that the shell sets for one command, `ROS_NAMESPACE=/pond`, as ROS's own word; and what follows."""
+    name, sign, value = words[0].partition("=") if words else ("", "", "")
+    if name != "ROS_NAMESPACE" or not sign:
+        return [], words
+    return [f"__ns:={value}"], words[1:]
 
 
 # ---- 60.2: a census ----

@@ -28,6 +28,11 @@ def _exported(text: str) -> dict[str, str]:
     for line, words in _commands(text):
         if words[0] in ("source", "."):  # such as that of a workspace
             continue
+        expect(
+            words[0] != "echo",
+            f"{line!r} would write a line into the file, or print it.",
+            "here the lines themselves are wanted, as they are in the file",
+        )
         exports = words[0] == "export"
         expect(exports or "=" in words[0][1:], f"{line!r} does not export anything.", "export NAME=VALUE")
         for word in words[exports:]:
@@ -96,7 +101,7 @@ def causes(answer: Any) -> None:
         said = answer.get(person)
         expect(
             isinstance(said, str) and said.strip().lower() == right,
-            f"{said!r} is not what is wrong with {person}'s.",
+            f"{person}'s trouble is not {said!r}.",
             hint,
         )
 

@@ -42,6 +42,7 @@ def test_a_namespace_keeps_the_windows_apart(cells):
     [
         "%rosrun turtlesim turtlesim_node __ns:=pond __name:=frog _background_r:=0",
         "$ rosmini rosrun turtlesim turtlesim_node \\\n    __name:='frog' __ns:=/pond _background_r:=0 &",
+        "ROS_NAMESPACE=/pond rosrun turtlesim turtlesim_node __name:=frog _background_r:=0",
     ],
 )
 def test_a_command_is_right_as_it_is_copied(line):

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import re
+import struct
 from collections.abc import Iterator
+from typing import Any, cast
+from xmlrpc.client import ServerProxy
 
 import pytest
 
 from book.tools import notebooks
+from rosmini.book.checks import Status, find
 from rosmini.errors import TransportInitError
 from rosmini.graph import Graph
 from rosmini.msgs.sensor_msgs.msg import LaserScan, Range
@@ -56,3 +60,21 @@ def test_the_refusals_of_the_exercise_are_what_is_answered(graph: Graph) -> None
         for piece in error.removesuffix(".").split("..."):
             assert piece in str(caught.value)
     assert Range._md5sum in rows[2][1]
+
+
+def test_a_tuple_of_names_is_right_too() -> None:
+    assert find("64.2").grade(("topic", "md5sum", "md5sum")).status is Status.RIGHT
+
+
+def test_who_asks_once_for_all_bytes_is_told_to_ask_again() -> None:
+    def hear(master: Any, connect: Any, topic: str, kind: str, md5sum: str) -> bytes:
+        uri = master.registerSubscriber("/ear", topic, kind, "http://localhost:9/")[2][0]
+        with ServerProxy(uri) as node:
+            _, host, port = cast("Any", node.requestTopic("/ear", topic, [["TCPROS"]]))[2]
+        sock = connect((host, port))
+        fields = f"callerid=/ear|topic={topic}|type={kind}|md5sum={md5sum}".encode().split(b"|")
+        body = b"".join(struct.pack("<I", len(field)) + field for field in fields)
+        sock.sendall(struct.pack("<I", len(body)) + body)
+        return bytes(sock.recv(struct.unpack("<I", sock.recv(4))[0]))
+
+    assert "recv(n) may return fewer than n bytes" in find("64.3").grade(hear).text

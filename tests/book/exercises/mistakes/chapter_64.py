@@ -93,7 +93,7 @@ MISTAKES = {
         lambda: ["topic", "md5sum", "type"],
         lambda: ["callerid", "md5sum", "md5sum"],
         lambda: ["topic", "md5sum"],
-        lambda: ("topic", "md5sum", "md5sum"),
+        lambda: {"topic", "md5sum", "type"},
     ],
     "64.3": [
         _hear(),
