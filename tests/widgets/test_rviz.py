@@ -91,6 +91,17 @@ def test_a_point_is_taken_of_what_is_drawn_and_not_of_empty_ground(graph, window
     assert (found.point.x, found.point.y) == pytest.approx((1.5, 2.5), abs=0.02)
 
 
+def test_what_a_hand_takes_hold_of_follows_it_however_often_it_tells(graph, window):
+    window.set("tool/Move Camera")
+    start = np.array(window._look.pixels(np.array([[1.0, 3.0, 0.0]]))[0])
+    window.set("view", f"press {start[0]:.1f} {start[1]:.1f}")
+    for part in (0.25, 0.5, 0.5, 0.8):
+        window.set("view", f"move {start[0] + part * 100:.1f} {start[1]:.1f}")
+    window.set("view", f"release {start[0] + 100:.1f} {start[1]:.1f}")
+    window.parts()
+    assert window._look.pixels(np.array([[1.0, 3.0, 0.0]]))[0] == pytest.approx(start + (100, 0), abs=0.3)
+
+
 def test_a_hand_drags_an_interactive_marker(graph, window):
     server = InteractiveMarkerServer(graph.node("basic_controls"), "basic_controls")
     marker = InteractiveMarker(name="box", scale=1.0)
@@ -126,9 +137,10 @@ def test_keys_do_what_a_hand_does(graph, window):
 def test_the_camera_follows_a_drag_and_zooms_around(graph, window):
     before = pixel(window, 2.0, 2.0)
     window.set("tool/Move Camera")
-    window.set("view", f"press {pixel(window, 2.0, 2.0)}")
-    window.set("view", f"move {pixel(window, 3.0, 2.0)}")
-    window.set("view", f"release {pixel(window, 3.0, 2.0)}")
+    end = pixel(window, 3.0, 2.0)
+    window.set("view", f"press {before}")
+    window.set("view", f"move {end}")
+    window.set("view", f"release {end}")
     moved = [
         float(a) - float(b) for a, b in zip(pixel(window, 2.0, 2.0).split(), before.split(), strict=True)
     ]

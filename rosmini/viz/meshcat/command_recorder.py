@@ -59,6 +59,11 @@ class Recorder:
         """Set a property of three.js with a capital in its name: meshcat's own `set_property` takes them away."""
         self._keep({"type": "set_property", "path": path, "property": name, "value": value})
 
+    def take(self) -> list[bytes]:
+        """What was sent since the last time."""
+        sent, self.commands, self._names = self.commands, [], {}
+        return sent
+
     def open(self) -> None:
         """Do nothing: the scene is shown by its view."""
 

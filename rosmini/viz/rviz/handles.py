@@ -15,6 +15,7 @@ from rosmini.tf.transformations import quaternion_from_matrix
 
 from .context import Context
 from .display import Level
+from .gaze import Gaze, depths, on_axis, on_plane
 from .marker_checks import Marker, check
 from .marker_shapes import marker_primitives
 from .primitives import DisplayError, Floats, Mesh, Primitive
@@ -115,44 +116,62 @@ class Handle:
         size = abs(self.message.scale)
         yield from axes(self.frame @ self.pose, size, 0.05 * size)
 
-    def under(self, at: Floats, context: Context) -> list[tuple[float, Any]]:
-        """The controls that a hand at a point (3,) of the fixed frame, from above, is on: their heights, and they."""
+    def under(self, gaze: Gaze, context: Context) -> list[tuple[float, Any]]:
+        """The controls that a line of sight of the fixed frame meets: how far away [m], and they."""
         found = []
         for control in self.message.controls:
             if control.interaction_mode == Control.NONE:
                 continue
-            heights = [
-                height
+            away = [
+                depth
                 for shape in self.shapes(control, context)
                 if isinstance(shape, Mesh)
-                for height in _heights(shape, at)
+                for depth in depths(shape, gaze, _EDGE)
             ]
-            if heights:
-                found.append((max(heights), control))
+            if away:
+                found.append((min(away), control))
         return found
 
 
 class Grip:
-    """A hand on a control: from the point (3,) of the fixed frame where it was pressed, it moves the marker."""
+    """A hand on a control: from the point (3,) of the fixed frame where it was pressed, it moves the marker.
 
-    def __init__(self, handle: Handle, control: Any, at: Floats) -> None:
+    With a line of sight the hand is where that passes the control's axis or its plane, as RViz's mouse is.
+    """
+
+    def __init__(self, handle: Handle, control: Any, at: Floats, gaze: Gaze | None = None) -> None:
         self.handle = handle
         self.control = control
         self._start = handle.pose.copy()
-        self._grab = self._local(at)
         self._axis = handle.axis(control)
+        self._grab = self._local(self.cursor(at, gaze))
         self._last = self._grab
+
+    def cursor(self, at: Floats, gaze: Gaze | None) -> Floats:
+        """Where the hand is in space (3,), in the fixed frame; `at` where its line of sight does not say."""
+        if gaze is None:
+            return at
+        origin = (self.handle.frame @ self._start)[:3, 3]
+        axis = self.handle.frame[:3, :3] @ self._axis
+        mode = self.control.interaction_mode
+        if mode == Control.MOVE_AXIS:
+            found = on_axis(gaze, origin, axis)
+        else:
+            is_free = mode in (Control.MOVE_3D, Control.MOVE_ROTATE_3D)
+            found = on_plane(gaze, origin, gaze[1] if is_free else axis)
+        return at if found is None else found
 
     def _local(self, at: Floats) -> Floats:
         found: Floats = np.linalg.inv(self.handle.frame)[:3] @ np.append(at, 1.0)
         return found
 
-    def move(self, at: Floats) -> bool:
-        """Follow the hand to a point (3,) of the fixed frame, as the control's mode says; return whether it moved.
+    def move(self, at: Floats, gaze: Gaze | None = None) -> bool:
+        """Follow the hand to a point (3,) of the fixed frame, or to where it is seen; return whether the marker moved.
 
         As RViz moves markers by a cursor in space: along the axis, in the plane across it, around it, or both.
         """
-        mode, to, pose = self.control.interaction_mode, self._local(at), self._start.copy()
+        to, pose = self._local(self.cursor(at, gaze)), self._start.copy()
+        mode = self.control.interaction_mode
         shift = to - self._grab
         if mode == Control.MOVE_AXIS:
             pose[:3, 3] += shift @ self._axis * self._axis
@@ -202,18 +221,3 @@ def pose_message(pose: Floats) -> Any:
     at.x, at.y, at.z = (float(each) for each in pose[:3, 3])
     turned.x, turned.y, turned.z, turned.w = (float(each) for each in quaternion_from_matrix(pose))
     return made
-
-
-def _heights(mesh: Mesh, at: Floats) -> list[float]:
-    """How high the faces are at a point, seen from above."""
-    triangles = mesh.placed[mesh.faces]
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    u, v, w = b[:, :2] - a[:, :2], c[:, :2] - a[:, :2], at[:2] - a[:, :2]
-    area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-    flat = np.abs(area) > 1e-12
-    safe = np.where(flat, area, 1.0)
-    s = (w[:, 0] * v[:, 1] - w[:, 1] * v[:, 0]) / safe
-    t = (u[:, 0] * w[:, 1] - u[:, 1] * w[:, 0]) / safe
-    inside = flat & (s >= -_EDGE) & (t >= -_EDGE) & (s + t <= 1 + _EDGE)
-    heights = a[:, 2] + s * (b[:, 2] - a[:, 2]) + t * (c[:, 2] - a[:, 2])
-    return [float(each) for each in heights[inside]]

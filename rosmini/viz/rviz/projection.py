@@ -1,6 +1,7 @@
 """From the scene to a picture without perspective: straight down for maps, or from the side that a view looks from.
 
-Without perspective a map stays a parallelogram, which SVG can draw; so a still shows what the turnable view shows.
+Without perspective a map stays a parallelogram, which SVG can draw; so a still shows what the turnable view shows. With
+perspective is what a page shows in three dimensions: `Perspective` tells what a hand there is on.
 """
 
 from __future__ import annotations
@@ -8,11 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from rosmini.viz.rounding import snap
 
+from .gaze import HIGH, Gaze
 from .primitives import Floats, Mesh, Primitive, Text, Texture
 from .views import Sight
 
@@ -20,6 +23,31 @@ MARGIN = 0.05
 """Around what is fitted into the picture, by its size."""
 LEAST = 1.0
 """A picture shows at least this much [m]."""
+HORIZON = 1000.0
+"""Where a pixel above the horizon meets the ground all the same [m]."""
+NOWHERE = -1e9
+"""Where in the picture what is behind the eye is [px]."""
+
+
+class Look(Protocol):
+    """From where one looks into a picture of some size."""
+
+    @property
+    def width(self) -> float:
+        """Of the picture [px]."""
+
+    @property
+    def height(self) -> float:
+        """Of the picture [px]."""
+
+    def pixels(self, points: Floats) -> Floats:
+        """Points (n, 3) in the picture (n, 2) [px], from its left upper corner."""
+
+    def metres(self, x: float, y: float) -> tuple[float, float, float]:
+        """The point of the ground that is seen at a pixel."""
+
+    def gaze(self, x: float, y: float) -> Gaze:
+        """The line of sight through a pixel."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +86,62 @@ class Projection:
             return (float(start[0]), float(start[1]), 0.0)
         found = start - towards * start[2] / towards[2]
         return (float(found[0]), float(found[1]), 0.0)
+
+    def gaze(self, x: float, y: float) -> Gaze:
+        """The line of sight through a pixel; all of them are parallel."""
+        return np.array(self.metres(x, y)) + HIGH * self.axes[2], -self.axes[2]
+
+
+@dataclass(frozen=True)
+class Perspective:
+    """What an eye sees of a point that it looks at, upright; `field_of_view` is from bottom to top [deg]."""
+
+    eye: Floats
+    target: Floats
+    field_of_view: float
+    width: float
+    height: float
+
+    @classmethod
+    def of(cls, sight: Sight, width: float, height: float) -> Perspective:
+        """The eye of a view."""
+        eye = sight.target + sight.distance * _axes(sight.yaw, sight.pitch)[2]
+        return cls(eye, sight.target, sight.field_of_view, width, height)
+
+    @property
+    def _focal(self) -> float:
+        """Pixels of the picture at the distance of one."""
+        return self.height / 2 / math.tan(math.radians(self.field_of_view) / 2)
+
+    @property
+    def axes(self) -> Floats:
+        """Directions (3, 3) right, up and towards the eye, in the fixed frame."""
+        x, y, z = self.eye - self.target
+        return _axes(math.atan2(y, x), math.atan2(z, math.hypot(x, y)))
+
+    def pixels(self, points: Floats) -> Floats:
+        """Points (n, 3) in the picture (n, 2) [px], from its left upper corner; far outside what is behind the eye."""
+        right, up, back = ((points - self.eye) @ self.axes.T).T
+        away = np.where(back < 0, -back, np.inf)
+        seen = np.column_stack(
+            [self.width / 2 + self._focal * right / away, self.height / 2 - self._focal * up / away]
+        )
+        return np.where((back < 0)[:, None], seen, NOWHERE)
+
+    def metres(self, x: float, y: float) -> tuple[float, float, float]:
+        """The point of the ground z = 0 that is seen at a pixel; above the horizon one that is far away."""
+        eye, ahead = self.gaze(x, y)
+        reach = -eye[2] / ahead[2] if eye[2] * ahead[2] < 0 else math.inf
+        flat = math.hypot(ahead[0], ahead[1])
+        if reach * flat > HORIZON:
+            reach = HORIZON / max(flat, 1e-9)
+        return (float(eye[0] + reach * ahead[0]), float(eye[1] + reach * ahead[1]), 0.0)
+
+    def gaze(self, x: float, y: float) -> Gaze:
+        """The line of sight through a pixel, from the eye."""
+        seen = np.array([x - self.width / 2, self.height / 2 - y, -self._focal])
+        ahead = seen @ self.axes
+        return self.eye, ahead / np.linalg.norm(ahead)
 
 
 def projection(

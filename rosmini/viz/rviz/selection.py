@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from .display import Display
+from .gaze import Gaze, depths
 from .primitives import Floats, Mesh, Primitive, Text, Texture
-from .projection import Projection
+from .projection import Look
 from .scene import Layer
 
 REACH = 6.0
 """So near to the pointer something is hit [px]."""
+DEEP = 0.1
+"""What is so far behind a surface is hidden by it [m]."""
 MOST_LISTED = 10
 """Of so many things a display's part of the panel tells, at most."""
 
@@ -36,7 +40,7 @@ class Picked(NamedTuple):
         return "\n".join(lines)
 
 
-def picked(layers: Iterable[Layer], look: Projection, first: Floats, last: Floats) -> list[Picked]:
+def picked(layers: Iterable[Layer], look: Look, first: Floats, last: Floats) -> list[Picked]:
     """What is inside the rectangle between two pixels (2,), display by display, in the order of the displays."""
     low, high = np.minimum(first, last), np.maximum(first, last)
     found = []
@@ -51,25 +55,37 @@ def picked(layers: Iterable[Layer], look: Projection, first: Floats, last: Float
     return found
 
 
-def hit(layers: Iterable[Layer], look: Projection, pixel: Floats) -> Floats | None:
-    """The point (3,) of the fixed frame that is seen at a pixel (2,): of what is nearest to it, or of a map below it.
+def hit(layers: Iterable[Layer], look: Look, pixel: Floats) -> Floats | None:
+    """The point (3,) of the fixed frame that is seen at a pixel (2,): of a surface, of a point near it, or of a map.
 
-    None where nothing is drawn.
+    A surface hides what is behind it. None where nothing is drawn.
     """
+    shown = [each for layer in layers for each in layer.primitives]
+    gaze = look.gaze(float(pixel[0]), float(pixel[1]))
+    surface = first_hit((each for each in shown if isinstance(each, Mesh)), gaze)
+    farthest = math.inf if surface is None else _depth(surface, gaze) + DEEP
     best: Floats | None = None
     nearest = REACH
-    below: Floats | None = None
-    for layer in layers:
-        for primitive in layer.primitives:
-            if isinstance(primitive, Texture):
-                ground = np.array(look.metres(float(pixel[0]), float(pixel[1])))
-                below = ground if _covers(primitive, ground) else below
-        for places in _places(layer.primitives):
-            distances = np.linalg.norm(look.pixels(places) - pixel, axis=1)
-            index = int(np.argmin(distances))
-            if distances[index] < nearest:
-                best, nearest = places[index], float(distances[index])
-    return below if best is None else best
+    for places in _places(each for each in shown if surface is None or not isinstance(each, Mesh)):
+        distances = np.linalg.norm(look.pixels(places) - pixel, axis=1)
+        distances[(places - gaze[0]) @ gaze[1] > farthest] = np.inf
+        index = int(np.argmin(distances))
+        if distances[index] < nearest:
+            best, nearest = places[index], float(distances[index])
+    if best is not None or surface is not None:
+        return surface if best is None else best
+    ground = np.array(look.metres(float(pixel[0]), float(pixel[1])))
+    return ground if any(isinstance(each, Texture) and _covers(each, ground) for each in shown) else None
+
+
+def first_hit(meshes: Iterable[Mesh], gaze: Gaze) -> Floats | None:
+    """The point (3,) of the surfaces that a line of sight meets first, or None."""
+    found = [depth for mesh in meshes for depth in depths(mesh, gaze)]
+    return gaze[0] + min(found) * gaze[1] if found else None
+
+
+def _depth(point: Floats, gaze: Gaze) -> float:
+    return float((point - gaze[0]) @ gaze[1])
 
 
 def _places(primitives: Iterable[Primitive]) -> Iterator[Floats]:

@@ -76,33 +76,50 @@ class Drawing:
         self._maps = 0
 
     def add(self, shown: Iterable[Primitive]) -> None:
-        """Add primitives: each gets a path of its own."""
+        """Add primitives: each gets a path of its own, and equal meshes are there once."""
         for primitive in shown:
-            path = f"rviz/{self._count}"
+            self.put(primitive, f"rviz/{self._count}", self._maps, shared=True)
             self._count += 1
-            if isinstance(primitive, Mesh):
-                self._mesh(primitive, path)
-            elif isinstance(primitive, Lines):
-                self._lines(primitive, path)
-            elif isinstance(primitive, Points):
-                self._points(primitive, path)
-            elif isinstance(primitive, Texture):
-                self._texture(primitive, path)
+            self._maps += isinstance(primitive, Texture) and bool(primitive.pixels[..., 3].any())
 
-    def _mesh(self, mesh: Mesh, path: str) -> None:
+    def put(self, primitive: Primitive, path: str, maps: int = 0, *, shared: bool = False) -> None:
+        """Put a primitive at a path; `maps` is the number of flat pictures below it."""
+        if isinstance(primitive, Mesh):
+            self._mesh(primitive, path, shared=shared)
+        elif isinstance(primitive, Lines):
+            self._lines(primitive, path)
+        elif isinstance(primitive, Points):
+            self._points(primitive, path)
+        elif isinstance(primitive, Texture):
+            self._texture(primitive, path, maps)
+
+    def place(self, primitive: Mesh | Texture, path: str, maps: int = 0) -> None:
+        """Put what is at a path already where the primitive is."""
+        if isinstance(primitive, Texture):
+            width, height = primitive.size
+            middle = np.eye(4)
+            middle[:3, 3] = (width / 2, height / 2, -LIFT * (20 - min(maps + 1, 18) + 20 * primitive.behind))
+            self.scene.place(path, primitive.pose @ middle)
+        elif primitive.pose is not None:
+            self.scene.place(path, primitive.pose)
+
+    def _mesh(self, mesh: Mesh, path: str, *, shared: bool) -> None:
         if not len(mesh.faces):
             return
         if len(mesh.faces) > MOST_TRIANGLES and not mesh.lit:
             mesh = _largest(mesh)
         vertices = rounded(mesh.vertices)
+        if not shared:
+            self._put(path, *_triangles(vertices, mesh))
+            self.place(mesh, path)
+            return
         known = (vertices.tobytes(), mesh.faces.tobytes(), np.round(mesh.colours, 3).tobytes())
         first = self._known.setdefault(known, path)
         if first != path:
             self.scene.copies.append((f"/meshcat/{first}", f"/meshcat/{path}"))
         else:
             self._put(path, *_triangles(vertices, mesh))
-        if mesh.pose is not None:
-            self.scene.place(path, mesh.pose)
+        self.place(mesh, path)
 
     def _put(self, path: str, geometry: Any, material: Any) -> None:
         self.scene.visualizer[path].set_object(geometry, material)
@@ -160,7 +177,7 @@ class Drawing:
         )  # fmt: skip
         self.scene.visualizer[path].set_object(cloud)
 
-    def _texture(self, texture: Texture, path: str) -> None:
+    def _texture(self, texture: Texture, path: str, maps: int) -> None:
         pixels = texture.pixels[::-1]  # the viewer's rows begin above
         data, opacity = gif(pixels)
         if not opacity:
@@ -169,13 +186,10 @@ class Drawing:
         geometry = meshcat().geometry
         material = geometry.MeshBasicMaterial(
             map=geometry.ImageTexture(image=_GifImage(data), magFilter=1003), opacity=opacity, transparent=True,
-            depthWrite=False, polygonOffset=True, polygonOffsetFactor=1, polygonOffsetUnits=4 * (20 - self._maps),
+            depthWrite=False, polygonOffset=True, polygonOffsetFactor=1, polygonOffsetUnits=4 * (20 - maps),
         )  # fmt: skip
-        self._maps += 1
-        middle = np.eye(4)
-        middle[:3, 3] = (width / 2, height / 2, -LIFT * (20 - min(self._maps, 18) + 20 * texture.behind))
         self._put(path, _Rectangle(float(width), float(height)), material)
-        self.scene.place(path, texture.pose @ middle)
+        self.place(texture, path, maps)
 
 
 class _Lowered:

@@ -27,6 +27,7 @@ from rosmini.viz.view import ViewError
 
 from .config import Config, kind_of
 from .displays.interactive_markers import InteractiveMarkers
+from .gaze import Gaze, from_above
 from .primitives import DisplayError, Floats, Lines, Primitive, finite
 from .properties import Properties, Property
 from .shapes import arrow
@@ -58,6 +59,8 @@ class Tool(Plugin, ABC):
         self._values = Properties(self.properties, tree)
         self.is_finished = False
         """Whether the tool has done what it was taken for; a view then takes the first one again."""
+        self.gaze: Gaze | None = None
+        """The line of sight of the hand, where a live view knows it; else points are seen from above."""
 
     def __getitem__(self, name: str) -> Any:
         return self._values[name]
@@ -346,16 +349,18 @@ class Interact(MoveCamera, plugin="rviz/Interact"):
     def press(self, at: Floats) -> str:
         """Take hold of the control that is there."""
         for display in self.scene:
-            found = display.under(at, self.scene.context) if isinstance(display, InteractiveMarkers) else None
+            if not isinstance(display, InteractiveMarkers):
+                continue
+            found = display.under(self.gaze or from_above(at), self.scene.context)
             if found is not None:
                 self._marker = display
                 display.hides_inactive = self["Hide Inactive Objects"]
-                return str(display.press(*found, at))
+                return str(display.press(*found, at, self.gaze))
         return super().press(at)
 
     def move(self, at: Floats) -> str:
         """Drag it."""
-        return super().move(at) if self._marker is None else str(self._marker.move(at))
+        return super().move(at) if self._marker is None else str(self._marker.move(at, self.gaze))
 
     def release(self, at: Floats) -> str:
         """Let go of it."""

@@ -24,6 +24,8 @@ from .properties import Properties, Property, Vector
 STEEPEST = math.pi / 2 - 0.001
 PIXELS = 900.0
 """How wide the 3D view of RViz's window is, about [px]: what a scale in pixels a metre refers to."""
+ASPECT = 1.6
+"""Of the 3D view of RViz's window, about."""
 FIELD_OF_VIEW = 45.0
 """Of RViz's cameras, from bottom to top [deg]."""
 
@@ -59,6 +61,11 @@ class Sight:
     """Without perspective."""
     field_of_view: float = FIELD_OF_VIEW
     """[deg]"""
+
+    @property
+    def distance(self) -> float:
+        """From where a camera sees as much [m]."""
+        return self.width / (2.0 * ASPECT * math.tan(math.radians(self.field_of_view) / 2))
 
 
 class ViewController(Plugin):
@@ -128,9 +135,16 @@ class Orbit(ViewController, plugin="rviz/Orbit"):
         """Come closer to the focal point."""
         self["Distance"] = self["Distance"] / factor
 
+    def turn(self, yaw: float, pitch: float, distance: float, context: Context) -> None:
+        """Look from the side `yaw` of the fixed frame, from as high as `pitch` [rad], and from so far [m]."""
+        del context
+        self["Yaw"] = float(yaw) % (2 * math.pi)
+        self["Pitch"] = min(max(float(pitch), -STEEPEST), STEEPEST)
+        self["Distance"] = float(distance)
+
     def _around(self, target: Floats, yaw: float) -> Sight:
         angle = self["Field of View"]
-        width = 2.0 * self["Distance"] * math.tan(angle / 2) * 1.6
+        width = 2.0 * self["Distance"] * math.tan(angle / 2) * ASPECT
         return Sight(target, yaw, self["Pitch"], width, is_flat=False, field_of_view=math.degrees(angle))
 
 
@@ -153,6 +167,10 @@ class ThirdPersonFollower(Orbit, plugin="rviz/ThirdPersonFollower"):
         x, y, z = self["Focal Point"]
         c, s = math.cos(heading), math.sin(heading)
         return self._around(origin + np.array([c * x - s * y, s * x + c * y, z]), self["Yaw"] + heading)
+
+    def turn(self, yaw: float, pitch: float, distance: float, context: Context) -> None:
+        """Look from the side `yaw` of the fixed frame; the view keeps it from the target frame."""
+        super().turn(yaw - self.target(context)[1], pitch, distance, context)
 
     def pan(self, offset: Floats, context: Context) -> None:
         """Move the focal point, which is in the target frame."""
@@ -187,6 +205,22 @@ class TopDownOrtho(ViewController, plugin="rviz/TopDownOrtho"):
     def zoom(self, factor: float) -> None:
         """Draw everything larger."""
         self["Scale"] = self["Scale"] * factor
+
+
+def view_like(kind: str, before: Sight, frame: str, context: Context) -> ViewController:
+    """A view of another kind that looks at the same place from as far; from the side, if it was from above.
+
+    Raises `PluginError` for a kind that is not known here.
+    """
+    made = ViewController.named(kind)()
+    made["Target Frame"] = frame
+    if isinstance(made, Orbit):
+        pitch = math.pi / 4 if before.is_flat else before.pitch
+        made.turn(before.yaw, pitch, before.distance or made["Distance"], context)
+    elif before.width:
+        made["Scale"] = PIXELS / before.width
+    made.look_at(before.target, context)
+    return made
 
 
 def view_controller(tree: Mapping[str, Any]) -> ViewController | None:

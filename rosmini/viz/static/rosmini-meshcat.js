@@ -7,7 +7,8 @@
    `background` with the scene's own colour (or absent: that of the page), `labels` with words at points (or absent),
    `layered` with what `rosmini-meshcat-layers.js` lays on the ground (or absent).
    With `options.driven` the robot is under somebody's keys: that function is called with `put(pose)`, which moves it and
-   the camera behind it, and neither mouse nor keys turn the scene.
+   the camera behind it, and neither mouse nor keys turn the scene. `options.ready(viewer, frame)` is called for each viewer
+   that is made. `label(window, viewer, each)` and `find(viewer, path)` are for those who change a scene that is shown.
 
    The viewer runs in a frame, so its styles and its globals stay there. It is made when the reader comes near it, and
    again if the page takes the frame out and puts it back. Outside a click it leaves the wheel to the page. */
@@ -126,6 +127,7 @@
         bar.seek(state.time);
       }
       frame.dataset.ready = "";
+      options.ready?.(viewer, frame);
     };
     script.onerror = () => { options.show(false); console.error(`${address} was not loaded`); };
     script.src = address;
@@ -165,6 +167,7 @@
     sprite.center.set(0.5, 1);
     sprite.position.set(...at);
     find(viewer, "/meshcat").add(sprite);
+    return sprite;
   }
 
   /* Keys, wheel and touch. The wheel zooms and a finger turns it in all directions only after a click or a tap; before,
@@ -462,5 +465,5 @@
     return api;
   }
 
-  globalThis.rosminiMeshcat = { mount };
+  globalThis.rosminiMeshcat = { mount, label, find };
 })();

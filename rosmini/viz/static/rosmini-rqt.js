@@ -4,7 +4,8 @@
    To the kernel:   {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "start"} let the graph go on,
                     {type: "set", key, value} a control was operated; a pointer on a drawing is told in words, "press 10 20".
    From the kernel: {type: "sheet", html} what the panel shows now, {type: "alive"} the same as before, {type: "said", text},
-                    {type: "still"} nobody drives the graph; {type: "gone", text}.
+                    {type: "still"} nobody drives the graph; {type: "gone", text};
+                    {type: "solid", ...} with buffers, for the script rosmini-rviz.js.
 
    What is new is put into the page without touching the rest, so that neither the focus nor what is being typed is lost. */
 
@@ -20,6 +21,7 @@
   function morph(old, made) {
     for (const { name } of [...old.attributes]) if (!made.hasAttribute(name)) old.removeAttribute(name);
     for (const { name, value } of made.attributes) if (old.getAttribute(name) !== value) old.setAttribute(name, value);
+    if (old.querySelector(":scope > .rq-solid") && made.querySelector(":scope > .rq-solid")) return; // a viewer is in it
     if (old.matches("style, .rq-drawing")) {
       if (old.innerHTML !== made.innerHTML) old.innerHTML = made.innerHTML;
       return;
@@ -60,7 +62,7 @@
       this.startButton.addEventListener("click", () => this.tell({ type: "start" }));
       el.replaceChildren(this.host, this.pill, this.startButton);
       this.note("ready");
-      this.receive = (content) => this.hear(content);
+      this.receive = (content, buffers) => this.hear(content, buffers);
       model.on("msg:custom", this.receive);
       for (const kind of ["change", "click", "input", "keydown"]) this.host.addEventListener(kind, (event) => this[kind](event));
       for (const kind of ["pointerdown", "pointermove", "pointerup", "pointercancel"]) this.host.addEventListener(kind, (event) => this.point(event));
@@ -148,7 +150,7 @@
       }
     }
 
-    hear(content) {
+    hear(content, buffers) {
       this.heard = performance.now();
       this.startButton.hidden = content.type !== "still";
       switch (content.type) {
@@ -161,6 +163,7 @@
           break;
         }
         case "alive": this.note("live"); break;
+        case "solid": globalThis.rosminiRviz.show(this, content, buffers); break;
         case "still": this.note("the graph stands still"); break;
         case "said": this.note(content.text); break;
         default: this.end(content.text);

@@ -73,6 +73,16 @@ class Panel(LiveView):
     def _operate(self, key: Sequence[str], value: Any) -> None:
         """Do what a control stands for; ``key`` is the control's, split at ``/``."""
 
+    @property
+    def scripts(self) -> tuple[str, ...]:
+        """What its page has beside `rosmini-rqt.js`."""
+        return ()
+
+    def news(self, *, whole: bool) -> tuple[dict[str, Any], list[bytes]] | None:
+        """What its page is to be sent beside the sheet, or None; `whole` for one that has nothing yet."""
+        del whole
+        return None
+
     def settings(self) -> dict[str, Any]:
         """What a perspective keeps of it, by the names that the real plugin has for it."""
         return {}

@@ -58,6 +58,13 @@ class LinkedPanel(Protocol):
     def markup(self, *, live: bool) -> str:
         """What it shows."""
 
+    @property
+    def scripts(self) -> tuple[str, ...]:
+        """What its page has beside `SCRIPTS`."""
+
+    def news(self, *, whole: bool) -> tuple[dict[str, Any], list[bytes]] | None:
+        """What its page is to be sent beside the sheet."""
+
 
 class PanelLink:
     """Takes what the page of a panel sends, and sends it what it shows. `clock` is the wall's, in seconds."""
@@ -69,7 +76,9 @@ class PanelLink:
         self._last_sent = 0.0
         self._last = panel.markup(live=True)
         self._cancel: Callable[[], None] | None = None
-        self.widget = PageWidget(_esm=module(SCRIPTS, "rosminiRqt"), data={"html": self._last})
+        self.widget = PageWidget(
+            _esm=module((*SCRIPTS, *panel.scripts), "rosminiRqt"), data={"html": self._last}
+        )
         answer_in_subshells(self.widget.comm)
         self.widget.on_msg(self.receive)
 
@@ -131,13 +140,16 @@ class PanelLink:
 
     def _show(self, now: float) -> None:
         html = self.panel.markup(live=True)
+        news = self.panel.news(whole=not self._last)
         if html != self._last:
             self._send({"type": "sheet", "html": html})
-        elif now - self._last_sent >= QUIET_S:
+        elif news is None and now - self._last_sent >= QUIET_S:
             self._send({"type": "alive"})
-        else:
+        elif news is None:
             return
+        if news is not None:
+            self._send(*news)
         self._last, self._last_sent = html, now
 
-    def _send(self, content: dict[str, Any]) -> None:
-        self.widget.send(content)
+    def _send(self, content: dict[str, Any], buffers: list[bytes] | None = None) -> None:
+        self.widget.send(content, buffers)

@@ -15,6 +15,7 @@ from rosmini.tf import TransformException
 from rosmini.time import Time
 from rosmini.viz.rviz.context import Context
 from rosmini.viz.rviz.display import Display, Level
+from rosmini.viz.rviz.gaze import Gaze
 from rosmini.viz.rviz.handles import Control, Grip, Handle, pose_message
 from rosmini.viz.rviz.primitives import DisplayError, Floats, Primitive, finite
 from rosmini.viz.rviz.properties import Property
@@ -183,27 +184,26 @@ class InteractiveMarkers(Display, plugin="rviz/InteractiveMarkers"):
         hint = nearest(name, names) or f"there are {', '.join(names) or 'none'}"
         raise DisplayError(f"no interactive marker {name!r:.60} is shown; {hint}")
 
-    def under(self, at: Sequence[float] | Floats, context: Context) -> tuple[Handle, Any] | None:
-        """The marker and its control that a hand at a point of the fixed frame is on, the highest, or None."""
-        point = finite([list(at)], 3)[0]
+    def under(self, gaze: Gaze, context: Context) -> tuple[Handle, Any] | None:
+        """The marker and its control that a line of sight of the fixed frame meets first, or None."""
         found: list[tuple[float, Handle, Any]] = []
         for handle in self.handles.values():
             if handle.is_placed:
-                found += [(height, handle, control) for height, control in handle.under(point, context)]
-        return max(found, key=lambda each: each[0])[1:] if found else None
+                found += [(depth, handle, control) for depth, control in handle.under(gaze, context)]
+        return min(found, key=lambda each: each[0])[1:] if found else None
 
-    def press(self, handle: Handle, control: Any, at: Floats) -> str:
-        """Take hold of a control at a point (3,) of the fixed frame; return what the status bar says."""
-        self._grip = Grip(handle, control, at)
-        self._say(Feedback.MOUSE_DOWN, handle, control, at)
+    def press(self, handle: Handle, control: Any, at: Floats, gaze: Gaze | None = None) -> str:
+        """Take hold of a control at a point (3,) of the fixed frame or where it is seen; return a hint."""
+        self._grip = Grip(handle, control, at, gaze)
+        self._say(Feedback.MOUSE_DOWN, handle, control, self._grip.cursor(at, gaze))
         return str(control.description or _hint(control.interaction_mode))
 
-    def move(self, at: Floats) -> str:
-        """Move the hand to a point (3,) of the fixed frame; the marker follows as its control says."""
+    def move(self, at: Floats, gaze: Gaze | None = None) -> str:
+        """Move the hand to a point (3,) of the fixed frame or where it is seen; the marker follows."""
         grip = self._grip
         if grip is None:
             return ""
-        moved = grip.move(at)
+        moved = grip.move(at, gaze)
         self._say(Feedback.POSE_UPDATE if moved else Feedback.KEEP_ALIVE, grip.handle, grip.control)
         return _where(grip.handle)
 

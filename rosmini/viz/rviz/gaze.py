@@ -1,0 +1,58 @@
+"""Lines of sight: what a hand on a picture is on, and where in space it is. Metres, in the fixed frame (REP 103)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .primitives import Floats, Mesh
+
+Gaze = tuple[Floats, Floats]
+"""A line of sight: a point (3,) where it begins, and its direction (3,), of length 1, away from the viewer."""
+
+HIGH = 1e4
+"""Without perspective lines of sight begin so far from the ground [m]."""
+_PARALLEL = 1e-6
+
+
+def from_above(point: Floats) -> Gaze:
+    """The line of sight straight down to a point (3,)."""
+    return np.array([point[0], point[1], HIGH]), np.array([0.0, 0.0, -1.0])
+
+
+def depths(mesh: Mesh, gaze: Gaze, edge: float = 0.0) -> list[float]:
+    """How far away a line of sight meets faces [m]; `edge` is how far outside of one, as a share of it, counts."""
+    triangles = mesh.placed[mesh.faces]
+    start, ahead = gaze
+    u, v = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    across = np.cross(ahead, v)
+    area = (u * across).sum(axis=1)
+    safe = np.where(np.abs(area) > 1e-12, area, np.inf)
+    to = start - triangles[:, 0]
+    s = (to * across).sum(axis=1) / safe
+    turned = np.cross(to, u)
+    t = turned @ ahead / safe
+    found = (turned * v).sum(axis=1) / safe
+    inside = np.isfinite(safe) & (s >= -edge) & (t >= -edge) & (s + t <= 1 + edge) & (found > 0)
+    result: list[float] = found[inside].tolist()
+    return result
+
+
+def on_axis(gaze: Gaze, point: Floats, axis: Floats) -> Floats | None:
+    """The point (3,) of the line through `point` along `axis` that is nearest to a line of sight, or None along it."""
+    start, ahead = gaze
+    slant = float(ahead @ axis)
+    if 1 - slant * slant < _PARALLEL:
+        return None
+    to = start - point
+    found: Floats = point + (to @ axis - slant * (to @ ahead)) / (1 - slant * slant) * axis
+    return found
+
+
+def on_plane(gaze: Gaze, point: Floats, normal: Floats) -> Floats | None:
+    """Where a line of sight meets the plane through `point` across `normal`; None beside it and behind the eye."""
+    start, ahead = gaze
+    slant = float(ahead @ normal)
+    if abs(slant) < _PARALLEL:
+        return None
+    reach = float((point - start) @ normal) / slant
+    return start + reach * ahead if reach > 0 else None
