@@ -26,7 +26,7 @@ from .transport import DirectReceiver, LocalTransport, set_header
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from .gates import Gate
+    from .gates import Chain, Gate
     from .subscription_port import SubscriptionPort
     from .transport import Header, Triple
 
@@ -82,7 +82,7 @@ class Connection(DirectReceiver):
         self.was_left = False
         """Whether the publisher has left the topic while the connection was being made: it may come to nothing."""
         self._gone = False
-        self._gate: Gate | None = node.graph.gates.gate(subscription.topic, node.name)
+        self._gate: Gate | Chain | None = node.graph.gates.gate(subscription.topic, node.name)
         self._is_direct = self._gate is None
         """Whether what is sent may join the queue at once."""
         self._draining = False
@@ -198,7 +198,7 @@ class Connection(DirectReceiver):
         else:
             self._gate.pass_on(messages, self.peer, self._accept)
 
-    def set_gate(self, gate: Gate | None) -> None:
+    def set_gate(self, gate: Gate | Chain | None) -> None:
         """Let everything that is sent from now on pass a fault, or nothing any more."""
         self._gate = gate
         self._is_direct = gate is None and not self._gone

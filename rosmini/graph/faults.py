@@ -59,8 +59,8 @@ class Faults:
     ) -> TopicFault:
         """Disturb the messages of a topic on their way to the node ``to``, or to every subscriber in this process.
 
-        A topic has one fault for each ``to``; a later one replaces it. ``lose`` and ``double`` are probabilities,
-        ``delay`` and ``jitter`` seconds, ``seed`` the graph's if it is not given.
+        A topic has one fault for each ``to``, and a later one replaces it; one for a node adds to that of all.
+        ``lose`` and ``double`` are probabilities, ``delay`` and ``jitter`` seconds; ``seed`` is the graph's by default.
         """
         publishers, subscribers, _ = self._host.ask_as(CALLER_ID).ask("getSystemState")
         heard = dict(subscribers)

@@ -119,18 +119,32 @@ class Gate:
 def _rng(fault: TopicFault, node: str, peer: str) -> np.random.Generator:
     import numpy as np
 
-    return np.random.default_rng([fault.seed, zlib.crc32(f"{fault.topic} {peer} {node}".encode())])
+    own = [1] if fault.to else []  # not by the chance of the topic's own fault, which may come before it
+    return np.random.default_rng([fault.seed, zlib.crc32(f"{fault.topic} {peer} {node}".encode()), *own])
+
+
+class Chain:
+    """Two gates in a row: what the fault of a topic lets through meets the fault for one of its subscribers."""
+
+    def __init__(self, first: Gate, second: Gate) -> None:
+        self._first = first
+        self._second = second
+
+    def pass_on(self, messages: Iterable[Any], peer: str, accept: Callable[[list[Any]], None]) -> None:
+        """Let ``accept`` have what both let through, as late as both make it."""
+        self._first.pass_on(messages, peer, lambda passed: self._second.pass_on(passed, peer, accept))
 
 
 class Gates:
-    """The faults of topics: one for each topic and subscriber, or for every one of its subscribers."""
+    """The faults of topics: for one subscriber, and for every one of them; they add up."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
         self.faults: dict[tuple[str, str], TopicFault] = {}
         """By topic and subscriber; the subscriber is empty where it is every one."""
 
-    def gate(self, topic: str, node: str) -> Gate | None:
+    def gate(self, topic: str, node: str) -> Gate | Chain | None:
         """Return what the messages of a topic have to pass on their way to a node, if anything."""
-        fault = self.faults.get((topic, node)) or self.faults.get((topic, ""))
-        return None if fault is None else Gate(fault, self._scheduler, node)
+        faults = [self.faults[key] for key in ((topic, ""), (topic, node)) if key in self.faults]
+        gates = [Gate(fault, self._scheduler, node) for fault in faults]
+        return Chain(*gates) if len(gates) == 2 else next(iter(gates), None)

@@ -135,3 +135,5 @@ class Runs:
                 )
         elif status > 0:
             self._say(f"{run.title} has ended with exit status {status}.")
+        elif status < 0 and isinstance(run.handle, ScriptHandle) and run.handle.ended_itself:
+            self._say(f"{run.title} has ended by {signal.Signals(-status).name}, which it sent to itself.")

@@ -6,8 +6,8 @@ standard streams, ``__main__`` and the modules beside the script, ``os.environ``
 random generator. What blocks or keeps state in a module of its own (``time``, ``threading``, ``logging``, ...) is
 replaced by the script's importer instead.
 
-Shared by all scripts, as threads of one process share it: the current folder (``os.chdir``), ``os._exit``, open
-files, ``sys.setrecursionlimit``, the locale. A blocking call that is not named in :mod:`rosmini.scripts.shims`
+Shared by all scripts, as threads of one process share it: the current folder (``os.chdir``), open files,
+ ``sys.setrecursionlimit``, the locale. A blocking call that is not named in :mod:`rosmini.scripts.shims`
 (``subprocess.run``, sockets, ``asyncio.run``) holds up the other scripts while it lasts.
 
 For the client library (rospy), which finds its caller's script as ``scheduler.current().context``:
@@ -35,6 +35,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from rosmini.graph.lanes import LaneExit
+from rosmini.graph.threads import on_hub
 from rosmini.graph.workers import running_scheduler
 from rosmini.packages import package_around
 
@@ -364,6 +365,23 @@ class ScriptContext:
             waiter.fail(error)
         else:
             self._to_raise = error
+
+    def raise_signal(self, signum: int, /) -> None:
+        """Do what ``os.kill(os.getpid(), signum)`` does: call its handler at once, or end what has none."""
+        number = signal.Signals(signum)
+        self._on_hub(lambda: self.process.signal_itself(number))
+
+    def leave_process(self, returncode: int) -> None:
+        """Do what ``os._exit`` does: end the script here, and nothing else of the process."""
+        self._on_hub(lambda: self.process.leave(returncode))
+
+    def _on_hub(self, function: Callable[[], object]) -> None:
+        """Call what may end the script in the thread that drives the graph, and leave the caller if it has."""
+        if self.scheduler.is_hub_thread():
+            function()
+        else:
+            on_hub(self.scheduler, function)
+        self.check()
 
     def await_signal(self) -> None:
         """Wait until a signal is delivered: ``signal.pause``."""

@@ -92,6 +92,8 @@ class ScriptHandle(LaneHandle):
         self._asked = False
         self._status = 0
         self._forced: int | None = None
+        self.ended_itself = False
+        """Whether the script sent itself the signal that ended it, or called ``os._exit``."""
 
     @property
     def name(self) -> str:
@@ -120,6 +122,7 @@ class ScriptHandle(LaneHandle):
         self._asked = False
         self._status = 0
         self._forced = None
+        self.ended_itself = False
         console = self.console
         context = self._context = ScriptContext(
             self.graph,
@@ -252,9 +255,9 @@ class ScriptHandle(LaneHandle):
         self.scheduler.spawn(f"{self.name} shutdown", lambda: context.run_shutdown(reason), context=context)
         return True
 
-    def interrupt(self, reason: str) -> bool:
+    def interrupt(self, reason: str, *, in_place: bool = False) -> bool:
         """Do what Ctrl-C does: call its handler, or raise ``KeyboardInterrupt``, or let rospy shut its node down."""
-        delivered = self.context.deliver(signal.SIGINT)
+        delivered = self.context.deliver(signal.SIGINT, in_place=in_place)
         self._asked |= delivered
         return self.ask_to_end(reason) or delivered
 
@@ -262,11 +265,25 @@ class ScriptHandle(LaneHandle):
         """Leave the script where it blocks; its ``atexit`` functions run."""
         self.context.raise_in_main(LaneExit("the run is over"))
 
-    def _signal(self, signum: signal.Signals) -> None:
+    def signal_itself(self, signum: signal.Signals, *, in_place: bool = True) -> None:
+        """Take a signal that the script sent to itself: its handler is called before this returns, or in a lane."""
+        self.ended_itself = True
+        self._signal(signum, in_place=in_place)
+        self.ended_itself = not self._running or self.context.ended
+
+    def leave(self, returncode: int) -> None:
+        """End at once, as the script wants: ``os._exit``."""
+        self.ended_itself = True
+        self.end_now(returncode)
+
+    def _signal(self, signum: signal.Signals, *, in_place: bool = False) -> None:
         context = self.context
         if signum == signal.SIGINT:
-            self.interrupt("signal-2")
-        elif not context.deliver(signum) and context.handlers.get(signum) is not signal.SIG_IGN:
+            self.interrupt("signal-2", in_place=in_place)
+        elif (
+            not context.deliver(signum, in_place=in_place)
+            and context.handlers.get(signum) is not signal.SIG_IGN
+        ):
             if signum == signal.SIGTERM and (
                 context.at_shutdown or context.node is not None
             ):  # rospy's to answer

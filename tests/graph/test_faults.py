@@ -75,7 +75,24 @@ def test_one_subscriber_only_and_chance_does_not_depend_on_the_others():
     assert both["a"] != both["b"]
     one = run("a", "b", to="/b")
     assert one["a"] == list(range(50))
-    assert one["b"] == both["b"]
+    assert 0 < len(one["b"]) < 50
+
+
+def test_a_fault_for_one_node_adds_to_that_of_the_topic(graph):
+    heard, go = count(graph, to=("a", "b"))
+    graph.faults.disturb("/count", lose=0.5)
+    graph.faults.disturb("/count", to="/b", delay=0.2)
+    go()
+    assert 10 < len(heard["b"]) < 40
+    assert all(time == round(number * 0.1 + 0.2, 3) for number, time in heard["b"])
+
+
+def test_two_faults_lose_independently(graph):
+    heard, go = count(graph, to=("a",), messages=200)
+    graph.faults.disturb("/count", lose=0.5)
+    graph.faults.disturb("/count", to="/a", lose=0.5)
+    go()
+    assert 30 < len(heard["a"]) < 70  # a quarter, not half as with one and the same chance
 
 
 def test_messages_are_late_by_so_much(graph):

@@ -39,6 +39,7 @@ _BUILDERS_IN = {
     "datetime": "clock",
     "importlib": "process",
     "msvcrt": "terminal",
+    "os": "leaving",
     "select": "terminal",
     "signal": "process",
     "sys": "process",

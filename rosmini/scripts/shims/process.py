@@ -118,14 +118,11 @@ def make_signal(context: Script) -> ModuleType:
         number = real_signal.Signals(signum)
         return handlers.get(number, defaults.get(number, real_signal.SIG_DFL))
 
-    def raise_signal(signum: int, /) -> None:
-        context.deliver(signum, in_place=True)
-
     as_builtins(
         module,
         signal=handle,
         getsignal=getsignal,
-        raise_signal=raise_signal,
+        raise_signal=context.raise_signal,
         pause=context.await_signal,
         siginterrupt=lambda _signum, _flag: None,
     )
@@ -174,7 +171,7 @@ class _Alarm:
             return
         if self._interval > 0:
             self.set_timer(real_signal.ITIMER_REAL, self._interval, self._interval)
-        self._context.deliver(real_signal.SIGALRM)
+        self._context.process.signal_itself(real_signal.SIGALRM, in_place=False)
 
 
 def make_builtins_module(context: Script) -> ModuleType:
