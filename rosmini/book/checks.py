@@ -12,11 +12,15 @@ import importlib
 import importlib.util
 import math
 import re
+import reprlib
 import sys
+import sysconfig
+import traceback
 import types
 from dataclasses import dataclass
 from enum import Enum
 from numbers import Real
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.errors import RosminiError, nearest
@@ -109,18 +113,38 @@ class Exercise:
             return self._verdict(Status.NOT_ATTEMPTED)
         if left := gap_left(answer):
             return self._verdict(Status.WRONG, f"There is still a `...` {left}.")
+        if self._is_script() and not isinstance(answer, Script):
+            said = f"The answer is of type {type(answer).__name__}, not a script."
+            return self._verdict(Status.WRONG, f"{said}\nHint: check({self.number!r}) finds your %%node cell")
         try:
             view = self.examine(answer)
         except Wrong as wrong:
             hint = f"\nHint: {wrong.hint}" if wrong.hint else ""
             return self._verdict(Status.WRONG, f"{wrong}{hint}", wrong.view)
         except Exception as error:
-            return self._verdict(Status.WRONG, f"Your code raised {type(error).__name__}: {error}")
+            return self._verdict(Status.WRONG, _unexpected(answer, error))
         return self._verdict(Status.RIGHT, self.praise, view)
+
+    def _is_script(self) -> bool:
+        return getattr(self.examine, "__annotations__", {}).get("answer") == Script.__name__
 
     def _verdict(self, status: Status, more: str = "", view: Any = None) -> Verdict:
         text = f"Exercise {self.number}: {status.value}."
         return Verdict(status, f"{text} {more}" if more else text, view)
+
+
+def _unexpected(answer: Any, error: Exception) -> str:
+    """Say what was raised: by the reader's code, or by what the check did with an answer of another form."""
+    said = f"{type(error).__name__}: {error}"
+    if callable(answer) or any(_is_readers(frame) for frame, _ in traceback.walk_tb(error.__traceback__)):
+        return f"Your code raised {said}"
+    shown = reprlib.repr(answer)
+    return f"{shown} does not have the form that is asked for: {said}\nHint: compare it with the stub"
+
+
+def _is_readers(frame: types.FrameType) -> bool:
+    libraries = (str(Path(__file__).parents[1]), *sysconfig.get_paths().values(), "<frozen ")
+    return not frame.f_code.co_filename.startswith(libraries)
 
 
 def exercise(number: str, *, praise: str, gaps: int = 1) -> Callable[[Callable[[Any], Any]], Exercise]:

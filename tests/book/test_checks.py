@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import operator
 import os
 import pkgutil
 import types
@@ -102,6 +103,27 @@ def test_an_answer_that_raises_is_wrong_and_says_what_it_raised():
     assert verdict.status is Status.WRONG
     assert (
         verdict.text == "Exercise 98.2: not right yet. Your code raised ZeroDivisionError: division by zero"
+    )
+
+
+def test_an_answer_of_another_form_is_not_code_that_raised():
+    """Of `{1: 2}` the reader was told that their code raised an AttributeError."""
+    lower = Exercise("98.3", "Good.", operator.methodcaller("lower"))  # no frame of a reader
+    assert lower.grade("A").status is Status.RIGHT
+    assert lower.grade({1: 2}).text == (
+        "Exercise 98.3: not right yet. {1: 2} does not have the form that is asked for: "
+        "AttributeError: 'dict' object has no attribute 'lower'\nHint: compare it with the stub"
+    )
+    assert "Your code raised AttributeError" in Exercise("98.3", "", lambda answer: answer.lower()).grade(1).text
+
+
+def test_a_check_that_wants_a_script_says_so():
+    def examine(answer: Script):
+        return expect("six" in answer.source, "No six.")
+
+    assert Exercise("98.4", "Good.", examine).grade(42).text == (
+        "Exercise 98.4: not right yet. The answer is of type int, not a script.\n"
+        "Hint: check('98.4') finds your %%node cell"
     )
 
 
