@@ -114,7 +114,9 @@ def test_an_answer_of_another_form_is_not_code_that_raised():
         "Exercise 98.3: not right yet. {1: 2} does not have the form that is asked for: "
         "AttributeError: 'dict' object has no attribute 'lower'\nHint: compare it with the stub"
     )
-    assert "Your code raised AttributeError" in Exercise("98.3", "", lambda answer: answer.lower()).grade(1).text
+    assert (
+        "Your code raised AttributeError" in Exercise("98.3", "", lambda answer: answer.lower()).grade(1).text
+    )
 
 
 def test_a_check_that_wants_a_script_says_so():
