@@ -57,7 +57,7 @@ def inside(move_base: MoveBase) -> Inside:
     links = [Link(STATES, _planner(GLOBAL), "goal"), Link(_planner(GLOBAL), _planner(LOCAL), "plan")]
     for costmap in costmaps:
         parts.append(_costmap(costmap))
-        links.append(Link(TRANSFORMS, costmap.name, "robot's pose"))
+        links.append(Link(TRANSFORMS, costmap.name, "pose"))
     for which, planner in ((GLOBAL, move_base.planner), (LOCAL, move_base.controller)):
         parts.append(_of_planner(move_base, which))
         links += [
@@ -97,8 +97,7 @@ def _costmap(costmap: Costmap2DROS) -> Part:
     """A costmap with its layers, in the order in which they write, and what they hear."""
     grid = costmap.grid
     size = f"{grid.width} x {grid.height} cells, frame {costmap.global_frame}"
-    kinds = [type(layer).plugin_name.replace("/", "::") or type(layer).__name__ for layer in costmap.layers]
-    rows = [f"{layer.name}: {kind}" for layer, kind in zip(costmap.layers, kinds, strict=True)]
+    rows = [layer.name for layer in costmap.layers]
     hears = frozenset(topic for layer in costmap.layers for topic in layer.topics)
     return Part(costmap.name, (costmap.name, size, *rows), hears=hears)
 

@@ -59,8 +59,8 @@ def test_the_lines_name_what_is_loaded(move_base):
     assert found["global planner"].lines == ("global planner", "navfn/NavfnROS")
     assert found["local_costmap"].lines[1:] == (
         "60 x 60 cells, frame odom",
-        "obstacle_layer: costmap_2d::ObstacleLayer",
-        "inflation_layer: costmap_2d::InflationLayer",
+        "obstacle_layer",
+        "inflation_layer",
     )
     assert found[RECOVERIES].lines[1:3] == ("1. conservative_reset", "2. rotate_recovery")
 
