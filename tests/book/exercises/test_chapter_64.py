@@ -16,9 +16,13 @@ from rosmini.errors import TransportInitError
 from rosmini.graph import Graph
 from rosmini.msgs.sensor_msgs.msg import LaserScan, Range
 
-from .conftest import NOTEBOOKS, assert_figures_are_numbered, prose_of
+from .conftest import NOTEBOOKS, assert_figures_are_numbered, assert_short, prose_of
 
 CHAPTER = "64_the_wire"
+
+
+def test_it_is_as_short_as_a_chapter_has_to_be() -> None:
+    assert_short(notebooks.read(NOTEBOOKS / f"{CHAPTER}.ipynb").cells)
 
 
 def test_every_figure_is_numbered_in_order() -> None:
