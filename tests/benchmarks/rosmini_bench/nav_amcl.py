@@ -34,8 +34,24 @@ from .nav_trial import place
 
 Floats = NDArray[np.float64]
 
-LOST = {"recovery_alpha_slow": 0.001, "recovery_alpha_fast": 0.1, "max_particles": 10_000}
-"""What a robot takes that is to find itself again."""
+LOST: dict[str, Any] = {
+    "recovery_alpha_slow": 0.001,
+    "recovery_alpha_fast": 0.1,
+    "max_particles": 10_000,
+    "odom_model_type": "diff-corrected",
+    "odom_alpha1": 0.1,
+    "odom_alpha2": 0.1,
+    "odom_alpha3": 0.1,
+    "odom_alpha4": 0.1,
+    "laser_z_hit": 0.95,
+    "laser_z_rand": 0.05,
+    "laser_sigma_hit": 0.4,
+    "update_min_d": 0.06,
+    "update_min_a": 0.06,
+    "resample_interval": 8,
+}
+"""What a robot takes that is to find itself again: room for many particles of which some are random, and see
+`nav_located` for the others."""
 FOUND, HELD, WITHIN = 0.3, 30.0, 120.0
 """It has found itself if within so many seconds of driving it begins to be closer than this [m] for so long [s]."""
 TURNING = 0.3
