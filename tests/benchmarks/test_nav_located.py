@@ -28,5 +28,5 @@ def test_rows_are_kept_and_counted(tmp_path):
     kept = nav_located.load(file)
     assert [row.seed for row in kept if row.study == "lost"] == [1, 2, 3]
     page = nav_located.page(kept)
-    assert "| house | 3 of 3 | 44% to 100% | 30 s | 3: 1 to 3 | abc, def |" in page
-    assert "| house | 5 (6) | 0.7 (0.6) | 3: 1 to 3 | abc |" in page
+    assert "| house | 3 of 3 | 44% to 100% | 30 s | 1 to 3 | abc, def |" in page
+    assert "| house | 5 (6) | 0.7 (0.6) | 1 to 3 | abc |" in page

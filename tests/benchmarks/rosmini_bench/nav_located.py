@@ -206,7 +206,8 @@ def _table(names: tuple[str, ...], chosen: dict[str, list[Row]]) -> Iterator[str
 
 def _told(rows: list[Row]) -> str:
     seeds = [row.seed for row in rows]
-    spoken = f"{seeds[0]}" if len(seeds) == 1 else f"{len(seeds)}: {seeds[0]} to {seeds[-1]}"
+    whole = len(seeds) > 2 and seeds[-1] - seeds[0] == len(seeds) - 1
+    spoken = f"{seeds[0]} to {seeds[-1]}" if whole else ", ".join(map(str, seeds))
     return f"{spoken} | {', '.join(sorted({row.commit for row in rows}))}"
 
 
@@ -236,20 +237,24 @@ parameters are of our choice:
 
 {{lost}}
 
-Why? The truth is nearly always the likeliest pose; what fails is that no particle is there. 10,000 of them in a house
-of 125 m2 are about one for each basin in which the likelihood leads to the truth, and the model `diff`, which takes a
-variance for a deviation, hardly spreads their children: over 20 cm by 8 mm. So `diff-corrected` spreads them by 6 cm,
+Why? In ten drives the true pose was likelier than all of 20,000 others at 198 of 200 scans; what fails is that no
+particle is there. 10,000 of them in a house of 125 m2 are about one for each basin in which the likelihood leads to
+the truth, and the model `diff`, which takes a variance for a deviation, hardly spreads their children: over 20 cm by
+8 mm. So `diff-corrected` spreads them by 6 cm,
 a wider `laser_sigma_hit` makes the basins wider, and several updates between two resamplings let evidence gather
-before chance may strike a particle out.
+before chance may strike a particle out. With the parameters of the launch file and 10,000 particles 6 of seeds 1 to 10
+were found; on these ten the choice was made, the other seeds are fresh.
 """,
         "kidnapped": f"""
 ## amcl: a robot that was carried away
 
-After {CARRIED:.0f} s it is set down somewhere else, and its odometry notices nothing. The parameters are those above;
-*alphas 0* are ROBOTIS's, with which nothing recovers. The share of random particles is what the fast average of the
-likelihood has lost against the slow one, and both begin again after each resampling that used it: so an average
-that has much to lose, and several updates in which to lose it, bring more of them. `kld_err` decides how many are
-drawn: below one for each 25 or 50 occupied boxes a share of random ones grows the set to its largest size.
+After {CARRIED:.0f} s it is set down somewhere else, and its odometry notices nothing. The parameters are those above.
+The share of random particles is what the fast average of the likelihood has lost against the slow one, and both begin
+again after each resampling that used it: so an average that has much to lose, and several updates in which to lose
+it, bring more of them. `kld_err` decides how many are
+drawn: with 0.02 a share of 4 % grows the set to its largest size, since each falls into a box of its own. There is
+one such burst of them and seldom a second: it sets both averages to what a lost robot sees, and whatever comes next
+is better than that. So no choice of ours found eight of ten: of a dozen, each found 2 to 7 of 10.
 """,
         "gmapping": """
 ## gmapping
@@ -259,6 +264,10 @@ a metre; precision and recall of occupied cells within two. The original, with i
 revisits 0.036 m, 0.80 and 0.73, 65 ms a scan; on csail (a real robot; the truth is what the original found) neighbours
 0.046 m and 0.35 degrees, revisits 0.070 m and 0.5 degrees, 109 ms. *Ours* takes a scan each 0.2 m or 0.25 rad, and
 beams up to 3 m.
+
+An end counts here only where the cell before it is free. The original means to ask that, too, but looks in a wrong
+place, so that every end counts. What that does depends on the walls: without the test csail came to 0.042 and 0.047 m,
+revisits 0.070 and 0.071 m (seeds 0 and 1), and log_house to 0.093 m, revisits 0.039 m, 0.90 and 0.88 (seed 0).
 """,
         "hector": """
 ## hector_mapping
