@@ -21,7 +21,7 @@ from rosmini.viz.map_pictures import gif_address
 from rosmini.viz.moving_view import MovingView
 from rosmini.viz.rounding import fixed, kept, snap
 from rosmini.viz.rviz.gifs import gif
-from rosmini.viz.style import LABEL_SIZE
+from rosmini.viz.style import LABEL_SIZE, variable
 from rosmini.viz.svg import document, element, escape
 from rosmini.viz.view import ViewError
 
@@ -200,7 +200,7 @@ class TrajectoryWindow(MovingView):
         for pose, kind in ((track[0], "tf"), (track[-1], "tf te")):
             parts.append(self._outline(pose, kind))
         shadows = "".join(
-            f".rosmini-svg .t{n}{{stroke:var(--rosmini-blue);stroke-opacity:{0.9 - 0.17 * n:.2f}}}"
+            f".rosmini-svg .t{n}{{stroke:{variable('blue')};stroke-opacity:{0.9 - 0.17 * n:.2f}}}"
             for n in range(SHADES)
         )
         return document(
@@ -271,11 +271,11 @@ def _bytes(tracks: Sequence[Floats], area: Sequence[float]) -> bytes:
     return (snap(points) * 1000).round().astype("<i2").tobytes()
 
 
-_CSS = """.rosmini-svg polyline{fill:none;stroke-width:1.2;stroke-linejoin:round}
-.rosmini-svg polyline.tx{stroke:var(--rosmini-vermilion);stroke-width:.7;stroke-opacity:.55}
-.rosmini-svg polyline.tp{stroke:var(--rosmini-green);stroke-width:2;stroke-dasharray:5 3}
-.rosmini-svg polyline.tb{stroke:var(--rosmini-orange);stroke-width:3}
-.rosmini-svg polygon.tf{fill:none;stroke:var(--rosmini-ink);stroke-width:1.4}
-.rosmini-svg polygon.te{stroke:var(--rosmini-orange)}
-.rosmini-svg text{fill:var(--rosmini-muted)}
+_CSS = f""".rosmini-svg polyline{{fill:none;stroke-width:1.2;stroke-linejoin:round}}
+.rosmini-svg polyline.tx{{stroke:{variable("vermilion")};stroke-width:.7;stroke-opacity:.55}}
+.rosmini-svg polyline.tp{{stroke:{variable("green")};stroke-width:2;stroke-dasharray:5 3}}
+.rosmini-svg polyline.tb{{stroke:{variable("orange")};stroke-width:3}}
+.rosmini-svg polygon.tf{{fill:none;stroke:{variable("ink")};stroke-width:1.4}}
+.rosmini-svg polygon.te{{stroke:{variable("orange")}}}
+.rosmini-svg text{{fill:{variable("muted")}}}
 """

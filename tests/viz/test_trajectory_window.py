@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -68,6 +70,12 @@ def test_noise_in_the_last_digits_changes_no_byte(samples, grid):
     noisy = replace(samples, points=samples.points * (1 + 1e-14), totals=samples.totals * (1 + 1e-14))
     options = {"costmap": grid, "plan": PLAN, "footprint": FOOTPRINT}
     assert noisy.show(**options).html == samples.show(**options).html
+
+
+def test_a_picture_alone_has_its_colours_too(samples, grid):
+    """Where no page sets the palette, as in a viewer of notebooks, a colour without a fallback is none."""
+    svg = trajectory_window(samples, costmap=grid).svg
+    assert re.findall(r"var\(--rosmini-[a-z]+\)", svg) == []
 
 
 def test_what_cannot_be_shown_is_told(samples):
