@@ -2,9 +2,10 @@
 
 Pure: where it would be at a time, as a function of that time. The engine lets such a thing go its way by a clock of its
 own. Whatever stands in its way (a robot, something that was pushed there) stops that
-clock: the thing waits and never pushes through, and afterwards goes on where it was. So two that stand in each other's
-way wait for good. A door that meets something on its way goes back, as EN 16005 and ANSI/BHMA A156.19 ask of doors with
-a motor, and tries again after it stood closed, or open.
+clock: the thing waits and never pushes through, and afterwards goes on where it was. A walker who has waited for long
+gives way, as people do: it goes its round the other way, until it has to wait for long again. A door that meets
+something on its way goes back, as EN 16005 and ANSI/BHMA A156.19 ask of doors with a motor, and tries again after it
+stood closed, or open.
 """
 
 from __future__ import annotations
@@ -39,10 +40,12 @@ class Walk:
     """How long it stands at each waypoint [s], before it turns to the next."""
     loop: bool = True
     """From the last waypoint it goes back to the first, and on; else it stays at the last."""
-    keep: float = 0.1
-    """So far before what is in its way it stops [m]."""
+    keep: float = 0.3
+    """No nearer than this it comes to what is in its way, ahead or beside it [m]."""
     turning: float = math.pi
     """How fast it turns at a waypoint [rad/s]."""
+    patience: float = 5.0
+    """Who goes in a `loop` and has waited so long [s] for something goes back, and its round the other way."""
 
     def __post_init__(self) -> None:
         try:
@@ -57,7 +60,7 @@ class Walk:
         if len(set(points)) < 2:
             raise WorldError(f"the waypoints of a walk are all the same: {points[0]!r}")
         _check_numbers("walk", positive={"speed": self.speed, "turning": self.turning})
-        _check_numbers("walk", least={"wait": self.wait, "keep": self.keep})
+        _check_numbers("walk", least={"wait": self.wait, "keep": self.keep, "patience": self.patience})
 
     @property
     def max_speed(self) -> float:
@@ -77,11 +80,12 @@ class Walk:
     def pose_at(self, t: float, start: Pose | None = None) -> Pose:  # noqa: ARG002 - as of a door
         """Where it is at its time t [s], if it had never to wait for anybody; `start` says nothing.
 
+        Who goes round the other way is at a time before 0 where it is a whole round later.
+
         >>> Walk(((0, 0), (2, 0)), speed=0.5).pose_at(1.0)
         (0.5, 0.0, 0.0)
         """
-        t = max(0.0, t)
-        t = math.fmod(t, self.period) if self.loop else min(t, self.period)
+        t = t % self.period if self.loop else min(max(0.0, t), self.period)
         index = min(bisect_right(self._ends, t), len(self._ends) - 1)
         length, (x1, y1, a), (x2, y2, b) = self._legs[index]
         part = min(1.0, 1.0 - (self._ends[index] - t) / length)
@@ -140,7 +144,7 @@ class Door:
     phase: float = 0.0
     """At which time of its period it begins [s]; 0: it has just closed."""
     keep: float = 0.1
-    """So far before what is in its way it stops, or goes back [m]."""
+    """No nearer than this it comes to what is in its way [m], before it stops, or goes back."""
 
     def __post_init__(self) -> None:
         _check_numbers("door", positive={"moving": self.moving})

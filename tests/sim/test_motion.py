@@ -132,13 +132,13 @@ def test_a_walker_in_an_empty_world_is_where_its_motion_says():
 
 
 def test_a_walker_waits_for_a_robot_in_its_way_and_then_goes_on():
-    engine = make(WALKER)
+    engine = make(replace(WALKER, motion=replace(WALKER.motion, patience=60.0)))
     robot = engine.add("burger", BURGER, (3.0, 0.0, math.pi / 2))
     engine.advance(20.0)
     assert engine.movers["walker"].waiting
     assert robot.pose == (3.0, 0.0, math.pi / 2)
-    # 0.105 m to the robot's side, the walker's radius, and the 0.1 m that it keeps
-    assert engine.pose("walker")[0] == pytest.approx(3.0 - 0.105 - 0.2 - 0.1, abs=0.005)
+    # 0.105 m to the robot's side, the walker's radius, and the 0.3 m that it keeps
+    assert engine.pose("walker")[0] == pytest.approx(3.0 - 0.105 - 0.2 - 0.3, abs=0.005)
     assert engine.velocity("walker") == (0.0, 0.0, 0.0)
     waited = 20.0 - engine.movers["walker"].clock
     engine.command("burger", 0.22, 0.0)
@@ -147,6 +147,57 @@ def test_a_walker_waits_for_a_robot_in_its_way_and_then_goes_on():
     engine.advance(25.0)
     assert engine.pose("walker")[0] > 3.0
     assert 25.0 - engine.movers["walker"].clock > waited
+
+
+@pytest.mark.parametrize("keep", [0.1, 0.45, 0.7])
+def test_a_walker_keeps_its_distance_however_it_meets_a_robot(keep):
+    engine = make(replace(WALKER, motion=replace(WALKER.motion, keep=keep, patience=60.0)))
+    engine.add("burger", BURGER, (3.0, 0.0, 0.0))  # its tail reaches 0.105 m back
+    engine.advance(20.0)
+    assert engine.pose("walker")[0] == pytest.approx(3.0 - 0.105 - 0.2 - keep, abs=0.005)
+
+
+def test_a_walker_keeps_its_distance_beside_a_robot_too():
+    engine = make(replace(WALKER, motion=replace(WALKER.motion, patience=60.0)))
+    engine.add("burger", BURGER, (3.0, 0.45, math.pi))  # its side is 4.5 cm from where the walker would pass
+    engine.advance(20.0)
+    gap = math.hypot(3.0 - 0.041 - engine.pose("walker")[0], 0.45 - 0.105) - 0.2
+    assert gap == pytest.approx(0.3, abs=0.005)
+    passed = make(WALKER)
+    passed.add("burger", BURGER, (3.0, 0.7, math.pi))
+    passed.advance(11.0)
+    assert passed.pose("walker")[0] == pytest.approx(5.5)
+
+
+def test_a_walker_who_has_waited_for_long_goes_round_the_other_way_until_it_has_to_wait_again():
+    square = Walk(((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)), speed=0.5, patience=5.0)
+    engine = make(replace(WALKER, motion=square))
+    engine.add("burger", BURGER, (3.0, 0.0, math.pi / 2))
+    walker = engine.movers["walker"]
+    engine.advance(9.0)
+    assert walker.waiting  # since it came to 2.4 m, 4.8 s after it began
+    engine.advance(11.8)
+    assert not walker.waiting
+    assert engine.velocity("walker")[:2] == pytest.approx((-0.5, 0.0), abs=1e-6)
+    assert engine.pose("walker")[0] == pytest.approx(2.395 - 0.5 * (11.8 - 9.79), abs=0.02)
+    engine.advance(20.0)
+    assert engine.pose("walker")[1] > 1.0  # past where it began, up the side where its round ends
+    kept = engine.state()
+    engine.advance(60.0)
+    assert engine.velocity("walker")[:2] != (-0.5, 0.0)
+    there = engine.pose("walker")
+    engine.restore(kept)
+    engine.advance(60.0)
+    assert engine.pose("walker") == pytest.approx(there, abs=1e-9)
+
+
+def test_two_walkers_in_each_others_way_do_not_wait_for_good():
+    other = Obstacle("other", Cylinder(0.2), motion=Walk(((6.0, 0.0), (0.0, 0.0)), speed=0.5))
+    engine = make(WALKER, other)
+    engine.advance(10.0)
+    assert engine.movers["walker"].waiting
+    engine.advance(14.0)
+    assert engine.pose("other")[0] - engine.pose("walker")[0] > 2.0
 
 
 def test_a_robot_that_drives_into_a_walker_stops_there_and_moves_it_nowhere():

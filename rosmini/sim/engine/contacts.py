@@ -37,6 +37,9 @@ OVERLAP = 1e-4
 FEEL = 1e-4
 """What is so near [m] touches."""
 
+NEARER = 1e-6
+"""What passes something at an even distance comes no nearer to it but by rounding [m]."""
+
 
 class Touch(NamedTuple):
     """One place where something touches another."""
@@ -179,17 +182,17 @@ class Contacts:
                 if _overlap([_at(piece, there) for piece in body.pieces], placed) > OVERLAP:
                     yield body.words()
 
-    def stuck(self, name: str, pose: Pose) -> bool:
-        """Whether a mover would be deeper in something that can give way at `pose` than it is now."""
+    def stuck(self, name: str, pose: Pose, keep: float) -> bool:
+        """Whether a mover at `pose` would be nearer to something that can give way than now, and nearer than `keep`."""
         body = self.bodies[name]
         now, then = body.owner.pose, pose
-        for other in self.near(pose[0], pose[1], body.reach + math.dist(now[:2], then[:2])):
+        for other in self.near(pose[0], pose[1], body.reach + keep + math.dist(now[:2], then[:2])):
             if other is not body and other.meets(body.bottom, body.top):
                 there = other.owner.pose
                 placed = [_at(piece, there) for piece in other.pieces]
                 for piece in body.pieces:
-                    deep = _overlap([_at(piece, then)], placed)
-                    if deep > 10 * SLACK and deep > _overlap([_at(piece, now)], placed):
+                    deep = _overlap([_at(piece, then)], placed, keep)
+                    if deep > 10 * SLACK and deep > _overlap([_at(piece, now)], placed, keep) + NEARER:
                         return True
         return False
 
@@ -261,7 +264,8 @@ def _contact(a: Piece, b: Piece, least: float) -> Contact:
     return contact(a.corners, 0, len(a.corners), a.radius, b.corners, 0, len(b.corners), b.radius, least)
 
 
-def _overlap(one: list[Piece], other: list[Piece]) -> float:
-    """How deep the deepest of some pieces reach into others [m]; 0 if they do not."""
-    hits = (_contact(a, b, 0.0) for a in one for b in other)
-    return max((max(hit[3], hit[6]) for hit in hits), default=0.0)
+def _overlap(one: list[Piece], other: list[Piece], around: float = 0.0) -> float:
+    """How deep the deepest of some pieces, and what is `around` them, reach into others [m]; 0 if they do not."""
+    hits = (_contact(a, b, -around) for a in one for b in other)
+    deep = (max(hit[3], hit[6]) if hit[0] == 2 else hit[3] for hit in hits if hit[0])
+    return max((each + around for each in deep), default=0.0)

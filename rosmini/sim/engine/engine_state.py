@@ -37,8 +37,8 @@ class EngineState:
     robots: tuple[RobotState, ...]
     things: dict[str, tuple[Any, ...]]
     """What can be pushed, or put elsewhere: where it is, and how fast it moves."""
-    movers: dict[str, tuple[int, float, bool]]
-    """What moves by itself: since when it goes or waits, at which time of its own, and which of the two."""
+    movers: dict[str, tuple[int, float, bool, int]]
+    """What moves by itself: since when it goes or waits, at which time of its own, which of the two, and its pace."""
     forces: tuple[float, list[tuple[str, str, float]]]
     """Until when which bodies push which others, and how hard."""
     trails: dict[str, tuple[Leg, ...]]

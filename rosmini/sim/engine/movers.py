@@ -22,15 +22,13 @@ class Mover:
         self.reach = reach_of(obstacle.shape)
         self.haste = motion.max_speed + self.reach * motion.max_turn
         """How fast any point of it can move [m/s]."""
-        speed = motion.max_speed + (self.reach * motion.max_turn if isinstance(motion, Door) else 0.0)
-        self.ahead = motion.keep / speed if speed else 0.0
-        """How far ahead [s] it checks for obstacles in its path."""
+        self.keep = motion.keep
         self._instant = instant
         self.start()
 
     def start(self) -> None:
         """Return to its initial pose."""
-        self._since_ns, self._clock, self.waiting = self._instant.ns, 0.0, False
+        self._since_ns, self._clock, self.waiting, self.pace = self._instant.ns, 0.0, False, 1
         self.room = 0.0
         """How far it could move [m] at `room_ns` before its clearance must be measured again."""
         self.room_ns = self._instant.ns
@@ -38,7 +36,12 @@ class Mover:
     @property
     def clock(self) -> float:
         """The time of its own motion [s]."""
-        return self._clock if self.waiting else self._clock + (self._instant.ns - self._since_ns) / SECOND
+        return self._clock + self.rate * (self._instant.ns - self._since_ns) / SECOND
+
+    @property
+    def rate(self) -> int:
+        """How fast its own clock goes: 0 while it waits, else `pace`, which is -1 for who goes round the other way."""
+        return 0 if self.waiting else self.pace
 
     @property
     def pose(self) -> Pose:
@@ -50,8 +53,7 @@ class Mover:
         """How fast it moves, in the world's directions [m/s, m/s, rad/s]."""
         if self.waiting:
             return (0.0, 0.0, 0.0)
-        clock = self.clock
-        before, after = self.obstacle.at(clock), self.obstacle.at(clock + DELTA)
+        before, after = self.pose, self.soon(DELTA)
         vx, vy, w = ((b - a) / DELTA for a, b in zip(before, after, strict=True))
         return (vx, vy, w)
 
@@ -60,35 +62,48 @@ class Mover:
         if waiting != self.waiting:
             self._clock, self._since_ns, self.waiting = self.clock, self._instant.ns, waiting
 
-    @property
-    def clock_back(self) -> float | None:
-        """Its clock [s] if it went back from here; None if it has no way back: it stands, or walks."""
-        motion = self.obstacle.motion
-        return motion.turned_back(self.clock) if isinstance(motion, Door) else None
+    def soon(self, dt: float) -> Pose:
+        """Return its pose `dt` seconds from now, if nothing stops it."""
+        return self.obstacle.at(self.clock + self.rate * dt)
 
-    def go_back(self, clock: float) -> None:
-        """Go on from a clock at which it is where it is now."""
-        self._clock, self._since_ns, self.waiting = clock, self._instant.ns, False
+    @property
+    def way_back(self) -> tuple[float, int] | None:
+        """Its clock [s] and its pace if it went back from here; None if it stands, or has patience yet."""
+        motion = self.obstacle.motion
+        if isinstance(motion, Door):
+            back = motion.turned_back(self.clock)
+            return None if back is None else (back, self.pace)
+        waited = (self._instant.ns - self._since_ns) / SECOND if self.waiting else 0.0
+        walks = isinstance(motion, Walk) and motion.loop and waited >= motion.patience
+        return (self.clock, -self.pace) if walks else None
+
+    def go_back(self, clock: float, pace: int) -> None:
+        """Go on from a clock at which it is where it is now, at this pace."""
+        self._clock, self._since_ns, self.waiting, self.pace = clock, self._instant.ns, False, pace
 
     def room_left(self, ns: int) -> float:
         """How far any point of it can still move then [m]."""
         return self.room - self.haste * (ns - self.room_ns) / SECOND
 
-    def leg(self) -> tuple[float, Pose, float, tuple[bool, int]]:
-        """Return the current leg of its trail: start time [s], pose, its own clock, whether it waits and since when."""
-        course = (self.waiting, self._since_ns)
+    def room_to_go(self, ns: int) -> float:
+        """How far it can still move then [m] before it may have to stop for something."""
+        return self.room_left(ns) - self.keep
+
+    def leg(self) -> tuple[float, Pose, float, tuple[int, int]]:
+        """Return the current leg of its trail: start time [s], pose, its own clock, its rate and since when."""
+        course = (self.rate, self._since_ns)
         return (self._since_ns / SECOND, self.obstacle.at(self._clock), self._clock, course)
 
     def later(self, leg: Leg, dt: float) -> Pose:
         """Return its pose `dt` seconds after the start of a leg of its trail."""
-        _, _, clock, (waiting, _) = leg
-        return self.obstacle.at(clock if waiting else clock + dt)
+        _, _, clock, (rate, _) = leg
+        return self.obstacle.at(clock + rate * dt)
 
-    def state(self) -> tuple[int, float, bool]:
-        """Return when it last started or stopped [ns], its own clock then [s], and whether it waits."""
-        return (self._since_ns, self._clock, self.waiting)
+    def state(self) -> tuple[int, float, bool, int]:
+        """Return when it last started or stopped [ns], its own clock then [s], whether it waits, and its pace."""
+        return (self._since_ns, self._clock, self.waiting, self.pace)
 
-    def restore(self, state: tuple[int, float, bool]) -> None:
+    def restore(self, state: tuple[int, float, bool, int]) -> None:
         """Restore what `state` returned."""
-        self._since_ns, self._clock, self.waiting = state
+        self._since_ns, self._clock, self.waiting, self.pace = state
         self.room = 0.0

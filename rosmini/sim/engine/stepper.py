@@ -169,12 +169,12 @@ class Stepper:
             looked.update(short)
             self._look(list(dict.fromkeys(short)))
         for mover in movers:
-            if mover.room_left(now) < mover.haste * HORIZON:
+            if mover.room_to_go(now) < mover.haste * HORIZON:
                 self._look_around(mover)
         bodies = self._all.contacts.bodies
         active = [bodies[r.name] for r in drivers if r.touching or r.room_left(now) < r.haste * HORIZON]
         active += [
-            bodies[m.obstacle.name] for m in movers if m.waiting or m.room_left(now) < m.haste * HORIZON
+            bodies[m.obstacle.name] for m in movers if m.waiting or m.room_to_go(now) < m.haste * HORIZON
         ]
         active += [bodies[c.obstacle.name] for c in self._all.contacts.crates if c.sliding]
         moving = self._all.moving
@@ -185,7 +185,8 @@ class Stepper:
             self._planned = tick + PLAN
         else:
             self._group = None
-            steps = (each.room_left(now) / (each.haste * STEP) for each in moving if each.haste > 0)
+            steps = [each.room_left(now) / (each.haste * STEP) for each in drivers if each.haste > 0]
+            steps += [each.room_to_go(now) / (each.haste * STEP) for each in movers if each.haste > 0]
             self._planned = tick + max(int(min(steps, default=1e9)), PLAN)
 
     def _gather(self, active: list[Body]) -> None:
@@ -283,7 +284,7 @@ class Stepper:
         for (i, _), spot in zip(self._robots, ahead, strict=True):
             group.poses[i] = spot.pose
         for i, mover in self._movers:
-            group.poses[i] = mover.obstacle.at(mover.clock + (0.0 if mover.waiting else STEP))
+            group.poses[i] = mover.soon(STEP)
         moved = set(group.make_way(watched))
         self._disturbed = bool(moved)
         for (i, robot), spot in zip(self._robots, ahead, strict=True):
@@ -298,19 +299,18 @@ class Stepper:
 
     def _let_go(self, mover: Mover) -> None:
         """Let a mover go on unless something that can give way is in its path; then let it go back if it can."""
-        mover.wait(waiting=self._is_stuck(mover, mover.clock))
+        mover.wait(waiting=self._is_stuck(mover, mover.clock, mover.pace))
         if mover.waiting:
-            back = mover.clock_back
-            if back is not None and not self._is_stuck(mover, back):
-                mover.go_back(back)
+            back = mover.way_back
+            if back is not None and not self._is_stuck(mover, *back):
+                mover.go_back(*back)
         self._all.note(mover)
 
-    def _is_stuck(self, mover: Mover, clock: float) -> bool:
-        """Whether something that can give way is in a mover's path at this time of its own [s]."""
-        places = [mover.obstacle.at(clock + STEP)]
-        if mover.ahead:
-            places.append(mover.obstacle.at(clock + STEP + mover.ahead))
-        return any(self._all.contacts.stuck(mover.obstacle.name, place) for place in places)
+    def _is_stuck(self, mover: Mover, clock: float, pace: int) -> bool:
+        """Whether a mover would come too near to something that can give way, from this time of its own [s] on."""
+        return self._all.contacts.stuck(
+            mover.obstacle.name, mover.obstacle.at(clock + pace * STEP), mover.keep
+        )
 
     def _slide(self, group: Near, ahead: list[Spot], end_ns: int) -> None:
         """Let things slide, be struck and be pushed for a step."""
