@@ -38,6 +38,8 @@ XY, YAW = 0.25, 0.3
 class Crossing:
     """What came of one run."""
 
+    robots: int
+    seed: int
     reached: int
     """Of the robots."""
     failures: tuple[str, ...]
@@ -120,7 +122,7 @@ def _run(graph: Graph, robots: int, seed: int) -> Crossing:
         elif results[name].status.status != 3 or off:
             failures.append("off in truth" if results[name].status.status == 3 else results[name].status.text)
     seconds = (graph.scheduler.now_ns() - begin) * 1e-9
-    return Crossing(robots - len(failures), tuple(failures), tuple(watch.charged), seconds, cpu)
+    return Crossing(robots, seed, robots - len(failures), tuple(failures), tuple(watch.charged), seconds, cpu)
 
 
 def report(robots: int, seeds: range) -> str:

@@ -1,6 +1,6 @@
 """One goal after another, each in a graph of its own: what move_base makes of it, and what the engine saw.
 
-Map, simulator, fake_localization and move_base are started by a launch text, as a user starts them; nothing here knows
+Map, simulator, localisation and move_base are started by a launch text, as a user starts them; nothing here knows
 how a plan or a command comes about.
 """
 
@@ -61,7 +61,9 @@ LAUNCH = """
     <arg name="model" value="{model}"/>
     <arg name="map_file" value="{map}"/>
     <arg name="careful" value="{careful}"/>
-    <arg name="localization" value="fake_localization"/>
+    <arg name="localization" value="{localization}"/>
+    <arg name="initial_pose_x" value="{x}"/> <arg name="initial_pose_y" value="{y}"/>
+    <arg name="initial_pose_a" value="{yaw}"/>
   </include>
   {more}
 </launch>
@@ -81,6 +83,8 @@ class Setup:
     """In a world of cylinders that are not in the map: how many robot widths are between any two of them."""
     careful: bool = True
     """Whether `careful.yaml` is loaded over the files that are in the shape of ROBOTIS's."""
+    localization: str = "fake_localization"
+    """What says where the robot is: or amcl, which is told where it begins."""
     seed: int = 0
 
     @property
@@ -89,7 +93,8 @@ class Setup:
         where = self.world if self.gap is None else f"cylinders, gaps of {self.gap:g} widths"
         changed = "".join(f", {name.rpartition('/')[2]} {value}" for name, value in self.overrides)
         sweep, care = "" if self.sweep else ", no sweep", ", careful" if self.careful else ""
-        return f"{where}, {self.model}{sweep}{changed}{care}"
+        told = "" if self.localization == "fake_localization" else f", {self.localization}"
+        return f"{where}, {self.model}{sweep}{changed}{care}{told}"
 
 
 @dataclass(frozen=True)
@@ -235,6 +240,7 @@ def _run(graph: Graph, setup: Setup, errand: Errand, file: Path, *, watched: boo
         model=setup.model,
         sweep=str(setup.sweep).lower(),
         careful=str(setup.careful).lower(),
+        localization=setup.localization,
         x=x,
         y=y,
         yaw=yaw,
