@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from rosmini.graph import Graph
+from rosmini.introspection.nodes import kill
 from rosmini.launch import LaunchError, plan_of, roslaunch
 from rosmini.msgs import message_class
 from rosmini.navigation.nav_core import pose_stamped
@@ -89,6 +92,42 @@ def test_each_of_two_erratics_goes_to_a_goal_of_its_own(graph):
     results = [send(graph, "/robot_0", (0.7, 0.0, 0.0)), send(graph, "/robot_1", (4.3, 0.0, 3.14))]
     graph.run(10.0)
     assert [statuses(each) for each in results] == [REACHED, REACHED]
+
+
+def test_of_two_robots_one_is_removed_on_its_way_and_one_loses_its_move_base(graph, monkeypatch):
+    monkeypatch.setenv("TURTLEBOT3_MODEL", "burger")
+    node = graph.node("setter")
+    for name, value in (
+        ("recovery_behavior_enabled", False),
+        ("controller_patience", 1.0),
+        ("planner_patience", 1.0),
+    ):
+        node.set_param(f"/tb3_0/move_base/{name}", value)
+    roslaunch("rosmini_sim", "multi_navigation.launch", graph=graph, open_rviz=False)
+    for name in ("controller_patience", "planner_patience"):  # the file's are longer
+        node.set_param(f"/tb3_0/move_base/{name}", 1.0)
+    graph.run(2.0)
+    first, second = (
+        send(graph, "/tb3_0", (3.0, 1.0, 0.0)),
+        send(graph, "/tb3_1", (-3.0, 1.0, 0.0)),
+    )
+    logs = hear(graph, "/rosout", "rosgraph_msgs/Log")
+    graph.run(3.0)
+    simulator = graph.nodes["/simulator"].program
+    engine = simulator.engine
+    simulator.delete("tb3_0")
+    there = engine.pose("tb3_1")
+    graph.run(4.0)
+    assert math.dist(there[:2], engine.pose("tb3_1")[:2]) > 0.5, "the other one drives on"
+    assert not second
+    graph.run(3.0)
+    assert [status for status, _ in statuses(first)] == [4], "its move_base gives up"
+    said = [log.msg for log in logs if log.name == "/tb3_0/move_base"]
+    assert any("Costmap2DROS transform timeout" in text for text in said)
+    assert kill(graph, ["/tb3_1/move_base"]) == (["/tb3_1/move_base"], [])
+    graph.run(1.0)
+    assert engine.velocity("tb3_1") == pytest.approx((0.0, 0.0, 0.0), abs=1e-3), "and it stands"
+    assert statuses(second) == [(4, "Aborting on the goal because the node has been killed")]
 
 
 def test_a_map_and_no_way_back_are_arguments(model):
