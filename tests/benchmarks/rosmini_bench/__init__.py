@@ -128,7 +128,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures to FILE, too")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the goals of nav (default: 1)")
     parser.add_argument("--quick", action="store_true", help="few goals of nav: under five minutes")
-    parser.add_argument("--rows", type=Path, metavar="FILE", help="write each of nav's goals to FILE, too")
+    parser.add_argument("--rows", type=Path, metavar="FILE", help="append each of nav's goals to FILE, too")
     parser.add_argument("--no-peer", action="store_true", help="measure nothing else beside it")
     return parser
 
@@ -157,18 +157,22 @@ def main(args: argparse.Namespace) -> int:
         )
         print(f"written to {args.json}")
     if args.subject == "nav":
-        from . import nav_amcl, nav_explore, nav_gmapping, nav_hector, nav_quality, nav_rows
+        from . import nav_amcl, nav_explore, nav_gmapping, nav_hector, nav_quality, nav_study
 
         nav_amcl.run(quick=args.quick)
         nav_gmapping.show(quick=args.quick)
         nav_hector.study(*((1, 30.0) if args.quick else (3, 120.0)))
         if args.quick:
-            nav_explore.run(worlds=("maze",), seeds=(args.seed,))
+            explored = nav_explore.run(worlds=("maze",), seeds=(args.seed,))
         else:
-            nav_explore.run(seeds=range(args.seed, args.seed + 20))
+            explored = nav_explore.run(seeds=range(args.seed, args.seed + 20))
         found = nav_quality.run(args.seed, quick=args.quick)
         if args.rows is not None:
-            nav_rows.store(nav_rows.Kept(args.seed, nav_quality.commit(), found), args.rows)
+            commit = nav_quality.commit()
+            lines = [nav_study.Line(commit, one) for one in explored]
+            lines += [nav_study.Line(commit, one, setup) for setup, outcomes in found for one in outcomes]
+            for line in lines:
+                nav_study.append(line, args.rows)
             print(f"written to {args.rows}")
     return 0
 

@@ -11,7 +11,9 @@ import math
 import statistics
 import time
 from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -125,17 +127,20 @@ def _run(graph: Graph, robots: int, seed: int) -> Crossing:
     return Crossing(robots, seed, robots - len(failures), tuple(failures), tuple(watch.charged), seconds, cpu)
 
 
-def report(robots: int, seeds: range) -> str:
-    """Run over seeds; one line, and one more for each kind of failure and each contact."""
-    found = [run(robots, seed) for seed in seeds]
-    count, reached = robots * len(found), sum(one.reached for one in found)
-    low, high = wilson(reached, count)
-    faster = sum(one.seconds for one in found) / max(sum(one.cpu for one in found), 1e-9)
-    last = statistics.median(one.seconds for one in found)
-    why = Counter(each for one in found for each in (*one.failures, *one.charged))
-    text = (
-        f"house, {robots} burgers crossing, amcl: reached {reached}/{count} ({low:.1%}-{high:.1%}), "
-        f"{sum(len(one.charged) for one in found)} contacts charged, the last after {last:.0f} s, "
-        f"{faster:.1f} x real time"
-    )
-    return text + "".join(f"\n    {times} x {what}" for what, times in why.most_common())
+def table(found: Iterable[Crossing]) -> Iterator[str]:
+    """One line of Markdown for each number of robots."""
+    yield "| robots | runs | reached | 95 % | contacts charged | the last after | x real | failures |"
+    yield "|---|---|---|---|---|---|---|---|"
+    for robots, group in groupby(
+        sorted(found, key=lambda one: (one.robots, one.seed)), lambda one: one.robots
+    ):
+        runs = list(group)
+        reached = sum(one.reached for one in runs)
+        low, high = wilson(reached, robots * len(runs))
+        faster = sum(one.seconds for one in runs) / max(sum(one.cpu for one in runs), 1e-9)
+        why = Counter(each for one in runs for each in (*one.failures, *one.charged))
+        yield (
+            f"| {robots} | {len(runs)} | {reached} of {robots * len(runs)} | {low:.0%} to {high:.0%} | "
+            f"{sum(len(one.charged) for one in runs)} | {statistics.median(one.seconds for one in runs):.0f} s | "
+            f"{faster:.1f} | {'; '.join(f'{times} x {what}' for what, times in why.most_common())} |"
+        )

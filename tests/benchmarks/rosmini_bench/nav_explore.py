@@ -1,12 +1,11 @@
 """How robots explore: worlds and seeds, by frontier_exploration and by explore_lite, with gmapping.
 
-`python -m rosmini_bench.nav_explore house maze --seeds 5` prints a line for each run, and the table; `rosmini bench
-nav` a short one. What a run has seen is the share of the cells that a robot's centre can reach and that are in the map.
+`rosmini bench nav` prints a line for each run, and the table; `nav_study` keeps the runs. What a run has seen is the
+share of the cells that a robot's centre can reach and that are in the map.
 """
 
 from __future__ import annotations
 
-import argparse
 import io
 import statistics
 import time
@@ -179,18 +178,16 @@ def share(message: Any, start: Pose, world: str) -> float:
     return float(known[rows[inside], columns[inside]].sum() / len(cells))
 
 
-HEAD = (
-    f"{'':<29} {'ended':>7} {'95 %':>13} {'seen all':>8} {'seen':>7} {'time':>7} {'way':>7} "
-    f"{'goals':>5} {'x real':>6}"
-)
-
-
 def table(found: Iterable[Explored]) -> Iterator[str]:
-    """One line for each world and method: medians, and of how many runs."""
+    """One line of Markdown for each world and method: medians, and of how many runs."""
     rows: dict[tuple[str, str], list[Explored]] = {}
     for one in found:
         rows.setdefault((one.world, one.method), []).append(one)
-    yield HEAD
+    heads = "world | method | ended by itself | 95 % | seen all | seen | least | time | way | goals | contacts | x real"
+        ", "
+    )
+    yield f"| {heads} |"
+    yield "|---" * (heads.count("|") + 1) + "|"
     for (world, method), runs in sorted(rows.items()):
         ended = sum(one.ended for one in runs)
         low, high = wilson(ended, len(runs))
@@ -200,9 +197,10 @@ def table(found: Iterable[Explored]) -> Iterator[str]:
             for name in ("share", "seconds", "driven", "goals")
         )
         yield (
-            f"{world:<8} {method:<20} {ended:>3}/{len(runs):<3} {low:6.1%}-{high:6.1%} "
-            f"{sum(one.share >= GOOD for one in runs):>4}/{len(runs):<3} {seen:7.1%} {seconds:5.0f} s {driven:5.0f} m "
-            f"{goals:5.0f} {faster:6.1f}"
+            f"| {world} | {method} | {ended} of {len(runs)} | {low:.0%} to {high:.0%} | "
+            f"{sum(one.share >= GOOD for one in runs)} of {len(runs)} | {seen:.0%} | "
+            f"{min(one.share for one in runs):.0%} | {seconds:.0f} s | {driven:.0f} m | {goals:.0f} | "
+            f"{sum(one.contacts for one in runs)} | {faster:.1f} |"
         )
 
 
@@ -217,11 +215,3 @@ def run(*, worlds: Iterable[str] = WORLDS, seeds: Iterable[int] = (1,)) -> list[
     for text in table(found):
         print(text)
     return found
-
-
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("worlds", nargs="*", default=list(WORLDS))
-    parser.add_argument("--seeds", type=int, default=1, metavar="N")
-    chosen = parser.parse_args()
-    run(worlds=chosen.worlds, seeds=range(1, chosen.seeds + 1))

@@ -13,7 +13,6 @@ import json
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, fields
 from functools import cache
-from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -74,22 +73,13 @@ def _line(data: dict[str, Any]) -> Line:
 
 def _outcome(goal: dict[str, Any]) -> Outcome:
     errand = _tupled(Errand, goal.pop("errand"))
-    return _tupled(Outcome, {**goal, "errand": errand})
+    outcome: Outcome = _tupled(Outcome, {**goal, "errand": errand})
+    return outcome
 
 
 def _tupled(kind: type[Any], data: dict[str, Any]) -> Any:
     assert set(data) <= {each.name for each in fields(kind)}
     return kind(**{name: tuple(value) if isinstance(value, list) else value for name, value in data.items()})
-
-
-def goals(lines: list[Line]) -> list[tuple[Setup, list[Outcome]]]:
-    """The goals of each setup, by their numbers; setups in the order of their words."""
-    found = [(line.setup, line.result) for line in lines if line.setup is not None]
-    found.sort(key=lambda each: (each[0].words, each[0].seed, each[1].errand.number))  # type: ignore[union-attr]
-    return [
-        (setup, [outcome for _, outcome in group if isinstance(outcome, Outcome)])
-        for setup, group in groupby(found, key=lambda each: each[0])
-    ]
 
 
 # -- driving -----------------------------------------------------------------------------------------------------------
