@@ -184,8 +184,6 @@ def table(found: Iterable[Explored]) -> Iterator[str]:
     for one in found:
         rows.setdefault((one.world, one.method), []).append(one)
     heads = "world | method | ended by itself | 95 % | seen all | seen | least | time | way | goals | contacts | x real"
-        ", "
-    )
     yield f"| {heads} |"
     yield "|---" * (heads.count("|") + 1) + "|"
     for (world, method), runs in sorted(rows.items()):
