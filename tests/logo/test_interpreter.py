@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rosmini.logo import Limits, Logo, LogoError, LogoStopped
+from rosmini.logo import Limits, Logo, LogoError, LogoStopped, values
 from rosmini.logo.primitives import PRIMITIVES
 from rosmini.logo.reader import read_list
 from rosmini.logo.values import LogoList, show
@@ -534,3 +534,42 @@ def test_what_is_called_last_still_has_what_surrounds_it(program: str, value: st
 )  # fmt: skip
 def test_what_other_logos_have_is_answered(program: str, words: str) -> None:
     assert words in refused(program)
+
+
+@pytest.mark.parametrize(
+    "loop",
+    [
+        'forever [make "l fput 1 :l]',
+        'forever [make "l lput 1 :l]',
+        'forever [make "l sentence :l [a b]]',
+        'repeat 5000 [make "l fput 1 :l] forever [make "m butfirst :l]',
+        'repeat 5000 [make "l fput 1 :l] forever [make "m butlast :l]',
+        'repeat 2000 [make "l fput 1 :l] make "m butfirst fput 1 :l forever [make "e equalp :l :m]',
+        'repeat 2000 [make "l fput 1 :l] forever [make "e memberp 2 :l]',
+    ],
+)
+def test_what_large_lists_cost_counts_as_steps(loop, monkeypatch):
+    """The members that Logo looks at, beyond the steps, are no more than a few for each step."""
+    looks = 0
+    known = values.weight
+
+    def counted(value):
+        nonlocal looks
+        looks += 1
+        return known(value)
+
+    monkeypatch.setattr(values, "weight", counted)
+    with pytest.raises(LogoStopped, match="stopped after 200000 steps"):
+        Logo(limits=Limits(steps=200_000)).run(f'make "l []\n{loop}')
+    assert looks < 400_000
+
+
+def test_lists_know_their_depth_and_weight_however_they_were_made():
+    nested = read_list("a [b [c]] d")
+    for made in (nested + nested, nested.without(0), nested.without(0).without(0), nested.without(-1)):
+        again = values.LogoList(made.items)
+        assert (made.depth, made.weight) == (again.depth, again.weight)
+    deep = values.LogoList()
+    with pytest.raises(LogoError, match="nested more than 100 deep"):
+        for _ in range(200):
+            deep = values.LogoList() + values.LogoList((deep,))

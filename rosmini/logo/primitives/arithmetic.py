@@ -12,6 +12,7 @@ from rosmini.logo.errors import BadInput, LogoError
 from rosmini.logo.turtles import cosine, sine
 from rosmini.logo.values import (
     EXACT,
+    LogoList,
     Value,
     boolean,
     is_equal,
@@ -137,12 +138,19 @@ def _compare(test: Callable[[Number, Number], bool]) -> Callable[[Machine, Value
     return act
 
 
-def _equal(_: Machine, first: Value, second: Value) -> str:
-    return boolean(is_equal(first, second))
+def _is_same(machine: Machine, first: Value, second: Value) -> bool:
+    """Whether two values are equal; each member of two lists that may be is counted as a step."""
+    if isinstance(first, LogoList) and isinstance(second, LogoList) and len(first) == len(second):
+        machine.steps += min(first.weight, second.weight)
+    return is_equal(first, second)
 
 
-def _not_equal(_: Machine, first: Value, second: Value) -> str:
-    return boolean(not is_equal(first, second))
+def _equal(machine: Machine, first: Value, second: Value) -> str:
+    return boolean(_is_same(machine, first, second))
+
+
+def _not_equal(machine: Machine, first: Value, second: Value) -> str:
+    return boolean(not _is_same(machine, first, second))
 
 
 def _before(_: Machine, first: Value, second: Value) -> str:

@@ -42,13 +42,13 @@ def _last(machine: Machine, value: Value) -> Value:
 
 
 def _butfirst(machine: Machine, value: Value) -> Value:
-    parts = _parts(value, machine)[1:]
-    return parts if isinstance(parts, str) else LogoList(parts)
+    _parts(value, machine)
+    return value.without(0) if isinstance(value, LogoList) else word(value)[1:]
 
 
 def _butlast(machine: Machine, value: Value) -> Value:
-    parts = _parts(value, machine)[:-1]
-    return parts if isinstance(parts, str) else LogoList(parts)
+    _parts(value, machine)
+    return value.without(-1) if isinstance(value, LogoList) else word(value)[:-1]
 
 
 def _item(machine: Machine, index: Value, value: Value) -> Value:
@@ -77,19 +77,21 @@ def _list(machine: Machine, *values: Value) -> Value:
 
 
 def _sentence(machine: Machine, *values: Value) -> Value:
-    parts = (value.items if isinstance(value, LogoList) else (value,) for value in values)
-    return machine.made(LogoList(item for part in parts for item in part))
+    made = LogoList()
+    for value in values:
+        made += value if isinstance(value, LogoList) else LogoList((value,))
+    return machine.made(made)
 
 
 def _fput(machine: Machine, value: Value, rest: Value) -> Value:
     if isinstance(rest, LogoList):
-        return machine.made(LogoList((value, *rest.items)))
+        return machine.made(LogoList((value,)) + rest)
     return _word(machine, value, rest)
 
 
 def _lput(machine: Machine, value: Value, rest: Value) -> Value:
     if isinstance(rest, LogoList):
-        return machine.made(LogoList((*rest.items, value)))
+        return machine.made(rest + LogoList((value,)))
     return _word(machine, rest, value)
 
 
@@ -101,7 +103,7 @@ def _reverse(machine: Machine, value: Value) -> Value:
 
 def _memberp(machine: Machine, value: Value, of: Value) -> str:
     if isinstance(of, LogoList):
-        machine.made(of)
+        machine.steps += of.weight
         return boolean(any(is_equal(value, item) for item in of))
     return boolean(word(value).lower() in word(of).lower())
 
