@@ -97,6 +97,8 @@ class Link:
         self._messages: list[list[float]] = []
         self._last: tuple[Any, ...] = ()
         self._others: tuple[str, ...] = ()
+        self._choices: tuple[str, ...] = ()
+        """What can be driven, as the page knows it."""
         self._drawn: tuple[int, int | None] = (0, None)
         """Which strokes of turtles the page has: their number, and how often the paper was cleared before."""
         self._last_sent = 0.0
@@ -114,7 +116,8 @@ class Link:
 
     def _data(self) -> dict[str, Any]:
         pad = self.pad
-        data = pad_data(pad) | {"choices": list(pad.choices), "chosen": pad.chosen}
+        self._choices = tuple(pad.choices)
+        data = pad_data(pad) | {"choices": list(self._choices), "chosen": pad.chosen}
         if pad.sight is not None and pad.gone is None:
             # It also has the laser's code loaded now, while the cell runs, and not at the first key.
             data["ranges"] = np.array(pad.sight.survey(), dtype=np.float32).tobytes()
@@ -214,7 +217,7 @@ class Link:
         if sight is not None and sight.trail:
             self._send({"type": "trail"}, [np.array(sight.trail, dtype=np.float32).tobytes()])
         self._drawn = (0, None)
-        self._last = ()
+        self._last, self._choices = (), ()
 
     def _stop(self) -> None:
         """Stop what the page drives; what a script drives goes on."""
@@ -275,7 +278,16 @@ class Link:
             blocked,
             pad.sent,
         )
-        if shown == self._last and scan is None and pushed is None and now - self._last_sent < QUIET_S:
+        # Of topics the Master knows, who may be far away: they are asked for when the pad is opened.
+        choices = self._choices if pad.turtle is None and pad.sight is None else tuple(pad.choices)
+        is_new, self._choices = choices != self._choices, choices
+        if (
+            shown == self._last
+            and scan is None
+            and pushed is None
+            and not is_new
+            and now - self._last_sent < QUIET_S
+        ):
             return
         self._last, self._last_sent = shown, now
         content = {
@@ -294,6 +306,8 @@ class Link:
             self._drawn = window["next"], window["clears"]
         if pushed is not None:
             content["pushed"] = pushed
+        if is_new:
+            content["choices"] = list(choices)
         numbers = np.array([*pad.teleop.target, *pad.teleop.command, *pose], dtype=np.float64)
         buffers = [numbers.tobytes()] if scan is None else [numbers.tobytes(), scan.tobytes()]
         self._send(content, buffers)

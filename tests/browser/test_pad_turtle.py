@@ -140,7 +140,6 @@ def test_a_page_on_loopback_drives_the_node_s_turtle(chromium, watch):
     watcher = watch(page)
     with Graph() as graph:
         sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
-        sim.spawn(2.0, 2.0, 0.0)
         graph.run(0.1)
         graph._live = SimpleNamespace(running=True, stop=lambda: None)  # this test drives it
         pad = sim.pad()
@@ -166,6 +165,9 @@ def test_a_page_on_loopback_drives_the_node_s_turtle(chromium, watch):
                 255,
                 255,
             ]
+            assert not page.get_by_label("Drive", exact=True).is_visible()
+            sim.spawn(2.0, 2.0, 0.0)
+            until(lambda: page.get_by_label("Drive", exact=True).is_visible())
             page.get_by_label("Drive", exact=True).select_option("turtle2")
             until(lambda: pad.chosen == "turtle2")
             until(lambda: page.locator(".rp-command", has_text="/turtle2/cmd_vel").count() == 1)

@@ -10,6 +10,7 @@ from urllib.request import urlopen
 import numpy as np
 import pytest
 
+from rosmini import rosrun
 from rosmini.errors import RosminiError
 from rosmini.msgs.geometry_msgs.msg import Twist
 from rosmini.sim.simulator import Simulator
@@ -334,3 +335,19 @@ def test_a_page_chooses_another_robot(graph):
     page.run(0.1)
     assert any("no robot 'nobody'" in sent.get("text", "") for sent, _ in page.sent)
     assert pad.chosen == "tb3_1"
+
+
+def test_a_turtle_that_comes_or_goes_is_told_to_the_page_that_is_open(graph):
+    sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
+    graph.run(0.1)
+    page = Page(sim.pad())
+    page.say("hello")
+    page.run(0.3)
+    name = sim.spawn(2.0, 3.0, 0.0)
+    page.run(0.3)
+    told = [content["choices"] for content, _ in page.frames() if "choices" in content]
+    assert told == [["turtle1"], ["turtle1", name]]
+    page.say("choose", name=name)
+    page.run(0.3)
+    ((content, _),) = [sent for sent in page.sent if sent[0]["type"] == "pad"]
+    assert content["data"]["topic"] == f"/{name}/cmd_vel"

@@ -4,7 +4,7 @@
    To the kernel:  {type: "hello"} a page has opened, {type: "beat"} it is still there, {type: "key", key}, {type: "steer", linear, angular}, {type: "stop"} it is left, or its
                    keys are released, {type: "keys", name} other keys, {type: "choose", name} another robot,
                    {type: "reset"}, {type: "start"}.
-   From the kernel: {type: "pad", data} another robot is driven; {type: "frame", messages, sent, at_rest, blocked, scan, keys, speed, others, pushed?, window?} with a buffer of seven float64 (target and command, each linear and
+   From the kernel: {type: "pad", data} another robot is driven; {type: "frame", messages, sent, at_rest, blocked, scan, keys, speed, others, choices?, pushed?, window?} with a buffer of seven float64 (target and command, each linear and
                    angular, and x, y, theta), and one of float32 (ranges, then x, y, theta of the robot at each beam) if `scan` is true;
                    {type: "trail"} with one of float32 (x, y, ...); {type: "still"} nobody drives the graph; {type: "gone", text} and
                    {type: "error", text}. */
@@ -103,6 +103,7 @@
       state.command = [linear, angular];
       for (const [v, w, y = 0, z = 0] of content.messages) state.messages.push({ linear: v, angular: w, aside: [y, z] });
       [state.keys, state.speed] = [content.keys, content.speed];
+      if (content.choices) state.choices = content.choices;
       state.messages.splice(0, state.messages.length - 8);
       state.sent = content.sent;
       state.startable = false;

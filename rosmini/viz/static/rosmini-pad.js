@@ -46,6 +46,12 @@
     if (trail.length > TRAIL_POINTS) trail.splice(0, TRAIL_POINTS / 10);
   }
 
+  /* Have a select offer these names. */
+  function offer(select, names, chosen) {
+    select.replaceChildren(...names.map((name) => element("option", { value: name }, name)));
+    select.value = chosen;
+  }
+
   class Page {
     constructor(host, data, driver, asset) {
       this.data = data;
@@ -151,8 +157,8 @@
     options() {
       const { data } = this;
       const choice = (label, names, chosen, act) => {
-        const select = element("select", { "aria-label": label }, ...names.map((name) => element("option", { value: name }, name)));
-        select.value = chosen;
+        const select = element("select", { "aria-label": label });
+        offer(select, names, chosen);
         select.addEventListener("change", () => { act(select.value); this.stage.focus({ preventScroll: true }); });
         return element("label", {}, element("span", { class: "rp-name" }, label), select);
       };
@@ -160,7 +166,9 @@
       this.hold.checked = data.hold;
       this.hold.addEventListener("change", () => this.stage.focus({ preventScroll: true }));
       const box = element("div", { class: "rp-options" });
-      if ((data.choices ?? []).length > 1) box.append(choice("Drive", data.choices, data.chosen, (name) => this.driver.choose(name)));
+      this.drive = choice("Drive", data.choices ?? [], data.chosen, (name) => this.driver.choose(name));
+      this.drive.hidden = (data.choices ?? []).length < 2;
+      box.append(this.drive);
       const keys = choice("Keys of", data.maps.map(({ name }) => name), this.map.name, (name) => {
         this.driver.use(data.maps.find((map) => map.name === name));
       });
@@ -333,6 +341,11 @@
         this.poses.replaceChildren(element("pre", {}, this.paper.message(state.window)));
       }
       if (state.keys !== this.map.name) this.use(state.keys);
+      if (state.choices) { // robots and turtles come and go
+        offer(this.drive.lastChild, state.choices, this.data.chosen);
+        this.drive.hidden = state.choices.length < 2;
+        state.choices = null;
+      }
       this.speed.textContent = !Object.keys(this.map.factors).length ? "" : `currently: speed ${state.speed[0]}, turn ${state.speed[1]}`;
       this.meters.forEach(({ value, bar, mark, unit, max }, i) => {
         const [sent, wanted] = [state.command[i], state.target[i]];
