@@ -23,7 +23,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Self
 
 from rosmini.errors import DeserializationError, shown
 from rosmini.files import check
-from rosmini.graph import running_graph
 from rosmini.time import Time
 
 from .errors import (
@@ -435,7 +434,7 @@ class Bag(Summaries):
             kind, data, md5sum, cls = msg[0], msg[1], msg[2], msg[-1]
         else:
             kind, data, md5sum, cls = msg._type, serialized(msg), msg._md5sum, type(msg)
-        time = running_graph().now() if t is None else t
+        time = _now() if t is None else t
         number = self._by_topic.get(topic) if connection_header is None else None
         if number is None or writer.index.connections[number].md5sum != md5sum:
             number = self._connect(topic, kind, md5sum, cls, connection_header)
@@ -483,3 +482,9 @@ class Bag(Summaries):
             raise ROSBagEncryptNotSupportedException(
                 f"bags are not encrypted here ({encryptor}): use real ROS's `rosbag encrypt`"
             )
+
+
+def _now() -> Time:
+    from rosmini.graph import running_graph  # what only reads a bag needs no graph
+
+    return running_graph().now()

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
-from rosmini.graph.clock import TopicClock
 from rosmini.msgs import message_class
 
 from .errors import BagFull, ROSBagException
@@ -177,6 +176,8 @@ class Recorder:
     # -- the beginning ---------------------------------------------------------------------------------------------
 
     def _begin(self) -> None:
+        from rosmini.graph.clock import TopicClock  # here: what only reads bags needs no graph
+
         clock = self.node.clock
         if isinstance(clock, TopicClock) and clock.now_ns() == 0:
             clock.call_at(1, self._begin)  # messages would have no time yet

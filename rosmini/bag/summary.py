@@ -7,7 +7,6 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from rosmini.errors import nearest
-from rosmini.graph.show import show
 from rosmini.names import canonicalize
 from rosmini.time import Time
 
@@ -198,6 +197,8 @@ class Summaries(Protocol):
             title=None: a caption under the picture, and the first words of its text form
             width=660.0: of the picture [CSS px]
         """
+        from rosmini.graph.show import show
+
         return show("bag", self, **options)
 
     def replay(self, **options: Any) -> Any:
@@ -210,6 +211,8 @@ class Summaries(Protocol):
             frame=None: what everything is drawn in; None: map, odom or world, whichever there is first
             robot=None: what robots look like from above: a model or its name; None: an arrow head
         """
+        from rosmini.graph.show import show
+
         return show("replay", self, **options)
 
 

@@ -136,9 +136,15 @@ class Exercise:
 def _unexpected(answer: Any, error: Exception) -> str:
     """Say what was raised: by the reader's code, or by what the check did with an answer of another form."""
     said = f"{type(error).__name__}: {error}"
-    if callable(answer) or any(_is_readers(frame) for frame, _ in traceback.walk_tb(error.__traceback__)):
+    if (
+        isinstance(error, RosminiError)
+        or callable(answer)
+        or any(_is_readers(frame) for frame, _ in traceback.walk_tb(error.__traceback__))
+    ):
         return f"Your code raised {said}"
     shown = reprlib.repr(answer)
+    if str(error).endswith("object is not callable"):
+        return f"{shown} is not a function."
     return f"{shown} does not have the form that is asked for: {said}\nHint: compare it with the stub"
 
 

@@ -43,7 +43,13 @@ if TYPE_CHECKING:
     from rosmini.scripts import NodeHandle, ScriptHandle
     from rosmini.time import Time
 
-TOOL = Tool("rosbag", "record, play and look into bags", elsewhere=("decrypt", "encrypt"))
+TOOL = Tool(
+    "rosbag",
+    "record, play and look into bags",
+    elsewhere=("decrypt", "encrypt"),
+    reads_files=True,
+    why_elsewhere="a bag that GnuPG has encrypted is read by a real ROS with its keys",
+)
 add_parser, main = TOOL.add_parser, TOOL.main
 
 
@@ -273,6 +279,10 @@ def _rewrite(parser: Callable[[], Parser], given: Values, work: Callable[[Path, 
             complaints.append(f"Skipping {path}. Backup path {backup} already exists.")
             continue
         part = target.with_name(target.name + ".new")
+        if not target.parent.is_dir():
+            complaints.append(f"ERROR writing to {target}: there is no folder {target.parent}; make it first")
+            status = 1
+            continue
         try:
             said = work(path, part)
             if in_place:

@@ -275,7 +275,7 @@ def answer(given: Values, plan: Plan, packages: PackageIndex) -> Lines:
     elif given.dump_params:
         text = plan.dump()
     elif given.file_list:
-        text = "\n".join(os.path.abspath(path) for path in plan.files())  # noqa: PTH100 - not resolved
+        text = "\n".join(os.path.abspath(path) for path in dict.fromkeys(plan.files()))  # noqa: PTH100 - not resolved
     else:
         text = plan.text()
     return Lines(lines=(text,))

@@ -173,7 +173,8 @@ class Tool:
     that are not here; ``example`` is what to write after a `+` for the nodes on which a verb can act. ``purpose`` makes
     it a tool on the wire, which acts on the graph of the Master at ``ROS_MASTER_URI``: what it is a tool for, in the
     ``overview`` that it prints, as ROS's do, where the first word is none of its commands. ``failure_status`` is the
-    exit status where no Master answers. A tool that ``needs_graph`` not only reads files.
+    exit status where no Master answers. A tool that ``needs_graph`` not only reads files. One that
+    ``reads_files`` does so in a terminal; what else it does there has an ``in_terminal`` of its own.
     A tool that does one thing only, as roswtf, names its ``only_verb``, which is then not among the words. One that
     ``takes_arguments`` of launch files, ``name:=value``, gets them; of others such words are remappings.
     """
@@ -182,11 +183,13 @@ class Tool:
     summary: str
     usage_status: int = 2
     elsewhere: tuple[str, ...] = ()
+    why_elsewhere: str = ""
     example: str = "rosmini_sim/simulator"
     purpose: str = ""
     overview: Overview = field(default_factory=Overview)
     failure_status: int = 1
     needs_graph: bool = True
+    reads_files: bool = False
     only_verb: str = ""
     takes_arguments: bool = False
     verbs: dict[str, Verb] = field(default_factory=dict)
@@ -219,7 +222,10 @@ class Tool:
         if name in self.verbs:
             return self.verbs[name]
         if name in self.elsewhere:
-            raise UsageError(f"`{self.name} {name}` is a command of the original tool, which rosmini has not")
+            reason = f": {self.why_elsewhere}" if self.why_elsewhere else ""
+            raise UsageError(
+                f"`{self.name} {name}` is a command of the original tool, which rosmini does not have{reason}"
+            )
         hint = nearest(name, self.verbs) or f"there are: {', '.join(self.verbs)}"
         raise UsageError(f"Unknown command: '{name}'\n{self.name}: there is no command {name!r}; {hint}")
 
@@ -356,7 +362,7 @@ class Tool:
 
     def _in_terminal(self, verb: Verb, own: Sequence[str], nodes: Sequence[str]) -> Result:
         given = verb.parser().parse(own)
-        if not self.needs_graph:
+        if not self.needs_graph or (self.reads_files and not nodes):
             return verb.act(given, Call(cast("Peers", None), read_line=sys.stdin.readline))
         if self.purpose and not nodes:
             return self._on_wire(verb, given)

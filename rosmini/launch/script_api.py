@@ -11,6 +11,7 @@ import sys
 import uuid
 from collections.abc import Sequence
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -44,6 +45,8 @@ def __getattr__(name: str) -> Any:
         from .errors import LaunchError
 
         return LaunchError
+    if name in ("config", "xmlloader"):  # after `import roslaunch.config`; that file imports this one
+        return import_module(f"{__package__}.script_config")
     raise AttributeError(f"module 'roslaunch' has no attribute {name!r}")
 
 
@@ -95,6 +98,11 @@ class Node:
         if not package or not node_type:
             raise ValueError("package and type must be non-empty")
         self.package, self.type, self.name = package, node_type, name
+        self.args, self.machine_name, self.filename = args, machine_name, filename
+        self.respawn, self.respawn_delay, self.required = respawn, respawn_delay, required
+        self.remap_args = [tuple(pair) for pair in remap_args or ()]
+        self.env_args = [tuple(pair) for pair in env_args or ()]
+        self.output, self.cwd, self.launch_prefix = output, cwd, launch_prefix
         self.namespace = "/" + "".join(f"{part}/" for part in namespace.split("/") if part)
         self.plan = self._plan(
             package,

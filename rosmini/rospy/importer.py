@@ -78,6 +78,7 @@ _HOMES = {
     **{
         f"roslaunch.{name}": "rosmini.launch.script_api" for name in ("core", "parent", "rlutil", "scriptapi")
     },
+    **{f"roslaunch.{name}": "rosmini.launch.script_config" for name in ("config", "xmlloader")},
     "roslib.message": f"{_HERE}.aliases.genpy.message",
     "rospy.exceptions": "rosmini.errors",
     "sensor_msgs.point_cloud2": f"{_HERE}.aliases.point_cloud2",

@@ -190,7 +190,7 @@ def test_files_are_checked_and_printed(tmp_path: Path) -> None:
     ("words", "said"),
     [
         (("topc", "-l"), "did you mean topic?"),
-        (("camera", "-l"), "is a command of the original tool, which rosmini has not"),
+        (("camera", "-l"), "is a command of the original tool, which rosmini does not have"),
         (("topic",), "say what to do"),
         (("model", "-p"), "which model?"),
         (("world", "-p", "2"), "invalid choice"),

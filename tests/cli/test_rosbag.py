@@ -143,6 +143,12 @@ def test_playing_to_a_script_and_recording_it(bag):
         (("filter", "t.bag", "f.bag", "True", "False"), 2, "Too many arguments."),
         (("filter", "-p", "m.", "t.bag", "f.bag", "True"), 1, "ERROR: "),
         (("filter", "listener.py", "f.bag", "True"), 1, "ERROR reading listener.py: "),
+        (
+            ("compress", "--output-dir", "out", "t.bag"),
+            1,
+            "ERROR writing to out/t.bag: there is no folder out",
+        ),
+        (("decrypt", "t.bag"), 2, "a bag that GnuPG has encrypted is read by a real ROS with its keys"),
         (("compress",), 2, "You must specify at least one bag file."),
         (("merge", "m.bag"), 2, "You must specify an out bag and at least one in bag."),
         (("merge", "m.bag", "none.bag"), 1, "ERROR: "),

@@ -96,6 +96,12 @@ class TestAnswers:
         assert self.said(capsys, "--files", str(file))[1] == f"{file}\n"
         assert self.said(capsys, "--files", os.path.relpath(file))[1] == f"{file}\n"
         assert self.said(capsys, "--find-node", "/stp", str(file))[1] == f"{file}\n"
+        twice = source / "twice.launch"
+        twice.write_text(
+            "".join(["<launch>", *(f'<include file="{file}" ns="{name}"/>' for name in "ab"), "</launch>"]),
+            encoding="utf-8",
+        )
+        assert self.said(capsys, "--files", str(twice))[1] == f"{twice}\n{file}\n"
 
     def test_tree(self, capsys: Any) -> None:
         lines = self.said(capsys, "--tree", "speaking", "demo.launch")[1].splitlines()
