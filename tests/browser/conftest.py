@@ -82,9 +82,22 @@ class Watcher:
     def __init__(self, page) -> None:
         self.seen: list[str] = []
         page.on("console", self.console)
-        page.on("pageerror", lambda error: self.seen.append(f"error: {error}"))
+        page.on("pageerror", self.raised)
         page.on("requestfailed", self.failed)
         page.on("request", self.request)
+        self.page = page
+
+    def end(self) -> list[str]:
+        """Leave the page, which another test may have then; return what was seen."""
+        self.page.goto("about:blank")
+        self.page.remove_listener("console", self.console)
+        self.page.remove_listener("pageerror", self.raised)
+        self.page.remove_listener("requestfailed", self.failed)
+        self.page.remove_listener("request", self.request)
+        return self.seen
+
+    def raised(self, error) -> None:
+        self.seen.append(f"error: {error}")
 
     def console(self, message) -> None:
         # Reading a picture back out of a software renderer, as a screenshot does, is slow, and it says so.
@@ -100,9 +113,41 @@ class Watcher:
             self.seen.append(f"request: {request.url}")
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def watch():
     return Watcher
+
+
+class Tabs:
+    """Pages of a browser that are used again: a new one is a new process, and costs more than most tests do in it.
+
+    A page that was left has nothing of what was in it before. What stays with a page or its context does not come
+    here: scripts that it starts with, a clock of the tests' own.
+    """
+
+    def __init__(self, browser) -> None:
+        self.browser = browser
+        self.free: dict[str, list] = {}
+
+    @contextmanager
+    def open(self, viewport, **options):
+        """A page of this size for as long as the block lasts, with what it says; a context's other options are kept."""
+        free = self.free.setdefault(repr(sorted(options.items())), [])
+        page = free.pop() if free else self.browser.new_context(viewport=viewport, **options).new_page()
+        page.set_viewport_size(viewport)
+        watcher = Watcher(page)
+        yield page, watcher
+        page.mouse.move(0, 0)
+        page.emulate_media(media="null")
+        watcher.end()
+        free.append(page)
+        assert watcher.seen == []
+
+
+@pytest.fixture(scope="session")
+def tabs(chromium):
+    """Pages of the browser, to be used again."""
+    return Tabs(chromium)
 
 
 def notebook(cells):
@@ -179,6 +224,12 @@ def webgl(chromium):
     flags = [flag for flag in FLAGS if flag != "--disable-gpu"]
     flags += ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
     return launched(chromium.browser_type, flags)
+
+
+@pytest.fixture(scope="session")
+def solid_tabs(webgl):
+    """Pages that draw in three dimensions, to be used again."""
+    return Tabs(webgl)
 
 
 SQUARE = World(

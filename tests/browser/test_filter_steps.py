@@ -26,21 +26,18 @@ def view():
     return show_steps(GridMap(np.zeros((20, 40), np.int8), 0.1, (0.0, 0.0, 0.0)), steps, title="Steps")
 
 
-def test_it_is_stepped(chromium, watch, tmp_path, view):
-    page = chromium.new_page(viewport={"width": 800, "height": 600})
-    watcher = watch(page)
-    page.goto(view.save(tmp_path / "steps.html").as_uri())
-    said, slider = page.get_by_role("status"), page.get_by_role("slider", name="step")
-    assert said.text_content().startswith("1. step 0: 200 particles")
-    page.get_by_role("button", name="Next step").click()
-    assert said.text_content().startswith("2. step 1: ")
-    slider.focus()
-    page.keyboard.press("End")
-    assert said.text_content() == f"5. {view.data['steps'][-1]['said']}"
-    page.get_by_role("button", name="Play").click()
-    said.filter(has_text="3. step 2").wait_for()
-    said.filter(has_text="5. step 4").wait_for()
-    page.get_by_role("button", name="Play").wait_for()
-    assert page.get_by_role("img", name="after the step step 4").count() == 1
-    assert watcher.seen == []
-    page.close()
+def test_it_is_stepped(tabs, tmp_path, view):
+    with tabs.open({"width": 800, "height": 600}) as (page, _):
+        page.goto(view.save(tmp_path / "steps.html").as_uri())
+        said, slider = page.get_by_role("status"), page.get_by_role("slider", name="step")
+        assert said.text_content().startswith("1. step 0: 200 particles")
+        page.get_by_role("button", name="Next step").click()
+        assert said.text_content().startswith("2. step 1: ")
+        slider.focus()
+        page.keyboard.press("End")
+        assert said.text_content() == f"5. {view.data['steps'][-1]['said']}"
+        page.get_by_role("button", name="Play").click()
+        said.filter(has_text="3. step 2").wait_for()
+        said.filter(has_text="5. step 4").wait_for()
+        page.get_by_role("button", name="Play").wait_for()
+        assert page.get_by_role("img", name="after the step step 4").count() == 1

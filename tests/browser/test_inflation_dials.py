@@ -15,16 +15,13 @@ RNG = np.random.default_rng(7)
 COSTS = RNG.choice([0, 254, 255], size=(24, 40), p=[0.9, 0.05, 0.05]).astype(np.uint8)
 
 
-@pytest.fixture
-def page(chromium, watch, tmp_path):
-    """A page with the dials of a costmap."""
+@pytest.fixture(scope="module")
+def page(tabs, tmp_path_factory):
+    """A page with the dials of a costmap; one test alone turns them."""
     view = Costmap2D.of(COSTS[::-1], 0.05).show_inflation(title="Dials", inscribed_radius=0.1)
-    page = chromium.new_page(viewport={"width": 800, "height": 900})
-    watcher = watch(page)
-    page.goto(view.save(tmp_path / "dials.html").as_uri())
-    yield page
-    assert watcher.seen == []
-    page.close()
+    with tabs.open({"width": 800, "height": 900}) as (page, _):
+        page.goto(view.save(tmp_path_factory.mktemp("dials") / "dials.html").as_uri())
+        yield page
 
 
 @pytest.mark.parametrize("radius", [0.0, 0.05, 0.31, 0.55])

@@ -14,19 +14,17 @@ pytestmark = pytest.mark.browser
 GREYS = np.arange(256, dtype=np.uint8).reshape(8, 32)
 
 
-@pytest.fixture
-def page(chromium, watch, tmp_path):
-    """A page with the dials of an image that has every grey."""
-    Image.fromarray(GREYS).save(tmp_path / "map.pgm")
+@pytest.fixture(scope="module")
+def page(tabs, tmp_path_factory):
+    """A page with the dials of an image that has every grey; one test alone turns them."""
+    folder = tmp_path_factory.mktemp("dials")
+    Image.fromarray(GREYS).save(folder / "map.pgm")
     text = "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\nnegate: 0\n"
-    (tmp_path / "map.yaml").write_text(text, encoding="utf-8")
-    view = map_file(tmp_path / "map.yaml").show(title="Dials")
-    page = chromium.new_page(viewport={"width": 800, "height": 600})
-    watcher = watch(page)
-    page.goto(view.save(tmp_path / "dials.html").as_uri())
-    yield page
-    assert watcher.seen == []
-    page.close()
+    (folder / "map.yaml").write_text(text, encoding="utf-8")
+    view = map_file(folder / "map.yaml").show(title="Dials")
+    with tabs.open({"width": 800, "height": 600}) as (page, _):
+        page.goto(view.save(folder / "dials.html").as_uri())
+        yield page
 
 
 @pytest.mark.parametrize("mode", ["trinary", "scale", "raw"])

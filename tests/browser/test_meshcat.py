@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 import shutil
+from contextlib import ExitStack
 
 import numpy as np
 import pytest
@@ -118,22 +119,18 @@ def site(tmp_path_factory):
 
 
 @pytest.fixture
-def open_page(webgl, watch, site):
-    pages = []
+def open_page(solid_tabs, site):
+    with ExitStack() as stack:
 
-    def open_page(path, *, scheme="light", width=800, ready=True):
-        page = webgl.new_page(color_scheme=scheme, viewport={"width": width, "height": 560})
-        watcher = watch(page)
-        pages.append((page, watcher))
-        page.goto((site / path).as_uri())
-        if ready:
-            page.wait_for_selector(READY)
-        return page
+        def open_page(path, *, scheme="light", width=800, ready=True):
+            viewport = {"width": width, "height": 560}
+            page, _ = stack.enter_context(solid_tabs.open(viewport, color_scheme=scheme))
+            page.goto((site / path).as_uri())
+            if ready:
+                page.wait_for_selector(READY)
+            return page
 
-    yield open_page
-    for page, watcher in pages:
-        page.close()
-        assert watcher.seen == []
+        yield open_page
 
 
 def pixels(page, selector="iframe"):

@@ -26,22 +26,19 @@ def rgb(colour: str) -> str:
 
 
 @pytest.fixture
-def show(chromium, watch):
+def show(tabs):
     """Open pictures in a page of a theme; closing it asserts that the browser had nothing to say."""
-    page = chromium.new_page(viewport={"width": 800, "height": 900})
-    watcher = watch(page)
+    with tabs.open({"width": 800, "height": 900}) as (page, _):
 
-    def show(theme: str, *views):
-        figures = "".join(view.html for view in views)
-        page.set_content(
-            f'<!DOCTYPE html><html data-theme="{theme}"><head><style>{SHEET}</style></head>'
-            f"<body>{figures}</body></html>"
-        )
-        return page
+        def show(theme: str, *views):
+            figures = "".join(view.html for view in views)
+            page.set_content(
+                f'<!DOCTYPE html><html data-theme="{theme}"><head><style>{SHEET}</style></head>'
+                f"<body>{figures}</body></html>"
+            )
+            return page
 
-    yield show
-    assert watcher.seen == []
-    page.close()
+        yield show
 
 
 @pytest.mark.parametrize(("theme", "palette"), [("light", style.LIGHT), ("dark", style.DARK)])

@@ -103,11 +103,10 @@ class Shown:
         return lambda: sheet.evaluate("(sheet) => sheet.remove()")
 
 
-@pytest.fixture
-def show(chromium, pictures):
-    page = chromium.new_page(viewport={"width": 700, "height": 700})
-    yield lambda kind, theme="light": Shown(page, pictures(kind), theme)
-    page.close()
+@pytest.fixture(scope="module")
+def show(tabs, pictures):
+    with tabs.open({"width": 700, "height": 700}) as (page, _):
+        yield lambda kind, theme="light": Shown(page, pictures(kind), theme)
 
 
 def read(path: Path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import shutil
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
@@ -87,26 +88,19 @@ def write(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def opened(chromium, watch):
+def opened(tabs):
     """Opens pages, and sees to it that they said and fetched nothing."""
-    contexts, watchers = [], []
+    with ExitStack() as stack:
 
-    def open_page(address, *, width="desktop", **options):
-        wide, high = WIDTHS[width]
-        context = chromium.new_context(viewport={"width": wide, "height": high}, **options)
-        contexts.append(context)
-        page = context.new_page()
-        watchers.append(watch(page))
-        page.goto(address)
-        if options.get("java_script_enabled", True):
-            page.locator(".rosmini-replay[data-state=paused]").first.wait_for()
-        return page
+        def open_page(address, *, width="desktop", **options):
+            wide, high = WIDTHS[width]
+            page, _ = stack.enter_context(tabs.open({"width": wide, "height": high}, **options))
+            page.goto(address)
+            if options.get("java_script_enabled", True):
+                page.locator(".rosmini-replay[data-state=paused]").first.wait_for()
+            return page
 
-    yield open_page
-    seen = [line for watcher in watchers for line in watcher.seen]
-    for context in contexts:
-        context.close()
-    assert seen == []
+        yield open_page
 
 
 def time_of(page) -> float:

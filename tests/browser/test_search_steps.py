@@ -22,13 +22,10 @@ def view():
 
 
 @pytest.fixture
-def page(chromium, watch, tmp_path, view):
-    page = chromium.new_page(viewport={"width": 800, "height": 600})
-    watcher = watch(page)
-    page.goto(view.save(tmp_path / "steps.html").as_uri())
-    yield page
-    assert watcher.seen == []
-    page.close()
+def page(tabs, tmp_path, view):
+    with tabs.open({"width": 800, "height": 600}) as (page, _):
+        page.goto(view.save(tmp_path / "steps.html").as_uri())
+        yield page
 
 
 def test_the_slider_steps_both_searches_and_the_end_is_that_of_python(page, view):

@@ -14,7 +14,7 @@ FOOTPRINT = np.array([(-0.105, -0.105), (-0.105, 0.105), (0.041, 0.105), (0.041,
 
 
 @pytest.fixture
-def page(chromium, watch, tmp_path):
+def page(tabs, tmp_path):
     grid = Costmap2D(60, 60, 0.05, (-1.5, -1.5))
     grid.costs[20:, 36:40] = 254
     plan = np.column_stack([np.arange(0, 1, 0.05), np.zeros(20), np.zeros(20)])
@@ -23,13 +23,10 @@ def page(chromium, watch, tmp_path):
     planner.update_plan(grid, (0.0, 0.0, 0.0), plan, FOOTPRINT)
     samples = planner.find_best(grid, (0.0, 0.0, 0.0), np.array([0.2, 0.0, 0.3]))
     view = samples.show(costmap=grid, plan=plan, footprint=FOOTPRINT, title="Tried")
-    page = chromium.new_page(viewport={"width": 800, "height": 900})
-    watcher = watch(page)
-    page.goto(view.save(tmp_path / "tried.html").as_uri())
-    page.samples, page.view = samples, view
-    yield page
-    assert watcher.seen == []
-    page.close()
+    with tabs.open({"width": 800, "height": 900}) as (page, _):
+        page.goto(view.save(tmp_path / "tried.html").as_uri())
+        page.samples, page.view = samples, view
+        yield page
 
 
 def test_the_best_is_shown_first_and_keys_go_on_to_the_next(page):
