@@ -87,9 +87,15 @@ def starts_something(item: pytest.Function) -> bool:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the tests that have to do with processes, signals or threads."""
+    known: dict[Any, bool] = {}
     for item in items:
-        if isinstance(item, pytest.Function) and starts_something(item):
-            item.add_marker("processes")
+        if isinstance(item, pytest.Function):
+            # the thousands of cases of one function are looked at once
+            key = (item.function, *item.fixturenames)
+            if key not in known:
+                known[key] = starts_something(item)
+            if known[key]:
+                item.add_marker("processes")
 
 
 def state_of_process() -> dict[str, Any]:
