@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 import os
 import re
@@ -17,7 +18,7 @@ import pytest
 from hypothesis import settings
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
 PROCESSES = f"{__name__.removesuffix('conftest')}processes"
 
@@ -107,6 +108,7 @@ def state_of_process() -> dict[str, Any]:
         "the environment": environment,
         "sys.path": list(sys.path),
         "sys.argv": list(sys.argv),
+        "the recursion limit": sys.getrecursionlimit(),
         "nodes of the default graph": [
             name for graph in graphs.values() for name in graph.nodes if name != "/rosout"
         ],
@@ -156,6 +158,17 @@ def shared_tmp(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def required(what: str) -> bool:
     """Whether `ROSMINI_REQUIRE_<what>` forbids to skip tests for want of it."""
     return os.environ.get(f"ROSMINI_REQUIRE_{what}") == "1"
+
+
+@pytest.fixture
+def mypy(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[list[str]], tuple[str, str, int]]]:
+    """`mypy.api.run`; what it changes of the process is taken back: recursion went on for 16,384 calls after it."""
+    api = pytest.importorskip("mypy.api", reason="mypy is part of the dev extra only")
+    limit, threshold = sys.getrecursionlimit(), gc.get_threshold()
+    monkeypatch.setenv("MYPY_CONFIG_FILE_DIR", "")
+    yield api.run
+    sys.setrecursionlimit(limit)
+    gc.set_threshold(*threshold)
 
 
 @pytest.fixture(scope="session")

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-
-import pytest
 
 from assets.generate.stubs import write_stubs
 
@@ -51,8 +50,9 @@ def test_stubs_of_packages_that_are_gone_are_removed(tmp_path: Path) -> None:
     assert not (tmp_path / "old_msgs" / "msg.pyi").exists()
 
 
-def test_mypy_accepts_the_right_program_and_refuses_each_wrong_one(root: Path, tmp_path: Path) -> None:
-    api = pytest.importorskip("mypy.api", reason="mypy is part of the dev extra only")
+def test_mypy_accepts_the_right_program_and_refuses_each_wrong_one(
+    root: Path, tmp_path: Path, mypy: Callable[[list[str]], tuple[str, str, int]]
+) -> None:
     sources = {"right.py": RIGHT, **{f"wrong_{number}.py": text for number, (text, _) in enumerate(WRONG)}}
     for name, text in sources.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
@@ -63,7 +63,7 @@ def test_mypy_accepts_the_right_program_and_refuses_each_wrong_one(root: Path, t
         "--cache-dir",
         str(root / ".mypy_cache"),
     ]
-    output, _, _ = api.run([*arguments, *(str(tmp_path / name) for name in sources)])
+    output, _, _ = mypy([*arguments, *(str(tmp_path / name) for name in sources)])
     lines = [line for line in output.splitlines() if ": error:" in line]
     assert not [line for line in lines if "right.py" in line], output
     for number, (_, words) in enumerate(WRONG):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -43,14 +44,15 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_type_checker_reads_a_script(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    api = pytest.importorskip("mypy.api", reason="mypy is part of the dev extra only")
+def test_a_type_checker_reads_a_script(
+    workspace: Path, capsys: pytest.CaptureFixture[str], mypy: Callable[[list[str]], tuple[str, str, int]]
+) -> None:
     assert main(["stubs"]) == 0
     assert "up to date in typings" in capsys.readouterr().out
     (workspace / "right.py").write_text(SCRIPT, encoding="utf-8")
     (workspace / "wrong.py").write_text(SCRIPT.replace("Num(num=3)", "Num(nun=3)"), encoding="utf-8")
     (workspace / "mypy.ini").write_text("[mypy]\nmypy_path = typings\n", encoding="utf-8")
-    found, complaints, _ = api.run(
+    found, complaints, _ = mypy(
         ["--cache-dir", "cache", "--follow-imports", "silent", "right.py", "wrong.py"]
     )
     problems = [line for line in found.splitlines() if "error:" in line]

@@ -61,6 +61,15 @@ def test_what_is_left_is_said(leave, said, tmp_path):
         leave(patch, tmp_path)
 
 
+def test_a_limit_that_is_left_is_said(tmp_path):
+    limit = sys.getrecursionlimit()
+    try:
+        with pytest.raises(AssertionError, match="recursion limit: "), nothing_left(tmp_path):
+            sys.setrecursionlimit(limit + 1)
+    finally:
+        sys.setrecursionlimit(limit)
+
+
 def test_a_node_in_the_default_graph_is_said(tmp_path):
     with rosmini.Graph() as graph:
         before = rosmini.set_default_graph(graph)

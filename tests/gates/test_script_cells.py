@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,8 @@ from book.tools.scripts import scripts
 from rosmini.cli.stubs import stub_files, write
 
 from ..processes import run
+
+Mypy = Callable[[list[str]], tuple[str, str, int]]
 
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
@@ -42,15 +45,13 @@ def ruffs(folder: Path) -> str:
     return run([sys.executable, "-m", "ruff", *words, "--output-format", "concise", "."], cwd=folder).stdout
 
 
-def mypys(folder: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+def mypys(folder: Path, monkeypatch: pytest.MonkeyPatch, mypy: Mypy) -> str:
     """What mypy says of them."""
-    api = pytest.importorskip("mypy.api", reason="mypy is part of the dev extra only")
     monkeypatch.chdir(folder)
-    monkeypatch.setenv("MYPY_CONFIG_FILE_DIR", str(folder))  # mypy sets it, and would leave it
     write(folder / "typings", stub_files()[0])
     (folder / "mypy.ini").write_text(MYPY, encoding="utf-8")
     found = [
-        api.run(["--config-file", "mypy.ini", "--cache-dir", "cache", *map(str, each.glob("*.py"))])[0]
+        mypy(["--config-file", "mypy.ini", "--cache-dir", "cache", *map(str, each.glob("*.py"))])[0]
         for each in sorted(folder.iterdir())
         if each.name not in ("typings", "cache") and each.is_dir()
     ]
@@ -63,15 +64,17 @@ def put(folder: Path, chapter: str, name: str, text: str) -> None:
     path.write_text(text, encoding="utf-8")
 
 
-def test_the_scripts_of_all_chapters_pass(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_scripts_of_all_chapters_pass(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mypy: Mypy
+) -> None:
     for chapter in CHAPTERS:
         for name, text in scripts(notebooks.read(chapter)).items():
             put(tmp_path, chapter.stem, name, text)
     assert ruffs(tmp_path).strip() == "All checks passed!"
-    assert mypys(tmp_path, monkeypatch) == ""
+    assert mypys(tmp_path, monkeypatch, mypy) == ""
 
 
-def test_a_wrong_script_does_not(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_wrong_script_does_not(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mypy: Mypy) -> None:
     put(
         tmp_path,
         "c",
@@ -81,4 +84,4 @@ def test_a_wrong_script_does_not(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     said = ruffs(tmp_path)
     assert "c/wrong.py:1:8: F401" in said.replace("\\", "/")
     assert "F821" in said
-    assert "wrong.py:4: error: " in mypys(tmp_path, monkeypatch).replace("\\", "/")
+    assert "wrong.py:4: error: " in mypys(tmp_path, monkeypatch, mypy).replace("\\", "/")
