@@ -133,6 +133,13 @@ def test_the_scan_is_that_of_the_lds(graph):
     assert simulator.scan_pose == (0.5, 0.0, 0.0)
 
 
+def test_where_all_beams_are_measured_at_once_there_is_no_time_between_them(graph):
+    start(graph, parameters={"sweep": False})
+    driver = Driver(graph)
+    graph.run(0.45)
+    assert str(driver.heard["scan"][-1].time_increment) == "0.0"  # and not -0.0, which tools would show
+
+
 def test_what_is_too_far_is_infinite_or_zero(graph):
     simulator = start(graph, world="empty")
     graph.run(0.5)

@@ -146,7 +146,7 @@ class Laser(RangeDevice):
         """Fill in the numbers of the laser."""
         super().describe(message)
         # the stamp of a sweep is the time of the first beam in the message, which is measured last
-        message.time_increment = -self._beam_time
+        message.time_increment = 0.0 - self._beam_time
 
     def sample(self, _: int) -> tuple[Floats, tuple[()]] | None:
         """Return the ranges. Noise is drawn even if nobody listens, so that it does not depend on who does."""
