@@ -170,7 +170,8 @@ def test_a_callback_may_call_a_service_of_its_own_process(programs):
             lambda _: sums.append(rospy.ServiceProxy("add", AddTwoInts)(1, 2).sum),
             oneshot=True,
         )
-        rospy.sleep(0.5)
+        while not sums:
+            rospy.sleep(0.1)
         return sums
 
     assert programs(main) == [3]

@@ -174,12 +174,21 @@ def test_connections_are_counted_and_listeners_hear_of_them(programs):
         def peer_unsubscribe(self, topic_name, num_peers):
             events.append(("went", topic_name, num_peers))
 
-    def hears(name, delay):
+    def heard(name):
+        return [event for event in events if event[0] == name]
+
+    def until(condition):
+        while not condition():
+            rospy.sleep(0.05)
+
+    counts = []
+
+    def hears(name, comes, goes):
         def listener():
             rospy.init_node(name)
-            rospy.sleep(delay)
+            until(comes)
             subscriber = rospy.Subscriber("t", String, lambda message: events.append((name, message.data)))
-            rospy.sleep(1)
+            until(goes)
             subscriber.unregister()
             rospy.spin()
 
@@ -188,23 +197,21 @@ def test_connections_are_counted_and_listeners_hear_of_them(programs):
     def main():
         rospy.init_node("main")
         publisher = rospy.Publisher("t", String, subscriber_listener=Listener(), queue_size=10)
-        rospy.sleep(0.7)
-        counts = [publisher.get_num_connections()]
-        rospy.sleep(1.5)
+        until(lambda: len(heard("a") + heard("b")) == 5)
+        counts.append(publisher.get_num_connections())
+        until(lambda: len(heard("went")) == 2)
         counts.append(publisher.get_num_connections())
         publisher.unregister()
         with pytest.raises(rospy.ROSException, match="unregister"):
             publisher.publish("x")
         return counts
 
-    assert programs(hears("a", 0.2), hears("b", 0.5), main) == [2, 0]
-    assert [event for event in events if event[0] == "a"] == [
-        ("a", "to you"),
-        ("a", "to all"),
-        ("a", "to all"),
-    ]
-    assert [event for event in events if event[0] == "b"] == [("b", "to you"), ("b", "to all")]
-    assert [event for event in events if event[0] == "went"] == [("went", "/t", 1), ("went", "/t", 0)]
+    first = hears("a", lambda: True, lambda: counts)
+    second = hears("b", lambda: len(heard("a")) == 2, lambda: heard("went"))
+    assert programs(first, second, main) == [2, 0]
+    assert heard("a") == [("a", "to you"), ("a", "to all"), ("a", "to all")]
+    assert heard("b") == [("b", "to you"), ("b", "to all")]
+    assert heard("went") == [("went", "/t", 1), ("went", "/t", 0)]
 
 
 def test_receipt_types_are_those_of_rospy(programs):
