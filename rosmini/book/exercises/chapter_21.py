@@ -36,6 +36,9 @@ def _robot(trial: Trial) -> None:
 def properties(answer: Any) -> Any:
     """Properties of a LaserScan display that is red, has points of 5 cm, and keeps scans for ten seconds."""
     expect_type(answer, dict, "properties is", "a dictionary: a property, and its value")
+    expect(
+        all(isinstance(key, str) for key in answer), "The name of a property is a text.", '"Topic": "/scan"'
+    )
     with Trial(is_shown=False) as trial, Scene(trial.graph, fixed_frame="odom") as scene:
         _robot(trial)
         try:

@@ -138,6 +138,11 @@ FOUND = {
 @exercise("92.3", praise="Two people at one computer, and each finds another robot.")
 def found(answer: Any) -> None:
     """Where Bob and Ada find three packages."""
+    expect(
+        isinstance(answer, tuple | list) and len(answer) == len(FOUND),
+        "The answer is two dictionaries: what Bob finds, and what Ada finds.",
+        "check(number, (bob, ada))",
+    )
     for (who, right), given in zip(FOUND.items(), answer, strict=True):
         expect_type(given, dict, f"{who} is", "a dictionary", '{"amcl": "~/base_ws", ...}')
         for name, workspace in right.items():

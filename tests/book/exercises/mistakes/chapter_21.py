@@ -77,6 +77,7 @@ MISTAKES: dict[str, list[Callable[[], object]]] = {
     "21.1": [
         dict,
         lambda: "FlatColor",
+        lambda: {1: 2},
         _laser(Topic="/scans"),
         _laser(Colour=(255, 0, 0)),
         _laser(Color=(0, 0, 255)),

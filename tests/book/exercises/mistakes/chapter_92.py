@@ -113,6 +113,8 @@ MISTAKES = {
         lambda: ["project(weather)"],
     ],
     "92.3": [
+        lambda: 42,
+        lambda: (BOB,),
         lambda: (BOB, BOB),
         lambda: (ADA, ADA),
         lambda: (BOB, ADA | {"amcl": "/opt/ros/noetic"}),
