@@ -21,7 +21,7 @@ from rosmini.msgs.full_text import class_from
 
 from .callbacks import Callback
 from .mismatch import describe_mismatch, recast
-from .transport import DirectReceiver, LocalTransport, set_header
+from .transport import DirectReceiver, LocalTransport, refuse, set_header
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -83,14 +83,13 @@ class Connection(DirectReceiver):
         """Whether the publisher has left the topic while the connection was being made: it may come to nothing."""
         self._gone = False
         self._gate: Gate | Chain | None = node.graph.gates.gate(subscription.topic, node.name)
-        self._is_direct = self._gate is None
-        """Whether what is sent may join the queue at once."""
         self._draining = False
         self._last: Any = None
         self._keep = False
         self._drain_ref = self._drain
         self._close_link: Callable[[], None] | None = None
         self._lane = node.spawn(f"{node.name} <- {subscription.topic}", self._open)
+        self._be_direct(self._gate is None)
 
     def _open(self) -> None:
         """Ask the publisher for the topic and connect to it. In the connection's lane."""
@@ -186,10 +185,10 @@ class Connection(DirectReceiver):
         """How many messages may wait for the callbacks."""
         return self.subscription.queue_size
 
-    def begin(self) -> bool:
-        """Post a turn of the callbacks, unless something of this connection is under way."""
-        self.pending = self._is_direct and self._lane.post_if_idle(self._drain_ref)
-        return self.pending
+    def _be_direct(self, is_direct: bool) -> None:
+        """Let what is sent join the queue at once, or not: it has to pass a gate then, or comes too late."""
+        self._is_direct = is_direct
+        self.begin = partial(self._lane.post_if_idle, self._drain_ref) if is_direct else refuse
 
     def deliver(self, messages: Iterable[Any]) -> None:
         """Queue frozen messages for the callbacks; beyond the queue size the oldest are dropped."""
@@ -201,7 +200,7 @@ class Connection(DirectReceiver):
     def set_gate(self, gate: Gate | Chain | None) -> None:
         """Let everything that is sent from now on pass a fault, or nothing any more."""
         self._gate = gate
-        self._is_direct = gate is None and not self._gone
+        self._be_direct(gate is None and not self._gone)
 
     def _accept(self, messages: Iterable[Any]) -> None:
         if self._gone:
@@ -326,7 +325,8 @@ class Connection(DirectReceiver):
 
     def _shut(self) -> None:
         was_open, self.is_open = self.is_open, False
-        self._gone, self._is_direct = True, False
+        self._gone = True
+        self._be_direct(False)
         self._close_link = None
         if was_open:
             for handle in self.subscription.handles:

@@ -46,10 +46,8 @@ class InterruptGuard:
         self._depth += 1
         if self._depth > 1 or threading.get_ident() != MAIN_THREAD:
             return
-        previous = _get_handler(_SIGINT)
-        if callable(previous):
-            self._previous = previous
-            _set_handler(_SIGINT, self._handle)
+        if callable(_get_handler(_SIGINT)):
+            self._previous = _set_handler(_SIGINT, self._handle)
 
     def disarm(self) -> None:
         """Give SIGINT back."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from _thread import get_ident
+from functools import partial
 from itertools import count
 from sys import maxsize
 from typing import TYPE_CHECKING, Any
@@ -52,6 +53,7 @@ class Publication:
 
         Raises ``SerializationError``, which names the field, when the message holds what its type cannot hold.
         """
+        self._hand_over: Callable[[Any], None] = self._hand_out
         self._latched: Any = None
         self.warns_unheard = True
         self.how_to_wait = "call wait_for_subscribers() first"
@@ -87,11 +89,12 @@ class Publication:
         self._list = tuple(self.senders.values())
         self._wires = tuple(sender for sender in self._list if sender.wants_bytes)
         self._near = tuple(sender for sender in self._list if not sender.wants_bytes)
-        self.send = self._send
+        self.send, self._hand_over = self._send, self._hand_out
         if len(self._list) == 1 and not self._latch and self._scheduler.history is None:
             sender = self._list[0]
             if sender.receiver is not None:
                 self.send = self._way_to(sender, sender.receiver)
+                self._hand_over = partial(sender.send, size=self._queue_size)
 
     def _way_to(self, sender: Sender, receiver: DirectReceiver) -> Callable[[Any], None]:
         """Return what sends a message to one receiver in this process: all that publishing most messages costs."""
@@ -133,7 +136,7 @@ class Publication:
         """Send a frozen message that nobody else holds, with the next number in its header. In the hub's thread."""
         if self._stamp and self._list:
             self._set_number(frozen.header, self._next_number())
-        self._hand_out(frozen)
+        self._hand_over(frozen)
 
     def relay(self, message: Any) -> None:
         """Send what another node published first: its header keeps its number, and nobody need listen."""

@@ -55,7 +55,7 @@ class ServiceServer:
         self.service_class = service_class
         self.handler = handler
         self.sessions: list[Session] = []
-        self.numpy = numpy
+        self._receive = receiver(service_class._request_class, numpy=numpy)
         self.error_handler: Callable[[Exception], object] | None = None
         """Called instead of the report when the handler raises."""
         self._open = True
@@ -80,7 +80,7 @@ class ServiceServer:
         """
         response_class = self.service_class._response_class
         try:
-            received = receive(request, self.service_class._request_class, header, numpy=self.numpy)
+            received = self._receive(request, header)
         except DeserializationError as error:
             msg = f"error processing request: {error}"
             raise ServiceException(msg) from error
@@ -122,14 +122,18 @@ class ServiceServer:
             session.abort(reason)
 
 
-def receive(frozen: Any, message_class: Any, header: Header, *, numpy: bool) -> Any:
-    """Return a frozen request or response as its receiver's own, which says from which connection it came."""
-    if type(frozen) is not message_class:
-        frozen = recast(frozen, message_class)
+def receiver(message_class: Any, *, numpy: bool) -> Callable[[Any, Header], Any]:
+    """Return what makes a frozen request or response its receiver's own, which says from which connection it came."""
     thaw = message_class._thawer(numpy=numpy)
-    message = frozen if thaw is None else thaw(frozen)
-    set_header(message, header)
-    return message
+
+    def receive(frozen: Any, header: Header) -> Any:
+        message = frozen if frozen.__class__ is message_class else recast(frozen, message_class)
+        if thaw is not None:
+            message = thaw(message)
+        set_header(message, header)
+        return message
+
+    return receive
 
 
 def _response_from(answer: Any, response_class: Any) -> Any:
@@ -236,16 +240,12 @@ class ServiceClient:
         self.service_class = service_class
         self.persistent = persistent
         self.headers = extra_fields(headers)
-        self._numpy = numpy
+        self._receive = receiver(service_class._response_class, numpy=numpy)
         self._link: ServiceLink | None = None
         self._closed = False
 
     def __repr__(self) -> str:
         return f"<ServiceClient {self.name} [{self.service_class._type}] of {self.node.name}>"
-
-    def __call__(self, *args: Any, **fields: Any) -> Any:
-        """Call the service; see :meth:`call`."""
-        return self.call(*args, **fields)
 
     def call(self, *args: Any, **fields: Any) -> Any:
         """Send a request and block until the response is there.
@@ -285,7 +285,9 @@ class ServiceClient:
                 else f"service [{self.name}] responded with an error: {problem or NO_TEXT}"
             )
             raise ServiceException(msg)
-        return receive(response, self.service_class._response_class, link.header, numpy=self._numpy)
+        return self._receive(response, link.header)
+
+    __call__ = call
 
     def _connect(self) -> ServiceLink:
         if self._closed:

@@ -96,6 +96,11 @@ class Receiver(Protocol):
         """Learn that the transport failed and closed the connection."""
 
 
+def refuse() -> bool:
+    """Give no turn: what a receiver does while nothing may join its queue."""
+    return False
+
+
 class DirectReceiver(ABC):
     """A receiver whose queue a sender in the same process fills itself, while its callbacks are not busy."""
 
@@ -108,6 +113,8 @@ class DirectReceiver(ABC):
         """The frozen messages that wait for the callbacks, oldest first."""
         self.pending = False
         """True while the callbacks' turn is due and has not begun: what is appended to ``incoming`` joins it."""
+        self.begin: Callable[[], bool] = refuse
+        """Asks for a turn of the callbacks; False when one is under way, and messages have to be delivered later."""
         self.received = 0
         """How many messages the callbacks got."""
         self.dropped = 0
@@ -123,10 +130,6 @@ class DirectReceiver(ABC):
     @abstractmethod
     def queue_size(self) -> int | None:
         """How many messages may wait for the callbacks; None or 0: no bound."""
-
-    @abstractmethod
-    def begin(self) -> bool:
-        """Ask for a turn of the callbacks; False when one is under way, and messages have to be delivered later."""
 
     @abstractmethod
     def deliver(self, messages: Iterable[Any]) -> None:
@@ -346,7 +349,9 @@ class LocalSender(QueuedSender):
             if size is not None and len(incoming) >= size:
                 incoming.popleft()
                 self.dropped += 1
-        elif self._queue or not receiver.begin():
+        elif not self._queue and receiver.begin():
+            receiver.pending = True
+        else:
             super().send(frozen, size)
             return
         set_header(frozen, receiver.header)

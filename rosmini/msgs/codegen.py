@@ -254,6 +254,9 @@ class Generator:
         self.emit(f"def init(self, /, *_args, {''.join(f'{slot}=None, ' for slot in slots)}**_unknown):", 0)
         self.emit("if _args or _unknown:")
         values = f"{self.use('_arguments', _arguments)}(self, _args, {self.use('_names', names)}, ({listed}), _unknown)"
+        if slots:  # all by position, as most calls with any are
+            right = f"{self.use('_len', len)}(_args) == {len(slots)} and {' is '.join(slots)} is None"
+            values = f"_args if {right} and not _unknown else {values}"
         self.emit(f"{listed or '_'} = {values}", 2)
         for field, slot in zip(self.cls._spec.fields, slots, strict=True):
             setter = self.use("_set", getattr(self.cls._fields_class, field.name).__set__)
