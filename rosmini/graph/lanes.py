@@ -88,8 +88,8 @@ class Hub(Protocol):
     def lane_failed(self, lane: Lane, error: BaseException) -> None:
         """Report that a task of ``lane`` raised."""
 
-    def park(self, waiter: Waiter) -> None:
-        """Leave the caller parked until ``waiter`` resumes it."""
+    def park(self, waiter: Waiter) -> bool:
+        """Leave the caller parked until ``waiter`` resumes it; False if another thread has begun to drive."""
 
     def count_remote(self, change: int) -> None:
         """Count who waits for something outside this process."""
@@ -309,23 +309,22 @@ class Waiter:
         simulated time and nothing is left that could wake it.
         """
         hub = self._hub
-        if not self.done:
-            end = None if timeout_ns is None else hub.now_ns() + timeout_ns
+        end = None if timeout_ns is None else hub.now_ns() + timeout_ns
+        while not self.done:
             drives = get_ident() == hub.thread or hub.take_hub(to_wait=True) or self._wait_in_thread(end)
-            if drives and not self.done:
-                self._park(end)
+            if not drives or self.done or self._park(end):
+                break
         if self._error is not None:
             raise self._error
         return self.done
 
-    def _park(self, end_ns: int | None) -> None:
+    def _park(self, end_ns: int | None) -> bool:
         hub = self._hub
         if end_ns is None:
-            hub.park(self)
-            return
+            return hub.park(self)
         timer = hub.call_at(end_ns, self._time_out)
         try:
-            hub.park(self)
+            return hub.park(self)
         finally:
             timer.cancel()
 

@@ -217,11 +217,14 @@ class Scheduler(EventQueue):
         self._parked.clear()
         self._root_waiter = None
 
-    def park(self, waiter: Waiter) -> None:
-        """Leave the caller parked until ``waiter`` resumes it, and run the queue meanwhile. For waiters only."""
-        lane = self._current
-        if lane is self.root:
-            self._start_drive(waiter)
+    def park(self, waiter: Waiter) -> bool:
+        """Leave the caller parked until ``waiter`` resumes it, and run the queue meanwhile. For waiters only.
+
+        Return False at once if another thread has begun to drive in this moment.
+        """
+        lane = self.current()
+        if lane is self.root and not self._start_drive(waiter):
+            return False
         waiter.greenlet = getcurrent()
         lane.waiter = waiter
         self._parked[waiter] = lane
@@ -242,6 +245,7 @@ class Scheduler(EventQueue):
                 self._output.arrive()
         if lane is self.root and self._interrupts.take():
             raise self._interruption()
+        return True
 
     def _new_worker(self) -> greenlet:
         """Return a worker started at the call depth of the first: a greenlet counts its depth from there.
@@ -255,20 +259,21 @@ class Scheduler(EventQueue):
         self._starter.switch(worker, getcurrent())
         return worker
 
-    def _start_drive(self, waiter: Waiter) -> None:
+    def _start_drive(self, waiter: Waiter) -> bool:
+        """Begin to drive for a waiter, unless that has been done; return False if another thread drives."""
         with self._owner_lock:
             if not self.is_hub_thread():
-                if self._root_waiter is not None or self._parked:
-                    msg = (
-                        "two threads began to drive the graph at once; let one drive, and the others call it"
-                    )
-                    raise RosminiError(msg)
+                if self.driven or self._parked:
+                    return False
                 self._move_hub(get_ident())  # the other one only looked at something
+            if self._root_waiter is waiter:
+                return True
             self._root_waiter = waiter
         self._left = len(self.ready)
         self._interrupts.arm()
         if self._output is not None:
             self._output.begin()
+        return True
 
     def _end_drive(self) -> None:
         self._root_waiter = None
@@ -336,19 +341,13 @@ class Scheduler(EventQueue):
 
         Only from the main program, a notebook cell, or a thread while nobody else drives.
         """
-        hub_is_elsewhere = not (self.is_hub_thread() or self.take_hub())
-        if hub_is_elsewhere and not self.simulated and self.current() is self.root:
-            return threads.run_beside(self, until_ns, until)
-        if hub_is_elsewhere or self._current is not self.root:
-            msg = (
-                "run() was called from inside the graph (a callback or a script); only the main program drives it. "
-                "In a callback, block with sleep() or wait_for_message() instead."
-            )
-            raise RosminiError(msg)
-        if until is not None and until():
+        is_free = self.is_hub_thread() or self.take_hub()
+        if is_free and self.current() is self.root and until is not None and until():
             self._return_hub()
             return self.report("condition")
         waiter = Waiter(self, "the end of the run")
+        if not is_free or self.current() is not self.root or not self._start_drive(waiter):
+            return self._run_beside(until_ns, until)
         timer = None if until_ns is None else self.call_at(until_ns, partial(waiter.wake, "time"))
         self._until = until
         try:
@@ -360,6 +359,16 @@ class Scheduler(EventQueue):
             if timer is not None:
                 timer.cancel()
         return self.report(waiter.value)
+
+    def _run_beside(self, until_ns: int | None, until: Callable[[], bool] | None) -> RunReport:
+        """Run while another thread drives, which may be in wall time only."""
+        if not self.simulated and self.current() is self.root:
+            return threads.run_beside(self, until_ns, until)
+        msg = (
+            "run() was called from inside the graph (a callback or a script), or while another thread drives it; only "
+            "the main program drives it. In a callback, block with sleep() or wait_for_message() instead."
+        )
+        raise RosminiError(msg)
 
     def stop(self) -> None:
         """End the current :meth:`run`, from any thread or lane."""

@@ -301,6 +301,51 @@ def test_a_look_from_another_thread_just_before_a_drive_does_not_stop_it(graph, 
     assert looks == ["seen"]
 
 
+def begin_to_drive(graph: Graph, thread: threading.Thread) -> None:
+    """Start a thread, and wait until it drives."""
+    thread.start()
+    while not graph.scheduler.driven:
+        pass
+
+
+def test_who_is_about_to_sleep_while_a_thread_begins_to_drive_sleeps_beside_it(graph, monkeypatch):
+    scheduler, node = graph.scheduler, graph.node("node")
+    call_at, driver = scheduler.call_at, threading.Thread(target=node.spin)
+
+    def begin_first(when_ns, callback):  # the last moment at which the hub is free to move to another thread
+        monkeypatch.undo()
+        begin_to_drive(graph, driver)
+        return call_at(when_ns, callback)
+
+    monkeypatch.setattr(scheduler, "call_at", begin_first)
+    before = scheduler.now_ns()
+    scheduler.sleep_until(before + 10**8)
+    assert scheduler.now_ns() >= before + 10**8
+    node.shutdown("over")
+    driver.join(PATIENCE)
+    assert not driver.is_alive()
+
+
+def test_of_two_threads_that_begin_to_run_at_once_each_runs_until_its_own_condition(graph: Graph) -> None:
+    asked: list[bool] = []
+    ended: list[str] = []
+    node = graph.node("node")
+    driver = threading.Thread(target=lambda: (node.spin(), ended.append("spin")))
+
+    def is_third_question() -> bool:
+        if not asked:  # the last moment at which the hub is free to move to another thread
+            begin_to_drive(graph, driver)
+        asked.append(True)
+        return len(asked) == 3
+
+    assert graph.run(1000.0, until=is_third_question).reason == "condition"
+    assert driver.is_alive()
+    assert not ended
+    node.shutdown("over")
+    driver.join(PATIENCE)
+    assert ended == ["spin"]
+
+
 def test_a_call_from_another_thread_leaves_the_hub_where_it_was(graph: Graph) -> None:
     node = graph.node("node")
     caller = threading.Thread(target=lambda: node.subscriber("chatter", String))
