@@ -60,7 +60,7 @@ class TcpServiceLink:
         return self._requests.popleft() if self._requests else b""
 
     def _arrived(self, frames: list[bytes]) -> None:
-        self._scheduler.call_soon_threadsafe(partial(self._take, frames))
+        self._scheduler.call_soon(partial(self._take, frames))
 
     def _ended(self, error: Exception | None) -> None:
         if isinstance(error, DeserializationError):

@@ -54,7 +54,7 @@ class TcpClient:
         if len(self._requests) > 1:  # who waits for each answer, as clients do, never has to wait for us
             self._stream.pause()
             self._is_paused = True
-        self._scheduler.call_soon_threadsafe(self._handle)
+        self._scheduler.call_soon(self._handle)
 
     def _ended(self, _error: Exception | None) -> None:
         self._scheduler.call_soon_threadsafe(self._gone)

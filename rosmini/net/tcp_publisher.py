@@ -91,7 +91,7 @@ class TcpSender:
 
     def _flush(self) -> None:
         self._is_due = False
-        if self._is_open:
+        if self._is_open and self._waiting:
             self._stream.flush()
 
     def _next(self) -> bytes:

@@ -81,7 +81,7 @@ class TopicInlet:
     def _wake(self) -> None:
         if not self._is_due:
             self._is_due = True
-            self._scheduler.call_soon_threadsafe(self._take)
+            self._scheduler.call_soon(self._take)
 
     # -- in the hub's thread -------------------------------------------------------------------------------------
 
