@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from _thread import get_ident
-from functools import partial
 from itertools import count
 from sys import maxsize
 from typing import TYPE_CHECKING, Any
@@ -53,7 +52,8 @@ class Publication:
 
         Raises ``SerializationError``, which names the field, when the message holds what its type cannot hold.
         """
-        self._hand_over: Callable[[Any], None] = self._hand_out
+        self.send_frozen: Callable[[Any], None] = self._send_frozen
+        """Sends a frozen message that nobody else holds, with the next number in its header. In the hub's thread."""
         self._latched: Any = None
         self.warns_unheard = True
         self.how_to_wait = "call wait_for_subscribers() first"
@@ -89,19 +89,21 @@ class Publication:
         self._list = tuple(self.senders.values())
         self._wires = tuple(sender for sender in self._list if sender.wants_bytes)
         self._near = tuple(sender for sender in self._list if not sender.wants_bytes)
-        self.send, self._hand_over = self._send, self._hand_out
+        self.send, self.send_frozen = self._send, self._send_frozen
         if len(self._list) == 1 and not self._latch and self._scheduler.history is None:
             sender = self._list[0]
             if sender.receiver is not None:
-                self.send = self._way_to(sender, sender.receiver)
-                self._hand_over = partial(sender.send, size=self._queue_size)
+                self.send, self.send_frozen = self._ways_to(sender, sender.receiver)
 
-    def _way_to(self, sender: Sender, receiver: DirectReceiver) -> Callable[[Any], None]:
-        """Return what sends a message to one receiver in this process: all that publishing most messages costs."""
+    def _ways_to(
+        self, sender: Sender, receiver: DirectReceiver
+    ) -> tuple[Callable[[Any], None], Callable[[Any], None]]:
+        """Return `send` and `send_frozen` to one receiver in this process: all that publishing most messages costs."""
         freeze, dispatch, scheduler, header = self._freeze, self._dispatch, self._scheduler, receiver.header
         incoming, join, hand_over = receiver.incoming, receiver.incoming.append, sender.send
         size, room = self._queue_size, self._queue_size or maxsize
         number = self._number if self._stamp else None
+        set_number, next_number = self._set_number, self._next_number
 
         def send(message: Any) -> None:
             if number is not None:
@@ -114,7 +116,12 @@ class Publication:
             else:
                 hand_over(frozen, size)
 
-        return send
+        def send_frozen(frozen: Any) -> None:
+            if set_number is not None:
+                set_number(frozen.header, next_number())
+            hand_over(frozen, size)
+
+        return send, send_frozen
 
     def _send(self, message: Any) -> None:
         if self._stamp:
@@ -132,11 +139,10 @@ class Publication:
             else:
                 header.seq = self._next_number()
 
-    def send_frozen(self, frozen: Any) -> None:
-        """Send a frozen message that nobody else holds, with the next number in its header. In the hub's thread."""
+    def _send_frozen(self, frozen: Any) -> None:
         if self._stamp and self._list:
             self._set_number(frozen.header, self._next_number())
-        self._hand_over(frozen)
+        self._hand_out(frozen)
 
     def relay(self, message: Any) -> None:
         """Send what another node published first: its header keeps its number, and nobody need listen."""
