@@ -11,7 +11,6 @@ import argparse
 import json
 import math
 import statistics
-import subprocess
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -24,6 +23,7 @@ from . import nav_amcl, nav_gmapping, nav_hector
 from .nav_amcl import CARRIED, HELD, LOST, WITHIN
 from .nav_drives import accompanied, drive, kidnapped
 from .nav_goals import wilson
+from .nav_quality import commit
 
 ROOT = Path(__file__).resolve().parents[3]
 FILE = ROOT / "assets" / "benchmarks" / "localization.json"
@@ -301,11 +301,8 @@ def main() -> None:
     parser.add_argument("--rows", type=Path, default=FILE)
     args = parser.parse_args()
     if args.study:
-        commit = subprocess.run(
-            ["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True, cwd=ROOT
-        ).stdout.strip()
         for seed in range(args.seeds[0], args.seeds[1] + 1):
-            row = Row(args.study, args.what, seed, commit, STUDIES[args.study](args.what, seed))
+            row = Row(args.study, args.what, seed, commit(), STUDIES[args.study](args.what, seed))
             print(row, flush=True)
             store([*load(args.rows), row], args.rows)
     PAGE.write_text(write(load(args.rows)), encoding="utf-8")
