@@ -162,7 +162,7 @@ def test_the_canvas_is_crisp_on_dense_screens(write, opened, recording):
 def test_what_python_wrote_is_what_the_page_reads(write, opened, recording):
     page = opened(write(recording))
     run = page.evaluate(
-        """() => { const run = rosminiReplay.decode(JSON.parse(
+        """() => { const run = rosminiReplayData.decode(JSON.parse(
           document.querySelector('script[type="application/json"]').textContent));
           return {...run, scans: run.scans.map(([time, ranges]) => [time, ranges])}; }"""
     )
@@ -569,8 +569,8 @@ def test_each_beam_is_drawn_from_where_the_recording_puts_it(write, opened, turn
     beams = turning.scans.shape[1]
     for which in (2, 9, -1):
         poses = page.evaluate(
-            "([data, time, beams]) => { const run = rosminiReplay.decode(data);"
-            "return Array.from({length: beams}, (_, i) => rosminiReplay.beamPose(run, time, i)); }",
+            "([data, time, beams]) => { const run = rosminiReplayData.decode(data);"
+            "return Array.from({length: beams}, (_, i) => rosminiReplayData.beamPose(run, time, i)); }",
             [replay_data(turning), turning.scan_times[which], beams],
         )
         assert np.array(poses) == pytest.approx(turning.scan_poses(which), abs=0.005)

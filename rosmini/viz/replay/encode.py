@@ -33,7 +33,7 @@ FEW_SCANS = 240
 
 
 def replay_data(recording: Recording) -> dict[str, Any]:
-    """What `rosmini/viz/static/rosmini-replay.js` plays: the scene, and the run in packed numbers.
+    """What `rosmini/viz/static/rosmini-replay-data.js` decodes: the scene, and the run in packed numbers.
 
     | key | numbers |
     |---|---|

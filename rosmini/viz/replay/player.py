@@ -24,7 +24,7 @@ from rosmini.viz.rounding import fixed
 from rosmini.viz.svg import element
 from rosmini.viz.view import Picture, ViewError
 
-SCRIPTS = ("rosmini-canvas.js", "rosmini-replay.js")
+SCRIPTS = ("rosmini-canvas.js", "rosmini-replay-data.js", "rosmini-replay.js")
 LAYER_SCRIPT = "rosmini-replay-layers.js"
 HEIGHT = 320
 """The least that a player takes [CSS px]: a phone's width of world, and the controls."""

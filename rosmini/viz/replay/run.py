@@ -149,7 +149,7 @@ class Run:
         return (x0 - more[0], y0 - more[1], x1 + more[0], y1 + more[1])
 
     def data(self, budget: int = BUDGET) -> dict[str, Any]:
-        """What `rosmini/viz/static/rosmini-replay.js` plays; layers are thinned until they fit into `budget` bytes."""
+        """What `rosmini-replay-data.js` decodes; layers are thinned until they fit into `budget` bytes."""
         data: dict[str, Any] = {
             "name": self.name,
             "start": whole(self.start, TIME).item(),

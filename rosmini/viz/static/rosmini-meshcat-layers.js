@@ -1,6 +1,6 @@
 /* What a replay in three dimensions shows beside robots: maps, costmaps, plans, particles on the ground, pictures above.
 
-   A plain script that needs `rosmini-canvas.js`, `rosmini-replay.js` and `rosmini-replay-layers.js`, whose layers it has
+   A plain script that needs `rosmini-canvas.js`, `rosmini-replay-data.js` and `rosmini-replay-layers.js`, whose layers it has
    draw as on their canvas: that canvas lies on the ground as a texture. It sets `globalThis.rosminiMeshcatLayers`:
 
      decode(data)    {switches, notes, show(frame, viewer, time, shown), why(time, place)} from `layered` of

@@ -1,6 +1,6 @@
 /* What the replay player shows beside robots: maps, plans, particles, scans, markers, pictures, strokes.
 
-   A plain script that needs `rosmini-canvas.js` and `rosmini-replay.js` and sets `globalThis.rosminiReplayLayers`:
+   A plain script that needs `rosmini-canvas.js` and `rosmini-replay-data.js` and sets `globalThis.rosminiReplayLayers`:
 
      decode(data)             a layer from what `rosmini.viz.replay.layers` (grids, images) made:
                               {name, colour, moment(time, start), draw(view, time, start, slot)}; times are seconds.
@@ -12,7 +12,7 @@
 (() => {
   "use strict";
 
-  const { unpack, naturals, columns, lastAt } = globalThis.rosminiReplay;
+  const { unpack, naturals, columns, lastAt } = globalThis.rosminiReplayData;
   const LENGTH = 1e-3;
   const ANGLE = 1e-4;
   const TIME = 1e-3;

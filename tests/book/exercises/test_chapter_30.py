@@ -22,7 +22,9 @@ def test_it_is_as_short_as_a_chapter_has_to_be(cells):
 
 
 def test_its_figures_are_numbered():
-    assert_figures_are_numbered("30_navigation_stack", (".replay(", "tf_tree(", "%rqt_graph", "still("))
+    assert_figures_are_numbered(
+        "30_navigation_stack", (".replay(", "tf_tree(", "%rqt_graph", "move_base.show(", "still(")
+    )
 
 
 def test_the_robot_arrives(cells):

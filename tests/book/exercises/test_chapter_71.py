@@ -21,7 +21,7 @@ def test_it_is_as_short_as_a_chapter_has_to_be(cells):
 
 
 def test_every_figure_is_numbered_in_order(cells):
-    assert figure_numbers(CHAPTER.stem) == list(range(1, 5))
+    assert figure_numbers(CHAPTER.stem) == list(range(1, 6))
 
 
 def test_it_ends_by_itself_as_the_text_says(cells):
