@@ -54,9 +54,11 @@ add_parser, main = TOOL.add_parser, TOOL.main
 
 
 def _complaint(path: str | Path, error: Exception) -> str:
-    """Return what ROS's tool prints of a bag that it cannot read, and our reason."""
+    """Return what ROS's tool prints of a bag that it cannot read, and our reason; or that another cannot be written."""
     if isinstance(error, ROSBagUnindexedException):
         return f"ERROR bag unindexed: {path}.  Run rosbag reindex."
+    if isinstance(error, OSError) and error.filename and Path(error.filename) != Path(path):
+        return f"ERROR writing {error.filename}: {error.strerror}"
     return f"ERROR reading {path}: {error}"
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import sysconfig
 import traceback
 from pathlib import Path
 
 from rosmini.errors import ScriptError
 
 _PACKAGE = str(Path(__file__).resolve().parents[1])
+_PYTHON = sysconfig.get_path("stdlib")
 
 _PYTHON_2_NAMES = {
     "basestring": "str",
@@ -60,7 +62,7 @@ def _strip(shown: traceback.TracebackException, error: BaseException) -> None:
         shown.stack = traceback.StackSummary.from_list(
             [frame for frame in shown.stack if not _ours(frame.filename)]
         )
-        if not shown.stack:
+        if all(_pythons(frame.filename) for frame in shown.stack):  # called by frames of ours only
             shown.stack = None  # type: ignore[assignment]  # `format` leaves out the heading then
     if isinstance(error, ScriptError):  # its message says it all
         shown.__cause__ = shown.__context__ = None
@@ -81,6 +83,10 @@ def _strip(shown: traceback.TracebackException, error: BaseException) -> None:
 
 def _ours(filename: str) -> bool:
     return filename.startswith((_PACKAGE, "<frozen importlib", "<freeze of", "<thaw of"))
+
+
+def _pythons(filename: str) -> bool:
+    return filename.startswith(_PYTHON) and "site-packages" not in filename
 
 
 def _hint(error: BaseException) -> str:

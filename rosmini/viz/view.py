@@ -90,7 +90,8 @@ class View(ABC):
         """Write the picture to a file, in the format that the file's suffix names, and return its path.
 
         Raises:
-            ViewError: the picture has no such form; the message names those that it has.
+            ViewError: the picture has no such form, and the message names those that it has; or the file cannot be
+                written.
 
         """
         path = Path(path)
@@ -103,7 +104,10 @@ class View(ABC):
                 f"cannot save {path.name!r}: a {type(self).__name__} has no form for the suffix "
                 f"{path.suffix!r}. Use one of {', '.join(sorted(forms))}."
             )
-        path.write_bytes(forms[path.suffix.lower()])
+        try:
+            path.write_bytes(forms[path.suffix.lower()])
+        except OSError as error:
+            raise ViewError(f"cannot write {path}: {error.strerror}") from error
         return path
 
 

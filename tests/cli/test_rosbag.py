@@ -143,6 +143,7 @@ def test_playing_to_a_script_and_recording_it(bag):
         (("filter", "t.bag", "f.bag", "True", "False"), 2, "Too many arguments."),
         (("filter", "-p", "m.", "t.bag", "f.bag", "True"), 1, "ERROR: "),
         (("filter", "listener.py", "f.bag", "True"), 1, "ERROR reading listener.py: "),
+        (("filter", "t.bag", "nowhere/f.bag", "True"), 1, "ERROR writing nowhere/f.bag.part: No such file"),
         (
             ("compress", "--output-dir", "out", "t.bag"),
             1,
@@ -199,3 +200,11 @@ def test_a_bag_that_is_not_there_is_an_error_of_ours(bag, capsys):
             assert caught.value.__cause__ is None
             assert caught.value.__suppress_context__
             assert ("did you mean t.bag?" in str(caught.value)) == (words[0] == "play")
+
+
+def test_a_recording_that_cannot_be_written_ends_with_one_line(bag, capsys):
+    Path("listener.py").write_text(SCRIPT, encoding="utf-8")
+    status, _, err = run(capsys, "record", "-O", "nowhere/x", "-a", "+", "listener.py")
+    assert status == 1
+    assert "Error opening file: nowhere/x.bag.active: No such file or directory" in err
+    assert "Traceback" not in err

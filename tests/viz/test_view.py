@@ -73,6 +73,8 @@ def test_saving_writes_the_form_that_the_suffix_names(tmp_path):
     assert view.html in view.save(tmp_path / "a.html").read_text(encoding="utf-8")
     with pytest.raises(ViewError, match=r"no form for the suffix '.jpg'.*\.html, \.svg, \.txt"):
         view.save(tmp_path / "a.jpg")
+    with pytest.raises(ViewError, match=r"cannot write .*a\.svg: No such file"):
+        view.save(tmp_path / "nowhere" / "a.svg")
 
 
 @pytest.mark.parametrize(
