@@ -345,10 +345,13 @@ class TrackCollector(Collector):
     def __init__(self, topic: str, standing: Standing, number: int) -> None:
         super().__init__(topic, standing, number)
         self._rows: list[tuple[float, float, float, float]] = []
+        self._loose: list[tuple[float, float, float, float]] = []
         self.frame = ""
+        """The frame of the poses, if no transform connects it with what is drawn."""
 
     def take(self, time: float, message: Any) -> None:
-        """Keep a pose, in its own frame."""
+        """Keep a pose; one whose frame is not connected at that time, as odometry's before amcl speaks, in its own."""
+        rows = self._rows
         if hasattr(message, "theta"):
             pose = (float(message.x), float(message.y), float(message.theta))
             if not all(math.isfinite(part) for part in pose):
@@ -358,16 +361,19 @@ class TrackCollector(Collector):
             pose = flat(message.pose.pose)
             place = self.standing.pose(header.frame_id, header.stamp.to_nsec())
             if place is None:
+                rows = self._loose
                 self.frame = header.frame_id.lstrip("/")
             else:
                 pose = compose(place, pose)
-        self._rows.append((time, *pose))
+        rows.append((time, *pose))
 
     def result(self) -> Body | None:
-        """Where it was."""
-        if not self._rows:
+        """Where it was; if its frame was connected at some times, where it was then."""
+        if self._rows:
+            self.frame = ""
+        rows = np.array(self._rows or self._loose)
+        if not len(rows):
             return None
-        rows = np.array(self._rows)
         rows[:, 3] = np.unwrap(rows[:, 3])
         return Body(self.topic, rows[:, 0], rows[:, 1:], colour=self.colour)
 

@@ -221,6 +221,20 @@ def test_poses_without_a_transform_are_laid_on_the_robots_start_with_a_word(bag)
     assert "/truth is in the frame world" in run.notes[0]
 
 
+def test_odometry_from_before_the_first_transform_does_not_move_what_comes_later(bag):
+    """amcl speaks half a second after the robot: what odometry says until then cannot be laid into the map."""
+    late = [each for each in driving(2.0) if each[2].transforms[0].child_frame_id != "odom" or each[0] >= 0.5]
+    odometry = [
+        (t, "/odom", made("nav_msgs/Odometry", "odom", START + t, pose__pose=pose(0.5 * t, 0.0)))
+        for t in (0.0, 0.25, 0.5, 1.0, 1.5, 2.0)
+    ]
+    run = run_of(BagLog(bag(*sorted([*late, *odometry], key=lambda each: each[0]))))
+    body = next(each for each in run.bodies if each.name == "/odom")
+    assert body.times - START == pytest.approx((0.5, 1.0, 1.5, 2.0))
+    assert body.poses[:, :2] == pytest.approx(np.array([(0.25, 1.0), (0.5, 1.0), (0.75, 1.0), (1.0, 1.0)]))
+    assert run.notes == ()
+
+
 def test_turtles_are_bodies(bag):
     poses = [
         (i / 10, "/turtle1/pose", made("turtlesim/Pose", x=5.5 + i / 10, y=5.5, theta=0.0)) for i in range(11)
