@@ -172,6 +172,7 @@ def test_a_page_on_loopback_drives_the_node_s_turtle(chromium, watch):
             until(lambda: pad.chosen == "turtle2")
             until(lambda: page.locator(".rp-command", has_text="/turtle2/cmd_vel").count() == 1)
             until(lambda: page.locator(".rp-held").count() == 1)
+            graph.run(0.1)  # the pad's new publisher and the turtle find one another: one key is one message
             page.keyboard.press("ArrowLeft")
             until(lambda: sim.turtles["turtle2"].theta > 1.9)
             context.close()

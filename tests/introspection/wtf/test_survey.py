@@ -5,6 +5,7 @@ from __future__ import annotations
 from rosmini import Graph
 from rosmini.introspection.wtf.survey import survey
 from rosmini.msgs.std_msgs.msg import Int32, String
+from rosmini.msgs.std_srvs.srv import Empty, EmptyResponse
 
 
 def test_a_graph_in_this_process_answers_for_all_its_nodes() -> None:
@@ -13,7 +14,7 @@ def test_a_graph_in_this_process_answers_for_all_its_nodes() -> None:
         talker.publisher("chatter", String)
         listener.subscriber("chatter", String, print)
         listener.subscriber("number", Int32, print)
-        listener.service("go", "std_srvs/Empty", lambda _: None)
+        listener.service("go", Empty, lambda _: EmptyResponse())
         listener.set_param("/rate", 5)
         graph.run(0.1)
         found = survey(graph)
