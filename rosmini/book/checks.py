@@ -8,6 +8,7 @@ what is wrong with the answer and a hint, or that it is right. What "right" mean
 from __future__ import annotations
 
 import ast
+import functools
 import importlib
 import importlib.util
 import math
@@ -99,13 +100,15 @@ class Exercise:
     """One exercise: its number ("11.2"), what is said about a right answer, and the function that examines one.
 
     `examine(answer)` raises `Wrong` (most simply through `expect`) or returns what shows the answer at work, or None.
-    `gaps` is how many bare `...` its stub has, if that is a script.
+    `gaps` is how many bare `...` its stub has, if that is a script. `truths` are the keys of an answer whose values may
+    be True or False; elsewhere these are no numbers, though Python takes them for 1 and 0.
     """
 
     number: str
     praise: str
     examine: Callable[[Any], Any]
     gaps: int = 1
+    truths: tuple[str, ...] = ()
 
     def grade(self, answer: Any) -> Verdict:
         """Examine `answer`. An exception out of the reader's code is a wrong answer, not an error of the check."""
@@ -117,7 +120,7 @@ class Exercise:
             said = f"The answer is of type {type(answer).__name__}, not a script."
             return self._verdict(Status.WRONG, f"{said}\nHint: check({self.number!r}) finds your %%node cell")
         try:
-            view = self.examine(answer)
+            view = self.examine(self._watched(answer))
         except Wrong as wrong:
             hint = f"\nHint: {wrong.hint}" if wrong.hint else ""
             return self._verdict(Status.WRONG, f"{wrong}{hint}", wrong.view)
@@ -125,12 +128,43 @@ class Exercise:
             return self._verdict(Status.WRONG, _unexpected(answer, error))
         return self._verdict(Status.RIGHT, self.praise, view)
 
+    def _watched(self, answer: Any) -> Any:
+        """The answer, in which a truth value is no number, nor in what it returns if it is a function."""
+        if not isinstance(answer, types.FunctionType):
+            return _numbers_only(answer, "The answer has", self.truths)
+
+        @functools.wraps(answer)
+        def watched(*args: Any, **named: Any) -> Any:
+            return _numbers_only(answer(*args, **named), "It returned", self.truths)
+
+        return watched
+
     def _is_script(self) -> bool:
         return getattr(self.examine, "__annotations__", {}).get("answer") == Script.__name__
 
     def _verdict(self, status: Status, more: str = "", view: Any = None) -> Verdict:
         text = f"Exercise {self.number}: {status.value}."
         return Verdict(status, f"{text} {more}" if more else text, view)
+
+
+def _numbers_only(value: Any, said: str, truths: tuple[str, ...]) -> Any:
+    """Expect no truth value in `value` but under the keys `truths`, and return it; a number of numpy as Python's."""
+    if getattr(value, "shape", None) == () and hasattr(value, "item"):
+        value = value.item()
+    expect(
+        not isinstance(value, bool),
+        f"{said} {value} where a number or a text is asked for.",
+        "1 and 0 are numbers, True and False are truth values",
+    )
+    if isinstance(value, dict):
+        for key, each in value.items():
+            _numbers_only(key, said, ())
+            if not (isinstance(key, str) and key in truths):
+                _numbers_only(each, said, truths)
+    elif isinstance(value, list | tuple | set | frozenset):
+        for each in value:
+            _numbers_only(each, said, truths)
+    return value
 
 
 def _unexpected(answer: Any, error: Exception) -> str:
@@ -153,9 +187,11 @@ def _is_readers(frame: types.FrameType) -> bool:
     return not frame.f_code.co_filename.startswith(libraries)
 
 
-def exercise(number: str, *, praise: str, gaps: int = 1) -> Callable[[Callable[[Any], Any]], Exercise]:
+def exercise(
+    number: str, *, praise: str, gaps: int = 1, truths: tuple[str, ...] = ()
+) -> Callable[[Callable[[Any], Any]], Exercise]:
     """Make an `Exercise` of the decorated function, which examines an answer."""
-    return lambda examine: Exercise(number, praise, examine, gaps)
+    return lambda examine: Exercise(number, praise, examine, gaps, truths)
 
 
 def expect(condition: object, message: str, hint: str = "") -> None:

@@ -47,6 +47,39 @@ FILE = """<launch>
 """
 
 
+OWN = """<launch>
+<arg name="hz" default="10"/> <arg name="silent" default="/news"/> <arg name="width" default="0.5"/>
+<arg name="srv" default="rospy_tutorials/AddTwoInts"/>
+<node pkg="rospy_tutorials" type="talker.py" name="talker"/>
+<node pkg="rospy_tutorials" type="add_two_ints_server.py" name="adder"/>
+<param name="robot/width" value="0.5"/>
+<test test-name="rate" pkg="rostest" type="hztest" name="rate">
+  <param name="topic" value="chatter"/> <param name="hz" value="$(arg hz)"/> <param name="hzerror" value="0.5"/>
+  <param name="test_duration" value="3.0"/> <param name="check_intervals" value="true"/>
+</test>
+<test test-name="silence" pkg="rostest" type="hztest" name="silence">
+  <param name="topic" value="$(arg silent)"/> <param name="hz" value="0"/> <param name="test_duration" value="1"/>
+  <param name="wait_time" value="1"/>
+</test>
+<test test-name="param" pkg="rostest" type="paramtest" name="param">
+  <param name="param_name_target" value="/robot/width"/> <param name="param_value_expected" value="$(arg width)"/>
+  <param name="wait_time" value="2"/>
+</test>
+<test test-name="publish" pkg="rostest" type="publishtest" name="publish">
+  <rosparam subst_value="true">
+    topics: [{name: /chatter, timeout: 5}, {name: $(arg silent), timeout: 1, negative: true}]
+  </rosparam>
+</test>
+<test test-name="advertise" pkg="rostest" type="advertisetest" name="advertise">
+  <rosparam subst_value="true">
+    topics: [{name: /chatter, type: std_msgs/String}, {name: $(arg silent), timeout: 1, negative: true}]
+    services: [{name: /add_two_ints, type: $(arg srv)}]
+  </rosparam>
+</test>
+</launch>
+"""
+
+
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     source = make(tmp_path)
@@ -100,3 +133,29 @@ def test_a_file_without_tests_is_told(folder: Path, capsys: Any) -> None:
     file.write_text("<launch/>", encoding="utf-8")
     assert main(["test", str(file)]) == 1
     assert "there is no <test> in" in capsys.readouterr().err
+
+
+def test_the_tests_that_rostest_brings_pass(tmp_path: Path, capsys: Any) -> None:
+    """Its nodes hztest, paramtest, publishtest and advertisetest, with the parameters of a public file."""
+    file = tmp_path / "own.test"
+    file.write_text(OWN, encoding="utf-8")
+    assert main(["test", str(file)]) == 0
+    assert "RESULT: SUCCESS\n * TESTS: 6\n" in capsys.readouterr().out
+
+
+def test_the_tests_that_rostest_brings_fail(tmp_path: Path, capsys: Any) -> None:
+    file = tmp_path / "own.test"
+    file.write_text(OWN, encoding="utf-8")
+    words = ("hz:=20", "silent:=/chatter", "width:=0.6", "srv:=std_srvs/Empty")
+    assert main(["test", str(file), *words]) == 1
+    out = capsys.readouterr().out
+    assert "RESULT: FAIL\n * TESTS: 6\n * ERRORS: 0\n * FAILURES: 6\n" in out
+    for said in (
+        "an interval of 0.100 s, 0.051 s at most",
+        "a message came on /chatter",
+        "0.5 != 0.6 : the parameter /robot/width",
+        "topic /chatter: a message came",
+        "/chatter is offered",
+        "'rospy_tutorials/AddTwoInts' != 'std_srvs/Empty'",
+    ):
+        assert said in out

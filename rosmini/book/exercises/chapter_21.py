@@ -31,8 +31,21 @@ def _robot(trial: Trial) -> None:
 
 # ---- 21.1: a display's properties ----
 
+SWITCHES = (
+    "Autocompute Intensity Bounds",
+    "Autocompute Value Bounds",
+    "Enabled",
+    "Invert Rainbow",
+    "Selectable",
+    "Unreliable",
+    "Use Fixed Frame",
+    "Use rainbow",
+    "Value",
+)
+"""Properties of the display that are true or false."""
 
-@exercise("21.1", praise="Ten seconds of scans, and each wall is drawn fifty times.")
+
+@exercise("21.1", praise="Ten seconds of scans, and each wall is drawn fifty times.", truths=SWITCHES)
 def properties(answer: Any) -> Any:
     """Properties of a LaserScan display that is red, has points of 5 cm, and keeps scans for ten seconds."""
     expect_type(answer, dict, "properties is", "a dictionary: a property, and its value")

@@ -51,7 +51,7 @@ def options(answer: object) -> Any:
 
 def _graph(given: dict[str, Any], trial: Trial) -> Any:
     """Draw what the command would with these options."""
-    extra = given.keys() - {"mode", "hide", "nodes"}
+    extra = given.keys() - {"mode", "hide", "nodes", "topics"}
     expect(not extra, f"{', '.join(map(str, extra))} is not asked for.", "mode, hide and nodes suffice")
     mode = str(given.get("mode", "nodes"))
     expect(mode in ("nodes", "active", "all"), f"There is no mode {mode!r}.", "nodes, active or all")
@@ -59,7 +59,8 @@ def _graph(given: dict[str, Any], trial: Trial) -> Any:
     if "hide" in given:
         words["hide"] = tuple(part for part in str(given["hide"]).split(",") if part != "none")
     try:
-        return rqt_graph(trial.graph, namespace=str(given.get("nodes", "/")), **words)
+        nodes, topics = (str(given.get(each, "/")) for each in ("nodes", "topics"))
+        return rqt_graph(trial.graph, namespace=nodes, topics=topics, **words)
     except ViewError as error:
         raise Wrong(f"rqt_graph refuses these options: {error}") from error
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from rosmini.book.checks import Wrong, exercise, expect
+from rosmini.book.checks import Wrong, exercise, expect, expect_type
 from rosmini.msgs.sensor_msgs.msg import LaserScan
 from rosmini.tf import Buffer
 from rosmini.tf.messages import to_stamped
@@ -36,11 +36,7 @@ def nearest_to_base(answer: Any) -> None:
     mounted = from_yaw(0.5, 0.0, math.pi / 2, z=1.0)
     scan, still = _scan(1.0, 0.9, 0.8, math.inf), ("base_link", "front_laser", mounted, 5)
     found = answer(_buffer(still), scan)
-    expect(
-        isinstance(found, float),
-        f"A {type(found).__name__} came back, not a number.",
-        "take the smallest distance",
-    )
+    expect_type(found, int | float, "It returned", "a number", "take the smallest distance")
     expect(
         abs(found - 0.4) < 1e-6,
         "With a laser 0.5 m ahead that looks to the left, the nearest point is 0.40 m from base_link, "
@@ -97,7 +93,7 @@ def moved(answer: Any) -> None:
         ("odom", "base", from_yaw(3.0, 10.0, 2.0), 3),
     )
     found = answer(buffer, Time(1), Time(2))
-    expect(isinstance(found, float), f"A {type(found).__name__} came back, not a number.")
+    expect_type(found, int | float, "It returned", "a number")
     expect(
         abs(found - 5) < 1e-6,
         f"From (0, 0) to (3, 4) it is 5 m, not {found:.2f} m.",

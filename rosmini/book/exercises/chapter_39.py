@@ -241,7 +241,7 @@ def _named(point: Any) -> str:
 CLEAR = "clear_costmap_recovery/ClearCostmapRecovery"
 
 
-@exercise("39.4", praise="The cable stays straight.")
+@exercise("39.4", praise="The cable stays straight.", truths=("force_updating",))
 def no_turning(answer: Any) -> None:
     """Two behaviours that clear, the far one first, and none that turns."""
     expect_type(answer, dict, "parameters is", "a dictionary")

@@ -93,7 +93,7 @@ def _cost(potential: float, gain: float, distance: float, length: float) -> floa
     return potential * distance * R - gain * length
 
 
-@exercise("72.3", praise="Careful, and home for dinner.")
+@exercise("72.3", praise="Careful, and home for dinner.", truths=("return_to_init",))
 def cautious(answer: Any) -> None:
     """Parameters that weigh as asked."""
     expect_type(answer, dict, "parameters is", "a dictionary")

@@ -10,7 +10,7 @@ from rosmini.viz.rqt.condensing import condensed
 from rosmini.viz.rqt.drawing import draw
 from rosmini.viz.rqt.graph_state import graph_state
 from rosmini.viz.rqt.highlight import highlighted
-from rosmini.viz.rqt.selection import Group, Hide, Mode, select
+from rosmini.viz.rqt.selection import Group, Hide, Mode, matches, select
 from rosmini.viz.rqt.wording import alt_text, text_form
 from rosmini.viz.view import Picture
 
@@ -72,6 +72,9 @@ def rqt_graph(
     found = highlighted(selection, highlight) if highlight else None
     if found is not None:
         text, alt = f"{text}\n{found.text}", f"{alt} {found.text[0].upper()}{found.text[1:]}."
+    advice = _advice(shown.topics, topics) if not selected.topics else ""
+    if advice:
+        text, alt = f"{text}\n{advice}", f"{alt} {advice}"
     svg = draw(
         selection,
         namespaces=namespaces,
@@ -80,4 +83,18 @@ def rqt_graph(
         alt=alt,
         highlight=found,
     )
-    return Picture(svg, text=text, alt=alt, caption=title)
+    caption = " ".join(filter(None, (title, advice)))
+    return Picture(svg, text=text, alt=alt, caption=caption or None)
+
+
+def _advice(names: Collection[str], topics: str) -> str:
+    """What to do where a filter lets topics through and none of them is drawn; nothing where there is no filter."""
+    if topics in ("", "/"):
+        return ""
+    asked = [name for name in names if matches(name, topics)]
+    if not asked:
+        return f"No topic matches {topics}."
+    return (
+        f"{', '.join(asked[:3])}{' ...' if len(asked) > 3 else ''}: not drawn. A topic without a connection is drawn "
+        "in mode all, and only if it is not hidden (debug, dead_sinks, leaf_topics, params, tf)."
+    )

@@ -279,6 +279,15 @@ def test_filters_choose_nodes_and_topics():
     assert drawn(rqt_graph(graph, topics="/image"), "rm-edge") == ["/image"]
 
 
+def test_a_filter_whose_topics_are_all_hidden_says_what_draws_them():
+    graph = state(CHATTER, "/camera -> /image sensor_msgs/Image -> ")
+    view = rqt_graph(graph, topics="/image")
+    assert "/image: not drawn. A topic without a connection is drawn in mode all" in view.text
+    assert "not hidden (debug, dead_sinks, leaf_topics" in view.html
+    assert "not drawn" not in rqt_graph(graph, topics="/image", mode="nodes_topics_all", hide=()).text
+    assert "No topic matches /imagge." in rqt_graph(graph, topics="/imagge").text
+
+
 def test_debug_names_are_those_of_the_real_tool():
     assert all(
         map(is_debug, ["/rosout", "/rosout_agg", "/rviz_1604", "/rqt_gui_py_node_7", "/clock", "/x/_hidden"])
