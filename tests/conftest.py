@@ -10,11 +10,13 @@ import shutil
 import signal
 import sys
 from contextlib import contextmanager, nullcontext
+from importlib import import_module
 from pathlib import Path
 from types import CodeType
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from _pytest.assertion import rewrite
 from hypothesis import settings
 
 if TYPE_CHECKING:
@@ -44,6 +46,18 @@ settings.register_profile("rosmini", deadline=None)
 settings.load_profile("rosmini")
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Let tests be repeated in one process: what fails once in a hundred runs is found without collecting again."""
+    parser.addoption("--repeat", type=int, default=1, metavar="N", help="run each test N times")
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Give each test as many cases as `--repeat` says."""
+    if (times := metafunc.config.getoption("repeat")) > 1:
+        metafunc.fixturenames.append("repetition")
+        metafunc.parametrize("repetition", range(times))
+
+
 def pytest_configure() -> None:
     """Give SIGINT its meaning back: a shell's background programs, and all their children, have it ignored."""
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -51,13 +65,32 @@ def pytest_configure() -> None:
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
-    """Compile navigation's loops once, before the processes that share the tests each do it."""
+    """Do once, before the processes that share the tests each do it: compile navigation's loops and rewrite asserts.
+
+    The loops are compiled in a process beside this one. Nothing is done again that is in a cache.
+    """
     option = session.config.option
     is_worker = hasattr(session.config, "workerinput")
     if getattr(option, "numprocesses", None) and not is_worker and not option.collectonly:
-        from rosmini.navigation.kernels import compile_all
+        code = "from rosmini.navigation.kernels import compile_all; compile_all()"
+        with import_module(PROCESSES).start([sys.executable, "-c", code], stderr=None) as compiler:
+            if not sys.dont_write_bytecode:
+                rewrite_asserts(session.config)
+            compiler.wait()
 
-        compile_all()
+
+def rewrite_asserts(config: pytest.Config) -> None:
+    """Store the test modules with their asserts rewritten, where pytest looks for them; it has no public door for it.
+
+    It takes longer than all the rest of collecting them, and each process of the tests would do it to all of them.
+    """
+    paths = [Path(arg.partition("::")[0]) for arg in config.args]
+    for path in (file for at in paths for file in ([at] if at.is_file() else at.rglob("test_*.py"))):
+        stored = rewrite.get_cache_dir(path) / f"{path.stem}{rewrite.PYC_TAIL}"
+        if path.suffix == ".py" and not stored.is_file():
+            stored.parent.mkdir(exist_ok=True)
+            digest, code = rewrite._rewrite_test(path, config)
+            rewrite._write_pyc(config.stash[rewrite.assertstate_key], code, digest, stored)
 
 
 def codes(function: Any) -> Iterator[CodeType]:

@@ -6,7 +6,7 @@ import json
 import math
 import os
 import sys
-from contextlib import ExitStack, closing
+from contextlib import closing
 from typing import TYPE_CHECKING
 
 import pytest
@@ -20,13 +20,13 @@ from rosmini_bench import (
     launch_files,
     nav,
     sim,
+    sim_peer,
     table,
     tools,
     transforms,
     turtles,
     wire,
 )
-from rosmini_bench.peer import find_rospy
 
 from rosmini.cli.main import main
 from rosmini.errors import RosminiError
@@ -42,14 +42,20 @@ PEERS = {"pymunk", "unrecorded", "scipy", "csgraph", "scikit-image", "C++ costma
 """What is measured beside us though no other program is asked for: libraries."""
 
 
-def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.ros
+@pytest.mark.processes
+def test_every_measure_gives_a_positive_figure(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Ours, and beside it real rospy, its wire and its bags where they are installed: all in one run."""
+    monkeypatch.setattr(sim_peer, "find_irsim", lambda: None)  # see test_bench_sim.py
     file = tmp_path / "figures.json"
-    assert main(["bench", "--no-peer", "--rounds", "1", "--scale", "0.001", "--json", str(file)]) == 0
-    written = json.loads(file.read_text(encoding="utf-8"))
+    assert main(["bench", "--rounds", "1", "--scale", "0.001", "--json", str(file)]) == 0
+    rows = json.loads(file.read_text(encoding="utf-8"))["figures"]
     shown = capsys.readouterr().out
-    of_the_wire = sum(row["name"].startswith("wire: ") for row in written["figures"])
-    assert of_the_wire == (13 if sys.platform == "win32" else 14)
-    assert len(written["figures"]) == of_the_wire + len(
+    wires = [row for row in rows if row["name"].startswith("wire: ")]
+    assert len(wires) == (13 if sys.platform == "win32" else 14)
+    assert len(rows) == len(wires) + len(
         [
             *graph.measures(None, 1),
             *actions.measures(None, 1),
@@ -63,58 +69,39 @@ def test_every_measure_gives_a_positive_figure(tmp_path: Path, capsys: pytest.Ca
             *nav.measures(0.1),
         ]
     )
-    for row in written["figures"]:
+    for row in rows:
         assert math.isfinite(row["ours"])
         assert row["ours"] > 0 or row["unit"] in EXPONENTS_AND_ERRORS
-        assert row["peer"] is None or row["peer_name"] in PEERS
         assert row["name"] in shown
-
-
-@pytest.mark.ros
-def test_real_rospy_is_measured_beside_it() -> None:
-    rospy = find_rospy()
-    if rospy is None:
+    if "real ROS is not installed" in shown:
         assert os.environ.get("ROSMINI_REQUIRE_ROS") != "1", "real ROS is required here"
-        pytest.skip("real ROS is not installed")
-    try:
-        measures = [
-            *graph.measures(rospy, 0.001),
-            *actions.measures(rospy, 0.05),
-            *transforms.measures(rospy, 0.01),
-            *launch_files.measures(rospy, 0.01),
-        ]
-        figures = [measure.run(1) for measure in measures]
-    finally:
-        rospy.close()
-    compared = [figure for figure in figures if figure.peer is not None]
+        assert all(row["peer"] is None or row["peer_name"] in PEERS for row in rows)
+        pytest.skip("real ROS is not installed: only our own side was measured")
+    assert sum(row["peer"] is None for row in wires) == 1
+    bagged = [row for row in rows if row["name"].startswith("bag: ")]
+    assert sum(bool(row["peer"]) for row in bagged) == 6
+    others = {
+        measure.name
+        for measures in (graph.measures, actions.measures, transforms.measures, launch_files.measures)
+        for measure in measures(None, 1)
+    }
+    compared = [row for row in rows if row["name"] in others and row["peer"] is not None]
     assert len(compared) >= 6
-    assert all(figure.peer and figure.peer > 0 for figure in compared)
+    assert all(row["peer"] > 0 for row in [*wires, *bagged, *compared] if row["peer"] is not None)
 
 
-@pytest.mark.ros
-def test_real_rosbag_is_measured_beside_it(tmp_path: Path) -> None:
-    peer = bags.find_rosbag(tmp_path)
-    if peer is None:
-        assert os.environ.get("ROSMINI_REQUIRE_ROS") != "1", "real ROS is required here"
-        pytest.skip("real ROS is not installed")
-    figures = [measure.run(1) for measure in bags.measures(tmp_path, peer, 0.01)]
-    assert sum(bool(figure.peer) for figure in figures) == 6
-    assert figures[-1].ours == 100.0
+def test_nothing_else_is_measured_beside_it_if_one_says_so(tmp_path: Path) -> None:
+    file = tmp_path / "figures.json"
+    for subject in ("turtles", "sim"):
+        words = ["bench", subject, "--no-peer", "--rounds", "1", "--scale", "0.001"]
+        assert main([*words, "--json", str(file)]) == 0
+        for row in json.loads(file.read_text(encoding="utf-8"))["figures"]:
+            assert row["peer"] is None or row["peer_name"] in PEERS
 
 
-@pytest.mark.ros
-@pytest.mark.processes
-def test_the_wire_of_real_rospy_is_measured_beside_ours() -> None:
-    with ExitStack() as stack:
-        rospy = find_rospy()
-        if rospy is None:
-            assert os.environ.get("ROSMINI_REQUIRE_ROS") != "1", "real ROS is required here"
-            pytest.skip("real ROS is not installed")
-        stack.callback(rospy.close)
-        figures = [measure.run(1) for measure in wire.measures(rospy, 0.001, stack)]
-    assert all(figure.ours > 0 for figure in figures)
-    assert sum(figure.peer is None for figure in figures) == 1
-    assert all(figure.peer > 0 for figure in figures if figure.peer is not None)
+def test_what_comes_back_of_a_recorded_bag_is_all(tmp_path: Path) -> None:
+    *_, last = bags.measures(tmp_path, None, 0.01)
+    assert last.run(1).ours == 100.0
 
 
 def test_messages_that_are_lost_on_the_wire_give_no_figure(tmp_path: Path) -> None:
