@@ -4,8 +4,8 @@ Pure: where it would be at a time, as a function of that time. The engine lets s
 own. Whatever stands in its way (a robot, something that was pushed there) stops that
 clock: the thing waits and never pushes through, and afterwards goes on where it was. A walker who has waited for long
 gives way, as people do: it goes its round the other way, until it has to wait for long again. A door that meets
-something on its way goes back, as EN 16005 and ANSI/BHMA A156.19 ask of doors with a motor, and tries again after it
-stood closed, or open.
+something while it closes opens again, as EN 16005 and ANSI/BHMA A156.19 ask of doors with a motor. One that meets
+something while it opens stands there, ajar, for as long as it would have stood open, and closes.
 """
 
 from __future__ import annotations
@@ -188,6 +188,11 @@ class Door:
             return (1 - math.cos(math.pi * t / self.moving)) / 2
         t -= self.moving + self.open
         return 1.0 if t <= 0 else (1 + math.cos(math.pi * t / self.moving)) / 2
+
+    def patience(self, t: float) -> float:
+        """How long it stands at its time t [s] before what it has met [s], until it goes back."""
+        into = math.fmod(max(0.0, t) + self.phase, self.period)
+        return self.open if self.closed < into < self.closed + self.moving else 0.0
 
     def turned_back(self, t: float) -> float | None:
         """The next time [s] at which it is where it is at `t` and moves the other way; None if it stands still then.

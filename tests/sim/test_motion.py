@@ -250,6 +250,15 @@ def test_a_door_that_opens_onto_a_robot_goes_back_and_leaves_it_room():
     assert max(angle for _, angle in watched(engine, 15.0)) == pytest.approx(math.pi / 2)
 
 
+def test_a_door_that_opens_onto_a_robot_stands_ajar_for_as_long_as_it_would_have_stood_open():
+    engine = make(replace(LEAF, motion=replace(LEAF.motion, open=6.0)))
+    engine.add("burger", BURGER, (0.1, 0.35, 0.0))
+    angles = [angle for _, angle in watched(engine, 9.0)]
+    ajar = [angle == pytest.approx(max(angles), abs=1e-3) and angle > 0.05 for angle in angles]
+    assert sum(ajar) * 0.05 == pytest.approx(6.0, abs=0.3)
+    assert angles[-1] < max(angles) - 0.05  # then it closes
+
+
 def watched(engine: Engine, seconds: float) -> list[tuple[float, float]]:
     """How far the leaf is from the burger's middle, less what the burger has to its side [m], and its angle [rad]."""
     found = []

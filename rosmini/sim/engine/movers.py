@@ -70,10 +70,10 @@ class Mover:
     def way_back(self) -> tuple[float, int] | None:
         """Its clock [s] and its pace if it went back from here; None if it stands, or has patience yet."""
         motion = self.obstacle.motion
-        if isinstance(motion, Door):
-            back = motion.turned_back(self.clock)
-            return None if back is None else (back, self.pace)
         waited = (self._instant.ns - self._since_ns) / SECOND if self.waiting else 0.0
+        if isinstance(motion, Door):
+            back = motion.turned_back(self.clock) if waited >= motion.patience(self.clock) else None
+            return None if back is None else (back, self.pace)
         walks = isinstance(motion, Walk) and motion.loop and waited >= motion.patience
         return (self.clock, -self.pace) if walks else None
 
