@@ -238,7 +238,7 @@ class Connection(DirectReceiver):
                 while incoming and self.way is way:  # until a callback changes who subscribes
                     self.received += 1
                     message = take()
-                    if message.__class__ is not own and own is not None:
+                    if type(message) is not own and own is not None:
                         message = recast(message, own)
                         set_header(message, header)
                     if thaw is not None:

@@ -134,7 +134,7 @@ class Publication:
         if header.frame_id is None:
             header.frame_id = "0"
         if self._list:  # rospy numbers only what somebody gets
-            if header.__class__ is self._header_class:
+            if type(header) is self._header_class:
                 self._set_number(header, self._next_number())
             else:
                 header.seq = self._next_number()
@@ -321,7 +321,7 @@ class Publisher(TopicHandle):
         publication = self._publication
         if publication is None:
             raise ROSException(self._closed_message())
-        if message.__class__ is self.message_class and not args and not fields:
+        if type(message) is self.message_class and not args and not fields:
             publication.send(message)
         else:
             publication.send(self._build(() if message is _NOTHING else (message, *args), fields))

@@ -127,7 +127,7 @@ def receiver(message_class: Any, *, numpy: bool) -> Callable[[Any, Header], Any]
     thaw = message_class._thawer(numpy=numpy)
 
     def receive(frozen: Any, header: Header) -> Any:
-        message = frozen if frozen.__class__ is message_class else recast(frozen, message_class)
+        message = frozen if type(frozen) is message_class else recast(frozen, message_class)
         if thaw is not None:
             message = thaw(message)
         set_header(message, header)

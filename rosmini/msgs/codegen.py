@@ -236,8 +236,8 @@ class Generator:
     def not_frozen(self, field: Field, v: str) -> str:
         """The condition that the array `v` is not yet a read-only one over bytes."""
         wrong = [
-            f"{v}.__class__ is not {self.use('ndarray', np.ndarray)}",
-            f"{v}.base.__class__ is not {self.use('_bytes', bytes)}",
+            f"type({v}) is not {self.use('ndarray', np.ndarray)}",
+            f"type({v}.base) is not {self.use('_bytes', bytes)}",
             f"{v}.dtype is not {self.use(f'dtype_{field.base}', DTYPES[field.base])}",
             f"{v}.ndim != 1",
             f"not {v}.flags.c_contiguous",
@@ -303,7 +303,7 @@ class Generator:
         """Freeze what a variable holds: a text or an array."""
         _, _, field, kind = leaf
         if field is None or field.size is None:
-            self.emit(f"if {value}.__class__ is not str or not {value}.isascii():", depth)
+            self.emit(f"if type({value}) is not str or not {value}.isascii():", depth)
             self.emit(f"{value} = {self.use('checked_text', fields.checked_text)}({value})", depth + 1)
             return
         freeze = self.array_function(field, verb="freeze")

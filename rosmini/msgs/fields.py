@@ -55,7 +55,7 @@ def freeze_bytes(size: int) -> Callable[[Any], bytes]:
     """The conversion of a ``uint8[]`` or ``char[]`` field of ``size`` elements (-1: any number) to ``bytes``."""
 
     def convert(values: Any) -> bytes:
-        if values.__class__ is bytes:
+        if type(values) is bytes:
             data: bytes = values
         elif isinstance(values, np.ndarray):
             data = _array_bytes(values, DTYPES["uint8"])

@@ -72,7 +72,7 @@ class Message(MessageContract):
         Raises :class:`DeserializationError` unless ``data`` is exactly one message of this type.
         """
         # numpy arrays will look into these bytes, so they must be ones that nobody can write to
-        fixed = data if data.__class__ is bytes else bytes(data)
+        fixed = data if type(data) is bytes else bytes(data)
         try:
             message, used = cls._read(fixed, 0, len(fixed))
         except struct.error as error:
