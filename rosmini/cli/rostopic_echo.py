@@ -220,9 +220,13 @@ class _Echo:
             self.call.say(f"{self._clear}{self._text(value)}\n---")
             return
         from rosmini.introspection.fields import cells, columns
+        from rosmini.msgs.message import Message
 
         if self.count == 1:
-            self.call.say(",".join(["%time", *columns(value, "field", self._choose)]))
+            titles = columns(value, "field", self._choose)
+            # A message without columns leaves the comma, an empty array does not: as the real tool has it.
+            comma = "," if titles or isinstance(value, Message) else ""
+            self.call.say(f"%time{comma}{','.join(titles)}")
         if when is None:
             when = value.header.stamp if getattr(type(value), "_has_header", False) else self._now()
         offset = self._now().to_nsec() if self._given.offset else 0

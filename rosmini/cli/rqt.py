@@ -279,7 +279,7 @@ def console(given: Values, call: Call) -> Shown:
 
 
 def _tf_parser() -> Parser:
-    return _parser("tf_tree", "[options]", "The tree of frames.", "--duration 3", 2.0)
+    return _add_live(_parser("tf_tree", "[options]", "The tree of frames.", "--duration 3", 2.0))
 
 
 @TOOL.verb(RQT["tf_tree"], parser=_tf_parser)
@@ -288,6 +288,8 @@ def tf_tree(given: Values, call: Call) -> Shown:
     from rosmini.tf import TransformListener
     from rosmini.viz.tf_trees import tf_tree as draw
 
+    if given.live:
+        return _live("TfTree", call)
     with tool_node(call.graph, "rqt_tf_tree") as node:
         listener = TransformListener(node)
         _pass(call, given.duration)
@@ -295,9 +297,8 @@ def tf_tree(given: Values, call: Call) -> Shown:
 
 
 def _image_parser() -> Parser:
-    return _parser(
-        "image_view", "[options] TOPIC", "The next image on a topic.", "/camera/rgb/image_raw", 5.0
-    )
+    text = "The next image on a topic."
+    return _add_live(_parser("image_view", "[options] TOPIC", text, "/camera/rgb/image_raw", 5.0))
 
 
 @TOOL.verb(RQT["image_view"], parser=_image_parser)
@@ -307,6 +308,8 @@ def image_view(given: Values, call: Call) -> Shown:
     from rosmini.viz.image_pictures import image_picture
 
     name = global_name(_one_word(given, _image_parser(), "topic"))
+    if given.live:
+        return _live("ImageView", call, name)
     heard: list[Any] = []
     with tool_node(call.graph, "rqt_image_view") as node:
 

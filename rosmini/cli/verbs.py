@@ -320,7 +320,8 @@ class Tool:
             own = [word for word in own if self.takes_arguments or not is_remapping(word)]
             if not own or (own[0] not in {*self.verbs, "--help", "help"}):
                 return self._not_a_verb(own)
-        try:
+
+        def act() -> Result | int:
             asked = self._help_for(own)
             if asked is not None:
                 print(asked)
@@ -331,7 +332,21 @@ class Tool:
             if verb.in_terminal is not None:
                 verb.parser()
                 return verb.in_terminal(self._with_verb(words)[1:])
-            result = self._in_terminal(verb, own[1:], nodes)
+            return self._in_terminal(verb, own[1:], nodes)
+
+        return self._reported(act)
+
+    def in_script(self, words: Sequence[str]) -> int:
+        """Do what the words say on the graph that runs the caller, print it, and return the exit status.
+
+        It is found by its name in the entry points `rosmini.tools`, by ``rostopic.rostopicmain`` on a floor below.
+        """
+        return self._reported(lambda: self.run(*(word for word in words if not is_remapping(word))))
+
+    def _reported(self, act: Callable[[], Result | int]) -> int:
+        """Print what was done, or why it was not, and return the exit status."""
+        try:
+            result = act()
         except VerbError as error:
             print(error, file=sys.stderr)
             return error.status
@@ -343,6 +358,8 @@ class Tool:
                 raise
             print(f"ERROR: Unable to communicate with master!\n{error}", file=sys.stderr)
             return self.failure_status
+        if isinstance(result, int):
+            return result
         text = str(result)
         if text or result.always_printed:
             print(text, end=result.end)

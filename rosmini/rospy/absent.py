@@ -95,7 +95,6 @@ _ABSENT = {
         "brings old bags up to date with rules",
         "read the bag and write changed messages to a new one with rosbag.Bag",
     ),
-    "rosbag.rosbag_main": ("is the command line of rosbag", "run `rosmini rosbag`, or use rosbag.Bag"),
     "rosbridge_library": ("speaks to web pages", _ALONE),
     "roscreate": ("makes packages of rosbuild", "make a catkin package: a folder with package.xml"),
     "rosgraph.impl": ("watches the whole graph", "ask rosgraph.Master(name).getSystemState()"),

@@ -49,7 +49,7 @@ _THE_SAME = {
     "actionlib": "action_client action_server exceptions goal_id_generator server_goal_handle simple_action_client "
     "simple_action_server status_tracker",
     "dynamic_reconfigure": "client encoding server",
-    "rosbag": "bag",
+    "rosbag": "bag rosbag_main",
     "tf": "broadcaster listener",
     "tf2_geometry_msgs": "tf2_geometry_msgs",
     "tf2_ros": "buffer static_transform_broadcaster transform_broadcaster transform_listener",

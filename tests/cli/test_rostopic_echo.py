@@ -126,6 +126,7 @@ def test_bytes_are_shown_as_numbers(graph: Graph) -> None:
 def test_texts_are_left_out(graph: Graph) -> None:
     text, _ = echo(graph, "-n 1 --nostr /odom/header")
     assert 'frame_id: "<string length: 4>"' in text
+    assert echo(graph, "-n 1 -p --nostr /chatter")[0].startswith("%time,\n")  # the comma is the real tool's
     assert echo(graph, "-n 1 --nostr /chatter/data")[0] == '"<string length: 30>"\n---\n'
 
 

@@ -114,6 +114,8 @@ def test_a_panel_opens_in_a_notebook_and_goes_on(graph: Graph, line: str) -> Non
         "plot --live number/data",
         "topic --live chatter",
         "console --live",
+        "tf_tree --live",
+        "image_view --live image",
     ],
 )
 def test_what_goes_on_is_for_notebooks(graph: Graph, line: str) -> None:

@@ -39,6 +39,8 @@ def rqt_action(kind: str) -> Table:
 
 
 def _table(kind: str, parts: Callable[[], list[tuple[str, MessageSpec]]]) -> Table:
+    if kind.count("/") != 1:
+        raise ViewError(f"{kind!r} is no type: one is written package/Type, as in geometry_msgs/Twist")
     try:
         found = parts()
         rows: list[tuple[str, str, str]] = []

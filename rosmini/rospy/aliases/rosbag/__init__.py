@@ -20,10 +20,11 @@ from rosmini.bag import (
     ROSBagUnindexedException,
 )
 from rosmini.bag.writer import CHUNK_THRESHOLD
+from rosmini.rospy.mains import run_tool
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
 __all__ = [
     "Bag",
@@ -35,6 +36,7 @@ __all__ = [
     "ROSBagException",
     "ROSBagFormatException",
     "ROSBagUnindexedException",
+    "rosbagmain",
 ]
 
 bag = sys.modules[__name__]
@@ -56,3 +58,8 @@ class Bag(_bag.Bag):
         super().__init__(
             f, mode, compression, chunk_threshold, allow_unindexed, options, skip_index, numpy=False
         )
+
+
+def rosbagmain(argv: Sequence[str] | None = None) -> None:
+    """Do what a command line of rosbag says, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
+    run_tool("rosbag", argv)

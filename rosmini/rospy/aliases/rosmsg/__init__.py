@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import DefinitionError, IllegalName, RosminiError, UnknownPackage, UnknownType
 from rosmini.introspection.types import MESSAGE, SERVICE, Kind
+from rosmini.rospy.mains import run_tool
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,6 +26,7 @@ __all__ = [
     "list_types",
     "rosmsg_md5",
     "rosmsg_search",
+    "rosmsgmain",
 ]
 
 MODE_MSG = ".msg"
@@ -96,3 +98,8 @@ def rosmsg_md5(mode: str, type_: str) -> str:
         return _kind(mode).md5(type_)
     except _WRONG as error:
         raise OSError(f"cannot load [{type_}]: {error}") from error
+
+
+def rosmsgmain(mode: str = MODE_MSG) -> None:
+    """Do what ``sys.argv`` says, as rosmsg or rossrv does; raise ``SystemExit`` if it fails."""
+    run_tool("rossrv" if mode == MODE_SRV else "rosmsg", None)

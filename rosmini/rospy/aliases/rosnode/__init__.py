@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +12,7 @@ from rosmini.graph import running_graph
 from rosmini.introspection import nodes
 from rosmini.rospy.aliases import rosgraph
 from rosmini.rospy.aliases.rosgraph.names import script_resolve_name
+from rosmini.rospy.mains import run_tool
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,6 +37,7 @@ __all__ = [
     "rosnode_listnodes",
     "rosnode_ping",
     "rosnode_ping_all",
+    "rosnodemain",
 ]
 
 NAME = "rosnode"
@@ -199,3 +201,8 @@ def rosnode_info(node_name: str, quiet: bool = False) -> None:
     elif not quiet:
         print(f"\ncontacting node {uri} ...")
         print(get_node_connection_info_description(uri, None))
+
+
+def rosnodemain(argv: Sequence[str] | None = None) -> None:
+    """Do what a command line of rosnode says, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
+    run_tool("rosnode", argv)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -19,6 +19,7 @@ from rosmini.introspection import services
 from rosmini.introspection.fields import service_class_of
 from rosmini.rospy.aliases.genpy.message import fill_message_args, get_printable_message_args
 from rosmini.rospy.aliases.rosgraph.names import script_resolve_name
+from rosmini.rospy.mains import run_tool
 
 __all__ = [
     "NAME",
@@ -34,6 +35,7 @@ __all__ = [
     "get_service_uri",
     "has_service_args",
     "rosservice_find",
+    "rosservicemain",
 ]
 
 NAME = "rosservice"
@@ -152,3 +154,8 @@ def get_service_args(service_name: str) -> str:
     """Return the names of the fields of a service's requests, as one line."""
     cls = get_service_class_by_name(script_resolve_name(NAME, service_name))
     return " ".join(cls._request_class.__slots__)
+
+
+def rosservicemain(argv: Sequence[str] | None = None) -> None:
+    """Do what a command line of rosservice says, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
+    run_tool("rosservice", argv)

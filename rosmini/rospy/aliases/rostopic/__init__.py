@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +13,9 @@ from rosmini.introspection import topics
 from rosmini.introspection.fields import FieldError, chosen, class_of, reader
 from rosmini.rospy.aliases.genpy.message import fill_message_args, get_printable_message_args
 from rosmini.rospy.aliases.rosgraph.names import script_resolve_name
+from rosmini.rospy.mains import run_tool
 
+from .echoing import CallbackEcho
 from .measures import ROSTopicBandwidth, ROSTopicDelay, ROSTopicHz
 
 if TYPE_CHECKING:
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "NAME",
+    "CallbackEcho",
     "ROSTopicBandwidth",
     "ROSTopicDelay",
     "ROSTopicException",
@@ -36,6 +39,7 @@ __all__ = [
     "get_topic_type",
     "msgevalgen",
     "publish_message",
+    "rostopicmain",
 ]
 
 NAME = "rostopic"
@@ -230,3 +234,8 @@ def _filled(message: Any, values: Any) -> Any:
     except MessageException as error:
         raise ROSTopicException(f"{error}\n\nArgs are: [{get_printable_message_args(message)}]") from error
     return message
+
+
+def rostopicmain(argv: Sequence[str] | None = None) -> None:
+    """Do what a command line of rostopic says, ``sys.argv`` if None; raise ``SystemExit`` if it fails."""
+    run_tool("rostopic", argv)
