@@ -56,7 +56,9 @@ def _tool(name: str) -> Tool | None:
     if entry is None or entry.folder is not None:
         return None
     found = vars(importlib.import_module(entry.module)).get("TOOL")
-    return found if isinstance(found, Tool) else None
+    if not isinstance(found, Tool):
+        return None
+    return found.alone(entry.only) if entry.only else found
 
 
 def _beginning(start: str, words: Iterable[str]) -> list[str]:

@@ -24,7 +24,7 @@ def look(result: Any) -> None:
     error = result.error_in_exec
     if error is None:
         return
-    with suppress(Exception):  # the reader has an error already
+    with suppress(Exception, KeyboardInterrupt):  # the reader has an error already, or does not want to wait
         finding = explanation(error)
         if finding is not None:
             print(f"roswtf: {finding}")

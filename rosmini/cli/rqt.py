@@ -172,7 +172,7 @@ def _definition(verb: str, example: str) -> None:
     def parser() -> Parser:
         return _parser(verb, "TYPE", "The fields of a type as a tree.", example)
 
-    @TOOL.verb(RQT[verb], name=verb, parser=parser, only_asks=True)
+    @TOOL.verb(RQT[verb], name=verb, parser=parser, only_asks=True, takes="" if verb == "action" else verb)
     def show(given: Values, call: Call) -> Shown:
         from rosmini.viz.rqt import definitions
 
@@ -225,7 +225,7 @@ def _plot_parser() -> Parser:
     return _add_live(_add_title(parser))
 
 
-@TOOL.verb(RQT["plot"], parser=_plot_parser)
+@TOOL.verb(RQT["plot"], parser=_plot_parser, takes="topic")
 def plot(given: Values, call: Call) -> Shown:
     """Plot fields over time."""
     from rosmini.viz.rqt.plot import rqt_plot
@@ -244,7 +244,7 @@ def _topic_parser() -> Parser:
     return _add_live(_parser("topic", "[options] [TOPIC...]", text, "/odom", 2.0))
 
 
-@TOOL.verb(RQT["topic"], parser=_topic_parser)
+@TOOL.verb(RQT["topic"], parser=_topic_parser, takes="topic")
 def topic(given: Values, call: Call) -> Shown:
     """Show all topics."""
     from rosmini.viz.rqt.topics import rqt_topic
@@ -301,7 +301,7 @@ def _image_parser() -> Parser:
     return _add_live(_parser("image_view", "[options] TOPIC", text, "/camera/rgb/image_raw", 5.0))
 
 
-@TOOL.verb(RQT["image_view"], parser=_image_parser)
+@TOOL.verb(RQT["image_view"], parser=_image_parser, takes="topic")
 def image_view(given: Values, call: Call) -> Shown:
     """Show the next image on a topic."""
     from rosmini.msgs import message_class
@@ -358,7 +358,8 @@ def _panel(verb: str) -> None:
         )
         return 2
 
-    @TOOL.verb(RQT[verb], name=verb, parser=parser, in_terminal=in_terminal)
+    # Its one word, [NODE] or [SERVICE], is completed.
+    @TOOL.verb(RQT[verb], name=verb, parser=parser, in_terminal=in_terminal, takes=usage.strip("[]").lower())
     def show(given: Values, call: Call) -> Shown:
         if len(given.words) > (1 if usage else 0):
             parser().error(f"rqt_{verb} takes {usage or 'no words'}")

@@ -37,6 +37,9 @@ BECOMES = [
     ("roslaunch turtlebot3_gazebo turtlebot3_world.launch x_pos:=1 mo", ["model:="]),
     ("roslaunch no_such_package ", []), ("rosrun no_such_package ", []),
     ("rosrun turtlesim turtle_te", ["turtle_teleop_key"]),
+    ("rqt_graph --mo", ["--mode"]), ("rqt_msg std_msgs/Strin", ["std_msgs/String"]), ("rqt gra", ["graph"]),
+    ("rqt_plot /od", ["/odom"]), ("rqt_logger_level /ta", ["/talker"]),
+    ("rqt_service_caller /talker/g", ["/talker/get_loggers"]),
     ("nothing at all", []), ("lab x", []), ("rosnode cleanup x", []), ("rosservice no", []),
 ]  # fmt: skip
 
