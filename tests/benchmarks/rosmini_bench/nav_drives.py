@@ -21,10 +21,10 @@ from rosmini.msgs import message_class
 from rosmini.navigation.nav_core.poses import planar_pose
 from rosmini.sim.models import BURGER
 from rosmini.sim.simulator import Simulator
+from rosmini.sim.worlds import to_map
 from rosmini.sim.worlds import world as world_called
 
 from .nav_goals import DISC, Terrain
-from .nav_trial import place
 
 Floats = NDArray[np.float64]
 
@@ -35,8 +35,9 @@ BEND = 0.4
 NEAR = 0.12
 """A corner counts as reached from so far [m]."""
 COMMAND_RATE = 10.0
-STUCK = 8.0
-"""Who has not come 5 cm farther in so many seconds goes somewhere else."""
+STUCK, BACK = 1.0, 1.0
+"""Who has neither come 5 cm farther nor turned by 0.1 rad in so many seconds drives back for so many [s] and goes
+somewhere else."""
 PERSON = 0.2
 """The radius of somebody who stands beside the robot [m]."""
 
@@ -63,10 +64,11 @@ class Drive:
 
 @cache
 def terrain(world: str) -> tuple[Terrain, NDArray[np.intp]]:
-    """Where one can drive in a world, and the cells to draw places from."""
-    grid, _, inside = place(world)
-    found = Terrain(grid)
-    return found, np.argwhere(found.within(DISC, found.cell(*inside)))
+    """Where one can drive in a world, and the cells to draw places from; what can be pushed stands in the way, too."""
+    known = world_called(world)
+    things = [replace(each, mass=None) if each.movable else each for each in known.obstacles]
+    found = Terrain(to_map(known.with_just(each for each in things if each.fixed)))
+    return found, np.argwhere(found.within(DISC, found.cell(*known.starts[0][:2])))
 
 
 class _Driver:
@@ -80,24 +82,28 @@ class _Driver:
         self.node = graph.node("driver")
         self.sender = self.node.publisher("cmd_vel", message_class("geometry_msgs/Twist"), queue_size=1)
         self.path: list[tuple[float, float]] = []
-        self.since, self.there = 0.0, (math.inf, math.inf)
+        self.since, self.there, self.back_until = 0.0, (math.inf, math.inf, 0.0), 0.0
         self.node.timer(1 / COMMAND_RATE, self.drive)
 
     def drive(self, _: Any) -> None:
         x, y, yaw = self.simulator.truth()
         now = self.simulator.now
-        if math.dist((x, y), self.there) > 0.05:
-            self.since, self.there = now, (x, y)
+        turned = abs(math.remainder(yaw - self.there[2], math.tau))
+        if math.dist((x, y), self.there[:2]) > 0.05 or turned > 0.1:
+            self.since, self.there = now, (x, y, yaw)
         elif now - self.since > STUCK:
-            self.path, self.since = [], now
+            self.path, self.since, self.back_until = [], now, now + BACK
         while self.path and math.dist((x, y), self.path[0]) < NEAR:
             self.path.pop(0)
         if not self.path:
             self.path = self.somewhere((x, y))
         turn = math.remainder(math.atan2(self.path[0][1] - y, self.path[0][0] - x) - yaw, math.tau)
         message = message_class("geometry_msgs/Twist")()
-        message.linear.x = SPEED if abs(turn) < BEND else 0.0
-        message.angular.z = max(-self.turn, min(self.turn, 2.0 * turn))
+        if now < self.back_until:
+            message.linear.x = -SPEED / 2
+        else:
+            message.linear.x = SPEED if abs(turn) < BEND else 0.0
+            message.angular.z = max(-self.turn, min(self.turn, 2.0 * turn))
         self.sender.publish(message)
 
     def somewhere(self, here: tuple[float, float]) -> list[tuple[float, float]]:
