@@ -124,7 +124,7 @@ class Launch:
 
     def _ended(self, made: Running, returncode: int) -> None:
         """Do what is to be done when a node has ended."""
-        if self.ending or made.asked_to_end:
+        if self.ending or made.asked_to_end or self.graph.closing:
             return
         said = self._how_it_ended(made, returncode)
         node = made.node

@@ -178,6 +178,15 @@ def test_mappers_that_are_not_here_are_named(method, said, graph, model, capsys)
     assert said in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("files", [
+    ("turtlebot3_navigation", "turtlebot3_navigation.launch"), ("turtlebot3_slam", "turtlebot3_slam.launch"),
+    ("navigation_stage", "move_base_fake_localization_5cm.launch"),
+])  # fmt: skip
+def test_rviz_opens_unless_it_is_not_wanted_as_in_the_public_files(files, model):
+    assert plan_of(*files).node("/rviz").package == "rviz"
+    assert "/rviz" not in {node.name for node in plan_of(*files, open_rviz=False).nodes}
+
+
 def test_a_method_that_nobody_knows_has_no_launch_file(model):
     with pytest.raises(
         LaunchError, match=r"turtlebot3_magic\.launch\] cannot be read: there is no such file"

@@ -96,6 +96,17 @@ def test_the_end_of_a_required_node_ends_all(
     assert launch.required_ended is not None
 
 
+def test_the_end_of_the_graph_is_no_death_of_a_required_node(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with Graph(strict=False) as graph:
+        boss = '<node pkg="speaking" type="talker.py" name="boss" required="true"/>'
+        launch, _, said = started(graph, boss, tmp_path, monkeypatch)
+        graph.run(0.1)
+    assert dict(launch.state().codes) == {"/boss": 0}
+    assert not [line for line in said if "has died" in line]
+
+
 def test_a_node_that_cannot_be_started_is_told_and_the_others_run(
     graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

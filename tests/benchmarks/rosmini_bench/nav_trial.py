@@ -59,7 +59,7 @@ LAUNCH = """
   </node>
   <include file="$(find turtlebot3_navigation)/launch/turtlebot3_navigation.launch">
     <arg name="model" value="{model}"/>
-    <arg name="map_file" value="{map}"/>
+    <arg name="map_file" value="{map}"/> <arg name="open_rviz" value="false"/>
     <arg name="careful" value="{careful}"/>
     <arg name="localization" value="{localization}"/>
     <arg name="initial_pose_x" value="{x}"/> <arg name="initial_pose_y" value="{y}"/>

@@ -103,7 +103,7 @@ def test_frontier_exploration_ends_by_itself_and_the_older_nodes_are_ended(graph
     trial = Trial(graph, tmp_path, with_settings(STACK))
     graph.run(3.0)
     older = {name: graph.nodes[name] for name in ("/move_base", "/turtlebot3_slam_gmapping")}
-    again = '<arg name="slam_methods" value="frontier_exploration"/>'
+    again = '<arg name="slam_methods" value="frontier_exploration"/><arg name="open_rviz" value="false"/>'
     file = "$(find turtlebot3_slam)/launch/turtlebot3_slam.launch"
     trial.launch(
         "second.launch", with_settings(f'<launch><include file="{file}">{again}</include>') + "</launch>"

@@ -41,7 +41,7 @@ def send(graph, x, y, yaw=0.0):
 @pytest.mark.parametrize("model", ["waffle", "waffle_pi"])
 def test_each_model_has_its_files(graph, model):
     house = str(assets_dir() / "ros/rosmini_sim/maps/house.yaml")
-    where = {"map_file": house, "model": model, "localization": "fake_localization"}
+    where = {"map_file": house, "model": model, "localization": "fake_localization", "open_rviz": False}
     said = launch(
         graph,
         ("rosmini_sim", "simulator.launch", {"world": "house", "model": model}),
@@ -56,7 +56,7 @@ def test_each_model_has_its_files(graph, model):
 
 
 def test_stage(graph):
-    said = launch(graph, ("navigation_stage", "move_base_fake_localization_5cm.launch", {}))
+    said = launch(graph, ("navigation_stage", "move_base_fake_localization_5cm.launch", {"open_rviz": False}))
     assert "has no parameter" not in said
     assert "will clear nothing" not in said
     move_base = graph.nodes["/move_base_node"].program

@@ -29,7 +29,11 @@ from rosmini.sim.shapes import Box
 from rosmini.sim.world import Obstacle
 from rosmini.time import Time
 
-ROOM = {"map_file": str(assets_dir() / "ros/rosmini_sim/maps/room.yaml"), "localization": "fake_localization"}
+ROOM = {
+    "map_file": str(assets_dir() / "ros/rosmini_sim/maps/room.yaml"),
+    "localization": "fake_localization",
+    "open_rviz": False,
+}
 IN_A_WALL = (2.44, 1.3, 0.0)
 
 
