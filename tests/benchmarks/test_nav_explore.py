@@ -31,10 +31,11 @@ def test_the_table():
         Explored("maze", "explore_lite", 1, "Exploration stopped.", 400.0, 80.0, 0.99, 60, 0, 20.0),
         Explored("maze", "explore_lite", 2, "", 2400.0, 100.0, 0.5, 90, 1, 40.0),
     ]
-    head, _, row = table(runs)
+    head, _, row, other = table([(runs[0], "abc"), (runs[1], "abc"), (runs[1], "abd")])
     assert "seen all" in head
     assert row.startswith("| maze | explore_lite | 1 of 2 |")
-    assert row.endswith("| 46.7 |"), "2800 s in 60 s of the processor"
+    assert row.endswith("| 46.7 | abc |"), "2800 s in 60 s of the processor"
+    assert other.endswith("| 60.0 | abd |")
 
 
 def test_a_run_that_is_cut_short():

@@ -40,6 +40,7 @@ def test_the_tables():
     made = nav_rows.page(
         [
             Line("abc", good, house),
+            Line("abc", bad, house),
             Line("abd", bad, house),
             Line("abc", off, replace(house, localization="amcl")),
             Line("abc", off, replace(house, careful=False)),
@@ -54,14 +55,15 @@ def test_the_tables():
         ]
     )
     reached = (
-        "| house, burger, careful | 1 of 2 | 9% to 91% | 1 | 1.08 | 1.08 | 1.29 | 1.29 | 5 cm | abc, abd |"
+        "| house, burger, careful | 1 of 2 | 9% to 91% | 1 | 1.08 | 1.08 | 1.29 | 1.29 | 5 cm | abc |"
     )
     assert reached in made
+    assert "| house, burger, careful | 0 of 1 |" in made, "of another commit"
     assert "| house, burger, careful | 3 | 1.0, 2.0 | 4.0, 2.0 | ABORTED: no | 0.5 of 3.2 m | 1 |" in made
     assert "| house, burger, careful, amcl | 1 of 1 |" in made, "amcl may be off, too"
     assert "| house, burger | 0 of 1 |" in made
     assert (
-        "| maze | explore_lite | 1 of 2 | 9% to 91% | 1 of 2 | 73% | 48% | 400 s | 80 m | 60 | 1 | 20.0 |"
+        "| maze | explore_lite | 1 of 2 | 9% to 91% | 1 of 2 | 73% | 48% | 400 s | 80 m | 60 | 1 | 20.0 | abc |"
         in made
     )
     assert "| 4 | 1 | 3 of 4 | 30% to 95% | 1 | 240 s | 4.0 | 1 x no result; 1 x tb3_0 into tb3_1 |" in made

@@ -26,6 +26,8 @@ from rosmini.sim.worlds import to_map
 
 DISC = 0.20
 """Starts and goals are where a disc of this radius [m] gets to."""
+NARROW = 0.15
+"""Goals in narrower places are where only one of this radius [m] gets to."""
 CLEARANCE = 0.15
 """What the shortest path keeps from everything [m]."""
 APART = 3.0
@@ -158,24 +160,33 @@ def unmapped(world: World) -> Bools:
 
 
 def errands(
-    grid: GridMap, inside: tuple[float, float], count: int, seed: int, taken: Bools | None = None
+    grid: GridMap,
+    inside: tuple[float, float],
+    count: int,
+    seed: int,
+    taken: Bools | None = None,
+    *,
+    narrow: bool = False,
 ) -> Iterator[Errand]:
     """`count` errands in the part of a map that a disc reaches from the point `inside` [m], of any headings.
 
-    Nothing begins or ends where the disc would overlap with `taken` cells (h, w), which only who is there sees.
+    Nothing begins or ends where the disc would overlap with `taken` cells (h, w), which only who is there sees. With
+    `narrow` goals are where it has no room, and one of `NARROW` has.
     Raises `RosminiError` if a thousand draws in sequence find no pair far enough apart.
     """
     terrain = Terrain(grid)
     room = terrain.within(DISC, terrain.cell(*inside))
+    ends = terrain.within(NARROW, terrain.cell(*inside)) & ~room if narrow else room
     if taken is not None and taken.any():
-        room &= (ndimage.distance_transform_edt(~taken) - 0.5) * grid.resolution >= DISC
-    places = np.argwhere(room)
+        away = (ndimage.distance_transform_edt(~taken) - 0.5) * grid.resolution >= DISC
+        room, ends = room & away, ends & away
+    places, ends = np.argwhere(room), np.argwhere(ends)
     if not len(places):
         raise RosminiError(f"a disc of {DISC} m has no room at {inside}: name a point farther from the walls")
     draw = np.random.default_rng([seed, len(places)])
     number = failed = 0
     while number < count:
-        a, b = (tuple(map(int, places[draw.integers(len(places))])) for _ in range(2))
+        a, b = (tuple(map(int, some[draw.integers(len(some))])) for some in (places, ends))
         headings = draw.uniform(-math.pi, math.pi, 2)
         (ax, ay), (bx, by) = terrain.point((a[0], a[1])), terrain.point((b[0], b[1]))
         path = terrain.shortest((a[0], a[1]), (b[0], b[1])) if math.hypot(bx - ax, by - ay) >= APART else None

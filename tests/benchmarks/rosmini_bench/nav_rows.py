@@ -6,7 +6,6 @@ PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_rows
 from __future__ import annotations
 
 from collections.abc import Iterable
-from itertools import groupby
 from pathlib import Path
 
 from . import nav_crossing, nav_explore, nav_quality
@@ -20,20 +19,20 @@ FILE = ROOT / "assets" / "benchmarks" / "navigation.jsonl"
 PAGE = ROOT / "book" / "navigation_figures.md"
 
 Row = tuple[Setup, list[Outcome], str]
-"""The goals of one setup, and the commits that they were driven with."""
+"""The goals of one setup and commit."""
 
 
 def rows(lines: Iterable[Line]) -> list[Row]:
-    """The goals of each setup, by their numbers."""
-    found = [(line.setup, line.result, line.commit) for line in lines if isinstance(line.result, Outcome)]
-    kept = [(setup, outcome, commit) for setup, outcome, commit in found if setup is not None]
-    kept.sort(key=lambda each: (_order(each[0]), each[1].errand.number))
-    made = []
-    for setup, group in groupby(kept, key=lambda each: each[0]):
-        of_one = list(group)
-        commits = dict.fromkeys(commit for _, _, commit in of_one)
-        made.append((setup, [outcome for _, outcome, _ in of_one], ", ".join(commits)))
-    return made
+    """The goals of each setup and commit, by their numbers."""
+    found: dict[tuple[Setup, str], list[Outcome]] = {}
+    for line in lines:
+        if isinstance(line.result, Outcome) and line.setup is not None:
+            found.setdefault((line.setup, line.commit), []).append(line.result)
+    made = [
+        (setup, sorted(outcomes, key=lambda one: one.errand.number), commit)
+        for (setup, commit), outcomes in found.items()
+    ]
+    return sorted(made, key=lambda row: (_order(row[0]), row[2]))
 
 
 def _order(setup: Setup) -> tuple[bool, bool, str, float, str, int]:
@@ -57,7 +56,7 @@ def page(lines: list[Line]) -> str:
         for one in found
         if not one.reached(*nav_quality.tolerances(setup)) or one.contacts
     ]
-    explored = [line.result for line in lines if isinstance(line.result, Explored)]
+    explored = [(line.result, line.commit) for line in lines if isinstance(line.result, Explored)]
     crossed = [line.result for line in lines if isinstance(line.result, Crossing)]
     made = [
         INTRODUCTION,
@@ -85,13 +84,13 @@ def page(lines: list[Line]) -> str:
 def _table(found: Iterable[Row]) -> list[str]:
     head = "| setup | reached | 95 % | contacts | length | 95th | time | 95th | off | commit |"
     lines = [head, "|---|---|---|---|---|---|---|---|---|---|"]
-    for setup, outcomes, commits in found:
+    for setup, outcomes, commit in found:
         one = nav_quality.row(setup, outcomes)
         figures = [_number(each) for each in (one.stretch, one.stretch95, one.slowness, one.slowness95)]
         off = "" if one.off != one.off else f"{one.off * 100:.0f} cm"
         lines.append(
             f"| {one.what} | {one.reached} of {one.count} | {one.low:.0%} to {one.high:.0%} | {one.contacts} | "
-            f"{' | '.join(figures)} | {off} | {commits} |"
+            f"{' | '.join(figures)} | {off} | {commit} |"
         )
     return lines
 

@@ -1,7 +1,7 @@
 """A study of navigation that may be cut off at any time: each goal, exploration and crossing is a line of a file.
 
     PYTHONPATH=tests/benchmarks python -m rosmini_bench.nav_study FILE house=0-59 office,amcl=0-29 cylinders:2=0-9 \
-        explore_lite:maze=1-3 crossing:4=1-5
+        explore_lite:maze=1-3 crossing:4=1-5 house,waffle=0-9 house,trajectory,robotis=0-9 office,walkers=0-9
 
 Who asks again for what is in the file gets no second drive. `nav_rows` makes the book's page of such a file.
 """
@@ -25,6 +25,19 @@ from .nav_goals import Errand
 from .nav_trial import FIELD, Outcome, Setup
 
 CYLINDERS, CROSSING = "cylinders", "crossing"
+WORDS: dict[str, dict[str, Any]] = {
+    "amcl": {"localization": "amcl"},
+    "burger": {"model": "burger"},
+    "waffle": {"model": "waffle"},
+    "trajectory": {"overrides": nav_quality.TRAJECTORY},
+    "global_planner": {"overrides": nav_quality.PLANNERS[0]},
+    "robotis": {"careful": False},
+    "still": {"sweep": False},
+    "walkers": {"without": "door"},
+    "doors": {"without": "walker"},
+    "narrow": {"narrow": True},
+}
+"""What may stand behind a world, and what it changes."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +134,9 @@ def _setup(kind: str, rest: str, more: list[str], seed: int) -> Setup:
             f"{kind}: name one of {', '.join((*nav_quality.WORLDS, CYLINDERS, *nav_explore.FILES))}"
         )
     for each in more:
-        setup["localization" if each == "amcl" else "model"] = each
+        if each not in WORDS:
+            raise RosminiError(f"{each}: name one of {', '.join(WORDS)}")
+        setup.update(WORDS[each])
     return Setup(**setup)
 
 

@@ -86,6 +86,10 @@ class Setup:
     localization: str = "fake_localization"
     """What says where the robot is: or amcl, which is told where it begins."""
     seed: int = 0
+    without: str = ""
+    """Things of the world whose names begin so are taken away: walkers, or doors."""
+    narrow: bool = False
+    """Whether goals are in narrower places than usual."""
 
     @property
     def words(self) -> str:
@@ -94,7 +98,9 @@ class Setup:
         changed = "".join(f", {name.rpartition('/')[2]} {value}" for name, value in self.overrides)
         sweep, care = "" if self.sweep else ", no sweep", ", careful" if self.careful else ""
         told = "" if self.localization == "fake_localization" else f", {self.localization}"
-        return f"{where}, {self.model}{sweep}{changed}{care}{told}"
+        gone = f", without {self.without}s" if self.without else ""
+        places = ", narrower places" if self.narrow else ""
+        return f"{where}{gone}{places}, {self.model}{sweep}{changed}{care}{told}"
 
 
 @dataclass(frozen=True)
@@ -151,7 +157,8 @@ def drawn(setup: Setup, count: int) -> Iterator[Errand]:
     if setup.gap is not None:
         return across(count, setup.seed)
     grid, _, inside = place(setup.world)
-    return errands(grid, inside, count, setup.seed, unmapped(world_called(setup.world)))
+    taken = unmapped(world_called(setup.world))
+    return errands(grid, inside, count, setup.seed, taken, narrow=setup.narrow)
 
 
 def width(model: str) -> float:
@@ -217,8 +224,13 @@ class Watch:
         for touch in touches:
             if touch.other not in self.touching:
                 ahead = -((vx - w * (touch.y - y)) * touch.nx + (vy + w * (touch.x - x)) * touch.ny)
-                (self.contacts if ahead > STILL else self.bumps).append(touch.other)
+                is_contact = ahead > STILL or not self._moves(touch.other)
+                (self.contacts if is_contact else self.bumps).append(touch.other)
         self.touching = frozenset(touch.other for touch in touches)
+
+    def _moves(self, name: str) -> bool:
+        """Whether a thing can come to the robot; what cannot was touched by it, were it by turning along it."""
+        return name in self.engine.robots or name in self.engine.movers
 
 
 def run(setup: Setup, errand: Errand, *, watched: bool = True) -> Outcome:
@@ -253,6 +265,9 @@ def _run(graph: Graph, setup: Setup, errand: Errand, file: Path, *, watched: boo
     simulator = graph.nodes["/simulator"].program
     for obstacle in () if setup.gap is None else cylinders(setup.gap * width(setup.model)):
         simulator.engine.insert(obstacle)
+    for obstacle in simulator.engine.obstacles():
+        if setup.without and obstacle.name.startswith(setup.without):
+            simulator.engine.take_away(obstacle.name)
     node = graph.node("tester")
     watch = Watch(simulator.engine, simulator.name)
     results: list[Any] = []
