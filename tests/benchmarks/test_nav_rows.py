@@ -54,9 +54,7 @@ def test_the_tables():
             Line("abc", Crossing(4, 1, 3, ("no result",), ("tb3_0 into tb3_1",), 240.0, 60.0)),
         ]
     )
-    reached = (
-        "| house, burger, careful | 1 of 2 | 9% to 91% | 1 | 1.08 | 1.08 | 1.29 | 1.29 | 5 cm | abc |"
-    )
+    reached = "| house, burger, careful | 1 of 2 | 9% to 91% | 1 | 1.08 | 1.08 | 1.29 | 1.29 | 5 cm | abc |"
     assert reached in made
     assert "| house, burger, careful | 0 of 1 |" in made, "of another commit"
     assert "| house, burger, careful | 3 | 1.0, 2.0 | 4.0, 2.0 | ABORTED: no | 0.5 of 3.2 m | 1 |" in made

@@ -84,7 +84,12 @@ def test_a_room_is_mapped_live(graph):
 def test_parameter_files_of_robotis(graph):
     """turtlebot3_slam's, as its launch file gives them."""
     roslaunch(
-        "turtlebot3_slam", "turtlebot3_slam.launch", "slam_methods:=hector", "open_rviz:=false", graph=graph, model="burger"
+        "turtlebot3_slam",
+        "turtlebot3_slam.launch",
+        "slam_methods:=hector",
+        graph=graph,
+        model="burger",
+        open_rviz=False,
     )
     graph.run(0.1)
     mapper = graph.nodes["/hector_mapping"].program
