@@ -180,13 +180,13 @@ def errands(
     if taken is not None and taken.any():
         away = (ndimage.distance_transform_edt(~taken) - 0.5) * grid.resolution >= DISC
         room, ends = room & away, ends & away
-    places, ends = np.argwhere(room), np.argwhere(ends)
+    places, targets = np.argwhere(room), np.argwhere(ends)
     if not len(places):
         raise RosminiError(f"a disc of {DISC} m has no room at {inside}: name a point farther from the walls")
     draw = np.random.default_rng([seed, len(places)])
     number = failed = 0
     while number < count:
-        a, b = (tuple(map(int, some[draw.integers(len(some))])) for some in (places, ends))
+        a, b = (tuple(map(int, some[draw.integers(len(some))])) for some in (places, targets))
         headings = draw.uniform(-math.pi, math.pi, 2)
         (ax, ay), (bx, by) = terrain.point((a[0], a[1])), terrain.point((b[0], b[1]))
         path = terrain.shortest((a[0], a[1]), (b[0], b[1])) if math.hypot(bx - ax, by - ay) >= APART else None

@@ -5,12 +5,14 @@ PYTHONPATH=tests/benchmarks uv run python -m rosmini_bench.nav_rows
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
 from . import nav_crossing, nav_explore, nav_quality
 from .nav_crossing import Crossing
 from .nav_explore import GOOD, Explored
+from .nav_goals import wilson
 from .nav_study import Line, load
 from .nav_trial import FIELD, Outcome, Setup
 
@@ -54,13 +56,15 @@ def page(lines: list[Line]) -> str:
         (setup, one)
         for setup, found, _ in goals
         for one in found
-        if not one.reached(*nav_quality.tolerances(setup)) or one.contacts
+        if setup.careful and (not one.reached(*nav_quality.tolerances(setup)) or one.contacts)
     ]
     explored = [(line.result, line.commit) for line in lines if isinstance(line.result, Explored)]
     crossed = [line.result for line in lines if isinstance(line.result, Crossing)]
     made = [
         INTRODUCTION,
         *_table(row for row in goals if row[0].world != FIELD),
+        "",
+        *_together(goals),
         "",
         CYLINDERS,
         *_table(row for row in goals if row[0].world == FIELD),
@@ -95,6 +99,31 @@ def _table(found: Iterable[Row]) -> list[str]:
     return lines
 
 
+def _together(found: list[Row]) -> Iterable[str]:
+    """A sentence for each commit and localisation: the goals of burgers with the careful file, in all worlds."""
+    sums: dict[tuple[str, str], list[int]] = {}
+    for setup, outcomes, commit in found:
+        if setup == _usual(setup):
+            one = sums.setdefault((setup.localization, commit), [0, 0, 0])
+            row = nav_quality.row(setup, outcomes)
+            for place, more in enumerate((row.reached, row.count, row.contacts)):
+                one[place] += more
+    worlds = Counter((setup.localization, commit) for setup, _, commit in found if setup == _usual(setup))
+    for (localization, commit), (reached, count, contacts) in sums.items():
+        if worlds[localization, commit] < len(nav_quality.WORLDS):
+            continue
+        low, high = wilson(reached, count)
+        yield (
+            f"- Burgers, careful, {localization}, {commit}, all worlds together: {reached} of {count} reached "
+            f"({reached / count:.1%}; 95 %: {low:.1%} to {high:.1%}), contacts on the way to {contacts}."
+        )
+
+
+def _usual(setup: Setup) -> Setup:
+    """A burger with the careful file, in the same world with the same localisation."""
+    return Setup(setup.world, localization=setup.localization, seed=setup.seed)
+
+
 def _number(value: float) -> str:
     return "" if value != value else f"{value:.2f}"
 
@@ -121,10 +150,14 @@ as the engine counts them.
 
 Length is what was driven, over the shortest path that keeps 0.15 m from everything in the map; time is what it
 took, over that path at full speed with its turns. Both are medians and 95th percentiles of the goals that were
-reached. Rows called *careful* were driven with `careful:=true`, which loads `param/careful.yaml` over these files;
-*width 3.0* says that the controller's window was of 3 m, as in ROBOTIS's files. The tables were generated from the rows
-in `assets/benchmarks/navigation.jsonl`, which are far fewer than the 200 goals a world that the intervals would need to
-say 98 %. `PYTHONPATH=tests/benchmarks python -m rosmini_bench.nav_study FILE house=0-199` drives more of them.
+reached. What was asked for is 98 % reached (97 % with amcl) and no contact; a length of 1.15 in the median and 1.4 at
+the 95th percentile; a time of 1.4 in the median. Look at the lower ends of the intervals before you say that a row
+shows it: 200 goals a world were meant, and these are fewer.
+
+Rows called *careful* were driven with `careful:=true`, which loads `param/careful.yaml` over these files. A row is of
+one commit: what was mended between two is told at the end of this page. The tables were generated from the rows in
+`assets/benchmarks/navigation.jsonl`. `PYTHONPATH=tests/benchmarks python -m rosmini_bench.nav_study FILE house=0-199`
+drives more of them.
 """
 
 CYLINDERS = """## Between cylinders that are not in the map
@@ -137,7 +170,10 @@ EXPLORING = f"""## Exploring
 Both explorers with gmapping (10 particles) and `careful:=true`; explore_lite gives a frontier up that gets no nearer
 for 120 s, since in the house one is near as the crow flies and far on wheels. *Seen* is the share of the cells that
 a disc of 0.20 m gets to and that the map knows in the end: the median, the least, and how many runs saw {GOOD:.0%} of
-them. Before, with the files in the shape of ROBOTIS's and 30 s, 2 of 14 runs saw as much, the others 8 % to 67 %.
+them. Before, with the files in the shape of ROBOTIS's and 30 s, 2 of 14 runs saw as much, the others 8 % to 67 %. A run
+a row is no statistics, 20 were meant. In the office both fell short, for two reasons: frontier_exploration's robot
+stuck with a corner in a marked cell beside a cabinet (*cells*, below) and gave up all frontiers from there, and with
+explore_lite gmapping's map was drawn twice, turned against itself. Neither was driven to its end since.
 """
 
 CROSSING = """## Robots that cross one another
@@ -146,9 +182,10 @@ Burgers in the house, each with amcl, are sent at once to where another one bega
 contact is charged to each that moved faster than 0.02 m/s when it began.
 """
 
-FAILURES = """## Each failure
+FAILURES = """## Each failure of a careful robot
 
-`C` are contacts: how often the robot drove into something.
+Of careful robots; the others' are in their rows. `C` are contacts: how often the robot drove into something, or turned
+along what cannot move.
 """
 
 CAUSES = """## Where it fails, and why
@@ -173,9 +210,20 @@ Failing drives were looked at one by one: costmaps, plan, and what each critic r
 - **Ghosts.** A beam that meets nothing clears nothing unless `inf_is_valid` is set. Where the way behind them is longer
   than the 3.5 m of the laser, walkers leave a trail of obstacles. *Careful* sets it.
 - **Doors.** One that was seen to open hides the free way behind its leaf, where the costmap keeps its former positions.
-  Only a reset while the door stands open helps, so *careful* has two more. Doors keep away from a robot, and one that
-  would press against it goes back: a robot that waits where the door swings waits for good, since the plan waits for
-  the door, and the door for the robot.
+  Only a reset while the door stands open helps. At 7b7d41a 6 of 170 goals in the office failed at one door (48, 55, 77,
+  133, 139, 165: the copy room), for two reasons. A door that opened onto a robot shut again at once, and both waited
+  for good: since 8961c56 it stands ajar for as long as it would have stood open. And recoveries rotated for 11 s, in
+  which nothing is planned, while the door stood open for 10: *careful* rotates once now, and plans for 10 s between
+  two.
+- **Cells.** In a costmap of 5 cm an outline is up to 5 cm too wide. Close to a thing, noise of the laser puts a marked
+  cell under it, and every way on is refused, also the way out. Goals 5 and 14 between cylinders failed so. Since
+  8961c56 *careful* has cells of 2.5 cm around the robot: both were reached, and one of two at 1.6 widths, at no cost in
+  CPU time that could be measured (17.6 times real time after 18.2, on a loaded machine).
+- **Where it begins.** amcl is told where the robot is, give or take 0.5 m, as by default. In the entrance of the house
+  (goal 26) the scan fits nearly as well 0.8 m on, and amcl, to which both places are one cluster, said something
+  between, 0.4 to 0.6 m off: so near to a wall that no plan was found.
+- **Chairs.** With amcl the robot of goal 5 in the house came between a chair's legs and a desk, where a disc has no
+  room: the controller, which looks at the outline, went there, and the planner found no way out.
 - **The crow.** explore_lite measures progress towards a frontier in a straight line, and gives frontiers up while the
   robot drives to them around walls.
 
