@@ -23,6 +23,8 @@ The Master is at the port that ROS_MASTER_URI names, 11311 if it names none; -p 
 reaches it, unless ROS_IP or ROS_HOSTNAME (or __ip:=ADDRESS, __hostname:=NAME here) says under which address others do.
 
 Ctrl-C ends it.
+
+for example: rosmini roscore -p 11322
 """
 
 SIGNS = {

@@ -36,6 +36,8 @@ In simulated time everything happens as fast as the machine allows, and in the s
 one second takes a second. Ctrl-C asks the nodes to shut down; a second one ends them at once.
 
 The exit status is that of the first node that failed, else 0.
+
+for example: rosmini run rosmini_sim/simulator _world:=house + square.py --duration 10
 """
 
 
