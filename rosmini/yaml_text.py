@@ -38,6 +38,16 @@ class Loader(yaml.SafeLoader):
             raise yaml.MarkedYAMLError(problem=f"more than {MOST} values", problem_mark=self.get_mark())
         return super().compose_node(parent, index)
 
+    def construct_object(self, node: Any, deep: bool = False) -> Any:
+        """Make the value of a node; what is wrong with one is told with its line."""
+        try:
+            return super().construct_object(node, deep)
+        # 2026-13-45, .e999, a list as a key; !!float "", !!bool x, !!timestamp 1
+        except (ValueError, OverflowError, TypeError, LookupError, AttributeError) as error:
+            text = repr(node.value[:60]) if isinstance(node.value, str) else "what is here"
+            what = f"{text} is no {node.tag.rpartition(':')[2]}"
+            raise yaml.MarkedYAMLError(problem=f"{what}: {error}", problem_mark=node.start_mark) from error
+
     def construct_yaml_int(self, node: Any) -> Any:
         """Make a whole number of a text."""
         if len(node.value) > LONGEST_NUMBER:
@@ -62,9 +72,10 @@ def documents(
             yield reading.construct_document(node), node
     except (yaml.MarkedYAMLError, yaml.reader.ReaderError) as error:
         raise _no_yaml(error, source, failure) from error
-    # 2026-13-45, .e999, thousands of brackets, a list as a key; !!float "", !!bool x, !!timestamp 1
-    except (ValueError, RecursionError, OverflowError, TypeError, LookupError, AttributeError) as error:
-        raise failure(f"this is not YAML: {error}", source, None) from error
+    except RecursionError as error:
+        raise failure(
+            "this is not YAML: its lists and mappings are nested too deeply", source, None
+        ) from error
     finally:
         if reading is not None:
             reading.dispose()

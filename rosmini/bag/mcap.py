@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import struct
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, BinaryIO
 
@@ -17,7 +18,8 @@ from rosmini.msgs.full_text import class_from
 from rosmini.time import Time
 
 from .bag import Bag
-from .errors import ROSBagException
+from .errors import ROSBagException, ROSBagFormatException
+from .records import LONGEST_CHUNK, PIECE, Compression, decompress
 from .tools import Copied, two_files
 
 if TYPE_CHECKING:
@@ -84,7 +86,7 @@ def _copy(bag: Bag, writer_of: Any, file: IO[bytes]) -> Copied:
 
 
 def from_mcap(source: str | os.PathLike[str], target: str | os.PathLike[str] | BinaryIO) -> Copied:
-    """Write all messages of an MCAP file whose profile is ROS 1 into a bag, in the order of their times.
+    """Write all messages of an MCAP file whose profile is ROS 1 into a bag, in the order in which they are there.
 
     Raises:
         ROSBagException: it is no MCAP file or is damaged, a channel is not ROS 1's, or the package `mcap` is not
@@ -119,17 +121,69 @@ def from_mcap(source: str | os.PathLike[str], target: str | os.PathLike[str] | B
 
 
 def _messages(file: IO[bytes], name: str) -> Iterator[tuple[Any, Any, Any]]:
+    """Schema, channel and message of each message, as they follow one another in the file."""
     try:
         from mcap.exceptions import McapError
-        from mcap.reader import make_reader
+        from mcap.records import Channel, Message, Schema
     except ImportError as error:
         raise ROSBagException(
             "MCAP files are read with the package mcap, which is not installed here: `pip install 'rosmini[mcap]'`"
         ) from error
+    schemas: dict[int, Any] = {}
+    channels: dict[int, Any] = {}
     try:
-        yield from make_reader(file, validate_crcs=True).iter_messages()
-    except (McapError, ValueError, struct.error) as error:
+        for record in _records(file):
+            if isinstance(record, Schema):
+                schemas[record.id] = record
+            elif isinstance(record, Channel):
+                channels[record.id] = record
+            elif isinstance(record, Message):
+                if record.channel_id not in channels:
+                    raise ValueError(
+                        f"a message of the channel {record.channel_id}, which comes nowhere before it"
+                    )
+                channel = channels[record.channel_id]
+                yield schemas.get(channel.schema_id), channel, record
+    except (McapError, ValueError, struct.error, ROSBagFormatException) as error:
         raise ROSBagException(f"{name} is no MCAP file, or is damaged: {error}") from error
+
+
+def _records(file: IO[bytes]) -> Iterator[Any]:
+    """All records of the file; what is in its chunks is unpacked here, since the library does so without bounds."""
+    from mcap.records import Chunk
+    from mcap.stream_reader import StreamReader, breakup_chunk
+
+    size = os.fstat(file.fileno()).st_size
+    for record in StreamReader(file, emit_chunks=True, validate_crcs=True, record_size_limit=size).records:
+        if isinstance(record, Chunk):
+            position = file.tell() - len(record.data)
+            data = _unpacked(record.data, record.compression, record.uncompressed_size, position)
+            yield from breakup_chunk(replace(record, compression="", data=data), validate_crc=True)
+        else:
+            yield record
+
+
+def _unpacked(data: bytes, compression: str, size: int, position: int) -> bytes:
+    """The data of a chunk, of which no more than it claims to hold are unpacked. Raises ``ROSBagException``."""
+    if compression != "zstd":
+        return decompress(data, compression or Compression.NONE, size, position)
+    from zstandard import ZstdDecompressor, ZstdError
+
+    saved = bytearray()
+    try:
+        with ZstdDecompressor().stream_reader(data, read_across_frames=True) as reader:
+            while len(saved) <= min(size, LONGEST_CHUNK) and (piece := reader.read(PIECE)):
+                saved += piece
+    except ZstdError as error:
+        raise ROSBagFormatException(
+            f"the zstd chunk at byte {position} does not decompress: {error}"
+        ) from error
+    if len(saved) != size:
+        raise ROSBagFormatException(
+            f"the zstd chunk at byte {position} claims to hold {size:,} bytes and holds "
+            f"{'more' if len(saved) > size else f'{len(saved):,}'}; at most {LONGEST_CHUNK:,} are unpacked"
+        )
+    return bytes(saved)
 
 
 def _connection(schema: Any, channel: Any, name: str) -> tuple[Any, dict[str, str]]:

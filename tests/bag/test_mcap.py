@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import struct
 import sys
+import tracemalloc
 
 import pytest
 
@@ -12,6 +14,8 @@ from rosmini.msgs import message_class
 from rosmini.time import Time
 
 reader = pytest.importorskip("mcap.reader")
+zstandard = pytest.importorskip("zstandard")
+lz4_frame = pytest.importorskip("lz4.frame")
 
 
 @pytest.fixture
@@ -94,6 +98,73 @@ def test_what_is_no_mcap_file_is_refused_and_leaves_nothing(tmp_path, text):
     with pytest.raises(ROSBagException, match="no MCAP file, or is damaged"):
         from_mcap(tmp_path / "a.mcap", tmp_path / "a.bag")
     assert [path.name for path in tmp_path.iterdir()] == ["a.mcap"]
+
+
+def with_chunk(compression: bytes, data: bytes, size: int) -> bytes:
+    """A file with one chunk, which claims to hold `size` bytes."""
+    chunk = struct.pack("<QQQII", 0, 0, size, 0, len(compression)) + compression
+    chunk += struct.pack("<Q", len(data)) + data
+    head = struct.pack("<I", 4) + b"ros1" + struct.pack("<I", 0)
+    parts = [
+        b"\x89MCAP0\r\n",
+        b"\x01",
+        struct.pack("<Q", len(head)),
+        head,
+        b"\x06",
+        struct.pack("<Q", len(chunk)),
+    ]
+    return b"".join([*parts, chunk, b"\x02", struct.pack("<Q", 20), bytes(20), b"\x89MCAP0\r\n"])
+
+
+ZEROS = bytes(50_000_000)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        with_chunk(b"zstd", b"abcd", 2**40),
+        with_chunk(b"lz4", b"abcd", 2**40),
+        with_chunk(b"lz4", b"abcd", 4),
+        with_chunk(b"zstd", zstandard.compress(ZEROS), 4),
+        with_chunk(b"zstd", zstandard.compress(b"abcd"), 5),
+        with_chunk(b"lz4", lz4_frame.compress(ZEROS), 4),
+        b"\x89MCAP0\r\n\x05" + struct.pack("<Q", 2**31) + b"abc",
+        b"\x89MCAP0\r\n",
+    ],
+    ids=["no zstd", "no lz4", "short lz4", "zstd bomb", "too little", "lz4 bomb", "long record", "magic alone"],
+)  # fmt: skip
+def test_a_chunk_is_unpacked_as_far_as_it_claims_to_go_and_no_further(tmp_path, data):
+    (tmp_path / "a.mcap").write_bytes(data)
+    tracemalloc.start()
+    try:
+        with pytest.raises(ROSBagException, match=r"a\.mcap is no MCAP file, or is damaged"):
+            from_mcap(tmp_path / "a.mcap", tmp_path / "a.bag")
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most < 20_000_000
+
+
+def test_chunks_of_zstd_are_read_and_a_message_without_its_channel_is_not(bag, tmp_path):
+    from mcap.writer import CompressionType, Writer
+
+    for number, channels in enumerate((1, 0)):
+        with (tmp_path / f"{number}.mcap").open("wb") as file:
+            writer = Writer(file, compression=CompressionType.ZSTD)
+            writer.start(profile="ros1", library="t")
+            schema = writer.register_schema("std_msgs/String", "ros1msg", b"string data")
+            for _ in range(channels):
+                writer.register_channel("/chatter", "ros1", schema)
+            for time in (2, 1):
+                writer.add_message(1, time, b"\x01\0\0\0x", time)
+            writer.finish()
+    assert from_mcap(tmp_path / "0.mcap", tmp_path / "0.bag") == (2, 2)
+    with Bag(tmp_path / "0.bag") as made:
+        assert [(topic, m.data, t.to_nsec()) for topic, m, t in made.read_messages()] == [
+            ("/chatter", "x", 1), ("/chatter", "x", 2)
+        ]  # fmt: skip
+    with pytest.raises(ROSBagException, match="a message of the channel 1, which comes nowhere before it"):
+        from_mcap(tmp_path / "1.mcap", tmp_path / "1.bag")
 
 
 def test_messages_of_ros_2_are_named_as_such(tmp_path):

@@ -126,9 +126,9 @@ def test_a_dictionary_becomes_one_setting_for_each_value() -> None:
         ("a: &x [1, *x]\n", r"p\.yaml:1: this value contains itself"),
         ("a: 1\n---\n---\nb: 2\n", r"p\.yaml:3: this document is empty"),
         ("a: \x07", r"p\.yaml: this is not YAML: .*character 3"),
-        ("a: 2026-13-45\n", r"p\.yaml: this is not YAML: month"),
+        ("a: 2026-13-45\n", r"p\.yaml:1: this is not YAML: .*2026-13-45.* is no timestamp: month"),
         *(
-            (f"a: {value}\n", r"p\.yaml: this is not YAML")
+            (f"a: {value}\n", r"p\.yaml:1: this is not YAML")
             for value in (
                 "!!float ''",
                 "!!int ''",
@@ -203,3 +203,22 @@ def test_nobody_elses_yaml_gets_angles() -> None:
     import yaml
 
     assert yaml.safe_load("deg(180)") == "deg(180)"
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("a: 1\nb: 2001-99-01", "'2001-99-01' is no timestamp: month must be in 1..12"),
+        ("a: 1\nb: [1, !!float x1]", "'x1' is no float"),
+        ("a: 1\nb: !!bool maybe", "'maybe' is no bool"),
+    ],
+)
+def test_a_value_that_is_none_is_told_with_its_line(text: str, told: str) -> None:
+    with pytest.raises(RosParamException, match=r"line 2|:2") as caught:
+        parse(text)
+    assert told in str(caught.value)
+
+
+def test_what_is_nested_too_deeply_is_told_so() -> None:
+    with pytest.raises(RosParamException, match="nested too deeply"):
+        parse("- " * 5000 + "x")

@@ -264,7 +264,7 @@ BOMB = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n" + "".join(
         ("[" * 3000, "this is not YAML"),
         ("image: !!python/object/apply:os.system [echo]",
          "map.yaml:1: this is not YAML: could not determine a constructor"),
-        ("resolution: 2001-13-45", "this is not YAML: month"),
+        ("resolution: 2001-13-45", "is no timestamp: month"),
         (f"resolution: {'1' * 5000}", "map.yaml:1: this is not YAML: a number of too many digits"),
         (f"resolution: {'1:' * 5000}1", "a number of too many digits"),
         ("? [a]\n: 1", "this is not YAML"),
