@@ -67,8 +67,9 @@ def document(
     """A whole picture: usable as a file, and inline in a page of any theme.
 
     `alt` is what a screen reader says; `css` may use the custom properties named in `colours`; `kind` is the class that
-    the picture's rules apply to; `others` are colours outside the palette that `css` uses. On a narrow page the picture
-    shrinks to 60 per cent at most, so that its text stays legible; then the figure scrolls.
+    the picture's rules apply to; `others` are colours outside the palette that `css` uses. Outside of the book the
+    picture shrinks to 60 per cent at most, so that its text stays legible, and then the figure scrolls; in the book it
+    shrinks with its column.
     """
     style = f".{kind} text{{font-family:{FONT}}}{css}{themed(f'.{kind}', colours, others)}"
     least = number(min(width, max(0.6 * width, 320.0)))

@@ -24,6 +24,8 @@ OUTLINE = (
 def turtle_replay(tape: Tape, *, title: str | None = None) -> ReplayView:
     """Play a tape: turtles that move, and their strokes as they grew, on the background that the window has at the end.
 
+    Until it is played it shows what was drawn in the end.
+
     Args:
         tape: what `TurtleSim.record()` gave.
         title: a caption, and the first words of the text form.
@@ -43,6 +45,7 @@ def turtle_replay(tape: Tape, *, title: str | None = None) -> ReplayView:
         bounds=(0.0, 0.0, LIMIT, LIMIT),
         background=_hex(tape.background),
         notes=notes,
+        opens_at_end=bool(strokes),
     )
     return replay(run, title=title)
 

@@ -78,3 +78,12 @@ def test_on_a_narrow_page_the_picture_shrinks(show):
     box = page.locator(".rosmini-plot").bounding_box()
     assert box["width"] < 470
     assert box["height"] / box["width"] == pytest.approx(540 / 660, abs=0.1)
+
+
+def test_on_a_phone_the_widest_picture_is_no_wider_than_its_column(show):
+    many = [[f"/topic_{i}", [f"/node_{i}"]] for i in range(8)]
+    chain = [[f"/topic_{i}", [f"/node_{i + 1}"]] for i in range(8)]
+    page = show("light", rqt_graph([many, chain, []]))
+    page.set_viewport_size({"width": 390, "height": 800})
+    assert float(page.locator(".rosmini-svg").get_attribute("width")) > 1000
+    assert page.evaluate("document.querySelector('figure').scrollWidth") <= 390
