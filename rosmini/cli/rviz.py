@@ -46,6 +46,11 @@ def _parser() -> Parser:
     parser.flag("--no-browser", help="in a terminal: say the address of the window, and open nothing")
     parser.flag("--still", help="a picture that is not to be turned")
     parser.flag("--fit", help="from above and around everything, whatever the view of the file is")
+    parser.add_option(
+        "--view",
+        metavar="KIND",
+        help="from a view of this kind around everything: Orbit (from the side), TopDownOrtho",
+    )
     parser.add_option("--title", metavar="TEXT", help="a caption under the picture")
     parser.add_option(
         "-o", "--output", metavar="FILE", help="write the page (or .svg, .txt) there, and open nothing"
@@ -56,7 +61,7 @@ def _parser() -> Parser:
 @TOOL.verb("show what there is", parser=_parser)
 def show(given: Values, call: Call) -> Result:
     """Open the window, or listen for some time and show what there is then."""
-    from rosmini.viz.rviz import Scene, still, turnable
+    from rosmini.viz.rviz import Scene, look_from, still, turnable
     from rosmini.viz.rviz.suggestions import suggested
 
     if given.words:
@@ -64,7 +69,7 @@ def show(given: Values, call: Call) -> Result:
             f"rviz takes no words but options, not {given.words[0]!r}; a file is given by -d FILE"
         )
     config, graph = given.display_config, call.graph
-    is_still = given.still or given.output or given.title or given.duration is not None
+    is_still = given.still or given.view or given.output or given.title or given.duration is not None
     if given.live or (call.in_terminal and not is_still):
         return _live(given, call)
     duration = DURATION if given.duration is None else max(given.duration, 0.0)
@@ -74,6 +79,8 @@ def show(given: Values, call: Call) -> Result:
             pass
         if scene.warning:
             call.warn(f"[WARN] {scene.config.source}: {scene.warning}")
+        if given.view:
+            look_from(scene, given.view)
         make = still if given.still else turnable
         return shown(make(scene, title=given.title, fit=given.fit), "rviz", given, call)
 

@@ -6,6 +6,7 @@ import io
 import math
 import shutil
 from contextlib import ExitStack
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -105,6 +106,8 @@ def site(tmp_path_factory):
         "rviz": rviz_scene(),
         "layered": layered(),
     }
+    faster = replace(run(), times=run().times / 2, scan_times=run().scan_times / 2)
+    views["two"] = replay_3d(run(), faster, names=["as it was", "twice as fast"])
     head = '<head><meta charset="utf-8"><title>t</title><link rel="stylesheet" href="{}_static/rosmini.css"></head>'
     for name, chosen in {**{n: [n] for n in views}, "three": ["robot", "replay", "robot"]}.items():
         figures = "<p style='height:1200px'>far</p>".join(views[n]._html(book=True) for n in chosen)
@@ -227,7 +230,7 @@ def test_several_on_a_page_share_one_script_and_wait_until_they_are_near(open_pa
         figure.scroll_into_view_if_needed()
         figure.locator(READY).wait_for()
     assert page.locator("iframe").count() == 3
-    assert page.locator("head script").count() == 1
+    assert page.locator("head script").count() == 3
 
 
 def test_a_run_plays_and_the_robot_moves(open_page, shared_tmp):
@@ -367,6 +370,44 @@ def test_the_path_that_is_still_to_come_is_not_shown(open_page):
         if time == "0":
             assert np.ptp(points[:, 0]) < 0.02, "nothing is shown at the start"
         assert start == pytest.approx((0.0, 0.0), abs=0.02)
+
+
+@pytest.mark.parametrize(("scheme", "width"), [("light", 900), ("dark", 390)])
+def test_two_runs_have_one_clock_and_one_bar_and_are_seen_from_the_same_side(
+    open_page, shared_tmp, scheme, width
+):
+    page = open_page("deep/er/two.html", scheme=scheme, width=width)
+    page.locator("iframe").nth(1).scroll_into_view_if_needed()
+    page.wait_for_function("document.querySelectorAll('iframe[data-ready]').length === 2")
+    assert page.locator("h4").all_inner_texts() == ["as it was", "twice as fast"]
+    assert page.get_by_role("slider", name="Time").count() == 1
+    page.get_by_role("slider", name="Time").fill("4")
+    robot = node("meshcat/robots/robot")
+
+    def both(expression):
+        return page.evaluate(
+            "[...document.querySelectorAll('iframe')].map((frame) => { const { viewer } = frame.contentWindow;"
+            f"return {expression}; }})"
+        )
+
+    assert both(f"{robot}.position.x") == pytest.approx([0.8, 1.0], abs=0.01)
+    page.get_by_role("slider", name="Time").fill("8")  # the second is over
+    assert both(f"{robot}.rotation.z") == pytest.approx([0.9, 1.5], abs=0.02)
+    away = "viewer.camera.position.clone().sub(viewer.controls.target).toArray()"
+    before = np.array(both(away))
+    page.frame_locator("iframe").nth(1).locator("canvas").press("ArrowLeft")
+    page.wait_for_function(
+        "(before) => { const { camera, controls } = document.querySelector('iframe').contentWindow.viewer;"
+        "return Math.abs(camera.position.x - controls.target.x - before) > 0.01; }",
+        arg=before[0, 0],
+    )
+    after = np.array(both(away))
+    assert after[0] == pytest.approx(after[1], abs=1e-3)
+    page.get_by_role("button", name="Reset the view").click()
+    assert np.array(both(away)) == pytest.approx(before, abs=1e-3)
+    page.get_by_role("checkbox", name="truth").uncheck()
+    assert both(f"{node('meshcat/trails/truth')}.visible") == [False, False]
+    page.screenshot(path=shared_tmp / f"meshcat-two-{width}.png", full_page=True)
 
 
 def test_a_run_ends_and_begins_anew(open_page):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,55 +11,79 @@ from numpy.typing import NDArray
 from rosmini.sim.models import RobotModel, model
 from rosmini.sim.recording import Recording
 from rosmini.sim.world import Pose, World
-from rosmini.viz.replay.player import LAYER_SCRIPT, SCRIPTS, Source, beside, kept_run, run_in, switched
-from rosmini.viz.replay.run import BUDGET, Run, thinned
+from rosmini.viz.replay.layers import RANGE
+from rosmini.viz.replay.packing import LENGTH, pack, whole
+from rosmini.viz.replay.player import LAYER_SCRIPT, Source, beside, kept_run, run_in, switched
+from rosmini.viz.replay.run import BUDGET, Run, size, thinned
 from rosmini.viz.replay.still import still_of
 from rosmini.viz.rounding import fixed, snap
+from rosmini.viz.view import ViewError
 from rosmini.viz.world_pictures import colour_of, pose_text
 
 from .scene3d import ROBOT, Scene3D, obstacle_node
+from .side_by_side import RunsView
+from .squeezed import squeezed
 from .view import HEIGHT, Focus, MeshcatView, camera_for, node_of, title_of
 
 Floats = NDArray[np.float64]
 CLOSE = 1.5
 """How far the camera is from a robot that it follows [m]."""
 
-LAYERED = (*SCRIPTS, LAYER_SCRIPT, "rosmini-meshcat-layers.js")
-"""What a viewer needs for layers beside its own script: they are drawn as on the canvas, and laid on the ground."""
-LEAST = 120_000
+PLAYED = ("rosmini-replay-data.js", "rosmini-meshcat.js", "rosmini-meshcat-player.js")
+"""What a viewer needs for what moves."""
+LAYERED = (
+    "rosmini-canvas.js",
+    "rosmini-replay-data.js",
+    LAYER_SCRIPT,
+    "rosmini-meshcat-layers.js",
+    *PLAYED[1:],
+)
+"""What it needs for layers, too: they are drawn as on the canvas, and laid on the ground."""
+LEAST = 140_000
 """What layers may take in a page, however much the world and the robots do [bytes]."""
 RATE = 10.0
 """Of the poses of a robot that messages tell of [Hz]."""
 
 
 def replay_3d(
-    source: Source, *, focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
+    *sources: Source, focus: Focus = "robot", distance: float | None = None, azimuth: float | None = None,
     elevation: float | None = None, scans: bool = True, title: str | None = None, height: int = HEIGHT,
     topics: Collection[str] | None = None, frame: str | None = None, robot: str | RobotModel | None = None,
-) -> MeshcatView:  # fmt: skip
+    names: Sequence[str] | None = None,
+) -> MeshcatView | RunsView:  # fmt: skip
     """A run to play: the robot on its way, and on the ground what was published: maps, costmaps, plans, particles.
 
     The camera follows the robot, or stands still if the focus is the world. `scans` shows what the laser of a recording
     saw, each beam from where the robot was when it was measured. `topics` and `frame` are those of `replay`; `robot` is
-    the model of the robots of a bag, which are flat arrow heads without.
+    the model of the robots of a bag, which are flat arrow heads without. Several runs are side by side by one clock,
+    with `names` above them, and who turns one view turns all.
 
     Raises:
         ViewError: it is nothing that can be played, or there is nothing to see in it; the focus or the distance is
-            impossible.
+            impossible; there are not as many names as runs.
         ROSBagException: a bag cannot be read.
 
     """
+    if not sources or (names is not None and len(names) != len(sources)):
+        raise ViewError(
+            f"replay_3d needs at least one run, and as many names as runs, not {len(sources)} and {names}"
+        )
     look = {"focus": focus, "distance": distance, "azimuth": azimuth, "elevation": elevation}
     known = model(robot) if isinstance(robot, str) else robot
-    if isinstance(source, Recording):
-        kept = kept_run(source, topics=topics, frame=frame)
-        view = _recording(source, kept, look, scans=scans, title=title, height=height)
-    else:
-        kept = run_in(source, topics=topics, frame=frame, robot=known)
-        view = _run(kept, known, look, title=title, height=height)
-    if kept is not None:
-        _lay(view, kept)
-    return view
+    made: list[MeshcatView] = []
+    alone = title if len(sources) == 1 else None
+    for source in sources:
+        if isinstance(source, Recording):
+            kept = kept_run(source, topics=topics, frame=frame)
+            view = _recording(source, kept, look, scans=scans, title=alone, height=height)
+        else:
+            kept = run_in(source, topics=topics, frame=frame, robot=known)
+            view = _run(kept, known, look, title=alone, height=height)
+        view.scripts = LAYERED if kept is not None else PLAYED
+        if kept is not None:
+            _lay(view, kept, len(sources))
+        made.append(view)
+    return made[0] if len(made) == 1 else RunsView(made, names or [each.label for each in made], title=title)
 
 
 def _recording(
@@ -144,17 +168,16 @@ def _run(
         still_of(run, title=label, alt=run.alt()).svg or ""
     )  # a drawing of bare ground would say nothing
     return view
-    return view
 
 
-def _lay(view: MeshcatView, run: Run) -> None:
-    """Give a viewer what lies on its ground, thinned until the page is small."""
-    used = 4 * sum(len(command) for command in view.scene.commands) // 3
-    layers, notes = thinned(run.layers, max(LEAST, BUDGET - used))
-    view.scripts = (*LAYERED, *view.scripts)
+def _lay(view: MeshcatView, run: Run, runs: int) -> None:
+    """Give a viewer, one of `runs`, what lies on its ground, thinned until the page is small."""
+    bodies = [body.data() for body in run.bodies]
+    used = size({**view.parts, "bodies": bodies}) + 4 * len(squeezed(view.scene.commands)) // 3
+    layers, notes = thinned(run.layers, max(LEAST, BUDGET - used) // runs)
     view.extra["layered"] = {
         "start": run.start, "bounds": [round(side, 3) for side in view.scene.bounds], "layers": layers,
-        "bodies": [body.data() for body in run.bodies], "notes": [*run.notes, *notes],
+        "bodies": bodies, "notes": [*run.notes, *notes],
     }  # fmt: skip
 
 
@@ -194,11 +217,11 @@ BEAM_STEP = 2
 
 
 def _scan_track(recording: Recording) -> dict[str, Any]:
-    """Every second beam of at most `MOST_SCANS` scans, in millimetres as 16-bit numbers; 0 where nothing was hit."""
+    """Every second beam of at most `MOST_SCANS` scans, rounded if some are left out; 0 where nothing was hit."""
     every = -(-len(recording.scans) // MOST_SCANS)
     ranges = recording.scans[::every, ::BEAM_STEP]
     hit = np.isfinite(ranges)
-    millimetres = np.where(hit, snap(np.where(hit, ranges, 0.0)) * 1000, 0.0)
+    unit = LENGTH if every == 1 else RANGE
     times = snap(recording.scan_times[::every] - recording.times[0])
     lidar = recording.model.laser
     fan = lidar.angle_max is not None or lidar.angle_min
@@ -210,5 +233,6 @@ def _scan_track(recording: Recording) -> dict[str, Any]:
         "path": f"/meshcat/{ROBOT}/scan",
         "beams": ranges.shape[1],
         "times": [round(t, 3) for t in times.tolist()],
-        "ranges": np.rint(np.clip(millimetres, 0, 65535)).astype("<u2").tobytes(),
+        "unit": unit,
+        "ranges": pack(whole(np.where(hit, ranges, 0.0), unit).ravel()),
     }

@@ -22,6 +22,7 @@ from rosmini.sim.sensors.scene import trapezia
 from rosmini.sim.shapes import Cylinder, Simple, Sphere, outline_at, simple_parts
 from rosmini.sim.world import Obstacle, Pose, World
 from rosmini.viz import style
+from rosmini.viz.replay.packing import ANGLE, TIME, pack_columns
 from rosmini.viz.rounding import snap
 
 from . import burger
@@ -91,6 +92,22 @@ class Trail:
     colour: str
 
 
+@dataclass(frozen=True)
+class Motion:
+    """How a property of what is at a path changes: values (n, 1) or (n, 3) [m or rad] at times (n,) [s]."""
+
+    path: str
+    name: str
+    times: Floats
+    values: Floats
+
+    @property
+    def data(self) -> list[str]:
+        """What the script of the viewer reads: path, property and packed columns, to 0.1 mm and 0.1 mrad."""
+        rows = np.column_stack([self.times, self.values])
+        return [self.path, self.name, pack_columns(rows, TIME, *[ANGLE] * self.values.shape[1])]
+
+
 @dataclass
 class Scene3D:
     """Things in a world, each under a path of meshcat's tree; `visualizer` takes more through meshcat's API."""
@@ -106,6 +123,7 @@ class Scene3D:
     """What the ground covers."""
     duration: float = 0.0
     """Of the animation [s]; 0: nothing moves."""
+    motions: list[Motion] = field(default_factory=list)
     copies: list[tuple[str, str]] = field(default_factory=list)
     """Paths of objects, each with the path of a copy: the viewer keeps one geometry for all."""
 
@@ -335,17 +353,11 @@ class Scene3D:
 
         Properties are those of three.js: `position`, `rotation[z]` ... Samples that the others tell are left out.
         """
-        animation = meshcat().animation.Animation(default_framerate=1)
         for node, name, values in tracks:
-            kind = "vector3" if values.ndim == 2 else "number"
             table = values.reshape(len(times), -1)
-            tolerance = 0.001 if kind == "vector3" else 0.01
-            for i in keyframes(times, table, tolerance):
-                value = rounded(table[i]).tolist()
-                frame = animation.at_frame(self.visualizer[node], float(snap(times[i])))
-                frame.set_property(name, kind, value if kind == "vector3" else value[0])
+            kept = keyframes(times, table, 0.001 if values.ndim == 2 else 0.01)
+            self.motions.append(Motion(f"/meshcat/{node}", name, times[kept], table[kept]))
         self.duration = float(snap(times[-1]))
-        self.visualizer.set_animation(animation, play=False)
 
     def transform(self, node: str) -> Floats:
         """Where a node is in the world (4, 4)."""

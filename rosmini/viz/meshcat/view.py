@@ -23,6 +23,7 @@ from rosmini.viz.world_pictures import pose_text
 
 from .drawing import draw
 from .scene3d import Camera, Scene3D
+from .squeezed import squeezed
 
 if TYPE_CHECKING:
     from rosmini.sim.simulator import Simulator
@@ -86,12 +87,17 @@ class MeshcatView(MovingView):
     @property
     def data(self) -> dict[str, Any]:
         """What the script of the viewer takes."""
+        return {"commands": squeezed(self.scene.commands), **self.parts}
+
+    @property
+    def parts(self) -> dict[str, Any]:
+        """What the script takes beside the commands that build the scene."""
         return {
-            "commands": self.scene.commands,
             "themes": self.scene.themes,
             "duration": self.scene.duration,
             "follow": self._follow,
             "legend": [[trail.name, style.variable(trail.colour)] for trail in self.scene.trails],
+            **({"tracks": [motion.data for motion in self.scene.motions]} if self.scene.motions else {}),
             **({"copies": self.scene.copies} if self.scene.copies else {}),
             **self.extra,
         }

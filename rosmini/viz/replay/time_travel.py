@@ -26,8 +26,10 @@ from rosmini.graph import Graph
 from rosmini.launch import roslaunch
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.recording import Recording, RecordingError
+from rosmini.viz.meshcat import replay_3d
 from rosmini.viz.replay.player import ReplayView, replay
 from rosmini.viz.rounding import fixed
+from rosmini.viz.view import View
 
 NAME = "time_travel"
 Setup = Callable[[Graph], Any] | Sequence[str | os.PathLike[str]]
@@ -97,11 +99,21 @@ class Fork:
         `title` is a caption, `topics` are the only ones that are shown beside the robot. Raises ``ViewError`` if
         nothing can be shown.
         """
-        names = ("as it was", f"from {fixed(self.at, 1)} s: {self.what}")
+        return replay(*self._runs(), title=title, names=self._names, topics=topics)
+
+    def replay3d(self, **options: Any) -> View:
+        """Return the same in three dimensions; the options are those of `replay_3d`."""
+        return replay_3d(*self._runs(), names=self._names, **options)
+
+    @property
+    def _names(self) -> tuple[str, str]:
+        return ("as it was", f"from {fixed(self.at, 1)} s: {self.what}")
+
+    def _runs(self) -> list[Any]:
         runs: list[Any] = [self.before.recording, self.after.recording]
         if None in runs:
             runs = [Bag(BytesIO(made.bag)) for made in (self.before, self.after)]
-        return replay(*runs, title=title, names=names, topics=topics)
+        return runs
 
 
 def what_if(setup: Setup, change: Change, *, at: float, seconds: float, seed: int = 0) -> Fork:

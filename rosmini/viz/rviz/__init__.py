@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from .config import Config, ConfigError
 from .display import Display, Level, Status
-from .picture import RvizView, rviz, still, turnable
+from .picture import RvizView, look_from, rviz, still, turnable
 from .primitives import DisplayError
 from .scene import Layer, Scene
 
 __all__ = [
-    "Config", "ConfigError", "Display", "DisplayError", "Layer", "Level", "RvizView", "Scene", "Status", "rviz",
-    "still", "turnable",
+    "Config", "ConfigError", "Display", "DisplayError", "Layer", "Level", "RvizView", "Scene", "Status", "look_from",
+    "rviz", "still", "turnable",
 ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""Scenes as SVG: from above, or from the side that a view looks from, without perspective.
+"""Scenes as SVG: from above, or from the side that a view looks from.
 
 Colours are RViz's, on its background, on light pages and on dark ones: that is how its users know them. All numbers are
 rounded, so the same scene gives the same bytes on every machine.
@@ -17,10 +17,11 @@ from rosmini.viz.rounding import snap
 from rosmini.viz.style import LABEL_SIZE, variable
 from rosmini.viz.svg import document, element, escape
 
+from .before_eye import rectangles, seen
 from .gifs import gif
 from .labels import placed
 from .primitives import MOST_POINTS, Floats, Ints, Lines, Mesh, Pane, Points, Primitive, Text, Texture
-from .projection import Projection
+from .projection import Look, Perspective
 from .properties import Colour
 
 KIND = "rosmini-rviz"
@@ -28,6 +29,8 @@ LEAST_DOT, LEAST_LINE = 1.8, 1.0
 """Points and lines are never drawn smaller [px]."""
 MOST_DOTS = 8000
 """Points of one display in a picture: of points on nearly the same pixel one is drawn."""
+MOST_RECTANGLES = 450
+"""Of a map with perspective; of one with more, colours and then cells are joined."""
 MANY_FACES = 80
 """A mesh with more faces is drawn as its outline from this side."""
 MOST_FACES = 600
@@ -38,12 +41,14 @@ OPAQUE = 0.99
 MOST_COLOURS = 300
 LEVELS = 32
 """Steps of each colour channel."""
+GROUND = 0.01
+"""What is no higher than this lies on the ground [m]."""
 SUN = np.array([0.25, -0.42, 0.87])
 
 
 def draw(
     shown: Sequence[Primitive],
-    look: Projection,
+    look: Look,
     background: Colour,
     *,
     title: str,
@@ -51,11 +56,13 @@ def draw(
     panes: Sequence[Pane] = (),
 ) -> str:
     """Primitives as an SVG: textures first, the rest from far to near, words last; panes in rows below."""
+    if isinstance(look, Perspective):
+        shown = [seen(each, look) for each in shown]
     behind = [each for each in shown if isinstance(each, Texture) and each.behind]
     maps = [each for each in shown if isinstance(each, Texture) and not each.behind]
     words = [each for each in shown if isinstance(each, Text)]
     others = [each for each in shown if not isinstance(each, Texture | Text)]
-    rest = _joined(sorted(others, key=lambda each: _nearest(each, look)))
+    rest = _joined(sorted(others, key=lambda each: (_is_raised(each), _nearest(each, look))))
     width, height = look.width, look.height
     parts = [element("rect", width=width, height=height, fill=_hex(background.rgba()), rx=4.0)]
     for each in (*behind, *maps, *rest):
@@ -107,7 +114,7 @@ def _url(data: bytes) -> str:
     return f"data:image/gif;base64,{base64.b64encode(data).decode()}"
 
 
-def _drawn(primitive: Primitive, look: Projection) -> Iterator[str]:
+def _drawn(primitive: Primitive, look: Look) -> Iterator[str]:
     if isinstance(primitive, Texture):
         yield from _texture(primitive, look)
     elif isinstance(primitive, Points):
@@ -133,15 +140,31 @@ def _joined(shown: Sequence[Primitive]) -> Iterator[Primitive]:
         yield Points(points, colours, clouds[0].size, clouds[0].style)
 
 
-def _nearest(primitive: Primitive, look: Projection) -> float:
+def _of(primitive: Primitive) -> Floats:
+    """Its points (n, 3)."""
+    return primitive.placed if isinstance(primitive, Mesh) else getattr(primitive, "points", np.empty((0, 3)))
+
+
+def _is_raised(primitive: Primitive) -> bool:
+    """Whether it is not wholly on the ground, which is behind all else."""
+    points = _of(primitive)
+    return bool(len(points) and snap(points[:, 2].max()) > GROUND)
+
+
+def _nearest(primitive: Primitive, look: Look) -> float:
     """How near its nearest point is."""
-    points = (
-        primitive.placed if isinstance(primitive, Mesh) else getattr(primitive, "points", np.empty((0, 3)))
-    )
+    points = _of(primitive)
     return float(look.nearness(points).max()) if len(points) else -np.inf
 
 
-def _texture(texture: Texture, look: Projection) -> Iterator[str]:
+def _texture(texture: Texture, look: Look) -> Iterator[str]:
+    if isinstance(look, Perspective):
+        alphas = texture.pixels[..., 3][texture.pixels[..., 3] > 0] / 255
+        found = rectangles(texture, look, MOST_RECTANGLES)
+        warped = "".join(_filled(outlines, colour) for colour, outlines in found)
+        if warped:
+            yield element("g", warped, opacity=_opacity(float(alphas.mean())))
+        return
     origin, right, _, up = look.pixels(texture.corners)
     data, opacity = gif(texture.pixels)
     if not opacity:
@@ -157,11 +180,11 @@ def _texture(texture: Texture, look: Projection) -> Iterator[str]:
     )  # fmt: skip
 
 
-def _points(points: Points, look: Projection) -> Iterator[str]:
+def _points(points: Points, look: Look) -> Iterator[str]:
     flat = look.pixels(points.points)
     colours = _steps(points.colours, len(flat))
     inside = ((flat >= 0) & (flat <= (look.width, look.height))).all(axis=1)
-    size = points.size if points.style == "Points" else points.size * look.scale
+    size = points.size if points.style == "Points" else points.size * look.scale_at(points.points)
     cap = "round" if points.style == "Spheres" else "square"
     width = max(LEAST_DOT, min(float(snap(size, 0.1)), look.width))
     flat, colours = _thinned(flat[inside], colours[inside], width)
@@ -194,8 +217,8 @@ def _first(flat: Floats, quantum: float) -> Ints:
         quantum *= 1.5
 
 
-def _lines(lines: Lines, look: Projection) -> Iterator[str]:
-    width = max(LEAST_LINE, min(float(snap(lines.width * look.scale, 0.1)), look.width))
+def _lines(lines: Lines, look: Look) -> Iterator[str]:
+    width = max(LEAST_LINE, min(float(snap(lines.width * look.scale_at(lines.points), 0.1)), look.width))
     if lines.strip and lines.colours.ndim == 1:
         flat = look.pixels(lines.points)
         data = _way(_smoothed(flat))
@@ -210,7 +233,7 @@ def _lines(lines: Lines, look: Projection) -> Iterator[str]:
         kept = _first(ends.reshape(-1, 4), max(0.5, width / 3))
         ends, colours = ends[kept], colours[kept]
     for colour, among in _alike(colours):
-        yield _path("".join(_way(each) for each in ends[among]), colour, width, "butt")
+        yield _path("".join(_way(each) for each in _chains(ends[among])), colour, width, "butt")
 
 
 def _smoothed(flat: Floats) -> Floats:
@@ -229,7 +252,7 @@ def _smoothed(flat: Floats) -> Floats:
     return flat if step == 1 else np.vstack([flat[:-1:step], flat[-1:]])
 
 
-def _mesh(mesh: Mesh, look: Projection) -> Iterator[str]:
+def _mesh(mesh: Mesh, look: Look) -> Iterator[str]:
     placed = mesh.placed
     if not len(mesh.faces):
         return
@@ -241,7 +264,7 @@ def _mesh(mesh: Mesh, look: Projection) -> Iterator[str]:
     triangles = placed[mesh.faces]
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     sizes = np.linalg.norm(normals, axis=1)
-    towards = normals @ look.axes[2]
+    towards = (normals * look.towards(triangles[:, 0])).sum(axis=1)
     seen = np.flatnonzero((sizes > 1e-12) & (towards > 1e-9 * sizes if mesh.lit else sizes > 0))
     if len(seen) > MOST_FACES:
         seen, small = _largest(triangles, seen, look)
@@ -266,7 +289,7 @@ def _mesh(mesh: Mesh, look: Projection) -> Iterator[str]:
         start = end
 
 
-def _largest(triangles: Floats, seen: Ints, look: Projection) -> tuple[Ints, Ints]:
+def _largest(triangles: Floats, seen: Ints, look: Look) -> tuple[Ints, Ints]:
     """Of the faces `seen`, the `MOST_FACES` that are largest in the picture, and the others, both in order."""
     flat = look.pixels(triangles[seen].reshape(-1, 3)).reshape(-1, 3, 2)
     sizes = np.ptp(flat, axis=1).sum(axis=1)
@@ -299,8 +322,22 @@ def _alike(colours: Floats) -> Iterator[tuple[Floats, Ints]]:
         yield colour, np.flatnonzero(places == i)
 
 
+def _chains(segments: Floats) -> Iterator[Floats]:
+    """Segments (n, 2, 2) as lines (m, 2): those that begin where the one before ends go on from there."""
+    if len(segments):
+        breaks = np.flatnonzero((segments[1:, 0] != segments[:-1, 1]).any(axis=1)) + 1
+        for several in np.split(segments, breaks):
+            yield np.vstack([several[0, :1], several[:, 1]])
+
+
 def _way(flat: Floats) -> str:
-    return "M" + "L".join(f"{x:.5g},{y:.5g}" for x, y in flat.tolist()) if len(flat) > 1 else ""
+    """A line (n, 2) as path data: where it begins, and steps of tenths of a pixel."""
+    if len(flat) < 2:
+        return ""
+    tenths = np.round(flat * 10)
+    steps = " ".join(f"{x:.6g},{y:.6g}" for x, y in (np.diff(tenths, axis=0) / 10).tolist())
+    x, y = (tenths[0] / 10).tolist()
+    return f"M{x:.6g},{y:.6g}l{steps}"
 
 
 def _path(data: str, colour: Floats, width: float, cap: str) -> str:
@@ -311,11 +348,7 @@ def _path(data: str, colour: Floats, width: float, cap: str) -> str:
 
 
 def _filled(outlines: Iterable[Floats], colour: Floats) -> str:
-    data = "".join(
-        "M" + "L".join(f"{x:.5g},{y:.5g}" for x, y in each.tolist()) + "Z"
-        for each in outlines
-        if len(each) > 2
-    )
+    data = "".join(_way(each) + "z" for each in outlines if len(each) > 2)
     paint = _hex(colour)
     opacity = _opacity(colour[3])
     return (

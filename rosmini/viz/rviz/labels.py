@@ -9,7 +9,7 @@ from rosmini.viz.metrics import text_width
 from rosmini.viz.rounding import snap
 
 from .primitives import Text
-from .projection import Projection
+from .projection import Look
 
 SMALLEST, LARGEST = 10.0, 15.0
 """Sizes of letters [px]."""
@@ -40,7 +40,7 @@ class Label:
         return abs(self.x - other.x) < halves and abs(self.base - other.base) < self.size
 
 
-def placed(words: Sequence[Text], look: Projection, shifts: int = MOST_SHIFTS) -> list[Label]:
+def placed(words: Sequence[Text], look: Look, shifts: int = MOST_SHIFTS) -> list[Label]:
     """Words below their points, or further below where others are already; what finds no room is counted."""
     found: list[Label] = []
     for text in words[:MOST]:

@@ -7,22 +7,24 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rosmini.plugins import PluginError
 from rosmini.viz.figures import WIDTH
 from rosmini.viz.meshcat import MeshcatView
 from rosmini.viz.view import Picture, View, ViewError
 from rosmini.viz.words import plural
 
 from .config import Config
+from .context import FIXED_FRAME
 from .display import Display, Level
 from .displays.group import Group
 from .flat import draw
 from .labels import placed
 from .primitives import Primitive, Text
-from .projection import Projection, projection
+from .projection import Look, Perspective, Projection, projection
 from .scene import Layer, Scene
 from .solid import Drawing, RvizScene, camera_of, words_in
 from .suggestions import suggested
-from .views import Sight
+from .views import Sight, view_like
 
 if TYPE_CHECKING:
     from rosmini.graph import Graph
@@ -30,6 +32,8 @@ if TYPE_CHECKING:
 BACKDROP = ("rviz/Grid",)
 """Displays that a picture is not made larger for, if there is anything else."""
 TALLEST = 2000.0
+STEP = 0.1
+"""To which a picture with perspective is rounded [px]."""
 STEEP = 1.5
 """How much wider than what there is the view has to be for it to be seen, too."""
 DEFAULT_HEIGHT = 420.0
@@ -39,7 +43,7 @@ DEFAULT_HEIGHT = 420.0
 def rviz(
     graph: Graph, config: Config | str | Path | None = None, *, fixed_frame: str | None = None, duration: float = 1.0,
     title: str | None = None, width: float = WIDTH, height: float | None = None, fit: bool = False,
-    turn: bool = False,
+    turn: bool = False, view: str | None = None,
 ) -> View:  # fmt: skip
     """What RViz shows of a graph: listen for some time with the displays of a file, then draw.
 
@@ -53,10 +57,11 @@ def rviz(
         height: of the picture [CSS px]; as high as it needs if None.
         fit: from above and around everything, whatever the view of the file is.
         turn: a view in three dimensions that can be turned in the page, in place of the still.
+        view: the kind of view on everything, such as `Orbit`, in place of that of the file.
 
     Raises:
         ConfigError: the file is no configuration of RViz.
-        ViewError: the duration is not positive, or the picture too small or too large.
+        ViewError: the duration is not positive, the picture too small or too large, or the view not known.
 
     """
     if not 0 < duration < float("inf"):
@@ -64,9 +69,28 @@ def rviz(
     chosen = suggested(graph, fixed_frame) if config is None else config
     with Scene(graph, chosen, fixed_frame=fixed_frame) as scene:
         graph.run(duration)
+        if view is not None:
+            look_from(scene, view)
         if turn:
             return turnable(scene, title=title, height=height, fit=fit)
         return still(scene, title=title, width=width, height=height, fit=fit)
+
+
+def look_from(scene: Scene, kind: str) -> None:
+    """Look at all there is with a view of a kind, such as `Orbit` or `TopDownOrtho`; from the side if it orbits.
+
+    Raises:
+        ViewError: there is no such view.
+
+    """
+    view, scene.view = scene.view, None
+    look = look_at(scene, scene.update(), WIDTH, None)
+    around = Sight(look.ground, -math.pi / 2, math.pi / 2, look.width / look.scale)
+    try:
+        scene.view = view_like(f"rviz/{kind}", around, FIXED_FRAME, scene.context)
+    except PluginError as error:
+        scene.view = view
+        raise ViewError(str(error)) from error
 
 
 def still(
@@ -112,7 +136,7 @@ def turnable(
 
 
 class RvizView(MeshcatView):
-    """A scene that can be turned; its image is the still, without perspective."""
+    """A scene that can be turned; its image is the still."""
 
     still: str = ""
 
@@ -128,7 +152,10 @@ def _drawn(
     for name, value in (("width", width), ("height", height)):
         if value is not None and not 100 <= value <= TALLEST:
             raise ViewError(f"the {name} of a picture is 100 to {TALLEST:g} pixels, not {value}")
-    look = look_at(scene, layers, width, height, fit=fit)
+    look: Look = look_at(scene, layers, width, height, fit=fit)
+    sight = None if scene.view is None or fit else scene.view.sight(scene.context)
+    if sight is not None and not sight.is_flat:
+        look = Perspective.of(sight, look.width, look.height, STEP)
     shown = [each for layer in layers for each in layer.primitives]
     panes = [each for layer in layers for each in layer.panes]
     alt = alt_text(scene, layers)

@@ -1,7 +1,7 @@
 """From the scene to a picture without perspective: straight down for maps, or from the side that a view looks from.
 
-Without perspective a map stays a parallelogram, which SVG can draw; so a still shows what the turnable view shows. With
-perspective is what a page shows in three dimensions: `Perspective` tells what a hand there is on.
+Without perspective a map stays a parallelogram, which SVG can draw. With perspective is what views that orbit show, in
+a still and in three dimensions: `Perspective` says, too, what a hand there is on.
 """
 
 from __future__ import annotations
@@ -49,6 +49,19 @@ class Look(Protocol):
     def gaze(self, x: float, y: float) -> Gaze:
         """The line of sight through a pixel."""
 
+    @property
+    def scale(self) -> float:
+        """Pixels a metre, in the middle of the picture."""
+
+    def scale_at(self, points: Floats) -> float:
+        """Pixels a metre where points (n, 3) are, on the average."""
+
+    def nearness(self, points: Floats) -> Floats:
+        """How near points (n, 3) are to the viewer (n,) [m], to a millimetre."""
+
+    def towards(self, points: Floats) -> Floats:
+        """Directions (n, 3) or (3,) from points (n, 3) to the viewer."""
+
 
 @dataclass(frozen=True)
 class Projection:
@@ -77,6 +90,16 @@ class Projection:
         """How near points (n, 3) are to the viewer (n,) [m], to a millimetre."""
         return snap(points @ self.axes[2])
 
+    def scale_at(self, points: Floats) -> float:
+        """The same everywhere."""
+        del points
+        return self.scale
+
+    def towards(self, points: Floats) -> Floats:
+        """The same direction (3,) everywhere."""
+        del points
+        return self.axes[2]
+
     def metres(self, x: float, y: float) -> tuple[float, float, float]:
         """The point of the ground z = 0 that is seen at a pixel. Only where the view is not level."""
         right, up = (x - self.width / 2) / self.scale, (self.height / 2 - y) / self.scale
@@ -101,12 +124,14 @@ class Perspective:
     field_of_view: float
     width: float
     height: float
+    step: float = 0.0
+    """To which pixels are rounded, for a picture; 0: not at all."""
 
     @classmethod
-    def of(cls, sight: Sight, width: float, height: float) -> Perspective:
+    def of(cls, sight: Sight, width: float, height: float, step: float = 0.0) -> Perspective:
         """The eye of a view."""
         eye = sight.target + sight.distance * _axes(sight.yaw, sight.pitch)[2]
-        return cls(eye, sight.target, sight.field_of_view, width, height)
+        return cls(eye, sight.target, sight.field_of_view, width, height, step)
 
     @property
     def _focal(self) -> float:
@@ -126,7 +151,26 @@ class Perspective:
         seen = np.column_stack(
             [self.width / 2 + self._focal * right / away, self.height / 2 - self._focal * up / away]
         )
-        return np.where((back < 0)[:, None], seen, NOWHERE)
+        return np.where((back < 0)[:, None], snap(seen, self.step) if self.step else seen, NOWHERE)
+
+    @property
+    def scale(self) -> float:
+        """Pixels a metre at the target."""
+        return self._focal / float(np.linalg.norm(self.eye - self.target))
+
+    def scale_at(self, points: Floats) -> float:
+        """Pixels a metre at the mean distance of points (n, 3) in front of the eye."""
+        away = -self.nearness(points)
+        away = away[away > 0]
+        return float(self._focal / away.mean()) if len(away) else self.scale
+
+    def nearness(self, points: Floats) -> Floats:
+        """How near points (n, 3) are to the eye (n,) [m], along where it looks; negative in front of it."""
+        return snap((points - self.eye) @ self.axes[2])
+
+    def towards(self, points: Floats) -> Floats:
+        """Directions (n, 3) from points to the eye."""
+        return self.eye - points
 
     def metres(self, x: float, y: float) -> tuple[float, float, float]:
         """The point of the ground z = 0 that is seen at a pixel; above the horizon one that is far away."""

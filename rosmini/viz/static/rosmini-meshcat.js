@@ -1,11 +1,11 @@
 /* A three-dimensional scene in meshcat's viewer, with no server: replays the commands that a recorded window was sent.
 
    `rosminiMeshcat.mount(host, data, options)` as `rosmini/viz/embed.py` calls it. `data` is what `rosmini/viz/meshcat` makes:
-   `commands` (base64 of packed commands), `themes` (colours of paths on light and dark pages), `duration` [s] of the
-   animation or 0, `follow` (the path of what the camera follows, or null), `legend` (names and colours of lines), and
-   `scan` with a recorded laser (or absent), `copies` with pairs of paths: at the second is once more what is at the first (or absent),
-   `background` with the scene's own colour (or absent: that of the page), `labels` with words at points (or absent),
-   `layered` with what `rosmini-meshcat-layers.js` lays on the ground (or absent).
+   `commands` (what `squeezed.py` wrote), `themes` (colours of paths on light and dark pages), `legend` (names and colours of
+   lines), `copies` with pairs of paths: at the second is once more what is at the first (or absent), `background` with the
+   scene's own colour (or absent: that of the page), `labels` with words at points (or absent), and what only
+   `rosmini-meshcat-player.js` reads, for scenes that move. Several runs side by side are {commands, duration, runs: [...]}: each has
+   all the others, its `title`, and the `count` of its commands among those of all.
    With `options.driven` the robot is under somebody's keys: that function is called with `put(pose)`, which moves it and
    the camera behind it, and neither mouse nor keys turn the scene. `options.ready(viewer, frame)` is called for each viewer
    that is made. `label(window, viewer, each)` and `find(viewer, path)` are for those who change a scene that is shown.
@@ -23,16 +23,40 @@
     light: ["#ffffff", "#dfe7ee", "#1b2733", "#c3cad1"], dark: ["#14181e", "#232b34", "#e8edf2", "#46515c"],
   };
   const STEP = Math.PI / 24;
-  const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]; // as rosmini-replay.js has them
   const ZOOM = 1.5; // of one press, as there
-  const JUMP = 0.2; // seconds
-  const EARLY = 1; // seconds: a scan that comes so soon after the start is there from the start
-  const SAMPLES = 240; // of the way that a robot has come
   const [BEHIND, ABOVE, AHEAD] = [0.75, 0.55, 0.2]; // metres: where the camera is from a robot that is driven, and where it looks
-  const LASER = "var(--rosmini-vermilion, #d55e00)";
   const ROBOT = "/meshcat/robots/robot";
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+
+  /* The commands that `squeezed` of rosmini/viz/meshcat/squeezed.py wrote: of bytes that were there before is said how many and
+     how far back. */
+  function commandsOf(text) {
+    const from = bytes(text);
+    let at = 0;
+    const number = (read) => {
+      let [value, factor, byte] = [0, 1, 128];
+      for (; byte > 127; factor *= 128) {
+        byte = read();
+        value += (byte & 127) * factor;
+      }
+      return value;
+    };
+    const next = () => from[at++];
+    const all = [];
+    while (at < from.length) {
+      for (let count = number(next); count > 0; count -= 1) all.push(next());
+      const back = number(next);
+      for (let count = back && number(next); count > 0; count -= 1) all.push(all[all.length - back]);
+    }
+    const found = [];
+    for (at = 0; at < all.length;) {
+      const length = number(() => all[at++]);
+      found.push(Uint8Array.from(all.slice(at, at + length)));
+      at += length;
+    }
+    return found;
+  }
   const parts = (path) => path.split("/").filter(Boolean);
   const make = (tag, properties = {}, style = {}) => {
     const made = Object.assign(document.createElement(tag), properties);
@@ -80,52 +104,66 @@
     options.show(false);
     await nearby(options.still);
     const address = await options.asset("meshcat.min.js");
-    const frame = make("iframe", { title: options.title }, {
-      display: "block", width: "100%", height: `${options.height}px`, border: "0", borderRadius: "4px",
+    const commands = commandsOf(data.commands);
+    let first = 0;
+    const panes = (data.runs ?? [data]).map((run) => {
+      const count = run.count ?? commands.length;
+      first += count;
+      return { data: run, commands: commands.slice(first - count, first), viewer: null, home: () => {} };
     });
-    const state = { time: 0, playing: false, following: data.follow !== null, viewer: null, frame, shown: {} };
-    const bar = data.duration > 0 ? playerBar(state, data, options) : null;
-    host.append(frame, ...(bar ? [bar.element] : []));
+    const bar = data.duration > 0 ? globalThis.rosminiMeshcatPlayer.bar(panes, data.duration, options) : null;
+    const row = make("div", {}, { display: "grid", gap: "0.3rem", gridTemplateColumns: "repeat(auto-fit, minmax(min(100%, 18rem), 1fr))" });
+    for (const pane of panes) {
+      const part = make("div", {}, { minWidth: 0 });
+      const { title } = pane.data;
+      pane.title = title ? `${title}: ${options.title}` : options.title;
+      if (title) part.append(make("h4", { textContent: title }, { fontSize: "14px", fontWeight: 600, margin: 0, padding: "0.45rem 0.2rem 0.2rem" }));
+      pane.frame = make("iframe", { title: pane.title }, {
+        display: "block", width: "100%", height: `${options.height}px`, border: "0", borderRadius: "4px",
+      });
+      part.append(pane.frame);
+      row.append(part);
+    }
+    host.append(...(data.runs ? [row] : panes.map((pane) => pane.frame)), ...(bar ? [bar.element] : []));
     onTheme(() => {
-      if (state.viewer) paint(state.viewer, data);
-      bar?.seek(state.time);
+      for (const { viewer, data: run } of panes) if (viewer) paint(viewer, run);
+      bar?.seek();
     });
-    if (options.driven) frame.style.pointerEvents = "none"; // a click is for the keys around it
-    frame.addEventListener("load", () => {
-      if (frame.contentDocument.getElementById("pane")) start(frame, address, data, options, state, bar);
-    });
-    frame.srcdoc = '<!DOCTYPE html><html lang="en"><title>3D</title><style>html,body{margin:0;height:100%;overflow:hidden}'
-      + "#pane{width:100vw;height:100vh}canvas{display:block;outline-offset:-3px}</style>"
-      + '<body><div id="pane"></div></body></html>';
+    for (const pane of panes) {
+      const { frame } = pane;
+      if (options.driven) frame.style.pointerEvents = "none"; // a click is for the keys around it
+      frame.addEventListener("load", () => {
+        if (frame.contentDocument.getElementById("pane")) start(pane, address, options, bar);
+      });
+      frame.srcdoc = '<!DOCTYPE html><html lang="en"><title>3D</title><style>html,body{margin:0;height:100%;overflow:hidden}'
+        + "#pane{width:100vw;height:100vh}canvas{display:block;outline-offset:-3px}</style>"
+        + '<body><div id="pane"></div></body></html>';
+    }
     options.show(true);
     return true;
   }
 
-  function start(frame, address, data, options, state, bar) {
+  function start(pane, address, options, bar) {
+    const { data, frame } = pane;
     const page = frame.contentDocument;
     const script = page.createElement("script");
     script.onload = () => {
       const viewer = new frame.contentWindow.MeshCat.Viewer(page.getElementById("pane"));
       viewer.gui.domElement.style.display = "none";
-      for (const command of data.commands) viewer.handle_command_bytearray(bytes(command));
+      for (const command of pane.commands) viewer.handle_command_bytearray(command);
       for (const [from, to] of data.copies ?? []) { // what is there several times has one geometry
         const known = viewer.scene_tree.find([...parts(from), "<object>"]).object;
         viewer.set_object(parts(to), known.clone());
       }
       for (const each of data.labels ?? []) label(frame.contentWindow, viewer, each);
-      state.viewer = frame.contentWindow.viewer = viewer; // where meshcat's own page has it
-      state.target = null;
+      pane.viewer = frame.contentWindow.viewer = viewer; // where meshcat's own page has it
       viewer.controls.minDistance = 0.15;
       viewer.controls.maxDistance = 60;
       viewer.controls.maxPolarAngle = Math.PI / 2 - 0.02; // not below the ground
       if (options.driven) options.driven((pose) => put(viewer, pose));
-      else hands(frame, viewer, options, bar);
+      else hands(pane, options, bar);
       paint(viewer, data);
-      if (bar) {
-        viewer.animator.play(); // so that the actions count; this script moves their time
-        viewer.animator.pause();
-        bar.seek(state.time);
-      }
+      bar?.begin(pane);
       frame.dataset.ready = "";
       options.ready?.(viewer, frame);
     };
@@ -172,7 +210,8 @@
 
   /* Keys, wheel and touch. The wheel zooms and a finger turns it in all directions only after a click or a tap; before,
      they scroll the page. */
-  function hands(frame, viewer, options, bar) {
+  function hands(pane, options, bar) {
+    const { viewer } = pane;
     const canvas = viewer.renderer.domElement;
     const { controls, camera } = viewer;
     const begin = camera.position.clone();
@@ -182,10 +221,10 @@
       camera.position.copy(begin).add(controls.target);
       viewer.set_dirty();
     };
-    if (bar) bar.home = home;
+    pane.home = home;
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "application");
-    canvas.setAttribute("aria-label", `${options.alt} Arrow keys turn it, plus and minus zoom, Home goes back.`);
+    canvas.setAttribute("aria-label", `${pane.data.title ? `${pane.data.title}: ` : ""}${options.alt} Arrow keys turn it, plus and minus zoom, Home goes back.`);
     const hold = (held) => {
       controls.enableZoom = held;
       viewer.dom_element.style.touchAction = canvas.style.touchAction = held ? "none" : "pan-y";
@@ -203,7 +242,7 @@
       if (event.ctrlKey || event.metaKey || event.altKey) return;
       if (turn) orbit(viewer, turn[0] * STEP, turn[1] * STEP, 1);
       else if (zoom) orbit(viewer, 0, 0, zoom);
-      else if (event.key === "Home" || event.key === "0") home();
+      else if (event.key === "Home" || event.key === "0") (bar?.home ?? home)();
       else if (event.key === " " && bar) bar.toggle();
       else if (event.key === "f" && bar) bar.follow();
       else return;
@@ -228,19 +267,6 @@
     viewer.set_dirty();
   }
 
-  /* The camera goes where the robot goes, and keeps the side and the distance that the reader chose. */
-  function follow(state, data) {
-    const { viewer } = state;
-    const { x, y } = find(viewer, data.follow).position;
-    const root = find(viewer, "/meshcat").position;
-    const target = [x + root.x, 0, -(y + root.y)];
-    const now = viewer.controls.target;
-    const delta = [target[0] - now.x, 0, target[2] - now.z];
-    now.set(...target);
-    const at = viewer.camera.position;
-    at.set(at.x + delta[0], at.y, at.z + delta[2]);
-  }
-
   /* The robot at a pose (x, y [m], heading [rad]), and the camera behind and above it. */
   function put(viewer, [x, y, heading]) {
     const robot = find(viewer, ROBOT);
@@ -257,213 +283,5 @@
     return viewer.scene_tree.find(path.split("/").filter(Boolean)).object;
   }
 
-  /* Put the points of the last scan before `time` in their places: each where the laser was when it measured it, while
-     the robot, to which the cloud of points belongs, goes on. */
-  function showScan(viewer, scan, time) {
-    let last = scan.times[0] < EARLY ? 0 : -1;
-    while (last + 1 < scan.times.length && scan.times[last + 1] <= time) last += 1;
-    const cloud = find(viewer, scan.path);
-    if (scan.shown !== last || scan.viewer !== viewer) {
-      Object.assign(scan, { shown: last, viewer, points: last < 0 ? [] : measured(viewer, scan, last) });
-      viewer.animator.seek(time);
-    }
-    cloud.updateWorldMatrix(true, false);
-    const positions = find(viewer, `${scan.path}/<object>`).geometry.attributes.position;
-    for (let i = 0; i < scan.beams; i += 1) {
-      const { x, y, z } = scan.points[i] ? cloud.worldToLocal(scan.points[i].clone()) : { x: 0, y: 0, z: -100 };
-      positions.setXYZ(i, x, y, z);
-    }
-    positions.needsUpdate = true;
-  }
-
-  /* Where the beams of a scan hit something in the viewer's world, or null; it moves the robot there and leaves it. */
-  function measured(viewer, scan, which) {
-    const cloud = find(viewer, scan.path);
-    const ranges = new DataView((scan.bytes ??= bytes(scan.ranges)).buffer);
-    viewer.animator.seek(scan.times[which]);
-    return Array.from({ length: scan.beams }, (_, i) => {
-      const range = ranges.getUint16(2 * (which * scan.beams + i), true) / 1000;
-      if (!range) return null;
-      const angle = (scan.start ?? 0) + (scan.step ?? (2 * Math.PI) / scan.beams) * i;
-      if (scan.increment) viewer.animator.seek(scan.times[which] + i * scan.increment);
-      cloud.updateWorldMatrix(true, false);
-      return cloud.localToWorld(cloud.position.clone().set(range * Math.cos(angle), range * Math.sin(angle), 0));
-    });
-  }
-
-  /* The lines on the ground, with how far whoever drew them had come by when; no line is shown ahead of them. */
-  function growing(viewer, data) {
-    const lines = data.legend.map(([name]) => {
-      const own = name === "truth" || name === "odometry";
-      const { geometry } = find(viewer, `/meshcat/trails/${name}/<object>`);
-      const points = Float32Array.from(geometry.attributes.position.array);
-      const along = [0];
-      const middle = (i, axis) => (points[6 * i + axis] + points[6 * i + 3 + axis]) / 2;
-      for (let i = 1; i < points.length / 6; i += 1) {
-        along.push(along[i - 1] + Math.hypot(middle(i, 0) - middle(i - 1, 0), middle(i, 1) - middle(i - 1, 1)));
-      }
-      return { mover: find(viewer, own ? ROBOT : `/meshcat/others/${name.replaceAll("/", " ")}`), geometry, points, along, way: [], at: null };
-    });
-    for (let i = 0; i <= SAMPLES; i += 1) {
-      viewer.animator.seek((i / SAMPLES) * data.duration);
-      for (const line of lines) {
-        const { x, y } = line.mover.position;
-        line.way.push(line.at ? line.way.at(-1) + Math.hypot(x - line.at[0], y - line.at[1]) : 0);
-        line.at = [x, y];
-      }
-    }
-    return lines;
-  }
-
-  /* Show of each line what was driven at a part of the time, 0 to 1: all later points lie where it ends. */
-  function grow(lines, part) {
-    const i = Math.min(Math.floor(part * SAMPLES), SAMPLES - 1);
-    for (const { geometry, points, along, way } of lines) {
-      const walked = way[i] + (part * SAMPLES - i) * (way[i + 1] - way[i]);
-      const reached = (walked / Math.max(way.at(-1), 1e-9)) * along.at(-1);
-      const last = Math.max(0, Math.min(along.findLastIndex((length) => length <= reached), along.length - 2));
-      const rest = Math.min(1, (reached - along[last]) / Math.max(along[last + 1] - along[last], 1e-9));
-      const { array } = geometry.attributes.position;
-      for (let j = 0; j < points.length; j += 1) {
-        const from = 6 * last + (j % 6);
-        array[j] = j < 6 * (last + 1) ? points[j] : points[from] + rest * (points[from + 6] - points[from]);
-      }
-      geometry.attributes.position.needsUpdate = true;
-    }
-  }
-
-  function playerBar(state, data, options) {
-    const made = new WeakMap(); // the lines of each viewer: there is a new one when the page took the frame out
-    const trails = () => {
-      if (!made.has(state.viewer)) made.set(state.viewer, growing(state.viewer, data));
-      state.viewer.animator.seek(state.time);
-      return made.get(state.viewer);
-    };
-    const ink = { font: "inherit", color: "inherit" };
-    const element = make("div", {}, {
-      display: "flex", flexWrap: "wrap", gap: "0.4em 0.8em", alignItems: "center", padding: "0.4em 0.1em",
-      color: "var(--rosmini-ink, inherit)", fontSize: "0.9em",
-    });
-    element.setAttribute("role", "group");
-    element.setAttribute("aria-label", `Player: ${options.title}`);
-    const button = make("button", { type: "button", textContent: "Play" }, {
-      ...ink, minWidth: "4.5em", padding: "0.2em 0.8em", cursor: "pointer", background: "transparent",
-      border: "1px solid var(--rosmini-group-line, #9aa5af)", borderRadius: "4px",
-    });
-    const slider = make("input", { type: "range", min: 0, max: data.duration, step: 0.05, value: 0 }, {
-      flex: "1 1 10em", accentColor: "var(--rosmini-blue, #0072b2)",
-    });
-    slider.setAttribute("aria-label", "Time");
-    const clock = make("output", {}, { fontVariantNumeric: "tabular-nums" });
-    const plain = { ...ink, padding: "0.2em 0.5em", cursor: "pointer", background: "transparent", border: 0 };
-    const small = (text, label, act) => {
-      const one = make("button", { type: "button", textContent: text, title: label }, plain);
-      one.setAttribute("aria-label", label);
-      one.addEventListener("click", act);
-      return one;
-    };
-    const speed = make("select", {}, { ...ink, background: "transparent", border: "1px solid var(--rosmini-group-line, #9aa5af)", borderRadius: "4px" });
-    speed.setAttribute("aria-label", "Speed");
-    for (const factor of SPEEDS) speed.append(make("option", { value: factor, textContent: `${factor}\u00d7`, selected: factor === 1 }));
-    const faster = (by) => {
-      speed.selectedIndex = Math.max(0, Math.min(SPEEDS.length - 1, speed.selectedIndex + by));
-    };
-    const api = { element, seek, toggle, follow: () => box?.click(), follows: () => data.follow !== null && state.following, home: () => {} };
-    const reset = () => {
-      if (box && !box.checked) box.click();
-      api.home();
-    };
-    const [back, forward] = [-1, 1].map((way) => () => { toggle(false); seek(state.time + way * JUMP); });
-    const closer = (factor) => () => state.viewer && orbit(state.viewer, 0, 0, factor);
-    element.append(small("\u25c2\u2758", "Step back", back), button, small("\u2758\u25b8", "Step forward", forward), slider, clock, speed,
-      small("\u2212", "Zoom out", closer(ZOOM)), small("+", "Zoom in", closer(1 / ZOOM)), small("reset", "Reset the view", reset));
-    let box = null;
-    if (data.follow !== null) {
-      box = make("input", { type: "checkbox", checked: true });
-      const label = make("label", {}, { cursor: "pointer" });
-      label.append(box, " follow");
-      box.addEventListener("change", () => { state.following = box.checked; seek(state.time); });
-      element.append(label);
-    }
-
-    const layered = data.layered ? globalThis.rosminiMeshcatLayers.decode(data.layered) : null;
-    const solid = data.legend.map(([name, colour]) => [`/meshcat/trails/${name}`, name, colour]);
-    if (data.scan) solid.push([data.scan.path, "laser", LASER]);
-    for (const [key, name, colour] of [...solid, ...(layered?.switches ?? [])]) {
-      const line = make("span", { ariaHidden: "true" }, {
-        display: "inline-block", width: "1.4em", height: "0.25em", margin: "0 0.4em 0.2em 0.3em",
-        background: colour,
-      });
-      const label = make("label", {}, { cursor: "pointer" });
-      const chosen = make("input", { type: "checkbox", checked: true });
-      chosen.addEventListener("change", () => { state.shown[key] = chosen.checked; seek(state.time); });
-      label.append(chosen, line, name);
-      element.append(label);
-    }
-    const answer = make("small", {}, { flexBasis: "100%" });
-    answer.setAttribute("role", "status");
-    /* Ask what the place costs around which the view turns, or stop asking. */
-    const inquire = () => {
-      const [target, root] = [state.viewer?.controls.target, state.viewer && find(state.viewer, "/meshcat").position];
-      state.shown.asked = state.shown.asked || !target ? null : [target.x - root.x, -target.z - root.y];
-      seek(state.time);
-    };
-    if (layered?.why) element.append(small("cost?", "What the place in the middle costs", inquire), answer);
-    if (layered?.notes.length) element.append(make("small", { textContent: layered.notes.join(" ") }, { flexBasis: "100%" }));
-
-    function seek(time) {
-      state.time = Math.min(Math.max(time, 0), data.duration);
-      slider.value = state.time;
-      const text = `${state.time.toFixed(1)} s of ${data.duration.toFixed(1)} s`;
-      slider.setAttribute("aria-valuetext", text);
-      clock.value = text;
-      const { viewer } = state;
-      if (!viewer) return;
-      viewer.animator.seek(state.time);
-      grow(trails(), state.time / data.duration);
-      if (data.scan) showScan(viewer, data.scan, state.time);
-      for (const [path] of solid) find(viewer, path).visible = state.shown[path] !== false;
-      layered?.show(state.frame, viewer, state.time, state.shown);
-      const { asked } = state.shown;
-      answer.textContent = asked ? `At ${(asked[0] + 0).toFixed(2)}, ${(asked[1] + 0).toFixed(2)} m: ${layered.why(state.time, asked)}` : "";
-      if (data.follow !== null && state.following) follow(state, data);
-      viewer.set_dirty();
-    }
-
-    function toggle(playing = !state.playing) {
-      state.playing = playing;
-      button.textContent = playing ? "Pause" : "Play";
-      if (!playing) return;
-      if (state.time >= data.duration) seek(0);
-      let before = null;
-      const next = (now) => {
-        if (!state.playing || !element.isConnected) return toggle(false);
-        if (before !== null) seek(state.time + (Number(speed.value) * (now - before)) / 1000);
-        before = now;
-        return state.time >= data.duration ? toggle(false) : requestAnimationFrame(next);
-      };
-      requestAnimationFrame(next);
-    }
-
-    button.addEventListener("click", () => toggle());
-    slider.addEventListener("input", () => { toggle(false); seek(Number(slider.value)); });
-    const keys = {
-      " ": () => toggle(),
-      ArrowLeft: back, ArrowDown: back, ArrowRight: forward, ArrowUp: forward,
-      Home: () => { toggle(false); seek(0); }, End: () => { toggle(false); seek(data.duration); },
-      "+": () => faster(1), "=": () => faster(1), "-": () => faster(-1), "_": () => faster(-1),
-      PageUp: closer(1 / ZOOM), PageDown: closer(ZOOM), f: () => api.follow(), 0: reset, w: () => layered?.why && inquire(),
-    };
-    element.addEventListener("keydown", (event) => {
-      const { target, key } = event;
-      const own = target === speed || (key === " " && target.matches("button, [type=checkbox]"));
-      if (own || event.ctrlKey || event.altKey || event.metaKey || !(key in keys)) return;
-      event.preventDefault();
-      keys[key]();
-    });
-    seek(0);
-    return api;
-  }
-
-  globalThis.rosminiMeshcat = { mount, label, find };
+  globalThis.rosminiMeshcat = { mount, label, find, make, orbit, ROBOT, ZOOM };
 })();

@@ -26,7 +26,7 @@
       Object.assign(this, { panel, host, state: {}, sent: 0, told: 0 });
       host.rosminiSolid = this;
       const still = host; // it is seen when its place is
-      globalThis.rosminiMeshcat.mount(host, { commands: [], themes: { light: {}, dark: {} }, duration: 0, follow: null, legend: [], background: ["#303030", "#303030", "#ffffff"] }, {
+      globalThis.rosminiMeshcat.mount(host, { commands: "", themes: { light: {}, dark: {} }, duration: 0, follow: null, legend: [], background: ["#303030", "#303030", "#ffffff"] }, {
         title: "RViz", alt: "The scene of RViz in three dimensions.", height: 420, still, show: () => {}, asset: globalThis.rosminiAsset,
         ready: (viewer, frame) => this.begin(viewer, frame),
       }).then((shown) => { if (shown === false) panel.set("view", "flat"); });

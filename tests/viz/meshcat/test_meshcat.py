@@ -36,6 +36,7 @@ from rosmini.viz.meshcat.view import camera_for
 from rosmini.viz.replay import Body, Run, Shape, Shapes
 
 from ...processes import run as run_process
+from ..replay import unpacking
 
 ROOT = Path(__file__).parents[3]
 POSE = (0.5, -0.25, math.pi / 2)
@@ -243,7 +244,7 @@ def test_the_pages_html_in_both_forms(monkeypatch):
     assert "<figcaption>A robot</figcaption>" in book
     assert view.svg in book
     monkeypatch.delenv("ROSMINI_DISPLAY")
-    assert len(view.html) > 400_000
+    assert len(view.html) > len(book) + 200_000
     assert view.page == view.html
     data = json.loads(re.search(r'application/json">(.*?)</script>', book, re.DOTALL)[1])
     assert set(data["themes"]["dark"]) == set(data["themes"]["light"]) >= {"/meshcat/ground", "/meshcat/grid"}
@@ -334,33 +335,28 @@ def test_a_wall_behind_the_camera_is_cut_not_mirrored():
 
 
 def keys(view):
-    (animation,) = [c for c in commands(view) if c["type"] == "set_animation"]
-    return {
-        (clip["path"], track["name"]): (
-            [k["time"] for k in track["keys"]],
-            [k["value"] for k in track["keys"]],
-        )
-        for clip in animation["animations"]
-        for track in clip["clip"]["tracks"]
-    }, animation["options"]
+    """Times [s] and values (n, k) of what moves, by path and property, as a page gets them."""
+    found = {}
+    for path, name, packed in view.data["tracks"]:
+        rows = unpacking.columns(packed, 4 if name == "position" else 2)
+        found[path, name] = rows[:, 0] * 1e-3, rows[:, 1:] * 1e-4
+    return found
 
 
 def test_a_replay_moves_the_robot_as_it_moved_and_turns_its_wheels():
     recording = run()
     view = replay_3d(recording)
-    tracks, options = keys(view)
-    assert options["play"] is False
+    tracks = keys(view)
     assert view.scene.duration == pytest.approx(12.0)
     for (path, name), column in (
-        (("/meshcat/robots/robot", ".position"), recording.truth[:, 0]),
-        (("/meshcat/robots/robot", ".rotation[z]"), recording.truth[:, 2]),
+        (("/meshcat/robots/robot", "position"), recording.truth[:, 0]),
+        (("/meshcat/robots/robot", "rotation[z]"), recording.truth[:, 2]),
     ):
         times, values = tracks[path, name]
-        values = np.array(values)[:, 0] if name == ".position" else np.array(values)
         assert len(times) < 60
-        assert np.interp(recording.times, times, values) == pytest.approx(column, abs=0.011)
+        assert np.interp(recording.times, times, values[:, 0]) == pytest.approx(column, abs=0.011)
     left, right = (
-        tracks[f"/meshcat/robots/robot/wheel_{side}", ".rotation[y]"][1][-1] for side in ("left", "right")
+        tracks[f"/meshcat/robots/robot/wheel_{side}", "rotation[y]"][1][-1, 0] for side in ("left", "right")
     )
     # 12 s at 0.2 m/s, and 3 rad of turning with wheels 16 cm apart of 33 mm radius.
     assert (left + right) / 2 * 0.033 == pytest.approx(2.4, abs=0.005)
@@ -378,12 +374,15 @@ def test_a_replays_text_says_what_happened():
 
 def test_a_replays_scans_are_every_second_beam_in_millimetres():
     scan = replay_3d(run()).extra["scan"]
-    ranges = np.frombuffer(scan["ranges"], "<u2").reshape(len(scan["times"]), scan["beams"])
+    assert scan["unit"] == 0.001
+    ranges = unpacking.unpack(scan["ranges"]).reshape(len(scan["times"]), scan["beams"])
     assert ranges.shape == (60, 180)
     assert (ranges[:, :90] == 1000).all()
     assert (ranges[:, 90:] == 0).all()
     assert "scan" not in replay_3d(run(), scans=False).extra
-    assert len(replay_3d(run(60.0)).extra["scan"]["times"]) <= 120
+    long = replay_3d(run(60.0)).extra["scan"]
+    assert len(long["times"]) <= 120
+    assert unpacking.unpack(long["ranges"]).max() * long["unit"] == pytest.approx(1.0)
 
 
 def test_a_run_of_one_sample_is_a_scene_that_stands_still():
@@ -455,10 +454,10 @@ def test_a_replay_of_several_robots_moves_each_and_what_was_pushed():
     moved = Moved(crate, np.array([0.0, 12.0]), np.array([(0.0, 0.0, 0.0), (0.5, 0.0, 0.0)]))
     other = replace(own, truth=own.truth + (0.0, 1.0, 0.0), name="robot", model=model("waffle"))
     view = replay_3d(replace(own, name="first", others=(other,), things=(moved,)))
-    tracks, _ = keys(view)
-    ys = np.array(tracks["/meshcat/others/robot", ".position"][1])[:, 1]
+    tracks = keys(view)
+    ys = tracks["/meshcat/others/robot", "position"][1][:, 1]
     assert ys[0] == pytest.approx(1.0) and ys[-1] == pytest.approx(other.truth[-1, 1], abs=0.01)
-    pushed = np.array(tracks[f"/meshcat/obstacles/{crate.name}", ".position"][1])
+    pushed = tracks[f"/meshcat/obstacles/{crate.name}", "position"][1]
     assert pushed[-1, 0] == pytest.approx(0.5)
     assert [trail.name for trail in view.scene.trails] == ["odometry", "truth", "robot"]
     assert "robot (waffle): " in view.text and "Beside it drive robot." in view.alt
@@ -575,8 +574,8 @@ def test_a_run_of_layers_has_its_robots_and_what_lies_on_the_ground():
     assert [
         name for name in view.scene.nodes if name.startswith(("robots", "others")) and name.count("/") == 1
     ] == ["robots/robot"], "what a topic says of the robot is no robot of its own"
-    tracks, _ = keys(view)
-    assert np.array(tracks["/meshcat/robots/robot", ".position"][1])[-1, 0] == pytest.approx(1.0)
+    tracks = keys(view)
+    assert tracks["/meshcat/robots/robot", "position"][1][-1, 0] == pytest.approx(1.0)
     laid = view.data["layered"]
     assert [each["name"] for each in laid["layers"]] == ["/plan"]
     assert [each["name"] for each in laid["bodies"]] == ["base_link", "/odom"]
@@ -586,3 +585,18 @@ def test_a_run_of_layers_has_its_robots_and_what_lies_on_the_ground():
     flat = replay_3d(Run("drive.bag", 0.0, 4.0, bodies, (plan,)))
     assert flat.data["follow"] is None
     assert not any(name.startswith("robots") for name in flat.scene.nodes)
+
+
+def test_runs_side_by_side_have_one_clock_and_the_world_once():
+    one, other = replay_3d(run()), replay_3d(run(6.0))
+    both = replay_3d(run(), run(6.0), names=["as it was", "faster"], title="Two")
+    data = both.data
+    assert [each["title"] for each in data["runs"]] == ["as it was", "faster"]
+    assert data["duration"] == 12.0
+    assert [each["duration"] for each in data["runs"]] == [12.0, 6.0]
+    assert sum(each["count"] for each in data["runs"]) == len(one.scene.commands) + len(other.scene.commands)
+    assert len(data["commands"]) < 1.2 * len(one.data["commands"])
+    assert both.text.startswith("Two\nas it was: 3D replay: burger in small, 12.0 s")
+    assert both.fallback.count("<svg") == 2
+    with pytest.raises(ViewError, match="as many names as runs, not 1 and"):
+        replay_3d(run(), names=["one", "two"])

@@ -214,8 +214,8 @@ def test_runs_of_robots_with_wheels_and_without(name, turning):
     truth = np.column_stack([times * 0.2, 0 * times, 0 * times])
     scans = np.zeros((0, 360))
     run = Recording(world("room"), known, times, truth, truth, np.zeros((0, 3)), np.zeros(0), scans)
-    (animation,) = [command for command in replay_3d(run).scene.commands if b"set_animation" in command]
-    assert animation.count(b"rotation[y]") == turning
+    motions = replay_3d(run).scene.motions
+    assert [motion.name for motion in motions].count("rotation[y]") == turning
 
 
 def test_in_a_world_a_described_robot_is_drawn_without_its_holes():
