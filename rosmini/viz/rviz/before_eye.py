@@ -1,0 +1,130 @@
+"""What an eye sees of primitives: with perspective, lines end where they pass it, and a map is drawn in rectangles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .primitives import Floats, Lines, Mesh, Pixels, Points, Primitive, Texture
+from .projection import Perspective
+
+NEAR = 0.05
+"""What is nearer to the eye is not drawn [m]."""
+STEPS = (16, 32, 64)
+"""Of colour channels, where a map has too many colours."""
+
+
+def seen(primitive: Primitive, look: Perspective) -> Primitive:
+    """A primitive without what is behind the eye."""
+    if isinstance(primitive, Points):
+        ahead = _away(primitive.points, look) > NEAR
+        colours = primitive.colours if primitive.colours.ndim == 1 else primitive.colours[ahead]
+        return replace(primitive, points=primitive.points[ahead], colours=colours)
+    if isinstance(primitive, Mesh):
+        ahead = (_away(primitive.placed, look) > NEAR)[primitive.faces].all(axis=1)
+        colours = primitive.colours if primitive.colours.ndim == 1 else primitive.colours[ahead]
+        return replace(primitive, faces=primitive.faces[ahead], colours=colours)
+    if isinstance(primitive, Lines):
+        return _cut(primitive, look)
+    return primitive
+
+
+def _away(points: Floats, look: Perspective) -> Floats:
+    """How far ahead of the eye points (n, 3) are (n,) [m]."""
+    return -look.nearness(points)
+
+
+def _cut(lines: Lines, look: Perspective) -> Lines:
+    """Segments that end where they pass the eye."""
+    away = _away(lines.points, look)
+    if not len(away) or away.min() > NEAR:
+        return lines
+    segments, colours = lines.segments(), lines.segment_colours()
+    first, last = (_away(segments[:, i], look) for i in (0, 1))
+    kept = np.maximum(first, last) > NEAR
+    segments, first, last = segments[kept].copy(), first[kept], last[kept]
+    part = (NEAR - first) / np.where(first == last, 1.0, last - first)
+    at = segments[:, 0] + part[:, None] * (segments[:, 1] - segments[:, 0])
+    for i, ends in enumerate((first, last)):
+        behind = ends < NEAR
+        segments[behind, i] = at[behind]
+    if colours.ndim == 2:
+        colours = np.repeat(colours[kept], 2, axis=0)
+    return Lines(segments.reshape(-1, 3), colours, lines.width, strip=False)
+
+
+def rectangles(texture: Texture, look: Perspective, most: int) -> Iterator[tuple[Floats, list[Floats]]]:
+    """Each colour (4,) of a map, 0 to 1 and opaque, with the outlines (n, 2) [px] of where it is: at most so many."""
+    outlines: dict[bytes, list[Floats]] = {}
+    for pixels in _coarser(texture.pixels):
+        outlines = _outlines(pixels, texture, look)
+        if sum(map(len, outlines.values())) <= most:
+            break
+    for colour, several in sorted(outlines.items()):
+        yield np.append(np.frombuffer(colour, dtype=np.uint8) / 255, 1.0), several
+
+
+def _coarser(pixels: Pixels) -> Iterator[Pixels]:
+    """A map as it is, in fewer colours, and then with larger and larger cells."""
+    yield pixels
+    for step in STEPS:
+        reduced = pixels.copy()
+        reduced[..., :3] = np.minimum((pixels[..., :3].astype(int) + step // 2) // step * step, 255)
+        yield reduced
+    while max(reduced.shape[:2]) > 1:
+        reduced = reduced[::2, ::2]
+        yield reduced
+
+
+def _outlines(pixels: Pixels, texture: Texture, look: Perspective) -> dict[bytes, list[Floats]]:
+    """Where each colour is in the picture; what is out of it is left out."""
+    cell = np.array(texture.size) / (pixels.shape[1], pixels.shape[0])
+    outlines: dict[bytes, list[Floats]] = {}
+    for x0, y0, x1, y1 in _rectangles(pixels):
+        flat = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]) * cell
+        corners = np.column_stack([flat, np.zeros(4)]) @ texture.pose[:3, :3].T + texture.pose[:3, 3]
+        corners = _clipped(corners, _away(corners, look))
+        if len(corners) < 3:
+            continue
+        outline = look.pixels(corners)
+        if (outline.max(axis=0) > 0).all() and (outline.min(axis=0) < (look.width, look.height)).all():
+            outlines.setdefault(pixels[y0, x0, :3].tobytes(), []).append(outline)
+    return outlines
+
+
+def _rectangles(pixels: Pixels) -> list[tuple[int, int, int, int]]:
+    """Rectangles of one colour (x0, y0, x1, y1) that cover what is seen: equal runs of rows that follow one another."""
+    packed = np.ascontiguousarray(pixels).view(np.uint32)[..., 0]
+    found: list[tuple[int, int, int, int]] = []
+    growing: dict[tuple[int, int, int], int] = {}
+    for y in range(len(packed) + 1):
+        runs = _runs(packed[y], pixels[y, :, 3]) if y < len(packed) else []
+        over = set(growing).difference(runs)
+        found += [(x0, growing.pop((x0, x1, colour)), x1, y) for x0, x1, colour in sorted(over)]
+        for run in runs:
+            growing.setdefault(run, y)
+    return found
+
+
+def _runs(row: NDArray[np.uint32], alphas: NDArray[np.uint8]) -> list[tuple[int, int, int]]:
+    """Where cells of one colour begin and end, and the colour, but for clear ones."""
+    edges = [0, *(np.flatnonzero(np.diff(row)) + 1).tolist(), len(row)]
+    return [(x0, x1, int(row[x0])) for x0, x1 in pairwise(edges) if alphas[x0]]
+
+
+def _clipped(corners: Floats, away: Floats) -> Floats:
+    """A polygon (n, 3) cut where it passes the eye."""
+    if (away > NEAR).all():
+        return corners
+    kept: list[Floats] = []
+    for i, (a, b) in enumerate(zip(corners, np.roll(corners, -1, axis=0), strict=True)):
+        here, there = away[i] - NEAR, away[(i + 1) % len(away)] - NEAR
+        if here > 0:
+            kept.append(a)
+        if (here > 0) != (there > 0):
+            kept.append(a + here / (here - there) * (b - a))
+    return np.array(kept).reshape(-1, 3)
