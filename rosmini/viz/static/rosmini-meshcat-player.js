@@ -217,24 +217,29 @@
       pane.viewer.animator.play(); // so that the actions count; this script moves their time
       pane.viewer.animator.pause();
       pane.lines = growing(pane.viewer, pane.data);
-      if (panes.length > 1) pane.viewer.controls.addEventListener("change", () => link(pane));
       seek();
+      pane.look = lookOf(pane);
+      if (panes.length > 1) pane.viewer.controls.addEventListener("change", () => link(pane));
     }
+
+    /* Where the camera is, seen from what it looks at; and where that is in the world, unless the view follows a robot. */
+    const lookOf = (pane) => {
+      const { camera: { position }, controls: { target } } = pane.viewer;
+      return [position.clone().sub(target), api.follows(pane) ? target.clone().setScalar(0) : target.clone().sub(middle(pane.viewer))];
+    };
 
     /* Whoever turns one view turns all: each looks from the same side and as far at its own robot, or at the same place. */
     function link(pane) {
-      const [camera, target] = [pane.viewer.camera.position, pane.viewer.controls.target];
-      const root = middle(pane.viewer);
+      const look = lookOf(pane);
+      if (pane.look?.every((each, i) => each.distanceTo(look[i]) < ALIKE)) return; // it only followed, or went with another
+      pane.look = look;
       for (const other of shown()) {
         if (other === pane) continue;
-        const { viewer } = other;
-        const own = viewer.controls.target.clone();
-        if (!api.follows(other)) own.copy(target).sub(root).add(middle(viewer));
-        const at = camera.clone().sub(target).add(own);
-        if (at.distanceTo(viewer.camera.position) + own.distanceTo(viewer.controls.target) < ALIKE) continue;
-        viewer.controls.target.copy(own);
-        viewer.camera.position.copy(at);
-        viewer.set_dirty();
+        const { camera, controls } = other.viewer;
+        if (!api.follows(other)) controls.target.copy(look[1]).add(middle(other.viewer));
+        camera.position.copy(look[0]).add(controls.target);
+        other.look = lookOf(other);
+        other.viewer.set_dirty();
       }
     }
 

@@ -217,7 +217,7 @@
     const begin = camera.position.clone();
     const middle = controls.target.clone();
     const home = () => {
-      if (!bar?.follows()) controls.target.copy(middle);
+      if (!bar?.follows(pane)) controls.target.copy(middle);
       camera.position.copy(begin).add(controls.target);
       viewer.set_dirty();
     };
