@@ -296,6 +296,7 @@ class Recording:
             topics=None: of what was kept beside the robots, only these topics; None: all
             frame=None: what that is drawn in; None: map, odom or world, whichever there is first
             robot=None: not needed here, since the recording knows its robot
+            names=None: of runs side by side; of no use for one
         """
         return show("replay_3d", self, **options)
 
