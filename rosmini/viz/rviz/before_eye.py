@@ -25,9 +25,9 @@ def seen(primitive: Primitive, look: Perspective) -> Primitive:
         colours = primitive.colours if primitive.colours.ndim == 1 else primitive.colours[ahead]
         return replace(primitive, points=primitive.points[ahead], colours=colours)
     if isinstance(primitive, Mesh):
-        ahead = (_away(primitive.placed, look) > NEAR)[primitive.faces].all(axis=1)
-        colours = primitive.colours if primitive.colours.ndim == 1 else primitive.colours[ahead]
-        return replace(primitive, faces=primitive.faces[ahead], colours=colours)
+        faced = (_away(primitive.placed, look) > NEAR)[primitive.faces].all(axis=1)
+        colours = primitive.colours if primitive.colours.ndim == 1 else primitive.colours[faced]
+        return replace(primitive, faces=primitive.faces[faced], colours=colours)
     if isinstance(primitive, Lines):
         return _cut(primitive, look)
     return primitive

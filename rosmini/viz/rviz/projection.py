@@ -98,7 +98,8 @@ class Projection:
     def towards(self, points: Floats) -> Floats:
         """The same direction (3,) everywhere."""
         del points
-        return self.axes[2]
+        towards: Floats = self.axes[2]
+        return towards
 
     def metres(self, x: float, y: float) -> tuple[float, float, float]:
         """The point of the ground z = 0 that is seen at a pixel. Only where the view is not level."""
