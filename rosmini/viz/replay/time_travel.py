@@ -23,10 +23,10 @@ from rosmini.bag import Recorder as BagRecorder
 from rosmini.dynamic_reconfigure.client import Client
 from rosmini.errors import RosminiError
 from rosmini.graph import Graph
+from rosmini.graph.show import GROUP, find_extension
 from rosmini.launch import roslaunch
 from rosmini.sim.recorder import Recorder
 from rosmini.sim.recording import Recording, RecordingError
-from rosmini.viz.meshcat import replay_3d
 from rosmini.viz.replay.player import ReplayView, replay
 from rosmini.viz.rounding import fixed
 from rosmini.viz.view import View
@@ -103,7 +103,8 @@ class Fork:
 
     def replay3d(self, **options: Any) -> View:
         """Return the same in three dimensions; the options are those of `replay_3d`."""
-        return replay_3d(*self._runs(), names=self._names, **options)
+        view: View = find_extension(GROUP, "replay_3d")(*self._runs(), names=self._names, **options)
+        return view
 
     @property
     def _names(self) -> tuple[str, str]:

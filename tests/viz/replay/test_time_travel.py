@@ -67,6 +67,7 @@ def test_both_are_shown_side_by_side_and_can_be_saved(fork, tmp_path):
     view = fork.replay(title="Straight on, or left")
     titles = [run["title"] for run in view.data["runs"]]
     assert titles == ["as it was", "from 2.0 s: /driver/turn = 0.8"]
+    assert [run["title"] for run in fork.replay3d().data["runs"]] == titles
     with Bag(fork.after.save(tmp_path / "after.bag")) as bag:
         assert sum(1 for _ in bag) == len(fork.after.messages)
 
