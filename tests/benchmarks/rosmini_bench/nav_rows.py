@@ -152,7 +152,7 @@ Length is what was driven, over the shortest path that keeps 0.15 m from everyth
 took, over that path at full speed with its turns. Both are medians and 95th percentiles of the goals that were
 reached. What was asked for is 98 % reached (97 % with amcl) and no contact; a length of 1.15 in the median and 1.4 at
 the 95th percentile; a time of 1.4 in the median. Look at the lower ends of the intervals before you say that a row
-shows it: 200 goals a world were meant, and these are fewer.
+shows it: careful burgers were sent to 200 goals a world, the others to far fewer.
 
 Rows called *careful* were driven with `careful:=true`, which loads `param/careful.yaml` over these files. A row is of
 one commit: what was mended between two is told at the end of this page. The tables were generated from the rows in
@@ -214,7 +214,10 @@ Failing drives were looked at one by one: costmaps, plan, and what each critic r
   133, 139, 165: the copy room), for two reasons. A door that opened onto a robot shut again at once, and both waited
   for good: since 8961c56 it stands ajar for as long as it would have stood open. And recoveries rotated for 11 s, in
   which nothing is planned, while the door stood open for 10: *careful* rotates once now, and plans for 10 s between
-  two.
+  two. One of 200 still fails (74): the robot stands so close to the hinge's side that the door stops at 38 degrees, and
+  what is left of the opening is too narrow for a plan.
+- **Standing still.** In the maze two of 200 count as oscillating, one of them (95) 24 cm from anything, with a free
+  plan before it. Why was not found.
 - **Cells.** In a costmap of 5 cm an outline is up to 5 cm too wide. Close to a thing, noise of the laser puts a marked
   cell under it, and every way on is refused, also the way out. Goals 5 and 14 between cylinders failed so. Since
   8961c56 *careful* has cells of 2.5 cm around the robot: both were reached, and one of two at 1.6 widths, at no cost in
