@@ -219,14 +219,10 @@ class _Echo:
         if not self._given.plot:
             self.call.say(f"{self._clear}{self._text(value)}\n---")
             return
-        from rosmini.introspection.fields import cells, columns
-        from rosmini.msgs.message import Message
+        from rosmini.introspection.fields import cells, title_line
 
         if self.count == 1:
-            titles = columns(value, "field", self._choose)
-            # A message without columns leaves the comma, an empty array does not: as the real tool has it.
-            comma = "," if titles or isinstance(value, Message) else ""
-            self.call.say(f"%time{comma}{','.join(titles)}")
+            self.call.say(title_line(value, self._choose))
         if when is None:
             when = value.header.stamp if getattr(type(value), "_has_header", False) else self._now()
         offset = self._now().to_nsec() if self._given.offset else 0

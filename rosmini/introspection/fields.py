@@ -179,6 +179,14 @@ def columns(value: Any, name: str, choose: Choose) -> list[str]:
     return [column for part, title in parts for column in columns(part, title, choose)]
 
 
+def title_line(value: Any, choose: Choose) -> str:
+    """Return the first line of ``rostopic echo -p``: the titles of the time and of the columns of a value."""
+    titles = columns(value, "field", choose)
+    # A message without columns leaves the comma, an empty array does not: as the real tool has it.
+    comma = "," if titles or isinstance(value, Message) else ""
+    return f"%time{comma}{','.join(titles)}"
+
+
 def cells(value: Any, choose: Choose) -> list[str]:
     """Return what stands in the columns of a value."""
     if isinstance(value, Message):

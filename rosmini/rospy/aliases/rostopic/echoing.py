@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from rosmini.introspection.fields import cells, chosen, columns
-from rosmini.msgs.message import Message
+from rosmini.introspection.fields import cells, chosen, title_line
 from rosmini.msgs.text import strify_message
 from rosmini.rospy.rostime import get_rostime
 
@@ -86,6 +85,4 @@ class CallbackEcho:
         if not self.first:
             return line
         self.first = False
-        titles = columns(value, "field", self.field_filter)
-        comma = "," if titles or isinstance(value, Message) else ""
-        return f"%time{comma}{','.join(titles)}\n{line}"
+        return f"{title_line(value, self.field_filter)}\n{line}"
