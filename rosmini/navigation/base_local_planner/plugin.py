@@ -75,6 +75,7 @@ class TrajectoryPlannerSettings(TrajectoryPlannerParameters):
     odom_topic: str = parameter("odom", "the topic of the odometry")
     backup_vel: float | None = parameter(None, "the former name of escape_vel", unit="m/s")
 
+    tolerant = True
     allowed = (*RENAMED, *MISSPELT, *OTHERS, "point_grid")
 
 

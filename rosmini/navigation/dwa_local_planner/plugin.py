@@ -65,6 +65,7 @@ class DWAPlannerSettings(DWAPlannerParameters):
     )
     global_frame_id: str = parameter("odom", "not used: clouds are in the costmap's frame")
 
+    tolerant = True
     allowed = (
         *RENAMED,
         *FORMER,
