@@ -31,6 +31,8 @@ class Stage:
         self.goals = []
         self.sight = 0.5
         self.answer = "set_succeeded"
+        self.refused = lambda *_: False
+        """Which goals (x, y) are aborted whatever the answer is."""
         self.base = SimpleActionServer(
             node,
             "move_base",
@@ -62,10 +64,11 @@ class Stage:
             self.base.set_preempted()
             return
         self.node.sleep(1.0)
-        if self.answer == "set_succeeded":
+        answer = "set_aborted" if self.refused(p.x, p.y) else self.answer
+        if answer == "set_succeeded":
             self.pose = (p.x, p.y, 0.0)
             self.arrived(p.x, p.y)
-        getattr(self.base, self.answer)()
+        getattr(self.base, answer)()
 
     def arrived(self, x, y):
         """Learn what is within sight."""

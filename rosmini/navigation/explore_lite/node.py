@@ -1,7 +1,8 @@
 """`explore_lite/explore`: drives to the cheapest frontier until none is left, or all were given up.
 
 It takes a map and its updates, sends goals to `move_base`, and shows frontiers on `~frontiers`: blue, or red if given
-up, with a green ball whose size falls with the cost. False on `~resume` stops it, True lets it go on; with
+up, with a green ball whose size falls with the cost. One that was given up is tried once more when no other is left,
+which it is not in the original. False on `~resume` stops it, True lets it go on; with
 `return_to_init` it drives back in the end. These two are of the version for ROS 2.
 """
 
@@ -13,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.actionlib import SimpleActionClient, Status
 from rosmini.msgs import message_class
-from rosmini.navigation.frontier_exploration import Blacklist, Frontier, find_frontiers
+from rosmini.navigation.frontier_exploration import Blacklist, Frontier, find_frontiers, places
 from rosmini.navigation.nav_core import TransformMissing, pose_stamped
 
 from .costs import Weights, ranked
@@ -87,6 +88,10 @@ class Explore:
             self._give_up(frontier.centroid, f"no progress for {self.parameters.progress_timeout:g} s")
         what = "All frontiers traversed/tried out" if self.frontiers else "No frontiers found"
         self.node.loginfo(f"{what}, stopping.")
+        if self.frontiers:
+            self.node.logwarn(
+                f"{len(self.frontiers)} frontiers were given up, at {places(one.centroid for _, one in self.frontiers)}"
+            )
         self._stop(is_finished=True)
 
     def _look(self) -> bool:
@@ -104,15 +109,15 @@ class Explore:
         return True
 
     def _cheapest(self) -> Frontier | None:
-        """Of those that were not given up."""
+        """Of those that were given up the least often, unless all were for good."""
         resolution = self.map.grid.resolution
-        return next(
-            (one for _, one in self.frontiers if not self.blacklist.has(one.centroid, resolution)), None
-        )
+        left = [one for _, one in self.frontiers if not self.blacklist.has(one.centroid, resolution)]
+        return min(left, key=lambda one: self.blacklist.count(one.centroid, resolution), default=None)
 
     def _give_up(self, point: tuple[float, float], why: str) -> None:
         self.node.logdebug(f"Adding ({point[0]:.2f}, {point[1]:.2f}) to black list: {why}")
         self.blacklist.points.append(point)
+        self.goal, self._distance = None, math.inf
 
     def _send(self, point: tuple[float, float]) -> None:
         self.sent += 1

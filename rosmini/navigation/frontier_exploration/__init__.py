@@ -7,6 +7,6 @@ Yamauchi, A frontier-based approach for autonomous exploration (CIRA 1997). `sea
 
 from __future__ import annotations
 
-from .search import Blacklist, Frontier, find_frontiers, frontier_cells
+from .search import Blacklist, Frontier, find_frontiers, frontier_cells, places
 
-__all__ = ["Blacklist", "Frontier", "find_frontiers", "frontier_cells"]
+__all__ = ["Blacklist", "Frontier", "find_frontiers", "frontier_cells", "places"]

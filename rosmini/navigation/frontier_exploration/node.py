@@ -3,14 +3,16 @@
 It offers the action that is called as the node (`frontier_exploration/ExploreTask`), has a costmap of its own,
 `~explore_costmap`, with a `BoundedExploreLayer` called `explore_boundary`, and sends goals to `move_base`.
 
-From the original differ: a goal that move_base gives up is left out from then on, and the exploration goes on, where
-there it ends with the first of them; before it asks again whether a frontier is left it waits for an update of the
-costmap; the five attempts are each goal's own; and a robot whose pose is not known ends the task.
+From the original differ: there the exploration ends with the first goal that move_base gives up ("Failed to move").
+Here such a goal is tried once more when no other is left, and is then left out. The end tells what was given up, and is
+a failure if the robot has got nowhere since several goals. Before it asks again whether a frontier is left, it waits
+for an update of the costmap; the five attempts are each goal's own; and a robot whose pose is not known ends the task.
 """
 
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -36,6 +38,10 @@ PAUSE = 0.2
 """Between two attempts [s]."""
 PATIENCE = 5.0
 """After so long without move_base it is said what is missing [s]."""
+STUCK = 3
+"""If so many goals, one after another, were given up"""
+NEAR = 0.3
+"""within so many metres, the robot does not get away."""
 LOST = 30.0
 """A robot whose pose has not been known for so long ends the task [s]."""
 
@@ -53,6 +59,8 @@ class ExploreServer:
         """How many goals it has sent."""
         self._moving = self._found = False
         self._last = (math.inf, math.inf)
+        self._ends: list[tuple[float, float]] = []
+        """Where the robot was when goals were given up, since one was last reached [m]."""
         self._feedback = message_class("frontier_exploration/ExploreTaskFeedback")()
         services = "~explore_costmap/explore_boundary/"
         self._set_boundary, self._next_frontier = (
@@ -81,6 +89,7 @@ class ExploreServer:
     def _execute(self, task: Any) -> None:
         """Explore an area until no frontier is left."""
         self._found = self._moving = False
+        self._ends.clear()
         self.costmap.reset_layers()
         try:
             self._wait_for_others()
@@ -189,26 +198,40 @@ class ExploreServer:
     def _done(self, state: int, _: Any) -> None:
         if state == Status.SUCCEEDED:
             self._moving = False
+            self._ends.clear()
         elif state == Status.ABORTED and self.action.is_active():
             self._moving = False
+            with suppress(TransformMissing, TransformException):
+                self._ends.append(planar_pose(self.costmap.robot_pose())[:2])
             x, y = self._last
             self.node.logwarn(
                 f"Failed to move to ({x:.2f}, {y:.2f}): {self.move_base.get_goal_status_text()}"
             )
-            for layer in self.costmap.layers:
-                if isinstance(layer, BoundedExploreLayer):
-                    layer.given_up.points.append(self._last)
+            for layer in self._boundaries():
+                layer.given_up.points.append(self._last)
 
     # -- the end -------------------------------------------------------------------------------------------------
 
     def _finish(self, why: str) -> None:
-        """There is no frontier: that is the end, or a failure if there has never been one."""
+        """There is no frontier that was not given up: the end, or a failure if there was none or the robot is stuck."""
         if not self._found:
             self._fail(f"Failed exploration: {why}")
             return
-        self.node.logwarn("Finished exploring room")
-        self.action.set_succeeded()
+        given_up = "".join(layer.said_of_given_up for layer in self._boundaries())
+        last = self._ends[-STUCK:]
+        if given_up and len(last) == STUCK and all(math.dist(one, last[-1]) < NEAR for one in last):
+            (x, y), text = last[-1], self.move_base.get_goal_status_text()
+            self._fail(
+                f"Failed exploration: the robot does not get away from ({x:.2f}, {y:.2f}){given_up}. Last: {text}"
+            )
+            return
+        text = f"Finished exploring room{given_up}"
+        self.node.logwarn(text)
+        self.action.set_succeeded(None, text)
         self._cancel()
+
+    def _boundaries(self) -> list[BoundedExploreLayer]:
+        return [layer for layer in self.costmap.layers if isinstance(layer, BoundedExploreLayer)]
 
     def _fail(self, text: str) -> None:
         self.node.logerr(text)

@@ -29,7 +29,7 @@ from rosmini.time import Time
 
 from .parameters import CENTROID, CLOSEST, BoundedExploreParameters
 from .polygon import fault
-from .search import Blacklist, Frontier, find_frontiers
+from .search import TRIES, Blacklist, Frontier, find_frontiers, places
 
 PATIENCE = 10.0
 """So long it is waited for a transform, and for the boundary to be drawn [s]."""
@@ -184,18 +184,24 @@ class BoundedExploreLayer(CostmapLayer, plugin="frontier_exploration::BoundedExp
         # A single cell is noise of the map.
         self.frontiers = [one for one in self.frontiers if one.size > 1]
         resolution = self.layered.grid.resolution
-        left = [one for one in self.frontiers if not self.given_up.has(self._travel_point(one), resolution)]
-        if not left:
-            count = len(self.frontiers)
-            raise ServiceRefused(
-                "No valid frontiers found, exploration complete"
-                + (f"; {count} were given up" if count else "")
-            )
-        chosen = min(left, key=lambda one: one.min_distance)
+        left = [
+            (self.given_up.count(self._travel_point(one), resolution), one.min_distance, one)
+            for one in self.frontiers
+        ]
+        tries, _, chosen = min(left, key=lambda each: each[:2], default=(TRIES, 0.0, None))
+        if chosen is None or tries >= TRIES:
+            raise ServiceRefused("No valid frontiers found, exploration complete" + self.said_of_given_up)
         self._publish(chosen)
         px, py = self._travel_point(chosen)
         yaw = math.atan2(py - y, px - x)
         return {"next_frontier": pose_stamped(self.layered.global_frame, self.node.now(), (px, py, yaw))}
+
+    @property
+    def said_of_given_up(self) -> str:
+        """Where frontiers of the last time are that were given up, to be put behind a sentence."""
+        if not self.frontiers:
+            return ""
+        return f"; {len(self.frontiers)} were given up, at {places(map(self._travel_point, self.frontiers))}"
 
     def _wait_until_drawn(self) -> None:
         for _ in range(round(PATIENCE / LOOK)):

@@ -13,7 +13,7 @@ the robot that is sent there gets stuck.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -27,6 +27,10 @@ Point = tuple[float, float]
 
 TOLERANCE = 5
 """Goals nearer than so many cells, along both axes, to one that was given up count as given up, as in explore_lite."""
+TRIES = 2
+"""A goal that was given up so often is given up for good. What was in the way may be gone: a person, or a shut door."""
+SOME = 5
+"""So many places are told."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +79,17 @@ def find_frontiers(grid: Costmap2D, x: float, y: float) -> list[Frontier]:
     nearest = np.lexsort(((off * off).sum(axis=1), np.abs(off).max(axis=1)))[0]
     here = grid.map_to_world(*cell)
     return [_measured(grid, cells, here) for cells in _groups(grid.costs, free[nearest])]
+
+
+def places(points: Iterable[Point]) -> str:
+    """Points [m] as text, `SOME` at most.
+
+    >>> places([(1.0, 2.0), (0.5, 0.25)])
+    '(1.00, 2.00), (0.50, 0.25)'
+    """
+    texts = [f"({x:.2f}, {y:.2f})" for x, y in points]
+    more = [f"and {len(texts) - SOME} more"] if len(texts) > SOME else []
+    return ", ".join(texts[:SOME] + more)
 
 
 def _measured(grid: Costmap2D, cells: Ints, here: Point) -> Frontier:
@@ -130,11 +145,15 @@ def _met(padded: NDArray[np.uint8], start: int) -> list[int]:
 
 @dataclass
 class Blacklist:
-    """Goals that were given up [m]."""
+    """Goals that were given up [m], one as often as that happened."""
 
     points: list[Point] = field(default_factory=list)
 
-    def has(self, point: Point, resolution: float) -> bool:
-        """Whether a point is next to one of them."""
+    def count(self, point: Point, resolution: float) -> int:
+        """How often a goal next to this point was given up."""
         reach = TOLERANCE * resolution
-        return any(abs(point[0] - x) < reach and abs(point[1] - y) < reach for x, y in self.points)
+        return sum(abs(point[0] - x) < reach and abs(point[1] - y) < reach for x, y in self.points)
+
+    def has(self, point: Point, resolution: float) -> bool:
+        """Whether a point was given up for good."""
+        return self.count(point, resolution) >= TRIES

@@ -89,16 +89,44 @@ def test_an_area_without_frontiers(stage):
     assert "No valid frontiers found" in text
 
 
-def test_what_the_base_gives_up_is_left_out(stage):
+def test_what_the_base_gives_up_is_tried_again_and_then_left_out(stage):
     stage.know(0.5, 0.0, 1.6, 3.0)
     stage.answer = "set_aborted"
     exploration = Exploration(stage, frequency=0.0)
-    assert exploration.explore() is Status.SUCCEEDED
-    assert len(stage.goals) == 2, "the left one and the right one, each once"
+    assert exploration.explore() is Status.ABORTED
+    left, right = dict.fromkeys(stage.goals)
+    assert stage.goals == [left, right, left, right]
+    text = exploration.client.get_goal_status_text()
+    assert text.startswith(
+        "Failed exploration: the robot does not get away from (1.05, 1.05); 2 were given up, at ("
+    )
     assert stage.said("Failed to move to (")
+    assert not stage.said("Finished exploring room"), "a robot that got nowhere has not finished"
     stage.answer = "set_succeeded"
     assert exploration.explore() is Status.SUCCEEDED
-    assert len(stage.goals) > 2, "a new area begins afresh"
+    assert len(stage.goals) > 4, "a new area begins afresh"
+
+
+def test_a_door_that_was_shut_is_tried_again(stage):
+    stage.know(0.5, 0.0, 1.6, 3.0)
+    stage.answer = "set_aborted"
+    exploration = Exploration(stage, frequency=0.0)
+    exploration.send()
+    while len(stage.goals) < 2:
+        exploration.graph.run(0.5)
+    stage.answer = "set_succeeded"
+    assert exploration.explore() is Status.SUCCEEDED
+    assert exploration.client.get_goal_status_text() == "Finished exploring room"
+
+
+def test_the_end_tells_what_was_given_up(stage):
+    stage.know(0.5, 0.0, 1.6, 3.0)
+    stage.refused = lambda x, _: x < 0.5
+    exploration = Exploration(stage, frequency=0.0)
+    assert exploration.explore() is Status.SUCCEEDED
+    text = exploration.client.get_goal_status_text()
+    assert text.startswith("Finished exploring room; 1 were given up, at (0.45, ")
+    assert stage.said(text)
 
 
 @pytest.mark.parametrize(
