@@ -23,10 +23,12 @@ __all__ = [
     "DuplicateNode",
     "GraphEnded",
     "IllegalName",
+    "InvalidRate",
     "MasterUnreachable",
     "MessageException",
     "ParameterError",
     "ParameterNotSet",
+    "ParameterTypeError",
     "ROSException",
     "ROSInitException",
     "ROSInternalException",
@@ -137,6 +139,10 @@ class IllegalName(RosminiError, ValueError):
     """A graph or package resource name breaks the rules of http://wiki.ros.org/Names."""
 
 
+class InvalidRate(RosminiError, ZeroDivisionError, ValueError):
+    """A rate is not positive (rospy raises ``ZeroDivisionError`` for 0, ``ValueError`` for NaN, and takes the rest)."""
+
+
 class UnknownPackage(RosminiError):
     """No ROS package of this name is on the package path."""
 
@@ -173,6 +179,10 @@ class TypeMismatch(RosminiError):
 
 class ParameterError(RosminiError):
     """A parameter has a value of the wrong type, out of range, or one that ROS cannot hold."""
+
+
+class ParameterTypeError(ParameterError, TypeError):
+    """A parameter was to be set to a kind of value that ROS cannot hold (rospy raises ``TypeError``)."""
 
 
 class ParameterNotSet(ParameterError, KeyError):

@@ -36,6 +36,8 @@ def test_every_error_is_a_rosmini_error() -> None:
         (errors.DeserializationError, errors.MessageException),
         (errors.IllegalName, ValueError),
         (errors.ParameterNotSet, KeyError),
+        (errors.ParameterTypeError, errors.ParameterError),
+        (errors.InvalidRate, ZeroDivisionError),
     ],
 )
 def test_scripts_can_catch_errors_by_the_names_they_know(error: type, caught_as: type) -> None:

@@ -10,7 +10,7 @@ import heapq
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rosmini.errors import RosminiError, ROSTimeMovedBackwardsException
+from rosmini.errors import InvalidRate, RosminiError, ROSTimeMovedBackwardsException
 from rosmini.time import Duration, Time
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ class Rate:
     def __init__(self, node: NodePort, hz: float, *, reset: bool = False) -> None:
         if not hz > 0:
             msg = f"a rate must be a positive number of turns a second, not {hz!r}"
-            raise RosminiError(msg)
+            raise InvalidRate(msg)
         self._node = node
         self._reset = reset
         self._last = node.clock.now_ns()

@@ -7,7 +7,7 @@ from datetime import datetime
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ParameterError, ParameterNotSet, ROSException, nearest
+from rosmini.errors import ParameterError, ParameterNotSet, ParameterTypeError, ROSException, nearest
 from rosmini.names import canonicalize, resolve
 
 from .blocking_api import BlockingApi
@@ -56,7 +56,7 @@ def check_value(name: str, value: Any) -> Any:
                     f"parameter {name}: the key {key!r} is a {type(key).__name__}; "
                     "keys of a parameter tree are strings"
                 )
-                raise ParameterError(msg)
+                raise ParameterTypeError(msg)
         return {key: check_value(f"{name.rstrip('/')}/{key}", item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
         return [check_value(f"{name}[{index}]", item) for index, item in enumerate(value)]
@@ -64,7 +64,7 @@ def check_value(name: str, value: Any) -> Any:
         f"parameter {name}: a {type(value).__name__} cannot be stored ({value!r}). "
         "Parameters are bool, int, float, str, bytes, datetime, lists of these, and dictionaries with string keys."
     )
-    raise ParameterError(msg)
+    raise ParameterTypeError(msg)
 
 
 def expected(name: str, value: Any, kinds: tuple[type, ...], wanted: str = "") -> Any:

@@ -51,6 +51,16 @@ def test_simulated_time_is_exact(sim_programs):
     assert sim_programs(main) == ([1000.25, 1000.5, 1000.75], 0.25)
 
 
+@pytest.mark.parametrize(("rate", "caught"), [(0, ZeroDivisionError), (float("nan"), ValueError)])
+def test_a_rate_that_is_none_raises_what_rospy_raises(sim_programs, rate, caught):
+    def main():
+        rospy.init_node("main")
+        with pytest.raises(caught, match="a rate must be a positive number of turns a second, not"):
+            rospy.Rate(rate)
+
+    sim_programs(main)
+
+
 def test_a_loop_that_polls_the_time_ends(programs):
     def main():
         rospy.init_node("main")
