@@ -55,6 +55,7 @@ class Publication:
         self.send_frozen: Callable[[Any], None] = self._send_frozen
         """Sends a frozen message that nobody else holds, with the next number in its header. In the hub's thread."""
         self._latched: Any = None
+        self._later: Callable[[], Any] | None = None
         self.warns_unheard = True
         self.how_to_wait = "call wait_for_subscribers() first"
         """Whether it warns when it publishes and nobody is connected; it does so once."""
@@ -144,6 +145,21 @@ class Publication:
             self._set_number(frozen.header, self._next_number())
         self._hand_out(frozen)
 
+    def send_late(self, make: Callable[[], Any]) -> None:
+        """Send the message that ``make`` returns; if only a late subscriber can get it, make it when one comes."""
+        if self._list or not self._latch or self._scheduler.history is not None:
+            self.send(make())
+        else:
+            self._latched, self._later = None, make
+
+    def _latch_now(self) -> None:
+        """Make the message that waits for a subscriber, as if it had been sent when it was to be."""
+        if self._later is not None:
+            message, self._later = self._later(), None
+            if self._stamp:
+                self._number(message)
+            self._latched = self._freeze(message)
+
     def relay(self, message: Any) -> None:
         """Send what another node published first: its header keeps its number, and nobody need listen."""
         frozen = self._freeze(message)
@@ -163,7 +179,7 @@ class Publication:
         if self._scheduler.history is not None:
             self._scheduler.history.published(self.node.name, self.topic, frozen)
         if self._latch:
-            self._latched = self._copy(frozen)
+            self._latched, self._later = self._copy(frozen), None
         senders = self._near
         if not self._list:
             if warn and self.warns_unheard and not self.latch:
@@ -246,6 +262,7 @@ class Publication:
 
     def add(self, sender: Sender) -> None:
         """Add a connection and send it what is latched."""
+        self._latch_now()
         number = self.node.next_connection_id()
         self.senders[number] = sender
         sender.on_closed = lambda: self.remove(number)
@@ -325,6 +342,17 @@ class Publisher(TopicHandle):
             publication.send(message)
         else:
             publication.send(self._build(() if message is _NOTHING else (message, *args), fields))
+
+    def publish_late(self, make: Callable[[], Any]) -> None:
+        """Publish the message that ``make()`` returns; if only a late subscriber can get it, make it when one comes.
+
+        For large or frequent messages of a latching publisher that mostly nobody hears. What ``make`` uses must not
+        change afterwards. In the hub's thread. Raises as :meth:`publish`.
+        """
+        publication = self._publication
+        if publication is None:
+            raise ROSException(self._closed_message())
+        publication.send_late(make)
 
     def expect_nobody(self) -> None:
         """Do not warn of messages that are published while nobody is connected."""

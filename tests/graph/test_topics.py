@@ -234,6 +234,50 @@ def test_what_a_subscriber_does_to_its_message_other_nodes_do_not_see(
         )
 
 
+@pytest.mark.parametrize("late", [True, False])
+def test_what_is_published_late_is_made_when_somebody_comes_and_is_the_same(
+    graph: Graph, late: bool, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Against a publisher that makes everything at once: the same messages, to whoever is there and who comes."""
+    made: list[str] = []
+    heard: dict[str, list[Any]] = {"first": [], "second": []}
+    publisher = graph.node("talker").publisher("places", PointStamped, latch=True)
+
+    def publish(name: str) -> None:
+        def make() -> Any:
+            made.append(name)
+            message = PointStamped()
+            message.header.frame_id = name
+            return message
+
+        publisher.publish_late(make) if late else publisher.publish(make())
+
+    publish("a")
+    publish("b")
+    assert made == ([] if late else ["a", "b"])
+    graph.node("early").subscriber("places", PointStamped, heard["first"].append)
+    until(graph, lambda: heard["first"])
+    publish("c")
+    publish("d")
+    until(graph, lambda: len(heard["first"]) == 3)
+    graph.node("next").subscriber("places", PointStamped, heard["second"].append)
+    until(graph, lambda: heard["second"])
+    seen = {name: [(one.header.frame_id, one.header.seq) for one in some] for name, some in heard.items()}
+    assert seen == {"first": [("b", 1), ("c", 2), ("d", 3)], "second": [("d", 4)]}
+    assert made == (["b", "c", "d"] if late else ["a", "b", "c", "d"])
+    assert "nobody was connected" not in capfd.readouterr().err
+
+
+def test_a_later_message_replaces_one_that_was_not_made_yet(graph: Graph) -> None:
+    publisher = graph.node("talker").publisher("chatter", String, latch=True)
+    publisher.publish_late(lambda: String("old"))
+    publisher.publish("new")
+    heard: list[str] = []
+    graph.node("listener").subscriber("chatter", String, lambda message: heard.append(message.data))
+    until(graph, lambda: heard)
+    assert heard == ["new"]
+
+
 @pytest.mark.parametrize("arrays_first", [True, False])
 def test_the_first_subscriber_of_a_node_decides_what_all_of_them_get(
     graph: Graph, arrays_first: bool, capfd: pytest.CaptureFixture[str]

@@ -391,13 +391,8 @@ class Amcl:
         self._pose.publish(message)
 
     def _publish_cloud(self, stamp: Time) -> None:
-        message = message_class("geometry_msgs/PoseArray")()
-        message.header.frame_id, message.header.stamp = self.parameters.global_frame_id, stamp
-        pose = message_class("geometry_msgs/Pose")
-        for x, y, yaw in self.localizer.filter.particles.tolist():
-            message.poses.append(pose())
-            set_pose(message.poses[-1], from_yaw(x, y, yaw))
-        self._cloud.publish(message)
+        particles, frame = self.localizer.filter.particles.copy(), self.parameters.global_frame_id
+        self._cloud.publish_late(lambda: cloud(particles, frame, stamp))
 
     def _broadcast(self, stamp: Time) -> None:
         p = self.parameters
@@ -428,6 +423,17 @@ class Amcl:
         }
         for name, value in values.items():
             self.node.set_param(f"~initial_{name}", float(value))
+
+
+def cloud(particles: NDArray[np.float64], frame: str, stamp: Time) -> Any:
+    """Particles (n, 3) as a `geometry_msgs/PoseArray`."""
+    message = message_class("geometry_msgs/PoseArray")()
+    message.header.frame_id, message.header.stamp = frame, stamp
+    pose = message_class("geometry_msgs/Pose")
+    for x, y, yaw in particles.tolist():
+        message.poses.append(pose())
+        set_pose(message.poses[-1], from_yaw(x, y, yaw))
+    return message
 
 
 def checked_pose(posed: Any) -> tuple[Pose, NDArray[np.float64]]:

@@ -138,10 +138,9 @@ def spread(grid: Costmap2D, targets: Ints, within: Ints | None = None) -> MapGri
     if within is not None and len(within):
         inside[within[:, 1], within[:, 0]] = 1
     queue = np.empty(size, dtype=np.int32)
-    starts = targets[:, 1] * grid.width + targets[:, 0]
-    if len(starts) > 1:
-        starts = np.unique(starts)
+    flat = distances.reshape(-1)
+    flat[targets[:, 1] * grid.width + targets[:, 0]] = 0
+    starts = np.flatnonzero(flat == 0)
     queue[: len(starts)] = starts
-    distances.reshape(-1)[starts] = 0
     kernel(KERNEL)(np.ascontiguousarray(grid.costs), inside, distances, queue, len(starts))
     return MapGrid(distances, targets)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rosmini.geometry.poses import Pose
 from rosmini.navigation.base_local_planner.critics import Oscillation, together, twirling
 from rosmini.navigation.base_local_planner.limits import LocalPlannerLimits
-from rosmini.navigation.base_local_planner.map_grid import MapGrid, goal_grid, plan_cells, spread
+from rosmini.navigation.base_local_planner.map_grid import MapGrid, plan_cells, spread
 from rosmini.navigation.base_local_planner.scored_sampling import Sampling, footprint_scales, roll_out
 from rosmini.navigation.base_local_planner.trajectory import Samples
 from rosmini.navigation.costmap_2d.costmap import Costmap2D
@@ -103,7 +103,11 @@ class DWAPlanner:
         # Near the goal the nose has no business on the plan any more.
         self._nose = x * x + y * y > shift * shift * self.cheat_factor
         cells = plan_cells(grid, plan)
-        self.grids = (spread(grid, cells), spread(grid, cells[-1:]), goal_grid(grid, ahead))
+        end, front = cells[-1:], plan_cells(grid, ahead)[-1:]
+        goal = spread(grid, end)
+        # Where the plan leaves the costmap before its end, both are the same.
+        same = np.array_equal(end, front)
+        self.grids = (spread(grid, cells), goal, goal if same else spread(grid, front))
         return len(cells) > 0
 
     def scales(self, resolution: float) -> Floats:

@@ -97,13 +97,21 @@ class FakeLocalization:
         self._publish(message, base)
 
     def _publish(self, message: Any, base: Rigid) -> None:
-        posed, cloud = self._pose_type(), self._cloud_type()
-        for each in (posed, cloud):
-            each.header.stamp, each.header.frame_id = message.header.stamp, self.map_frame
-        set_pose(posed.pose.pose, base)
-        cloud.poses = [posed.pose.pose]
-        self._pose.publish(posed)
-        self._cloud.publish(cloud)
+        stamp, frame = message.header.stamp, self.map_frame
+
+        def posed() -> Any:
+            found = self._pose_type()
+            found.header.stamp, found.header.frame_id = stamp, frame
+            set_pose(found.pose.pose, base)
+            return found
+
+        def cloud() -> Any:
+            found = self._cloud_type(poses=[posed().pose.pose])
+            found.header.stamp, found.header.frame_id = stamp, frame
+            return found
+
+        self._pose.publish_late(posed)
+        self._cloud.publish_late(cloud)
 
     def _move_map(self, message: Any) -> None:
         frame = message.header.frame_id.lstrip("/")
