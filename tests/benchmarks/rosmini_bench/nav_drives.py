@@ -75,10 +75,16 @@ class _Driver:
     """Drives from one place to the next, and looks at the truth."""
 
     def __init__(
-        self, graph: Graph, world: str, simulator: Simulator, random: np.random.Generator, turn: float
+        self,
+        graph: Graph,
+        world: str,
+        simulator: Simulator,
+        random: np.random.Generator,
+        turn: float,
+        rest: float,
     ) -> None:
         self.terrain, self.places = terrain(world)
-        self.simulator, self.random, self.turn = simulator, random, turn
+        self.simulator, self.random, self.turn, self.rest = simulator, random, turn, rest
         self.node = graph.node("driver")
         self.sender = self.node.publisher("cmd_vel", message_class("geometry_msgs/Twist"), queue_size=1)
         self.path: list[tuple[float, float]] = []
@@ -88,6 +94,8 @@ class _Driver:
     def drive(self, _: Any) -> None:
         x, y, yaw = self.simulator.truth()
         now = self.simulator.now
+        if now < self.rest:
+            return
         turned = abs(math.remainder(yaw - self.there[2], math.tau))
         if math.dist((x, y), self.there[:2]) > 0.05 or turned > 0.1:
             self.since, self.there = now, (x, y, yaw)
@@ -120,10 +128,13 @@ class _Driver:
         ]
 
 
-def drive(world: str, seed: int, seconds: float, *, turn: float = TURN, sweep: bool = True) -> Drive:
+def drive(
+    world: str, seed: int, seconds: float, *, turn: float = TURN, sweep: bool = True, rest: float = 0.0
+) -> Drive:
     """Drive a burger around in a world from a start at random; a seed gives the same drive again.
 
-    `turn` is the fastest turn [rad/s]; without `sweep` a scan's beams are measured all at once.
+    `turn` is the fastest turn [rad/s]; without `sweep` a scan's beams are measured all at once. The robot stands still
+    for `rest` seconds before it drives off.
     """
     random = np.random.default_rng([seed, 36])
     _, places = terrain(world)
@@ -147,7 +158,7 @@ def drive(world: str, seed: int, seconds: float, *, turn: float = TURN, sweep: b
         odometry_type = message_class("nav_msgs/Odometry")
         ears.subscriber("odom", odometry_type, note(odometry))
         ears.subscriber("base_pose_ground_truth", odometry_type, note(truth))
-        _Driver(graph, world, simulator, random, turn)
+        _Driver(graph, world, simulator, random, turn, rest)
         graph.run(seconds)
     assert BURGER.lidar is not None
     stamps = np.array([scan.header.stamp.to_sec() for scan in scans])

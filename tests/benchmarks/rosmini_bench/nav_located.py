@@ -122,11 +122,17 @@ def gmapped(what: str, seed: int) -> Values:
 
 
 def hectored(what: str, seed: int) -> Values:
-    """How far hector_mapping is off; `what` is `log_house` or how fast the robot turns, and `sweep` or `no sweep`."""
+    """How far hector_mapping is off; `what` is `log_house` or how fast the robot turns, and `sweep` or `no sweep`.
+
+    With `off at once` the robot does not stand for a second before it drives off.
+    """
     one = nav_hector.house()
     if what != "log_house":
         speed, _, kind = what.partition(" rad/s, ")
-        one = drive("house", seed, 120.0, turn=float(speed), sweep=kind == "sweep")
+        laser, _, start = kind.partition(", ")
+        one = drive(
+            "house", seed, 120.0, turn=float(speed), sweep=laser == "sweep", rest=0.0 if start else 1.0
+        )
     if one is None:
         raise SystemExit(f"log_house is not there: shared data are looked for in {nav_hector.DATA}")
     alone, helped = nav_hector.hector(one), nav_hector.hector(one, odometry=True)
