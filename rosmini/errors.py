@@ -28,6 +28,7 @@ __all__ = [
     "MessageException",
     "ParameterError",
     "ParameterNotSet",
+    "ParameterOverflow",
     "ParameterTypeError",
     "ROSException",
     "ROSInitException",
@@ -179,6 +180,10 @@ class TypeMismatch(RosminiError):
 
 class ParameterError(RosminiError):
     """A parameter has a value of the wrong type, out of range, or one that ROS cannot hold."""
+
+
+class ParameterOverflow(ParameterError, OverflowError):
+    """A parameter was to be set to an integer of more than 32 bits (rospy raises ``OverflowError``)."""
 
 
 class ParameterTypeError(ParameterError, TypeError):

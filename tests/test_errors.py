@@ -37,6 +37,7 @@ def test_every_error_is_a_rosmini_error() -> None:
         (errors.IllegalName, ValueError),
         (errors.ParameterNotSet, KeyError),
         (errors.ParameterTypeError, errors.ParameterError),
+        (errors.ParameterOverflow, errors.ParameterError),
         (errors.InvalidRate, ZeroDivisionError),
     ],
 )

@@ -7,7 +7,14 @@ from datetime import datetime
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from rosmini.errors import ParameterError, ParameterNotSet, ParameterTypeError, ROSException, nearest
+from rosmini.errors import (
+    ParameterError,
+    ParameterNotSet,
+    ParameterOverflow,
+    ParameterTypeError,
+    ROSException,
+    nearest,
+)
 from rosmini.names import canonicalize, resolve
 
 from .blocking_api import BlockingApi
@@ -47,7 +54,7 @@ def check_value(name: str, value: Any) -> Any:
                 f"parameter {name}: {value} does not fit into the 32 bits of a ROS parameter; "
                 "store it as a float or a string"
             )
-            raise ParameterError(msg)
+            raise ParameterOverflow(msg)
         return int(value)
     if isinstance(value, dict):
         for key in value:
