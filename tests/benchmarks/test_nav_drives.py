@@ -27,7 +27,7 @@ def test_a_driver_who_meets_something_backs_off():
         for name, value in (("x", 5.0), ("y", 3.0), ("yaw", 0.0)):
             node.set_param(f"~{name}", value)
         simulator = Simulator(node, world=world("house"), model=BURGER)
-        driver = nav_drives._Driver(graph, "house", simulator, np.random.default_rng(1), 1.0)
+        driver = nav_drives._Driver(graph, "house", simulator, np.random.default_rng(1), 1.0, rest=0.0)
         walls = np.argwhere(driver.terrain.grid.occupied)
         here = np.array(driver.terrain.cell(5.0, 3.0))
         ahead = walls[np.argmin(np.abs(walls - here).sum(axis=1))]
