@@ -166,23 +166,26 @@ def errands(
     seed: int,
     taken: Bools | None = None,
     *,
+    disc: float = DISC,
     narrow: bool = False,
 ) -> Iterator[Errand]:
-    """`count` errands in the part of a map that a disc reaches from the point `inside` [m], of any headings.
+    """`count` errands in the part of a map that a disc [m] reaches from the point `inside` [m], of any headings.
 
     Nothing begins or ends where the disc would overlap with `taken` cells (h, w), which only who is there sees. With
     `narrow` goals are where it has no room, and one of `NARROW` has.
     Raises `RosminiError` if a thousand draws in sequence find no pair far enough apart.
     """
     terrain = Terrain(grid)
-    room = terrain.within(DISC, terrain.cell(*inside))
+    room = terrain.within(disc, terrain.cell(*inside))
     ends = terrain.within(NARROW, terrain.cell(*inside)) & ~room if narrow else room
     if taken is not None and taken.any():
-        away = (ndimage.distance_transform_edt(~taken) - 0.5) * grid.resolution >= DISC
+        away = (ndimage.distance_transform_edt(~taken) - 0.5) * grid.resolution >= disc
         room, ends = room & away, ends & away
     places, targets = np.argwhere(room), np.argwhere(ends)
     if not len(places):
-        raise RosminiError(f"a disc of {DISC} m has no room at {inside}: name a point farther from the walls")
+        raise RosminiError(
+            f"a disc of {disc:g} m has no room at {inside}: name a point farther from the walls"
+        )
     draw = np.random.default_rng([seed, len(places)])
     number = failed = 0
     while number < count:

@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from rosmini.errors import RosminiError
 from rosmini.graph import Graph
 from rosmini.launch import roslaunch
 from rosmini.msgs import message_class
@@ -31,7 +32,7 @@ from rosmini.sim.worlds import to_map
 from rosmini.sim.worlds import world as world_called
 from rosmini.time import Time
 
-from .nav_goals import Errand, errands, turning, unmapped
+from .nav_goals import DISC, Errand, errands, turning, unmapped
 
 PATIENCE = 6.0
 """A robot that has not arrived after so many times the least time has failed; so has one after `LONGEST`."""
@@ -158,7 +159,9 @@ def drawn(setup: Setup, count: int) -> Iterator[Errand]:
         return across(count, setup.seed)
     grid, _, inside = place(setup.world)
     taken = unmapped(world_called(setup.world))
-    return errands(grid, inside, count, setup.seed, taken, narrow=setup.narrow)
+    # A waffle's corners reach farther than the disc: it would begin inside a wall.
+    disc = max(DISC, model_called(setup.model).reach)
+    return errands(grid, inside, count, setup.seed, taken, disc=disc, narrow=setup.narrow)
 
 
 def width(model: str) -> float:
@@ -260,8 +263,15 @@ def _run(graph: Graph, setup: Setup, errand: Errand, file: Path, *, watched: boo
     )
     launch_file = file.parent / f"{errand.number}.launch"
     launch_file.write_text(text, encoding="utf-8")
-    roslaunch(str(launch_file), graph=graph, console={"stdout": io.StringIO(), "stderr": io.StringIO()})
+    console = {"stdout": io.StringIO(), "stderr": io.StringIO()}
+    roslaunch(str(launch_file), graph=graph, console=console)
     graph.run(0.1)
+    if "/simulator" not in graph.nodes:
+        said = console["stderr"].getvalue() or console["stdout"].getvalue()
+        raise RosminiError(
+            f"the simulator did not start for goal {errand.number} of {setup.words}, with the robot at {errand.start}: "
+            f"{said.strip()[-600:] or 'it said nothing'}"
+        )
     simulator = graph.nodes["/simulator"].program
     for obstacle in () if setup.gap is None else cylinders(setup.gap * width(setup.model)):
         simulator.engine.insert(obstacle)
