@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import yaml
 
 from rosmini.dynamic_reconfigure import Client
 from rosmini.errors import ParameterError
 from rosmini.navigation.nav_core import NoValidCommand
+from rosmini.packages import assets_dir
 from tests.navigation.local_bench import LocalBench
 
 ROBOT = {
@@ -54,6 +56,19 @@ def test_it_drives_along_its_plan_and_publishes_it(made):
     bench.graph.run(0.1)
     assert len(plans[0][0].poses) == len(bench.planner.samples.trajectory(bench.planner.samples.best))
     assert len(plans[1][0].poses) == 20
+
+
+def test_with_the_file_for_a_turtlebot_it_turns_to_a_plan_behind_it_and_never_steps_aside(capsys):
+    """Without it the planner took a TurtleBot3 for one that can step aside: told to, it stood still for good."""
+    path = assets_dir() / "ros/turtlebot3_navigation/param/base_local_planner_params.yaml"
+    parameters = yaml.safe_load(path.read_text(encoding="utf-8"))["TrajectoryPlannerROS"]
+    made = LocalBench("base_local_planner/TrajectoryPlannerROS", parameters)
+    with made.graph:
+        made.plan(*((-0.05 * i, 0.01 * i) for i in range(40)))
+        ahead, turn = made.command()
+        assert abs(turn) >= parameters["min_in_place_vel_theta"] or ahead > 0
+        assert not made.planner.samples.commands[:, 1].any()
+    assert "not read by this planner" not in capsys.readouterr().err
 
 
 def test_at_the_goal_it_brakes_turns_and_has_arrived(made):
