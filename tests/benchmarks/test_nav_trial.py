@@ -26,3 +26,8 @@ def test_a_simulator_that_does_not_start_says_why():
     inside_a_wall = Errand(5, (6.675, 1.775, 2.21), (8.6, 6.1, 0.0), 8.5, math.pi)
     with pytest.raises(RosminiError, match=r"goal 5 of maze, waffle.*no robot can be placed at"):
         nav_trial.run(Setup("maze", model="waffle"), inside_a_wall)
+
+
+def test_two_studies_side_by_side_do_not_write_one_file():
+    """One that read its map while the other wrote it lost its robot before it had begun: goal 152 of the maze, seed 23."""
+    assert place.__wrapped__("maze")[1] != place.__wrapped__("maze")[1]

@@ -6,15 +6,16 @@ how a plan or a command comes about.
 
 from __future__ import annotations
 
-import hashlib
+import atexit
 import io
 import math
+import shutil
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from tempfile import gettempdir
+from tempfile import mkdtemp
 from typing import Any
 
 import numpy as np
@@ -148,8 +149,9 @@ def place(name: str) -> tuple[GridMap, Path, tuple[float, float]]:
     else:
         world = world_called(name)
         grid, inside = to_map(world), world.starts[0][:2]
-    folder = Path(gettempdir()) / f"rosmini_bench_{hash_of(grid)}"
-    folder.mkdir(exist_ok=True)
+    # Of this process alone: another study may run beside it, and a map must not be read while it is written.
+    folder = Path(mkdtemp(prefix="rosmini_bench_"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return grid, save_map(grid, folder / name)[0], inside
 
 
@@ -196,11 +198,6 @@ def across(count: int, seed: int) -> Iterator[Errand]:
         start, goal = (float(ax), -y, float(a)), (float(bx), y, float(b))
         way = [start[:2], goal[:2]]
         yield Errand(number, start, goal, math.dist(*way), turning(way, start, goal))
-
-
-def hash_of(grid: GridMap) -> str:
-    """A short name of what is in a map."""
-    return hashlib.sha256(grid.occupancy.tobytes()).hexdigest()[:12]
 
 
 @dataclass
