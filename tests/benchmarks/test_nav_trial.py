@@ -29,5 +29,5 @@ def test_a_simulator_that_does_not_start_says_why():
 
 
 def test_two_studies_side_by_side_do_not_write_one_file():
-    """One that read its map while the other wrote it lost its robot before it had begun: goal 152 of the maze, seed 23."""
+    """One that read its map while the other wrote it lost its robot at once: goal 152 of the maze, seed 23."""
     assert place.__wrapped__("maze")[1] != place.__wrapped__("maze")[1]
