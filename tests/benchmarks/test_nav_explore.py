@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from rosmini_bench import nav_explore
 from rosmini_bench.nav_explore import Explored, table
+from rosmini_bench.nav_study import Line, append, drive, key, load
 from rosmini_bench.nav_trial import place
 
 from rosmini.sim.worlds import world
@@ -44,3 +45,20 @@ def test_a_run_that_is_cut_short():
     assert 0.0 < one.share < 0.9
     assert one.goals >= 1
     assert one.driven > 0.2
+
+
+def test_a_run_without_the_doors_is_another_row(tmp_path):
+    """Doors that open and shut are walls to who comes past at the wrong time: the study can tell what they cost."""
+    runs = [
+        Explored("office", "explore_lite", 1, "", 2400.0, 80.0, 0.78, 60, 0, 20.0),
+        Explored("office", "explore_lite", 1, "", 2400.0, 80.0, 0.99, 60, 0, 20.0, "door"),
+    ]
+    _, _, row, other = table((one, "abc") for one in runs)
+    assert row.startswith("| office | explore_lite |")
+    assert other.startswith("| office without doors | explore_lite |")
+    lines = [Line("abc", one) for one in runs]
+    for line in lines:
+        append(line, tmp_path / "study.jsonl")
+    assert load(tmp_path / "study.jsonl") == lines
+    assert {key(line) for line in lines} == {(("explore_lite", "office", each), 1) for each in ("", "door")}
+    assert list(drive("explore_lite:office,walkers=1", 7, {key(lines[1])}, "abc")) == []

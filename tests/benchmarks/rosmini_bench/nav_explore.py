@@ -23,7 +23,7 @@ from rosmini.sim.worlds import world as world_called
 
 from . import nav_quality
 from .nav_goals import DISC, Terrain, wilson
-from .nav_trial import LOOK, Watch, place
+from .nav_trial import LOOK, Watch, place, take_away
 
 WORLDS = ("house", "maze", "office")
 FRONTIER, LITE = "frontier_exploration", "explore_lite"
@@ -75,30 +75,37 @@ class Explored:
     goals: int
     contacts: int
     cpu: float
+    without: str = ""
+    """Things of the world whose names begin so were taken away: walkers, or doors."""
 
     @property
     def ended(self) -> bool:
         """Whether it ended by itself, and not by a failure."""
         return self.end in (ENDS[0], ENDS[2])
 
+    @property
+    def place(self) -> str:
+        """The world, and what was taken away."""
+        return f"{self.world} without {self.without}s" if self.without else self.world
+
     def line(self) -> str:
         """As text."""
         return (
-            f"{self.world:<8} {self.method:<20} {self.seed:>4} {self.seconds:6.0f} s {self.driven:6.1f} m "
+            f"{self.place:<8} {self.method:<20} {self.seed:>4} {self.seconds:6.0f} s {self.driven:6.1f} m "
             f"{self.share:6.1%} {self.goals:>4} goals {self.contacts:>3} contacts {self.cpu:6.1f} s CPU  {self.end}"
         )
 
 
-def explore(world: str, method: str, seed: int, longest: float = LONGEST) -> Explored:
+def explore(world: str, method: str, seed: int, longest: float = LONGEST, *, without: str = "") -> Explored:
     """Let one robot explore a world until it ends by itself."""
     graph = Graph(strict=False, seed=seed)
     try:
-        return _explore(graph, world, method, seed, longest)
+        return _explore(graph, world, method, seed, longest, without)
     finally:
         graph.shutdown()
 
 
-def _explore(graph: Graph, world: str, method: str, seed: int, longest: float) -> Explored:
+def _explore(graph: Graph, world: str, method: str, seed: int, longest: float, without: str) -> Explored:
     grid, file, _ = place(world)
     settings = "".join(
         f'<param name="/turtlebot3_slam_gmapping/{name}" value="{value}"/>'
@@ -127,6 +134,7 @@ def _explore(graph: Graph, world: str, method: str, seed: int, longest: float) -
     )
     graph.run(3.0)
     simulator = graph.nodes["/simulator"].program
+    take_away(simulator.engine, without)
     watch = Watch(simulator.engine, simulator.name)
     node.timer(LOOK, watch.look)
     start = world_called(world).starts[0]
@@ -145,6 +153,7 @@ def _explore(graph: Graph, world: str, method: str, seed: int, longest: float) -
         len(goals),
         len(watch.contacts),
         time.process_time() - cpu,
+        without,
     )
 
 
@@ -183,7 +192,7 @@ def table(found: Iterable[tuple[Explored, str]]) -> Iterator[str]:
     """One line of Markdown for each world, method and commit: medians, and of how many runs."""
     rows: dict[tuple[str, str, str], list[Explored]] = {}
     for one, commit in found:
-        rows.setdefault((one.world, one.method, commit), []).append(one)
+        rows.setdefault((one.place, one.method, commit), []).append(one)
     heads = (
         "world | method | ended by itself | 95 % | seen all | seen | least | time | way | goals | contacts | x real"
         " | commit"

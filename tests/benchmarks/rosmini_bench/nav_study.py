@@ -1,7 +1,8 @@
 """A study of navigation that may be cut off at any time: each goal, exploration and crossing is a line of a file.
 
     PYTHONPATH=tests/benchmarks python -m rosmini_bench.nav_study FILE house=0-59 office,amcl=0-29 cylinders:2=0-9 \
-        explore_lite:maze=1-3 crossing:4=1-5 house,waffle=0-9 house,trajectory,robotis=0-9 office,walkers=0-9
+        explore_lite:maze=1-3 explore_lite:office,walkers=1-5 \
+        crossing:4=1-5 house,waffle=0-9 house,trajectory,robotis=0-9 office,walkers=0-9
 
 Who asks again for what is in the file gets no second drive. `nav_rows` makes the book's page of such a file.
 """
@@ -106,9 +107,10 @@ def drive(item: str, seed: int, done: set[tuple[Any, int]], commit: str) -> Iter
     what, *more = name.split(",")
     kind, _, rest = what.partition(":")
     if kind in nav_explore.FILES:
+        without = "".join(_word(each).get("without", "") for each in more)
         for number in wanted:
-            if (what, number) not in done:
-                yield Line(commit, nav_explore.explore(rest, kind, number))
+            if ((kind, rest, without), number) not in done:
+                yield Line(commit, nav_explore.explore(rest, kind, number, without=without))
     elif kind == CROSSING:
         for number in wanted:
             if (what, number) not in done:
@@ -134,10 +136,14 @@ def _setup(kind: str, rest: str, more: list[str], seed: int) -> Setup:
             f"{kind}: name one of {', '.join((*nav_quality.WORLDS, CYLINDERS, *nav_explore.FILES))}"
         )
     for each in more:
-        if each not in WORDS:
-            raise RosminiError(f"{each}: name one of {', '.join(WORDS)}")
-        setup.update(WORDS[each])
+        setup.update(_word(each))
     return Setup(**setup)
+
+
+def _word(each: str) -> dict[str, Any]:
+    if each not in WORDS:
+        raise RosminiError(f"{each}: name one of {', '.join(WORDS)}")
+    return WORDS[each]
 
 
 def key(line: Line) -> tuple[Any, int]:
@@ -145,9 +151,9 @@ def key(line: Line) -> tuple[Any, int]:
     one = line.result
     if isinstance(one, Outcome):
         return line.setup, one.errand.number
-    return (
-        f"{one.method}:{one.world}" if isinstance(one, Explored) else f"{CROSSING}:{one.robots}"
-    ), one.seed
+    if isinstance(one, Explored):
+        return (one.method, one.world, one.without), one.seed
+    return f"{CROSSING}:{one.robots}", one.seed
 
 
 def main() -> None:

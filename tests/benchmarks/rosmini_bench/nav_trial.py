@@ -200,6 +200,13 @@ def across(count: int, seed: int) -> Iterator[Errand]:
         yield Errand(number, start, goal, math.dist(*way), turning(way, start, goal))
 
 
+def take_away(engine: Any, without: str) -> None:
+    """Take away what has a name that begins so; nothing if it is empty."""
+    for obstacle in engine.obstacles():
+        if without and obstacle.name.startswith(without):
+            engine.take_away(obstacle.name)
+
+
 @dataclass
 class Watch:
     """What is seen while the robot drives."""
@@ -272,9 +279,7 @@ def _run(graph: Graph, setup: Setup, errand: Errand, file: Path, *, watched: boo
     simulator = graph.nodes["/simulator"].program
     for obstacle in () if setup.gap is None else cylinders(setup.gap * width(setup.model)):
         simulator.engine.insert(obstacle)
-    for obstacle in simulator.engine.obstacles():
-        if setup.without and obstacle.name.startswith(setup.without):
-            simulator.engine.take_away(obstacle.name)
+    take_away(simulator.engine, setup.without)
     node = graph.node("tester")
     watch = Watch(simulator.engine, simulator.name)
     results: list[Any] = []
