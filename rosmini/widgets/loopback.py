@@ -46,10 +46,14 @@ const model = {{
   get: (name) => state[name],
   on: (name, callback) => name === "msg:custom" && heard.add(callback),
   off: (name, callback) => heard.delete(callback),
-  send: (content) => fetch("./say", {{
-    method: "POST", headers: {{ "Content-Type": "application/json" }}, body: JSON.stringify(content),
-  }}).catch(() => gone()),
+  send(content) {{
+    // One after the other: of two requests at a time the later may come first, and a stop would end what came after it.
+    said = said.then(() => fetch("./say", {{
+      method: "POST", headers: {{ "Content-Type": "application/json" }}, body: JSON.stringify(content),
+    }})).catch(() => gone());
+  }},
 }};
+let said = Promise.resolve();
 const link = document.getElementById("link");
 const gone = () => {{ link.textContent = "The program behind this page has ended, or does not answer."; }};
 const events = new EventSource("./events");

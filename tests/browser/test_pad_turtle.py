@@ -179,6 +179,32 @@ def test_a_page_on_loopback_drives_the_node_s_turtle(chromium, watch):
             assert [each for each in watcher.seen if not each.startswith(f"request: {server.url}")] == []
 
 
+def test_what_a_page_says_comes_in_its_order(chromium):
+    """A pad that is replaced says stop; a key after that moved the turtle no farther if its request came first."""
+    page = chromium.new_context().new_page()
+    with Graph() as graph:
+        sim = rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
+        held, names = [], []
+        with sim.pad().serve() as server:
+            page.goto(server.url)
+            page.locator(".rp-stage").wait_for()
+            page.route("**/say", lambda route: held.append(route))  # noqa: PLW0108 (Playwright asks how many it takes)
+            page.evaluate("""() => {
+                const { kernel } = document.querySelector('.rosmini-pad');
+                for (const name of ['first', 'second']) kernel.tell({ type: 'keys', name });
+            }""")
+            deadline = time.monotonic() + PATIENCE
+            while "first" not in names or "second" not in names:
+                assert time.monotonic() < deadline, names
+                page.wait_for_timeout(100)
+                if held:
+                    route = held.pop()  # the youngest of those that wait
+                    names.append(route.request.post_data_json.get("name"))
+                    route.continue_()
+            assert [name for name in names if name] == ["first", "second"]
+            page.context.close()
+
+
 def test_the_book_form_is_small(made):
     assert len(made[2]) < 20_000
     assert "127.0.0.1" not in made[2]
