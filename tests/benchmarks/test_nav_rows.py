@@ -54,12 +54,17 @@ def test_the_tables():
             Line("abc", Crossing(4, 1, 3, ("no result",), ("tb3_0 into tb3_1",), 240.0, 60.0)),
         ]
     )
-    reached = "| house, burger, careful | 1 of 2 | 9% to 91% | 1 | 1.08 | 1.08 | 1.29 | 1.29 | 5 cm | abc |"
+    reached = (
+        "| house, burger, careful, seed 4 | 1 of 2 | 9% to 91% | 1 | 1.08 | 1.08 | 1.29 | 1.29 | 5 cm | abc |"
+    )
     assert reached in made
-    assert "| house, burger, careful | 0 of 1 |" in made, "of another commit"
-    assert "| house, burger, careful | 3 | 1.0, 2.0 | 4.0, 2.0 | ABORTED: no | 0.5 of 3.2 m | 1 |" in made
-    assert "| house, burger, careful, amcl | 1 of 1 |" in made, "amcl may be off, too"
-    assert "| house, burger | 0 of 1 |" in made
+    assert "| house, burger, careful, seed 4 | 0 of 1 |" in made, "of another commit"
+    assert (
+        "| house, burger, careful, seed 4 | 3 | 1.0, 2.0 | 4.0, 2.0 | ABORTED: no | 0.5 of 3.2 m | 1 |"
+        in made
+    )
+    assert "| house, burger, careful, amcl, seed 4 | 1 of 1 |" in made, "amcl may be off, too"
+    assert "| house, burger, seed 4 | 0 of 1 |" in made
     assert (
         "| maze | explore_lite | 1 of 2 | 9% to 91% | 1 of 2 | 73% | 48% | 400 s | 80 m | 60 | 1 | 20.0 | abc |"
         in made

@@ -140,7 +140,7 @@ def _failure(setup: Setup, one: Outcome) -> str:
 INTRODUCTION = """# Navigation in figures
 
 How often does the navigation stack of this book get a robot to its goal? Here a burger, and a waffle, were sent to
-goals drawn at random (seed 7) with the parameter files of `turtlebot3_navigation`, the same for all worlds. Starts and
+goals drawn at random with the parameter files of `turtlebot3_navigation`, the same for all worlds. Starts and
 goals are where a disc of 0.20 m has room, at least 3 m apart, with any heading. The laser turns five times a second,
 its beams are taken while the robot moves, and have noise. `fake_localization` says where the robot is, or amcl where
 that stands in the row. Reached means that `move_base` said SUCCEEDED, and that the true pose was within the
@@ -152,7 +152,10 @@ Length is what was driven, over the shortest path that keeps 0.15 m from everyth
 took, over that path at full speed with its turns. Both are medians and 95th percentiles of the goals that were
 reached. What was asked for is 98 % reached (97 % with amcl) and no contact; a length of 1.15 in the median and 1.4 at
 the 95th percentile; a time of 1.4 in the median. Look at the lower ends of the intervals before you say that a row
-shows it: careful burgers were sent to 200 goals a world, the others to far fewer.
+shows it: careful burgers were sent to 200 goals a world and seed, the others to far fewer. Seed 7 is the one whose
+failures were looked at, and for which `careful.yaml` was chosen; seed 23 came after that, and nothing was changed for
+it. One drive of it, goal 152 of the maze, was driven again: two studies had written the map into one file, and the
+robot never started.
 
 Rows called *careful* were driven with `careful:=true`, which loads `param/careful.yaml` over these files. A row is of
 one commit: what was mended between two is told at the end of this page. The tables were generated from the rows in
@@ -214,10 +217,12 @@ Failing drives were looked at one by one: costmaps, plan, and what each critic r
   133, 139, 165: the copy room), for two reasons. A door that opened onto a robot shut again at once, and both waited
   for good: since 8961c56 it stands ajar for as long as it would have stood open. And recoveries rotated for 11 s, in
   which nothing is planned, while the door stood open for 10: *careful* rotates once now, and plans for 10 s between
-  two. One of 200 still fails (74): the robot stands so close to the hinge's side that the door stops at 38 degrees, and
+  two. One of 200 still fails (seed 7, 74): the robot stands so close to the hinge's side that the door stops at 38 degrees, and
   what is left of the opening is too narrow for a plan.
-- **Standing still.** In the maze two of 200 count as oscillating, one of them (95) 24 cm from anything, with a free
+- **Standing still.** In the maze two of 200 of seed 7 count as oscillating, one of them (95) 24 cm from anything, with a free
   plan before it. Why was not found.
+- **Corners.** Goal 6 of seed 23 in the office begins behind the end of a wall, 3 cm from it, with somebody beside it:
+  240 of 338 sampled velocities would touch, and none of the others gets away.
 - **Cells.** In a costmap of 5 cm an outline is up to 5 cm too wide. Close to a thing, noise of the laser puts a marked
   cell under it, and every way on is refused, also the way out. Goals 5 and 14 between cylinders failed so. Since
   8961c56 *careful* has cells of 2.5 cm around the robot: all of 20 goals at 2.0 widths were reached, and 4 of 10 at

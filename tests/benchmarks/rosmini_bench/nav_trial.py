@@ -102,7 +102,7 @@ class Setup:
         told = "" if self.localization == "fake_localization" else f", {self.localization}"
         gone = f", without {self.without}s" if self.without else ""
         places = ", narrower places" if self.narrow else ""
-        return f"{where}{gone}{places}, {self.model}{sweep}{changed}{care}{told}"
+        return f"{where}{gone}{places}, {self.model}{sweep}{changed}{care}{told}, seed {self.seed}"
 
 
 @dataclass(frozen=True)
