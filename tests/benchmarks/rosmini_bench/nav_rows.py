@@ -217,10 +217,10 @@ Failing drives were looked at one by one: costmaps, plan, and what each critic r
   133, 139, 165: the copy room), for two reasons. A door that opened onto a robot shut again at once, and both waited
   for good: since 8961c56 it stands ajar for as long as it would have stood open. And recoveries rotated for 11 s, in
   which nothing is planned, while the door stood open for 10: *careful* rotates once now, and plans for 10 s between
-  two. One of 200 still fails (seed 7, 74): the robot stands so close to the hinge's side that the door stops at 38 degrees, and
-  what is left of the opening is too narrow for a plan.
-- **Standing still.** In the maze two of 200 of seed 7 count as oscillating, one of them (95) 24 cm from anything, with a free
-  plan before it. Why was not found.
+  two. One of 200 still fails (seed 7, 74): the robot stands so close to the hinge's side that the door stops at 38
+  degrees, and what is left of the opening is too narrow for a plan.
+- **Standing still.** In the maze two of 200 of seed 7 count as oscillating, one of them (95) 24 cm from anything, with
+  a free plan before it. Why was not found.
 - **Corners.** Goal 6 of seed 23 in the office begins behind the end of a wall, 3 cm from it, with somebody beside it:
   240 of 338 sampled velocities would touch, and none of the others gets away.
 - **Cells.** In a costmap of 5 cm an outline is up to 5 cm too wide. Close to a thing, noise of the laser puts a marked
