@@ -71,6 +71,11 @@ LAUNCH = """
 </launch>
 """
 
+TRAJECTORY = (
+    '<rosparam ns="/move_base" file="$(find turtlebot3_navigation)/param/base_local_planner_params.yaml"/>'
+)
+"""Without it this planner takes the robot for one that can step aside."""
+
 
 @dataclass(frozen=True)
 class Setup:
@@ -253,6 +258,8 @@ def run(setup: Setup, errand: Errand, *, watched: bool = True) -> Outcome:
 def _run(graph: Graph, setup: Setup, errand: Errand, file: Path, *, watched: bool) -> Outcome:
     x, y, yaw = errand.start
     more = "".join(f'<param name="/move_base/{name}" value="{value}"/>' for name, value in setup.overrides)
+    if any("TrajectoryPlannerROS" in str(value) for _, value in setup.overrides):
+        more += TRAJECTORY
     text = LAUNCH.format(
         map=file,
         world=file if setup.world == FIELD else setup.world,
