@@ -178,9 +178,9 @@ them. 20 seeds were meant; five were driven.
 House and maze are explored, and each run ends by itself. In the office both methods fall short. Three of its rooms,
 a fifth of the floor, have doors that open and shut: who comes past while one is shut sees a wall, the map has one
 there from then on, and a frontier is not where a wall is. So 79 % is all that there is, unless a robot comes at the
-right time. Without the doors half of the runs see 95 % and more; in the others people stood in a doorway when the
-robot looked, or a place too narrow for a plan was given up. No explorer here looks again at what it has taken for a
-wall, and neither do the originals.
+right time. Without the doors half of the runs see 95 % and more. Of the others one was looked at (frontier_exploration,
+seed 1): people stood in two doorways when the robot came past, which are walls in its map. No explorer here looks again
+at what it has taken for a wall, and neither do the originals.
 """
 
 CROSSING = """## Robots that cross one another
