@@ -173,14 +173,17 @@ EXPLORING = f"""## Exploring
 Both explorers with gmapping (10 particles) and `careful:=true`; explore_lite gives a frontier up that gets no nearer
 for 120 s, since in the house one is near as the crow flies and far on wheels. *Seen* is the share of the cells that
 a disc of 0.20 m gets to and that the map knows in the end: the median, the least, and how many runs saw {GOOD:.0%} of
-them. 20 seeds were meant; five were driven.
+them. Seeds 1 to 5 were driven on the older commit, 6 to 20 on the newer one; three in the office were not driven.
 
-House and maze are explored, and each run ends by itself. In the office both methods fall short. Three of its rooms,
-a fifth of the floor, have doors that open and shut: who comes past while one is shut sees a wall, the map has one
-there from then on, and a frontier is not where a wall is. So 79 % is all that there is, unless a robot comes at the
-right time. Without the doors half of the runs see 95 % and more. Of the others one was looked at (frontier_exploration,
-seed 1): people stood in two doorways when the robot came past, which are walls in its map. No explorer here looks again
-at what it has taken for a wall, and neither do the originals.
+In house and maze 73 of 80 runs saw 97 % and more, and 77 ended by themselves. Of the three that did not, two were still
+at it after 40 minutes, and one named the frontier that it had given up. Nobody has looked into the seven that saw less.
+
+In the office both methods fall short. Three of its rooms, a fifth of the floor, have doors that open and shut: who
+comes past while one is shut sees a wall, the map has one there from then on, and a frontier is not where a wall is. So
+79 % is all that there is, unless a robot comes at the right time. A third of the runs ended with less than 75 %, one
+after 103 s with 29 %; nobody has looked into these. Without the doors (five seeds) half of the runs see 95 % and more.
+Of the others one was looked at (frontier_exploration, seed 1): people stood in two doorways when the robot came past,
+which are walls in its map. No explorer here looks again at what it has taken for a wall, and neither do the originals.
 """
 
 CROSSING = """## Robots that cross one another
