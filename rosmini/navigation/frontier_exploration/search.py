@@ -2,13 +2,14 @@
 
 A frontier cell is unknown and has a free cell on one of its four sides; a frontier is a set of such cells that are
 neighbours, corners included (Yamauchi 1997, with the roles that the packages `frontier_exploration` and `explore_lite`
-give to the cells). The search spreads from the robot over free cells, so a frontier that no free cell leads to is not
-found.
+give to the cells). The search spreads from the robot over cells where its centre may be, so a frontier that none of
+them leads to is not found.
 
-From the originals differ: the cell that a frontier was found by counts for its centroid and its distance, too. There
-the sum leaves it out and is divided by all, so that small frontiers have centroids nearer to the map's origin. And the
-middle is in the middle. There it is the cell nearest to the robot, which most often lies at the end of a wall, where
-the robot that is sent there gets stuck.
+From the originals differ: they spread over free cells only, from the nearest one, and end early where that one is shut
+in, between the legs of a chair or behind a door in which inflation leaves no free cell. The cell that a frontier was
+found by counts for its centroid and its distance, too. There the sum leaves it out and is divided by all, so that small
+frontiers have centroids nearer to the map's origin. And the middle is in the middle. There it is the cell nearest to
+the robot, which most often lies at the end of a wall, where the robot that is sent there gets stuck.
 """
 
 from __future__ import annotations
@@ -19,7 +20,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from rosmini.navigation.costmap_2d import FREE_SPACE, LETHAL_OBSTACLE, NO_INFORMATION, Costmap2D
+from rosmini.navigation.costmap_2d import (
+    FREE_SPACE,
+    INSCRIBED_INFLATED_OBSTACLE,
+    LETHAL_OBSTACLE,
+    NO_INFORMATION,
+    Costmap2D,
+)
 
 Bools = NDArray[np.bool_]
 Ints = NDArray[np.int64]
@@ -65,20 +72,21 @@ def frontier_cells(costs: NDArray[np.uint8]) -> Bools:
 
 
 def find_frontiers(grid: Costmap2D, x: float, y: float) -> list[Frontier]:
-    """The frontiers that free cells lead to from a point [m], in the order in which the search meets them.
+    """The frontiers that a robot gets to from a point [m], in the order in which the search meets them.
 
-    It begins at the free cell nearest to the point. Raises `IndexError` if the point is outside of the grid.
+    It begins at the cell nearest to the point in which the robot's centre may be. Raises `IndexError` if the point is
+    outside of the grid.
     """
     cell = grid.world_to_map(x, y)
     if cell is None:
         raise IndexError(f"the robot, at ({x:.2f}, {y:.2f}), is outside of {grid!r}")
-    free = np.argwhere(grid.costs == FREE_SPACE)
-    if not len(free):
+    open_cells = np.argwhere(grid.costs < INSCRIBED_INFLATED_OBSTACLE)
+    if not len(open_cells):
         return []
-    off = free - np.array([cell[1], cell[0]])
+    off = open_cells - np.array([cell[1], cell[0]])
     nearest = np.lexsort(((off * off).sum(axis=1), np.abs(off).max(axis=1)))[0]
     here = grid.map_to_world(*cell)
-    return [_measured(grid, cells, here) for cells in _groups(grid.costs, free[nearest])]
+    return [_measured(grid, cells, here) for cells in _groups(grid.costs, open_cells[nearest])]
 
 
 def places(points: Iterable[Point]) -> str:
@@ -124,22 +132,22 @@ def _groups(costs: NDArray[np.uint8], start: Ints) -> Iterator[Ints]:
 
 
 def _met(padded: NDArray[np.uint8], start: int) -> list[int]:
-    """The unknown cells beside those that a breadth-first search over free cells reaches, in order, some repeatedly."""
+    """The unknown cells beside those that a breadth-first search from a cell reaches, in order, some repeatedly."""
     costs = padded.ravel()
-    unknown, free = costs == NO_INFORMATION, costs == FREE_SPACE
+    unknown, is_open = costs == NO_INFORMATION, costs < INSCRIBED_INFLATED_OBSTACLE
     steps = np.array([-1, 1, -padded.shape[1], padded.shape[1]])
     rank = np.zeros(len(costs), dtype=np.int64)
     wave = np.array([start])
-    free[start] = False
+    is_open[start] = False
     met: list[int] = []
     while len(wave):
         beside = (wave[:, None] + steps).ravel()
         met += beside[unknown[beside]].tolist()
-        fresh = beside[free[beside]]
+        fresh = beside[is_open[beside]]
         # Of a cell that several led to the first stays: a queue would have it there.
         rank[fresh[::-1]] = np.arange(len(fresh))[::-1]
         wave = fresh[rank[fresh] == np.arange(len(fresh))]
-        free[wave] = False
+        is_open[wave] = False
     return met
 
 
