@@ -33,6 +33,8 @@ class Stage:
         self.answer = "set_succeeded"
         self.refused = lambda *_: False
         """Which goals (x, y) are aborted whatever the answer is."""
+        self.detour = None
+        """For a goal (x, y) the pose where it is for the 3 s that the way takes, and in which it may be called off."""
         self.base = SimpleActionServer(
             node,
             "move_base",
@@ -63,6 +65,13 @@ class Stage:
                 self.node.sleep(0.1)
             self.base.set_preempted()
             return
+        if self.detour is not None:
+            self.pose = self.detour(p.x, p.y)
+            for _ in range(30):
+                if self.base.is_preempt_requested():
+                    self.base.set_preempted()
+                    return
+                self.node.sleep(0.1)
         self.node.sleep(1.0)
         answer = "set_aborted" if self.refused(p.x, p.y) else self.answer
         if answer == "set_succeeded":

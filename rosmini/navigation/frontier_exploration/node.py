@@ -5,8 +5,10 @@ It offers the action that is called as the node (`frontier_exploration/ExploreTa
 
 From the original differ: there the exploration ends with the first goal that move_base gives up ("Failed to move").
 Here such a goal is tried once more when no other is left, and is then left out. The end tells what was given up, and is
-a failure if the robot has got nowhere since several goals. Before it asks again whether a frontier is left, it waits
-for an update of the costmap; the five attempts are each goal's own; and a robot whose pose is not known ends the task.
+a failure if the robot has got nowhere since several goals. A goal that was left several times for another, nearer one
+is kept: in a maze each of two is the nearer one while the robot drives to the other. Before it asks again whether a
+frontier is left, it waits for an update of the costmap; the five attempts are each goal's own; and a robot whose pose
+is not known ends the task.
 """
 
 from __future__ import annotations
@@ -28,6 +30,7 @@ from rosmini.tf import TransformException, TransformListener
 from .parameters import ExploreServerParameters
 from .plugin import BoundedExploreLayer, moved
 from .polygon import has_inside
+from .search import Blacklist
 
 if TYPE_CHECKING:
     from rosmini.graph import Node
@@ -42,6 +45,8 @@ STUCK = 3
 """If so many goals, one after another, were given up"""
 NEAR = 0.3
 """within so many metres, the robot does not get away."""
+LEAVINGS = 3
+"""A goal that was left so often for another one is kept until the robot arrives or move_base gives up."""
 LOST = 30.0
 """A robot whose pose has not been known for so long ends the task [s]."""
 
@@ -59,6 +64,8 @@ class ExploreServer:
         """How many goals it has sent."""
         self._moving = self._found = False
         self._last = (math.inf, math.inf)
+        self._left = Blacklist()
+        """The goals that were left for others."""
         self._ends: list[tuple[float, float]] = []
         """Where the robot was when goals were given up, since one was last reached [m]."""
         self._feedback = message_class("frontier_exploration/ExploreTaskFeedback")()
@@ -89,6 +96,7 @@ class ExploreServer:
     def _execute(self, task: Any) -> None:
         """Explore an area until no frontier is left."""
         self._found = self._moving = False
+        self._left.points.clear()
         self._ends.clear()
         self.costmap.reset_layers()
         try:
@@ -170,12 +178,16 @@ class ExploreServer:
     # -- driving -------------------------------------------------------------------------------------------------
 
     def _drive(self, pose: Any) -> None:
-        """Send a goal, unless it is nearly the last one."""
+        """Send a goal, unless it is nearly the last one, or the last one was left too often."""
         x, y, _ = planar_pose(pose)
-        if self._moving and math.dist((x, y), self._last) < self.parameters.goal_aliasing / 2:
-            return
         if not self.action.is_active():
             return
+        if self._moving:
+            resolution = self.costmap.layered.grid.resolution
+            is_same = math.dist((x, y), self._last) < self.parameters.goal_aliasing / 2
+            if is_same or self._left.count(self._last, resolution) >= LEAVINGS:
+                return
+            self._left.points.append(self._last)
         self._last, self._moving = (x, y), True
         self.sent += 1
         goal = message_class("move_base_msgs/MoveBaseGoal")(target_pose=pose)

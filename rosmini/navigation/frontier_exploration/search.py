@@ -153,7 +153,7 @@ def _met(padded: NDArray[np.uint8], start: int) -> list[int]:
 
 @dataclass
 class Blacklist:
-    """Goals that were given up [m], one as often as that happened."""
+    """Goals that were given up, or left [m], one as often as that happened."""
 
     points: list[Point] = field(default_factory=list)
 
