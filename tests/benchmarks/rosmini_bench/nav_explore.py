@@ -36,7 +36,7 @@ LONGEST = 2400.0
 """Seconds that a run may take."""
 GOOD = 0.97
 """The share of the reachable cells that a run has to see."""
-SETTINGS = {"particles": 10, "linearUpdate": 0.5, "xmin": -1.0, "ymin": -1.0, "xmax": 1.0, "ymax": 1.0}
+SETTINGS = {"particles": 30, "linearUpdate": 0.5, "xmin": -1.0, "ymin": -1.0, "xmax": 1.0, "ymax": 1.0}
 """Of gmapping; the others are of ROBOTIS's file."""
 
 LAUNCH = """
