@@ -59,7 +59,7 @@ def _writer() -> Any:
         from mcap.writer import CompressionType, Writer
     except ImportError as error:
         raise ROSBagException(
-            "MCAP files are written with the package mcap, which is not installed here: `pip install 'rosmini[mcap]'`"
+            "MCAP files are written with the package mcap, which is not installed here: `pip install mcap`"
         ) from error
     return lambda file: Writer(file, compression=CompressionType.LZ4)
 
@@ -127,7 +127,7 @@ def _messages(file: IO[bytes], name: str) -> Iterator[tuple[Any, Any, Any]]:
         from mcap.records import Channel, Message, Schema
     except ImportError as error:
         raise ROSBagException(
-            "MCAP files are read with the package mcap, which is not installed here: `pip install 'rosmini[mcap]'`"
+            "MCAP files are read with the package mcap, which is not installed here: `pip install mcap`"
         ) from error
     schemas: dict[int, Any] = {}
     channels: dict[int, Any] = {}

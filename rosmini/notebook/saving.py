@@ -60,7 +60,7 @@ def save_package(session: Session, line: str) -> None:
         "import rosmini" in path.read_text(encoding="utf-8")
         for path in sorted((target / "scripts").glob("*.py"))
     ):
-        session.say("WARNING: a script imports rosmini, which a robot needs then, too: pip install rosmini")
+        session.say("WARNING: a script imports rosmini, which then has to be installed on the robot as well")
 
 
 def save(source: Path, target: Path) -> list[str]:

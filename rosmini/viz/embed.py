@@ -116,7 +116,7 @@ def asset_path(name: str) -> Path:
         found = find_spec("meshcat")
         if found is None or found.origin is None:
             raise ViewError(
-                "3D pictures need meshcat, which is not installed here: `pip install 'rosmini[book]'`"
+                "3D pictures need meshcat, which is not installed here: `pip install meshcat`"
             )
         return Path(found.origin).parent / "viewer" / "dist" / "main.min.js"
     path = STATIC / name

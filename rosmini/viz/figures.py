@@ -70,7 +70,7 @@ def house_style() -> Iterator[None]:
         import matplotlib as mpl
     except ImportError as error:
         raise ViewError(
-            "pictures of worlds and runs are drawn with matplotlib, which is not installed: pip install 'rosmini[book]'"
+            "pictures of worlds and runs are drawn with matplotlib, which is not installed: `pip install matplotlib`"
         ) from error
     with mpl.rc_context():
         mpl.rcdefaults()

@@ -28,7 +28,7 @@ try:
     import traitlets
 except ImportError as error:
     raise TeleopError(
-        "a pad in a live notebook needs anywidget, which is not installed here: `pip install 'rosmini[book]'`. "
+        "a pad in a live notebook needs anywidget, which is not installed here: `pip install anywidget`. "
         "pad.press() and pad.stop() work without it."
     ) from error
 

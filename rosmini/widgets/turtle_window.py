@@ -91,7 +91,7 @@ def turtle_window(sim: TurtleSim) -> PageServer | None:
     if not (has_screen() or (sys.__stderr__ is not None and sys.__stderr__.isatty())):
         return None
     if find_spec("anywidget") is None:
-        print(f"{name}: its window needs `pip install 'rosmini[book]'`", file=sys.stderr, flush=True)
+        print(f"{name}: its window needs `pip install anywidget`", file=sys.stderr, flush=True)
         return None
     server = PageServer(PadOnDemand(sim), title=name)
     sim.node.on_shutdown(server.close)

@@ -23,7 +23,7 @@ try:
     from .live import FRAME_HZ, LEFT_S, QUIET_S, SHORTEST_S, PageWidget, answer_in_subshells
 except TeleopError as error:
     raise ViewError(
-        "a view in a live notebook needs anywidget, which is not installed here: `pip install 'rosmini[book]'`. "
+        "a view in a live notebook needs anywidget, which is not installed here: `pip install anywidget`. "
         "view.drag() and view.turn() work without it."
     ) from error
 

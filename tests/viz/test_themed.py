@@ -166,7 +166,7 @@ def test_without_matplotlib_the_error_says_what_to_install(monkeypatch):
     import sys
 
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(ViewError, match=r"pip install 'rosmini\[book\]'"), house_style():
+    with pytest.raises(ViewError, match=r"pip install matplotlib"), house_style():
         pass
 
 

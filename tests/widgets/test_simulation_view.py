@@ -406,5 +406,5 @@ def test_without_anywidget_the_twin_works_and_the_page_says_what_to_install(stag
     monkeypatch.setitem(sys.modules, "anywidget", None)
     view = stage.view()
     view.drag("robot_0", (-1.0, 0.0))
-    with pytest.raises(ViewError, match=r"needs anywidget.*pip install 'rosmini\[book\]'"):
+    with pytest.raises(ViewError, match=r"needs anywidget.*pip install anywidget"):
         _ = view.link

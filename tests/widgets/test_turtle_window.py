@@ -86,7 +86,7 @@ def test_without_anywidget_it_says_what_is_missing(terminal, capsys, monkeypatch
     monkeypatch.setattr(turtle_window, "find_spec", lambda name: None)
     with Graph() as graph:
         rosrun("turtlesim", "turtlesim_node", graph=graph).instance()
-    assert "turtlesim: its window needs `pip install 'rosmini[book]'`" in capsys.readouterr().err
+    assert "turtlesim: its window needs `pip install anywidget`" in capsys.readouterr().err
 
 
 def test_a_pad_that_cannot_be_made_is_an_error_of_the_page_only(terminal, monkeypatch):

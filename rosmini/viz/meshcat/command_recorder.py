@@ -37,7 +37,7 @@ def meshcat() -> ModuleType:
             from rosmini.viz.view import ViewError
 
             raise ViewError(
-                "3D pictures need meshcat, which is not installed here: `pip install 'rosmini[book]'`"
+                "3D pictures need meshcat, which is not installed here: `pip install meshcat`"
             ) from error
     module: ModuleType = meshcat
     return module

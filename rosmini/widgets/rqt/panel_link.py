@@ -21,7 +21,7 @@ try:
     from rosmini.widgets.live import LEFT_S, PageWidget, answer_in_subshells
 except TeleopError as error:
     raise ViewError(
-        "a panel in a live notebook needs anywidget, which is not installed here: `pip install 'rosmini[book]'`. "
+        "a panel in a live notebook needs anywidget, which is not installed here: `pip install anywidget`. "
         "panel.set() and the panel's own functions work without it."
     ) from error
 
