@@ -170,22 +170,23 @@ Gaps are in widths of the burger, 0.21 m. The planner knows of a cylinder when t
 
 EXPLORING = f"""## Exploring
 
-Both explorers use gmapping with its default of 30 particles and `careful:=true`. explore_lite abandons a frontier after
-120 s without progress: in the house a frontier can be close in a straight line and far to drive. *Seen* is the share of
-the cells reachable by a disc of 0.20 m that the final map knows: the median, the least, and how many runs saw {GOOD:.0%}
-of them.
+Both explorers use gmapping with its default of 30 particles and `careful:=true`. explore_lite abandons a frontier
+after 120 s without progress: in the house a frontier can be close in a straight line and far to drive. *Seen* is the
+share of the cells reachable by a disc of 0.20 m that the final map knows: the median, the least, and how many runs
+saw {GOOD:.0%} of them.
 
 In the house and the maze 79 of 80 runs saw 97 % or more, and 79 ended by themselves; the last one was still running
 after 40 minutes, with all but 0.1 % seen. One run in the house (frontier_exploration, seed 2) touched something three
-times. With ten particles and an older frontier search it was 73 of 80: two maps of the maze came out crooked, with walls
-across the remaining corridors.
+times. With ten particles and an older frontier search it was 73 of 80: two maps of the maze came out crooked, with
+walls across the remaining corridors.
 
-Both methods fall short in the office. Three of its rooms, a fifth of the floor, have doors that open and shut. A robot
-that passes a shut door maps a wall there, and a wall is not a frontier, so 79 % is the most that a robot can see unless
-it passes at the right moment. A quarter of the runs ended with less than 74 %, the least with 50 %; these runs have not
-been investigated. Without the doors (five seeds, measured earlier with ten particles) half of the runs see 95 % or more.
-One of the others was investigated (frontier_exploration, seed 1): people stood in two doorways when the robot passed,
-and the map has walls there. No explorer here re-examines what it has mapped as a wall, and neither do the originals.
+Both methods fall short in the office. Three of its rooms, a fifth of the floor, have doors that open and shut. A
+robot that passes a shut door maps a wall there, and a wall is not a frontier, so 79 % is the most that a robot can
+see unless it passes at the right moment. A quarter of the runs ended with less than 74 %, the least with 50 %; these
+runs have not been investigated. Without the doors (five seeds, measured earlier with ten particles) half of the runs
+see 95 % or more. One of the others was investigated (frontier_exploration, seed 1): people stood in two doorways when
+the robot passed, and the map has walls there. No explorer here re-examines what it has mapped as a wall, and neither
+do the originals.
 """
 
 CROSSING = """## Robots that cross one another
