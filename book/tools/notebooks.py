@@ -27,7 +27,14 @@ MAX_CODE_LINES, MAX_SCRIPT_LINES = 20, 50
 """Of a cell, and of one that is a script."""
 
 KERNELSPEC = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
-LANGUAGE = {"name": "python"}
+# Complete, since nbconvert takes the ending of a script from it, and with no version, which differs between machines.
+LANGUAGE = {
+    "file_extension": ".py",
+    "mimetype": "text/x-python",
+    "name": "python",
+    "nbconvert_exporter": "python",
+    "pygments_lexer": "ipython3",
+}
 CELL_METADATA = {"tags", "mystnb", "jupyter", "reason", "editable", "deletable"}
 
 # Tags by which a cell asks not to be run or not to be compared. Each needs a reason.
@@ -42,6 +49,9 @@ EXEMPTIONS = {
 }
 # nbval also reads them as comments.
 EXEMPTION_COMMENT = re.compile(r"^\s*#\s*(NBVAL_\w+|PYTEST_VALIDATE_IGNORE_OUTPUT)\b[ :]*(.*)$", re.MULTILINE)
+# JupyterLab takes the text between two dollar signs as a formula, except in a backtick fence at the start of a line.
+MISREAD_FENCE = re.compile(r"^(?:\s*~~~|\s*>[\s>]*(?:```|~~~)).*$", re.MULTILINE)
+
 REASON_COMMENT = re.compile(r"^\s*#\s*reason:\s*\S", re.MULTILINE | re.IGNORECASE)
 
 # What makes an output differ between two runs or two machines.
@@ -82,8 +92,8 @@ def problems(notebook: nbformat.NotebookNode) -> Iterator[str]:
     extra = sorted(set(notebook.metadata) - {"kernelspec", "language_info"})
     if extra:
         yield f"the notebook's metadata has {', '.join(extra)}"
-    if notebook.metadata.get("language_info", LANGUAGE) != LANGUAGE:
-        yield "the notebook's metadata tells the Python version of a machine"
+    if notebook.metadata.get("language_info") != LANGUAGE:
+        yield "the notebook's language_info is not the one that `clean` stores"
     expected = 0
     for place, cell in enumerate(notebook.cells, start=1):
         found = list(cell_problems(cell))
@@ -104,6 +114,11 @@ def cell_problems(cell: nbformat.NotebookNode) -> Iterator[str]:
     if extra:
         yield f"has metadata of a tool or a run ({', '.join(extra)})"
     if cell.cell_type != "code":
+        if fence := MISREAD_FENCE.search(cell.source):
+            yield (
+                f"has the fence {fence[0].strip()!r}, which JupyterLab shows wrongly: write ``` at the start of the "
+                "line, and <blockquote> for a box around it"
+            )
         return
     if not cell.source.strip():
         yield "is empty"
@@ -167,7 +182,7 @@ def first_line(cell: nbformat.NotebookNode) -> str:
 
 
 def clean(notebook: nbformat.NotebookNode) -> None:
-    """Take out of `notebook`, in place, what tools and runs left in its metadata."""
+    """Give `notebook` the metadata of all notebooks, in place, and remove that of tools and runs."""
     notebook.metadata = type(notebook.metadata)(kernelspec=KERNELSPEC, language_info=LANGUAGE)
     for cell in notebook.cells:
         for key in set(cell.metadata) - CELL_METADATA:

@@ -1,7 +1,8 @@
 """The Sphinx extension of the book: pages that need no network, and notebooks that need no Sphinx.
 
 - Formulas become MathML when the book is built, so that no MathJax is loaded.
-- A quote that begins with a bold word such as "On a real robot" becomes a box. In JupyterLab it stays a quote.
+- A quote that begins with a bold word such as "On a real robot" becomes a box, whether it is written with `>` or
+  between `<blockquote>` and `</blockquote>`. In JupyterLab it stays a quote.
 - What sphinx-thebe adds to each page (a script from a CDN, declared twice) is taken out.
 - The chatter of the theme's scripts in the browser's console is taken out too.
 - The style sheet and the scripts of `rosmini.viz` come along, and meshcat's viewer if a page needs it.
@@ -74,10 +75,31 @@ class QuoteBoxes(SphinxTransform):
 
     def apply(self, **kwargs: Any) -> None:  # noqa: ARG002  (docutils' signature)
         """Replace them in the page at hand."""
+        for tag in list(self.document.findall(is_opening_tag)):
+            gather_quote(tag)
         for quote in list(self.document.findall(nodes.block_quote)):
             title = box_title(quote)
             if title is not None:
                 quote.replace_self(make_box(quote, title))
+
+
+def is_opening_tag(node: nodes.Node) -> bool:
+    """Return whether `node` is the line `<blockquote>`."""
+    return isinstance(node, nodes.raw) and node.astext().strip() == "<blockquote>"
+
+
+def gather_quote(tag: nodes.Node) -> None:
+    """Replace the line `<blockquote>`, the line `</blockquote>` and everything between them by one quote.
+
+    Without the second line, nothing is replaced.
+    """
+    siblings, start = tag.parent.children, tag.parent.index(tag)
+    end = next(
+        (i for i in range(start, len(siblings)) if siblings[i].astext().strip() == "</blockquote>"), None
+    )
+    if end is not None:
+        quote = nodes.block_quote("", *siblings[start + 1 : end])
+        tag.parent[start : end + 1] = [quote]
 
 
 def box_title(quote: nodes.block_quote) -> str | None:
@@ -175,7 +197,8 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_html_math_renderer("mathml", (visit_inline_math, None), (visit_block_math, None))
     app.add_transform(QuoteBoxes)
     app.add_directive("drawing", Drawing)
-    app.add_lexer("python", CellLexer)  # the language of all cells
+    for language in ("python", "ipython3"):  # of fences, and of cells
+        app.add_lexer(language, CellLexer)
     app.connect("builder-inited", prepare, priority=1)
     app.connect("build-finished", copy_viewer, priority=998)
     # After every extension has copied its scripts.

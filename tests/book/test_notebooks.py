@@ -108,11 +108,26 @@ def test_what_is_accepted(cell):
     assert list(notebooks.problems(notebook(cell))) == []
 
 
-def test_the_metadata_of_the_notebook():
-    nb = notebook(code("x"), language_info={"name": "python", "version": "3.11.7"}, widgets={})
+@pytest.mark.parametrize("fence", ["> ```console", "> ~~~console", "~~~yaml", "> > ```"])
+def test_a_fence_that_jupyterlab_shows_wrongly_is_refused(fence):
+    problem, *others = notebooks.problems(
+        notebook(new_markdown_cell(f"> **On a real robot.**\n>\n{fence}\n"))
+    )
+    assert fence in problem
+    assert others == []
+
+
+def test_a_fence_at_the_start_of_a_line_is_accepted():
+    box = "<blockquote>\n\n**On a real robot.**\n\n```console\n$ rosnode list\n```\n\n</blockquote>"
+    assert list(notebooks.problems(notebook(new_markdown_cell(box)))) == []
+
+
+@pytest.mark.parametrize("info", [{"name": "python"}, notebooks.LANGUAGE | {"version": "3.11.7"}])
+def test_the_metadata_of_the_notebook(info):
+    nb = notebook(code("x"), language_info=info, widgets={})
     assert list(notebooks.problems(nb)) == [
         "the notebook's metadata has widgets",
-        "the notebook's metadata tells the Python version of a machine",
+        "the notebook's language_info is not the one that `clean` stores",
     ]
     notebooks.clean(nb)
     assert list(notebooks.problems(nb)) == []
@@ -129,3 +144,9 @@ def test_execute_stores_outputs_that_pass_and_are_the_same_bytes(tmp_path):
     assert stored.cells[1].outputs[0].data == {"text/plain": "42"}
     assert notebooks.main(["execute", str(path)]) == 0
     assert path.read_bytes() == once
+
+
+def test_nbconvert_writes_a_python_script():
+    exporter = pytest.importorskip("nbconvert").exporters.ScriptExporter()
+    _, resources = exporter.from_notebook_node(notebook(code("print(1)")))
+    assert resources["output_extension"] == ".py"

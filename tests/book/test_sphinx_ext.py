@@ -29,6 +29,17 @@ By {eq}`eq:omega` it turns.
 > $ rosnode list
 > ```
 
+<blockquote>
+
+**On a real robot.** Two lines:
+
+```console
+$ rosnode list
+$ rostopic list
+```
+
+</blockquote>
+
 > **Summary**
 >
 > - All is well.
@@ -106,8 +117,15 @@ def test_formulas_are_mathml(page):
 
 def test_quotes_that_say_so_become_boxes(page):
     boxes = re.findall(r'<div class="([^"]*)admonition">\s*<p class="admonition-title">(.*?)</p>', page)
-    assert boxes == [("real-robot box ", "On a real robot"), ("summary-box box ", "Summary")]
+    robot = ("real-robot box ", "On a real robot")
+    assert boxes == [robot, robot, ("summary-box box ", "Summary")]
     assert "<p>Type this:</p>" in page
+
+
+def test_a_box_between_tags_keeps_its_code(page):
+    box = page.partition("<p>Two lines:</p>")[2].partition("Summary")[0]
+    assert re.sub(r"<[^>]+>", "", box).strip().startswith("$ rosnode list\n$ rostopic list")
+    assert "blockquote" not in box
 
 
 def test_other_quotes_stay_quotes(page):

@@ -26,7 +26,7 @@ def before_the_exercises():
 def test_it_is_as_short_as_a_chapter_has_to_be():
     cells = list(before_the_exercises())
     prose = re.sub(
-        r"~~~.*?~~~", "", "\n".join(text for kind, text in cells if kind == "markdown"), flags=re.DOTALL
+        r"```.*?```", "", "\n".join(text for kind, text in cells if kind == "markdown"), flags=re.DOTALL
     )
     assert len(re.findall(r"\S*\w\S*", prose)) <= WORDS
     assert sum(kind == "code" for kind, _ in cells) <= CODE_CELLS

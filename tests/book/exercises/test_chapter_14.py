@@ -31,9 +31,8 @@ def test_the_listed_script_prints_what_is_shown(prose, tmp_path):
 
 
 def test_the_files_in_the_boxes_are_what_is_got(prose):
-    boxes = prose.replace("\n> ", "\n")
-    given = re.search(r"^\$ cat robot\.yaml\n(.*?)^\$", boxes, re.DOTALL | re.MULTILINE).group(1)
-    saved = re.search(r"^\$ cat saved\.yaml\n(.*?)^~~~", boxes, re.DOTALL | re.MULTILINE).group(1)
+    given = re.search(r"^\$ cat robot\.yaml\n(.*?)^\$", prose, re.DOTALL | re.MULTILINE).group(1)
+    saved = re.search(r"^\$ cat saved\.yaml\n(.*?)^```", prose, re.DOTALL | re.MULTILINE).group(1)
     (before,), (after,) = load_str(given), load_str(saved)
     before.values["wheel"]["radius"] = 0.035  # as `rosparam set` in the box
     assert after.values == before.values

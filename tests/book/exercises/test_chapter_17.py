@@ -28,9 +28,7 @@ def talker(cells):
 def test_the_talker_starts_from_a_terminal_as_shown(cells, talker, tmp_path):
     (tmp_path / "talker.py").write_text(talker, encoding="utf-8")
     prose = "\n\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
-    command, shown = re.search(
-        r"^> \$ uv run rosmini (run .*?)\n> (.*?)\n> ~~~", prose, re.MULTILINE
-    ).groups()
+    command, shown = re.search(r"^\$ uv run rosmini (run .*?)\n(.*?)\n```", prose, re.MULTILINE).groups()
     assert run_rosmini(command, tmp_path) == (0, shown + "\n", "")
 
 
