@@ -122,6 +122,12 @@ def is_first(where: Any) -> bool:
     return current_session().log_gates.is_first(where)
 
 
+def warn_once(text: str) -> None:
+    """Log a warning of rosmini's own, the first time only that the script causes this text."""
+    if is_first(text):
+        log(WARN, text, (), {})
+
+
 # ---- the functions: one maker for each kind, one function for each level ----
 
 

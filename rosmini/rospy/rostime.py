@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Self
 
 from rosmini import time as base
 from rosmini.errors import ROSInitException
 from rosmini.graph.clock import TopicClock
 
-from .session import any_node, current_node
+from .session import any_node, current_node, current_session
 
 TICKS_PER_LOOK = 50
 """A loop that polls the time takes about 50 microseconds a turn with rospy."""
@@ -56,28 +57,47 @@ def get_time() -> float:
 
 
 def _now_ns() -> int:
-    node = current_node()
-    if node is None:
+    if not is_rostime_initialized():
         raise ROSInitException(
             "time is not initialized: a node's clock starts with the node. Call rospy.init_node('name') before asking "
             "for the time."
         )
+    node = any_node()
     node.scheduler.tick(TICKS_PER_LOOK)
-    return node.clock.now_ns()
+    given = current_session().set_time_ns
+    return node.clock.now_ns() if given is None else given
+
+
+def set_rostime_initialized(val: bool) -> None:
+    """Allow a script without a node to read the time, or forbid it: tests that run offline do this."""
+    current_session().has_time = bool(val)
 
 
 def is_rostime_initialized() -> bool:
-    """Return whether there is a node, and so a time."""
-    return current_node() is not None
+    """Return whether the time can be read: there is a node, or ``set_rostime_initialized`` has allowed it."""
+    said = current_session().has_time
+    return current_node() is not None if said is None else said
+
+
+def _set_rostime(t: base.Time) -> None:
+    """Set the time by hand, as a message on ``/clock`` does. Raises ``ValueError`` for what is not a time."""
+    if not isinstance(t, base.Time):
+        raise ValueError(f"must be Time instance: {type(t)}")  # noqa: TRY004 - as in rospy
+    node = current_node()
+    if node is not None and isinstance(node.clock, TopicClock):
+        node.clock.update(SimpleNamespace(clock=t))
+    else:
+        current_session().set_time_ns = t.to_nsec()
 
 
 def is_wallclock() -> bool:
-    """Return whether the node does without the topic ``/clock``."""
-    return not isinstance(any_node().clock, TopicClock)
+    """Return whether the time comes neither from the topic ``/clock`` nor from ``_set_rostime``."""
+    return current_session().set_time_ns is None and not isinstance(any_node().clock, TopicClock)
 
 
 def switch_to_wallclock() -> None:
-    """Do nothing: ``/use_sim_time`` chooses a node's clock when it starts; before, there is the wall clock only."""
+    """Forget the time that ``_set_rostime`` has set. ``/use_sim_time`` chooses a node's clock when the node starts."""
+    current_session().set_time_ns = None
 
 
 def wallsleep(duration: float | base.Duration) -> None:

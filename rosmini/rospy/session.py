@@ -54,6 +54,10 @@ class Session:
         self.shutdown_reason: str | None = None
         self.stopped = False
         self.log_gates = LogGates()
+        self.has_time: bool | None = None
+        """Whether the time may be read, if the script has said so; else it may be when there is a node."""
+        self.set_time_ns: int | None = None
+        """The time that the script has set itself."""
         self._unnamed: UnnamedNode | None = None
         self._armed = False
 

@@ -179,6 +179,10 @@ class Buffer(BufferCore):
     def _warn(self, text: str) -> None:
         self.node.logwarn(text)
 
+    def _warn_once(self, text: str) -> None:
+        if self.node.logger.gates.is_first(text):
+            self._warn(text)
+
     def _clock(self) -> Callable[[], int]:
         return lambda: self.node.clock.now_ns()  # noqa: PLW0108 - a script's node is there only later
 
@@ -292,7 +296,7 @@ class Buffer(BufferCore):
         """A stamped point, vector, pose, quaternion or cloud in another frame, at the time that its header names."""
         header = object_stamped.header
         found = self.lookup_transform(target_frame, header.frame_id.lstrip("/"), header.stamp, timeout)
-        return moved(object_stamped, found)
+        return moved(object_stamped, found, self._warn_once)
 
     def transform_full(
         self,
@@ -307,7 +311,7 @@ class Buffer(BufferCore):
         found = self.lookup_transform_full(
             target_frame, target_time, header.frame_id.lstrip("/"), header.stamp, fixed_frame, timeout
         )
-        return moved(object_stamped, found)
+        return moved(object_stamped, found, self._warn_once)
 
     def transform_points(
         self, points: Any, target_frame: str, source_frame: str, time: Time = LATEST

@@ -15,6 +15,7 @@ from rosmini.msgs.template import template
 
 from .errors import TransformException
 from .rigid import Floats, Rigid, compose, matrix, rigid, rotate, transform_points
+from .transformations.matrices import EPS
 
 FLOAT_TYPES = {7: "f4", 8: "f8"}
 """The floating-point types of `sensor_msgs/PointField`."""
@@ -163,15 +164,35 @@ MOVERS = {
 """What moves the content of a message, in place, by its type."""
 
 
-def moved(message: Any, stamped: Any) -> Any:
-    """A copy of a message in another frame: `stamped`, a `TransformStamped`, says where its frame is there.
+ROTATIONS: dict[str, Callable[[Any], Any]] = {
+    "geometry_msgs/PoseStamped": lambda message: message.pose.orientation,
+    "geometry_msgs/PoseWithCovarianceStamped": lambda message: message.pose.pose.orientation,
+    "geometry_msgs/QuaternionStamped": lambda message: message.quaternion,
+}
+"""The quaternion of a message, by its type."""
 
-    Its header becomes that of `stamped`. Raises `TransformException` for a type that has no place.
+
+def moved(message: Any, stamped: Any, warn: Callable[[str], object] = lambda _text: None) -> Any:
+    """Return a copy of a message in another frame, given by `stamped`: the `TransformStamped` of its frame there.
+
+    The copy has the header of `stamped`. A quaternion of length 0, which every new `PoseStamped` has, counts as no
+    rotation, as in `tf.TransformerROS`; `warn` receives a sentence about it.
+
+    Raises `TransformException` for a type that cannot be transformed.
     """
     kind = getattr(message, "_type", type(message).__name__)
     if kind not in MOVERS:
         raise TransformException(f"a {kind} cannot be moved to another frame; these can: {', '.join(MOVERS)}")
     result = copy.deepcopy(message)
+    if kind in ROTATIONS:
+        turn = ROTATIONS[kind](result)
+        if turn.x * turn.x + turn.y * turn.y + turn.z * turn.z + turn.w * turn.w < EPS:
+            turn.x, turn.y, turn.z, turn.w = 0.0, 0.0, 0.0, 1.0
+            warn(
+                f'A {kind} in frame "{message.header.frame_id}" has the quaternion x=0, y=0, z=0, w=0, as every new '
+                "message has. It is transformed as if there were no rotation. Set orientation.w = 1 for no rotation: "
+                "move_base refuses a goal with such a quaternion."
+            )
     MOVERS[kind](result, transform_of(stamped))
     result.header.frame_id = stamped.header.frame_id
     result.header.stamp = stamped.header.stamp

@@ -115,9 +115,7 @@ def asset_path(name: str) -> Path:
     if name == MESHCAT:
         found = find_spec("meshcat")
         if found is None or found.origin is None:
-            raise ViewError(
-                "3D pictures need meshcat, which is not installed here: `pip install meshcat`"
-            )
+            raise ViewError("3D pictures need meshcat, which is not installed here: `pip install meshcat`")
         return Path(found.origin).parent / "viewer" / "dist" / "main.min.js"
     path = STATIC / name
     if "/" in name or not path.is_file():

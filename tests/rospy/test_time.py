@@ -161,3 +161,23 @@ def test_a_clock_that_goes_back_is_an_error(programs):
             rospy.sleep(10)
 
     programs(clock, main)
+
+
+def test_a_script_without_a_node_can_set_the_time(sim_programs):
+    def main():
+        rostime = rospy.rostime
+        found = [rostime.is_rostime_initialized(), rostime.is_wallclock()]
+        rostime.set_rostime_initialized(True)
+        found += [rostime.is_rostime_initialized(), rospy.get_time()]
+        rostime._set_rostime(time.Time(42))
+        found += [rospy.Time.now(), rospy.get_time(), rostime.is_wallclock()]
+        rostime.switch_to_wallclock()
+        found += [rostime.is_wallclock(), rospy.get_time()]
+        rostime.set_rostime_initialized(False)
+        with pytest.raises(rospy.ROSInitException):
+            rospy.get_rostime()
+        with pytest.raises(ValueError, match="Time"):
+            rostime._set_rostime(42)
+        return found
+
+    assert sim_programs(main) == [False, True, True, 1000, rospy.Time(42), 42, False, True, 1000]

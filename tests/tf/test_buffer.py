@@ -11,7 +11,6 @@ from rosmini.msgs import message_class
 from rosmini.tf import (
     Buffer,
     ExtrapolationException,
-    InvalidArgumentException,
     LookupException,
     StaticTransformBroadcaster,
     TransformBroadcaster,
@@ -127,8 +126,6 @@ def test_what_is_in_a_frame_moves_to_another(graph):
     vector = message_class("geometry_msgs/Vector3")(**ahead)
     vector = buffer.transform(stamped("geometry_msgs/Vector3Stamped", vector=vector), "map")
     assert (vector.vector.x, vector.vector.y) == pytest.approx((0, 1))
-    with pytest.raises(InvalidArgumentException, match="w=0"):
-        buffer.transform(stamped("geometry_msgs/PoseStamped"), "map")
     spread = [0.0] * 36
     spread[0] = 4.0  # along x of base, which is y of map
     pose = stamped("geometry_msgs/PoseWithCovarianceStamped")
@@ -198,3 +195,16 @@ def test_a_node_that_ends_while_it_waits(graph):
     with pytest.raises((ROSException, KeyboardInterrupt)):
         buffer.node.timer(0.1, lambda event: buffer.node.shutdown("enough"), oneshot=True)
         buffer.wait_for_transform("a", "b", timeout=9)
+
+
+def test_a_quaternion_of_length_zero_counts_as_no_rotation(graph, capsys):
+    StaticTransformBroadcaster(graph.node("calibration")).send("map", "base", (1, 2, 3), (0, 0, 1, 1))
+    buffer = listening(graph)
+    buffer.wait_for_transform("map", "base")
+    pose = message_class("geometry_msgs/PoseStamped")()
+    pose.header.frame_id, pose.pose.position.x = "base", 1.0
+    moved = [buffer.transform(pose, "map").pose for _ in range(2)][1]
+    assert (moved.position.x, moved.position.y, moved.position.z) == pytest.approx((1, 3, 3))
+    assert (moved.orientation.z, moved.orientation.w) == pytest.approx((0.5**0.5, 0.5**0.5))
+    assert pose.pose.orientation.w == 0
+    assert capsys.readouterr().err.count("orientation.w = 1") == 1

@@ -15,6 +15,7 @@ import numpy as np
 from rosmini import tf
 from rosmini.msgs.tf import msg, srv
 from rosmini.rospy.aliases.tf2_ros import Buffer
+from rosmini.rospy.aliases.tf2_ros.buffer_interface import moved
 from rosmini.rospy.rostime import Time as RospyTime
 from rosmini.rospy.session import require_node
 from rosmini.tf import transformations
@@ -25,7 +26,7 @@ from rosmini.tf.errors import (
     LookupException,
     TransformException,
 )
-from rosmini.tf.messages import moved, to_stamped
+from rosmini.tf.messages import to_stamped
 from rosmini.tf.rigid import Floats, compose, rotate, transform_points
 from rosmini.time import Duration, Time
 
@@ -45,6 +46,9 @@ __all__ = [
 
 Exception = TransformException
 broadcaster = listener = sys.modules[__name__]
+
+FIRST_NS = 100_000
+"""Where the window of ``lookupTwist`` begins at the earliest [ns]."""
 
 Pair = tuple[list[float], list[float]]
 
@@ -118,13 +122,18 @@ class Transformer:
     def lookupTwist(
         self, tracking_frame: str, observation_frame: str, time: Time, averaging_interval: Duration
     ) -> Pair:
-        """Return how a frame moves in another: linear [m/s] and angular [rad/s] velocity, averaged around ``time``."""
+        """Return how a frame moves in another: linear [m/s] and angular [rad/s] velocity, averaged around ``time``.
+
+        The window ends at the latest transform and does not begin before 0.1 ms, as in tf. Raises as
+        ``lookupTransform`` does.
+        """
         tree = self._buffer.tree
         tracked, observer = _bare(tracking_frame), _bare(observation_frame)
         latest = tree.latest_common_time(observer, tracked)
-        half, wanted = averaging_interval.to_nsec() // 2, time.to_nsec()
-        end = latest if wanted == 0 else min(wanted + half, latest)
-        begin = end - 2 * half
+        interval, wanted = averaging_interval.to_nsec(), time.to_nsec() or latest
+        tree.lookup(observer, tracked, wanted)  # outside the buffer there is no velocity
+        end = min(wanted + interval // 2, latest)
+        begin = max(end - interval, FIRST_NS)
         first, last = (tree.lookup(observer, tracked, when).transform for when in (begin, end))
         span = (end - begin) / 1e9
         turn = compose((0.0, 0.0, 0.0, *last[3:]), (0.0, 0.0, 0.0, -first[3], -first[4], -first[5], first[6]))
@@ -169,8 +178,8 @@ class Transformer:
         return self._buffer.tree.chain_full(*names, _bare(fixed_frame))
 
     def frameExists(self, frame_id: str) -> bool:
-        """Return whether a frame is known."""
-        return _bare(frame_id) in self._buffer.tree
+        """Return whether a frame is known and has a parent: a root frame does not exist for tf."""
+        return frame_id in self._buffer.tree.edges
 
     def getFrameStrings(self) -> list[str]:
         """Return the names of all frames that have a parent, as tf does."""

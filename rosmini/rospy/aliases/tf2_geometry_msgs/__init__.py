@@ -6,7 +6,7 @@ import sys
 from typing import Any
 
 from rosmini.msgs import message_class
-from rosmini.tf.messages import moved
+from rosmini.rospy.aliases.tf2_ros.buffer_interface import moved
 
 PointStamped = message_class("geometry_msgs/PointStamped")
 PoseStamped = message_class("geometry_msgs/PoseStamped")

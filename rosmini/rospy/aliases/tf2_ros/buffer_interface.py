@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import RosminiError
 from rosmini.msgs import message_class
+from rosmini.rospy.logs import warn_once
 from rosmini.rospy.session import current_session
-from rosmini.tf.messages import MOVERS, moved
+from rosmini.tf import messages
 from rosmini.time import Duration, Time
 
 if TYPE_CHECKING:
@@ -105,6 +106,14 @@ class BufferInterface:
         raise NotImplementedException
 
 
+def moved(message: Any, transform: Any) -> Any:
+    """Return a copy of a stamped message in the frame of ``transform``, with its stamp.
+
+    A quaternion of length 0 counts as no rotation; the script is warned once for each type and frame.
+    """
+    return messages.moved(message, transform, warn_once)
+
+
 def _converted(thing: Any, new_type: Any) -> Any:
     return thing if not new_type else convert(thing, new_type)
 
@@ -148,7 +157,7 @@ class TransformRegistration(_Registration):
 
     def get(self, key: Any) -> Callable[[Any, Any], Any]:
         """Return what moves things of the type ``key``. Raises ``TypeException``."""
-        if ("transform", key) not in self._all() and getattr(key, "_type", None) in MOVERS:
+        if ("transform", key) not in self._all() and getattr(key, "_type", None) in messages.MOVERS:
             return moved
         return self._find("transform", key)
 

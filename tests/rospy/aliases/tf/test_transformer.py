@@ -1,4 +1,4 @@
-"""The first API of tf without a node: velocities."""
+"""The first API of tf without a node."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from rosmini.rospy.aliases.tf import ExtrapolationException, Transformer
+from rosmini.msgs.geometry_msgs.msg import PoseStamped, Quaternion, QuaternionStamped
+from rosmini.rospy.aliases import tf2_geometry_msgs
+from rosmini.rospy.aliases.tf import ExtrapolationException, Transformer, TransformerROS
 from rosmini.tf.messages import to_stamped
 from rosmini.tf.rigid import from_yaw
 from rosmini.time import Duration, Time
@@ -67,3 +69,47 @@ def test_lookup_twist_full(transformer):
     assert angular == pytest.approx([0, 0, TURN])
     with pytest.raises(ExtrapolationException):
         transformer.lookupTwistFull("base", "odom", "map", (0, 0, 0), "base", Time(50), interval)
+
+
+@pytest.mark.parametrize(("seconds", "interval"), [(0, 15), (3, 5)])
+def test_the_window_of_a_twist_does_not_begin_before_time_zero(seconds, interval):
+    transformer = Transformer(True, Duration(20))
+    for second in range(11):
+        transformer.setTransform(
+            to_stamped("odom", "base", from_yaw(second, 0, 0), max(second * 10**9, 10**5))
+        )
+    linear, _ = transformer.lookupTwist("base", "odom", Time(seconds), Duration(interval))
+    assert linear == pytest.approx([1, 0, 0], abs=1e-3)
+    with pytest.raises(ExtrapolationException):
+        transformer.lookupTwist("base", "odom", Time(11), Duration(interval))
+
+
+def test_a_root_frame_does_not_exist(transformer):
+    assert not transformer.frameExists("map")
+    assert not transformer.frameExists("/odom")
+    assert transformer.frameExists("odom")
+    assert transformer.getFrameStrings() == ["base", "odom", "arm"]
+
+
+QUATERNIONS = {"a new pose": (0, 0, 0, 0), "almost zero": (1e-9, 0, 0, 0), "none": (0, 0, 0, 1)}
+
+
+@pytest.mark.parametrize("quaternion", QUATERNIONS.values(), ids=QUATERNIONS)
+def test_a_quaternion_of_length_zero_counts_as_no_rotation(sim, quaternion, capsys):
+    transformer = TransformerROS()
+    half = math.sqrt(0.5)
+    stamped = to_stamped("map", "base", (1, 2, 3, 0, 0, half, half), 10**9)
+    transformer.setTransform(stamped)
+    pose, turn = PoseStamped(), QuaternionStamped()
+    pose.header.frame_id = turn.header.frame_id = "base"
+    pose.pose.position.x = 1
+    pose.pose.orientation = turn.quaternion = Quaternion(*quaternion)
+    found = transformer.transformPose("map", pose).pose
+    assert found == tf2_geometry_msgs.do_transform_pose(pose, stamped).pose
+    for orientation in (found.orientation, transformer.transformQuaternion("map", turn).quaternion):
+        assert [getattr(orientation, part) for part in "xyzw"] == pytest.approx([0, 0, half, half])
+    assert [getattr(found.position, axis) for axis in "xyz"] == pytest.approx([1, 3, 3])
+    assert transformer.fromTranslationRotation((1, 2, 3), quaternion)[:3, :3] == pytest.approx(np.identity(3))
+    warned = capsys.readouterr().err
+    kinds = ("geometry_msgs/PoseStamped", "geometry_msgs/QuaternionStamped")
+    assert [warned.count(kind) for kind in kinds] == ([0, 0] if quaternion[3] else [1, 1])
