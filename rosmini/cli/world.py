@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,7 +14,7 @@ from .verbs import ArgumentParser, Call, Result, Tool
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from rosmini.sim.sdf.document import Note
     from rosmini.sim.world import World
@@ -52,19 +53,23 @@ def list_(_given: argparse.Namespace, _call: Call) -> Worlds:
 
 @dataclass(frozen=True)
 class FileCheck:
-    """What a sound file holds, and what is doubtful in it."""
+    """What a file that can be read holds, what of it is left out, and what is doubtful in it."""
 
     file: str
     what: str
     notes: tuple[str, ...] = ()
+    left_out: Mapping[str, int] = field(default_factory=dict)
+    """What rosmini leaves out, in a few words each, and how often."""
 
     def __str__(self) -> str:
-        return "\n".join([f"{self.file}: sound: {self.what}", *(f"  {note}" for note in self.notes)])
+        missing = [each if count == 1 else f"{each} ({count} times)" for each, count in self.left_out.items()]
+        verdict = f"read without {_listed(missing)}" if missing else "sound"
+        return "\n".join([f"{self.file}: {verdict}: {self.what}", *(f"  {note}" for note in self.notes)])
 
 
 @dataclass(frozen=True, kw_only=True)
 class Checked(Result):
-    """The sound ones of the files that were checked; what is wrong with the others are complaints."""
+    """The files that can be read; what is wrong with the others are complaints."""
 
     sound: tuple[FileCheck, ...]
 
@@ -116,11 +121,10 @@ def _checked(file: str, *, confined: bool) -> FileCheck:
             return FileCheck(file, f"made in Python: {_measures(world(file))}")
     else:
         path = _resolved(file)
-    checks: dict[str, Callable[[Path], tuple[str, list[str]]]] = {
+    checks: dict[str, Callable[[Path], FileCheck]] = {
         "sdf": _sdf, "stage": _stage, "map": _map, "urdf": partial(_urdf, confined=confined), "xml": _sdf,
     }  # fmt: skip
-    what, notes = checks[kind_of(path)](path)
-    return FileCheck(str(path), what, tuple(notes))
+    return checks[kind_of(path)](path)
 
 
 def _resolved(file: str) -> Path:
@@ -136,15 +140,17 @@ def _placed(file: str, message: str) -> str:
     return f"error: {message}" if Path(file).name in message else f"error: {file}: {message}"
 
 
-def _sdf(path: Path) -> tuple[str, list[str]]:
+def _sdf(path: Path) -> FileCheck:
     from rosmini.sim.sdf import converted, load, to_obstacles
 
     document = load(path)
     said = []
     notes = [_noted(note) for note in document.notes]
+    left_out = Counter(note.left_out for note in document.notes if note.left_out)
     for each in document.worlds:
         made, more = converted(each)
         notes += [_noted(note) for note in more]
+        left_out.update(note.left_out for note in more if note.left_out)
         said.append(f"the world {each.name!r}: {_measures(made)}")
         notes += _occupied(made, f"{each.path}:{each.line}")
     for model in document.models:
@@ -153,31 +159,32 @@ def _sdf(path: Path) -> tuple[str, list[str]]:
             f"the model {model.name!r}: {_count(len(model.links), 'link')}, {_count(len(solid), 'obstacle')}"
         )
     said += [f"the actor {actor.name!r}" for actor in document.actors]
-    return f"SDF {document.version}: {'; '.join(said) or 'nothing in it'}", notes
+    what = f"SDF {document.version}: {'; '.join(said) or 'nothing in it'}"
+    return FileCheck(str(path), what, tuple(notes), left_out)
 
 
 def _noted(note: Note) -> str:
     return f"warning: {note}" if note.warning else str(note)
 
 
-def _stage(path: Path) -> tuple[str, list[str]]:
+def _stage(path: Path) -> FileCheck:
     from rosmini.sim.stage import load
 
     made = load(path)
-    return f"Stage: {_measures(made.world)}", [str(note) for note in getattr(made, "notes", ())]
+    return FileCheck(str(path), f"Stage: {_measures(made.world)}", made.notes, made.left_out)
 
 
-def _map(path: Path) -> tuple[str, list[str]]:
+def _map(path: Path) -> FileCheck:
     from rosmini.navigation.map_server import load_map
 
     grid = load_map(path)
     height, width = grid.occupancy.shape
     occupied, free = (100 * float(mask.mean()) for mask in (grid.occupied, grid.free))
     size = f"{width} x {height} cells of {grid.resolution:g} m"
-    return f"map: {size}, {occupied:.1f} % occupied, {free:.1f} % free", []
+    return FileCheck(str(path), f"map: {size}, {occupied:.1f} % occupied, {free:.1f} % free")
 
 
-def _urdf(path: Path, *, confined: bool) -> tuple[str, list[str]]:
+def _urdf(path: Path, *, confined: bool) -> FileCheck:
     from rosmini.markup import parse_file
     from rosmini.urdf import UrdfError, load
 
@@ -187,10 +194,11 @@ def _urdf(path: Path, *, confined: bool) -> tuple[str, list[str]]:
 
         expand(path, {}, confined=confined)
         macros = sum(each.tag == "xacro:macro" for each in written.walk())
-        return f"xacro: a part of a robot, with {_count(macros, 'macro')}, for others to include", []
+        what = f"xacro: a part of a robot, with {_count(macros, 'macro')}, for others to include"
+        return FileCheck(str(path), what)
     robot = load(path, confined=confined)
     said = f"URDF: the robot {robot.name!r}: {_count(len(robot.links), 'link')}, {_count(len(robot.joints), 'joint')}"
-    return said, [str(note) for note in robot.notes]
+    return FileCheck(str(path), said, robot.notes)
 
 
 def _measures(world: World) -> str:
@@ -222,6 +230,10 @@ def _occupied(world: World, place: str) -> list[str]:
             x, y, _ = start
             found.append(f"{place}: start {i} at ({x:.2f}, {y:.2f}) is not free: {blocked} is there")
     return found
+
+
+def _listed(words: list[str]) -> str:
+    return f"{', '.join(words[:-1])} and {words[-1]}" if len(words) > 1 else words[0]
 
 
 def _count(number: int, what: str) -> str:

@@ -103,6 +103,10 @@ class Obstacle:
 
     Of two such things the product counts.
     """
+    passable: bool = False
+    """Robots and other things pass through it; lasers and cameras see it all the same."""
+    seen_by_lasers: bool = True
+    """False: lasers see through it."""
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not self.name.strip():
@@ -132,6 +136,11 @@ class Obstacle:
             or ("" if self.drag is None else _range_problem("drag", self.drag, math.inf))
             or _range_problem("restitution", self.restitution, 1.0)
             or self._motion_problem()
+            or (
+                "robots pass through it, so it cannot have a mass or a motion"
+                if self.passable and not self.fixed
+                else ""
+            )
         )
         if problem:
             raise WorldError(f"the obstacle {self.name!r} is not possible: {problem}")
@@ -192,6 +201,8 @@ class World:
     """A few words for captions."""
     solid: bool = False
     """The walls are closed outlines, and what is inside of them (by the even-odd rule) is solid, as in a traced map."""
+    passable_walls: bool = False
+    """Robots pass through the walls; lasers and cameras see them all the same."""
 
     def __post_init__(self) -> None:
         problem = (
@@ -239,6 +250,11 @@ class World:
 
     def __repr__(self) -> str:
         return f"<World {self.name}: {_count(len(self.walls), 'wall')}, {_count(len(self.obstacles), 'obstacle')}>"
+
+    @property
+    def hard_walls(self) -> NDArray[np.float64]:
+        """The walls (n, 4) that stop robots."""
+        return self.walls[:0] if self.passable_walls else self.walls
 
     @cached_property
     def segments(self) -> NDArray[np.float64]:
@@ -326,9 +342,9 @@ class World:
 
     @cached_property
     def _fixtures(self) -> Fixtures:
-        found = Fixtures(self.walls, solid=self.solid)
+        found = Fixtures(self.hard_walls, solid=self.solid)
         for obstacle in self.obstacles:
-            if obstacle.fixed:
+            if obstacle.fixed and not obstacle.passable:
                 found.insert(obstacle.name, obstacle.bottom, obstacle.parts())
         return found
 

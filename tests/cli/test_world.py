@@ -61,6 +61,25 @@ def test_check_knows_stage_worlds_and_robots(capsys, tmp_path):
     assert "Stage: " in lines[2]
 
 
+def test_the_verdict_names_what_is_left_out(capsys, tmp_path):
+    (tmp_path / "s.world").write_text(
+        "model( fiducial( ) fiducial( ) )\nposition( camera( range [0 0] ) )\nmodel( siez [1 1 1] )",
+        encoding="utf-8",
+    )
+    (tmp_path / "w.world").write_text(
+        "<sdf version='1.7'><world name='w'><include><uri>model://nowhere_to_be_found</uri></include></world></sdf>",
+        encoding="utf-8",
+    )
+    status, out, _ = run(capsys, "check", tmp_path / "s.world", tmp_path / "w.world")
+    assert status == 0
+    lines = [line for line in out.splitlines() if not line.startswith(" ")]
+    assert (
+        "read without a fiducial (2 times), a camera that has no picture and the property siez: Stage"
+        in lines[0]
+    )
+    assert "w.world: read without a model: SDF 1.7" in lines[1]
+
+
 def test_check_takes_a_part_of_a_robot_for_what_it_is(capsys, tmp_path):
     macro = "<xacro:macro name='leg' params='n'><link name='leg${n}'/></xacro:macro>"
     spaces = "xmlns:xacro='http://www.ros.org/wiki/xacro'"

@@ -49,8 +49,11 @@ def _placed(shape: Box | Polygon, pose: Pose) -> Floats:
 
 
 def obstacle_section(obstacle: Obstacle, height: float, pose: Pose | None = None) -> CrossSection:
-    """Return the cross-section of an obstacle at `height` [m] above the ground, at `pose` or where it is."""
-    if not obstacle.bottom <= height <= obstacle.height:
+    """Return the cross-section of an obstacle at `height` [m] above the ground, at `pose` or where it is.
+
+    An obstacle that lasers do not see has none.
+    """
+    if not obstacle.seen_by_lasers or not obstacle.bottom <= height <= obstacle.height:
         return NOTHING
     return cross_section(
         simple_parts(obstacle.shape, obstacle.pose if pose is None else pose), height - obstacle.bottom

@@ -299,7 +299,7 @@ class Engine:
         self._insert(obstacle)
 
     def _hindrance_of(self, obstacle: Obstacle) -> str | None:
-        return self.contacts.hindrance_of(obstacle, obstacle.at(0.0))
+        return None if obstacle.passable else self.contacts.hindrance_of(obstacle, obstacle.at(0.0))
 
     def _insert(self, obstacle: Obstacle) -> None:
         self._obstacles[obstacle.name] = obstacle

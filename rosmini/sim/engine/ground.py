@@ -100,19 +100,21 @@ class Ground:
     """The walls of a world, and obstacles that do not move, which come and go."""
 
     def __init__(self, world: World) -> None:
-        self._walls, self._height = world.walls, world.wall_height
-        self._index = Nearby(boxes_around(world.walls)) if len(world.walls) else None
+        self._walls, self._height = world.hard_walls, world.wall_height
+        self._index = Nearby(boxes_around(self._walls)) if len(self._walls) else None
         self._made: dict[int, FixedPiece] = {}
         self.cells = Cells()
         self._pieces: dict[str, list[FixedPiece]] = {}
         self._number = 0
-        self.fixtures = Fixtures(world.walls, solid=world.solid)
+        self.fixtures = Fixtures(self._walls, solid=world.solid)
         """The same, for who asks what is in the way."""
         self.version = 0
         """How often anything came or went."""
 
     def insert(self, obstacle: Obstacle) -> None:
-        """Put a fixed obstacle where its pose is."""
+        """Put a fixed obstacle where its pose is; a passable one is no part of the ground."""
+        if obstacle.passable:
+            return
         self.version += 1
         self._number += 1
         name = obstacle.name

@@ -125,7 +125,12 @@ def _obstacles(model: SdfModel, pose: Pose6, notes: list[Note]) -> list[Obstacle
         found = list(_pieces(model, lifted, notes, sliced=False))
         if not found:
             notes.append(
-                Note(model.path, model.line, f"the model {model.name!r} has nothing solid: left out")
+                Note(
+                    model.path,
+                    model.line,
+                    f"the model {model.name!r} has nothing solid: left out",
+                    left_out="a model that has nothing solid",
+                )
             )
             return []
         if motion is None and any(joint.type != "fixed" for joint in _joints(model)):
@@ -197,11 +202,9 @@ def _pieces(model: SdfModel, pose: Pose6, notes: list[Note], *, sliced: bool) ->
             except MeshError as error:
                 raise SdfError(str(error), model.path, collision.line) from error
             if remark:
-                notes.append(
-                    Note(
-                        model.path, collision.line, f"{collision.name!r} of the model {model.name!r} {remark}"
-                    )
-                )
+                text = f"{collision.name!r} of the model {model.name!r} {remark}"
+                left_out = "a plane" if not found and collision.geometry.kind == "plane" else ""
+                notes.append(Note(model.path, collision.line, text, left_out=left_out))
             colour = _colour(collision, link)
             for each in found:
                 if each.top > FLAT:
@@ -209,7 +212,8 @@ def _pieces(model: SdfModel, pose: Pose6, notes: list[Note], *, sliced: bool) ->
                     yield _Piece(f"{name}::{collision.name}", replace(each, bottom=bottom), colour)
                 elif each.top > 0:
                     what = f"{collision.name!r} of the model {model.name!r} is {each.top * 1000:.0f} mm high"
-                    notes.append(Note(model.path, collision.line, f"{what}: wheels roll over it, left out"))
+                    text = f"{what}: wheels roll over it, left out"
+                    notes.append(Note(model.path, collision.line, text, left_out="something flat"))
 
 
 def _joints(model: SdfModel) -> Iterator[SdfJoint]:

@@ -31,6 +31,8 @@ class Note:
     text: str
     warning: bool = False
     """Whether it is a fault of the file, of which Gazebo complains too; else rosmini lacks something."""
+    left_out: str = ""
+    """What was left out, in a few words; empty if it was only taken for something else."""
 
     def __str__(self) -> str:
         return f"{self.path}:{self.line}: {self.text}"

@@ -44,9 +44,9 @@ class Reading:
     models: int = 0
     """How many were read, each as often as it is included."""
 
-    def note(self, element: Element, text: str, *, warning: bool = False) -> None:
-        """Say what was left out; the same thing of the same line once."""
-        note = Note(element.path, element.line, text, warning)
+    def note(self, element: Element, text: str, *, warning: bool = False, left_out: str = "") -> None:
+        """Note what was left out, or read otherwise; the same thing of the same line once."""
+        note = Note(element.path, element.line, text, warning, left_out)
         if note not in self.notes[-50:]:
             self.notes.append(note)
 
@@ -64,6 +64,7 @@ class Reading:
                 self.note(
                     child,
                     f"<{child.tag}> is nothing that <{element.tag}> has{'; ' + hint if hint else ''}: left out",
+                    left_out=f"<{child.tag}>",
                 )
 
 
@@ -114,7 +115,7 @@ def link(element: Element, scope: Scope, reading: Reading) -> SdfLink:
     here = scope.place(name_of(element), element)
     reading.unknown(element, LINK_TAGS)
     for light in element.all("light"):
-        reading.note(light, "a light: left out, all is lit alike")
+        reading.note(light, "a light: left out, all is lit alike", left_out="a light")
     return SdfLink(
         name_of(element),
         here,
@@ -199,7 +200,7 @@ def _solid(element: Element, reading: Reading) -> SdfGeometry:
     try:
         meshes.read(found.mesh, found.submesh)
     except meshes.MeshError as error:
-        reading.note(element.need("mesh"), f"this mesh is left out: {error}", warning=True)
+        reading.note(element.need("mesh"), f"this mesh is left out: {error}", warning=True, left_out="a mesh")
         return SdfGeometry("other", line=found.line)
     return found
 
@@ -238,7 +239,11 @@ def geometry(element: Element, reading: Reading) -> SdfGeometry:
             if other.tag not in OTHER:
                 hint = nearest(other.tag, KINDS) or f"shapes are {', '.join(KINDS)}"
                 raise other.error(f"there is no shape <{other.tag}>; {hint}")
-            reading.note(other, f"the shape <{other.tag}> is left out; rosmini has {', '.join(KINDS)}")
+            reading.note(
+                other,
+                f"the shape <{other.tag}> is left out; rosmini has {', '.join(KINDS)}",
+                left_out=f"<{other.tag}>",
+            )
         return SdfGeometry("other" if others else "empty", line=element.line)
     shape = shapes[0]
     if shape.tag == "polyline":
@@ -305,7 +310,7 @@ def _mesh(element: Element, reading: Reading) -> SdfGeometry:
     try:
         path = reading.resources.find(uri.text, uri)
     except MissingError as error:
-        reading.note(uri, f"this mesh is left out: {error.message}", warning=True)
+        reading.note(uri, f"this mesh is left out: {error.message}", warning=True, left_out="a mesh")
         return SdfGeometry("other", line=element.line)
     part = element.word("submesh/name")
     return SdfGeometry("mesh", mesh=path, scale=(x, y, z), submesh=part, line=element.line)

@@ -54,7 +54,7 @@ def _document(root: Element, reading: Reading) -> Sdf:
         raise root.error(f"an SDF file begins with <sdf version=...>, not with <{root.tag}>{hint}")
     reading.unknown(root, ("world", "model", "actor", "light", "include"))
     for light in root.all("light"):
-        reading.note(light, "a light: left out, all is lit alike")
+        reading.note(light, "a light: left out, all is lit alike", left_out="a light")
     scope = Scope("world", what="the file")
     worlds = tuple(_world(each, reading) for each in unique(root.all("world"), "world"))
     models = tuple(_model(each, given(each).pose, reading, 0) for each in unique(root.all("model"), "model"))
@@ -69,7 +69,7 @@ def _world(element: Element, reading: Reading) -> SdfWorld:
     reading.unknown(element, WORLD_TAGS)
     for left_out in element.all("light", "road", "population", "joint"):
         why = "all is lit alike" if left_out.tag == "light" else "rosmini has none in a world"
-        reading.note(left_out, f"a {left_out.tag}: left out, {why}")
+        reading.note(left_out, f"a {left_out.tag}: left out, {why}", left_out=f"a {left_out.tag}")
     name = name_of(element)
     scope = Scope("world", what=f"the world {name!r}")
     included = _included(element, reading, 0)
@@ -238,7 +238,9 @@ def _included(element: Element, reading: Reading, depth: int) -> list[tuple[Elem
         try:
             found.append((each, _inner(each, reading, depth)))
         except MissingError as error:
-            reading.note(each.need("uri"), f"this model is left out: {error.message}", warning=True)
+            reading.note(
+                each.need("uri"), f"this model is left out: {error.message}", warning=True, left_out="a model"
+            )
     return found
 
 
@@ -291,11 +293,13 @@ def _with_frame(inner: Element, frame: str) -> Element:
 
 def _actor(element: Element, scope: Scope, reading: Reading) -> SdfActor:
     if element.find("static") is not None or element.find("link") is not None:
-        reading.note(element, "links of an actor: left out")
+        reading.note(element, "links of an actor: left out", left_out="the links of an actor")
     script = element.find("script")
     ways = script.all("trajectory") if script is not None else []
     if len(ways) > 1:
-        reading.note(ways[1], "an actor follows its first trajectory alone: left out")
+        reading.note(
+            ways[1], "an actor follows its first trajectory alone: left out", left_out="a trajectory"
+        )
     waypoints = []
     for each in ways[0].all("waypoint") if ways else []:
         moment = number(each, "time", 0.0)

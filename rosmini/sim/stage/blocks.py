@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from rosmini import images
 from rosmini.geometry.contours import outlines
 from rosmini.geometry.polygons import area, crossing_sides
+from rosmini.sim.models import hull
 
 from .errors import Place, StageError
 
@@ -53,22 +54,28 @@ def square() -> Block:
     return Block(np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]))
 
 
-def block(points: Floats, bottom: float, top: float, place: Place) -> Block:
-    """A block of these corners (n, 2), in either sense. Raises `StageError` if they make no polygon."""
+def block(points: Floats, bottom: float, top: float) -> tuple[Block | None, str]:
+    """Return a block of these vertices (n, 2), in either sense, and what is odd about it; None if it encloses nothing.
+
+    Stage draws the sides of any list of points; here a block whose sides cross becomes its convex hull.
+    """
     if len(points) < 3:
-        raise StageError(place, f"a block needs 3 points or more, not {len(points)}")
+        return None, f"a block needs 3 points or more, not {len(points)}: it is left out"
     if top <= bottom:
-        raise StageError(
-            place, f"the z of a block goes from {bottom:g} up to {top:g}; the second has to be more"
+        return (
+            None,
+            f"the z of a block goes from {bottom:g} up to {top:g}, so nothing meets it: it is left out",
         )
-    size = area(points)
-    if size == 0:
-        raise StageError(place, "the points of a block enclose nothing")
     crossing = crossing_sides(points)
+    odd = ""
     if crossing is not None:
         first, second = crossing
-        raise StageError(place, f"the sides of a block meet that begin at point[{first}] and point[{second}]")
-    return Block(points if size > 0 else points[::-1], bottom, top)
+        odd = f"the sides of a block meet that begin at point[{first}] and point[{second}]: it is read as its hull"
+        points = np.array(hull([(x, y) for x, y in points.tolist()])).reshape(-1, 2)
+    size = area(points) if len(points) > 2 else 0.0
+    if size == 0:
+        return None, "the points of a block enclose nothing: it is left out"
+    return Block(points if size > 0 else points[::-1], bottom, top), odd
 
 
 def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, float, float, float], str]:
@@ -80,7 +87,8 @@ def image(path: Path, place: Place) -> tuple[tuple[Block, ...], tuple[float, flo
         raise StageError(place, f"the bitmap {path} cannot be read: {error}") from error
     dark = first[::-1] <= THRESHOLD
     if not dark.any():
-        raise StageError(place, f"nothing in the bitmap {path} is dark (first channel up to {THRESHOLD})")
+        odd = f"nothing in the bitmap {path} is dark (first channel up to {THRESHOLD}), so it has no body"
+        return (), (0.0, 0.0, 1.0, 1.0), odd
     columns, rows = np.flatnonzero(dark.any(axis=0)), np.flatnonzero(dark.any(axis=1))
     box = (float(columns[0]), float(rows[0]), float(columns[-1] + 1), float(rows[-1] + 1))
     height, width = dark.shape
@@ -100,6 +108,8 @@ def stretched(
 
     Heights start where they start: only their extent is scaled.
     """
+    if not blocks:
+        return ()
     if box is None:
         points = np.vstack([each.outline for each in blocks])
         box = (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())

@@ -141,8 +141,9 @@ class Stageros(Simulation):
         self.parameters = StageParameters.read(node)
         self.file: StageWorld = load(path)
         self.world = self.file.world
-        for note in self.file.notes:
-            node.loginfo(note)
+        if self.file.notes:
+            log = node.logwarn if self.file.left_out else node.loginfo
+            log("\n".join([f"{self.file.path} is not read as Stage itself would read it:", *self.file.notes]))
         engine = Engine(self.world, lambda name: node.graph.rng(f"{node.name}/{name}"), noise=0.0)
         speed = self.file.speedup if window else WINDOWLESS_RATE * self.file.interval
         super().__init__(node, Host(node, engine, from_zero=True, speed=speed, paused=True))

@@ -15,6 +15,7 @@ grammar from libstage's worldfile.cc.)
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -29,6 +30,8 @@ Value = float | str
 DEEPEST = 100
 """The deepest nesting of entities; a file that goes deeper is broken, or malicious."""
 
+_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+
 MOST = 100_000
 """The largest number of entities of a world."""
 
@@ -40,7 +43,6 @@ class Property:
     name: str
     values: tuple[Value, ...]
     place: Place
-    bracketed: bool = False
 
 
 @dataclass
@@ -85,10 +87,11 @@ def parse(words: Iterable[Token], path: Path) -> Parsed:
 
 
 class _Words:
-    """Words to be taken one by one."""
+    """Words to be taken one by one; `whole`: they are those of the whole file."""
 
-    def __init__(self, words: tuple[Token, ...], end: Place) -> None:
+    def __init__(self, words: tuple[Token, ...], end: Place, *, whole: bool = False) -> None:
         self.words = words
+        self.whole = whole
         self.at = 0
         self.end = words[-1].place if words else end
 
@@ -104,7 +107,7 @@ class _Words:
 
 class _Parser:
     def __init__(self, words: tuple[Token, ...], path: Path) -> None:
-        self._words = _Words(words, Place(path, 1))
+        self._words = _Words(words, Place(path, 1), whole=True)
         self._macros: dict[str, _Macro] = {}
         self._parsed = Parsed(Entity("", Place(path, 1)), path)
         self._count = 0
@@ -131,7 +134,7 @@ class _Parser:
                 body = _between(words, word)
                 entity.children.append(self._make(word.text, word.place, body, using))
             else:
-                found = _property(word, words)
+                found = _property(word, words, self._parsed.notes)
                 entity.properties[found.name] = found
 
     def _define(self, define: Token, words: _Words) -> None:
@@ -186,28 +189,44 @@ def _between(words: _Words, owner: Token) -> tuple[Token, ...]:
     return words.words[begin : words.at - 1]
 
 
-def _property(name: Token, words: _Words) -> Property:
+def _property(name: Token, words: _Words, notes: list[tuple[Place, str]]) -> Property:
     first = words.next()
     if first is None or first.kind not in ("number", "string", "["):
         found = "nothing" if first is None else _shown(first)
         hint = ": a string has to be in double quotes" if first is not None and first.kind == "word" else ""
         raise StageError(name.place, f"{name.text} needs a value, and there is {found}{hint}")
     if first.kind != "[":
-        return Property(name.text, (_value(first),), name.place)
+        return Property(name.text, (_value(first, notes),), name.place)
     values: list[Value] = []
     while True:
         word = words.next()
-        if word is None:
+        if word is None and words.whole:  # Stage takes the end of the file for the bracket
+            notes.append((name.place, f"the [ after {name.text} has no ]; it ends with the file"))
+        if word is None and not words.whole:
             raise StageError(name.place, f"the [ after {name.text} has no ]")
-        if word.kind == "]":
-            return Property(name.text, tuple(values), name.place, bracketed=True)
+        if word is None or word.kind == "]":
+            return Property(name.text, tuple(values), name.place)
         if word.kind not in ("number", "string"):
             raise StageError(word.place, f"{name.text} [...] holds numbers and strings, not {_shown(word)}")
-        values.append(_value(word))
+        values.append(_value(word, notes))
 
 
-def _value(word: Token) -> Value:
-    return float(word.text) if word.kind == "number" else word.text
+def _value(word: Token, notes: list[tuple[Place, str]]) -> Value:
+    if word.kind != "number":
+        return word.text
+    number, whole = leading_number(word.text)
+    if not whole:
+        notes.append((word.place, f"Stage reads {word.text} as the number {number:g}"))
+    return number
+
+
+def leading_number(text: str) -> tuple[float, bool]:
+    """Return the number that a text begins with, as C's `atof` does, and whether it is the whole text.
+
+    Of what does not begin with a number it is 0.
+    """
+    found = _NUMBER.match(text)
+    return (float(found.group()), found.end() == len(text.rstrip())) if found else (0.0, False)
 
 
 def _shown(word: Token) -> str:

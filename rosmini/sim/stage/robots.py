@@ -9,7 +9,7 @@ laser a negative z.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from rosmini.sim.models import MOST_BEAMS, MOST_PIXELS
@@ -100,29 +100,31 @@ class StageRobot:
 
 
 def robot(thing: Thing, number: int, units: Units) -> StageRobot:
-    """The robot that a position is. Raises `StageError`."""
+    """Return the robot that a position is. Raises `StageError` for more beams or pixels than there may be."""
     reader = thing.reader
-    lasers, cameras, body = [], [], []
+    lasers: list[StageLaser] = []
+    cameras: list[StageCamera] = []
+    body: list[Thing] = []
     for each in thing.family():
         if each.kind == "position" and each is not thing:
-            raise StageError(
-                each.place, "a position on another one is not simulated; give each a place of its own"
-            )
+            what = "the position {} is on another one: it is part of that robot here, and does not drive by itself"
+            units.note(each.place, what, each.name, left_out="a position on another one")
         if each.kind in ("ranger", "laser", "camera") and not any(each is child for child in thing.children):
             units.note(each.place, "{} is not directly on a position: stageros does not find it", each.name)
         elif each.kind in ("ranger", "laser"):
-            lasers.append(_laser(each, thing, units))
+            lasers += _laser(each, thing, units)
         elif each.kind == "camera":
-            cameras.append(_camera(each, thing))
+            cameras += _camera(each, thing, units)
         if each.body is not None:
             body.append(each)
     x, y, _, a = thing.at
     origin = reader.several("localization_origin", "llla", thing.at)
-    bounds = _bounds(reader)
+    bounds = _bounds(reader, units)
     _notes(reader, units)
     wheelbase = reader.length("wheelbase", 1.0)
-    if wheelbase <= 0:
-        raise StageError(reader.place("wheelbase"), f"wheelbase is {wheelbase:g} m; it has to be more than 0")
+    if wheelbase == 0:
+        units.note(reader.place("wheelbase"), "wheelbase is 0; 1 m is used, Stage's default")
+        wheelbase = 1.0
     drive = reader.text("drive", "diff", ("diff", "omni", "car"))
     localization = reader.text("localization", "gps", ("gps", "odom"))
     return StageRobot(
@@ -155,15 +157,16 @@ def _odom_error(reader: Reader) -> tuple[float | None, float | None, float | Non
     return (ahead, left if said > 1 else None, turn if said > 3 else None)
 
 
-def _bounds(reader: Reader) -> tuple[Bounds, Bounds, Bounds]:
+def _bounds(reader: Reader, units: Units) -> tuple[Bounds, Bounds, Bounds]:
     full = (-1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -QUARTER, QUARTER)
     found = reader.several("velocity_bounds", "llllllaa", full)
     pairs = [(found[i], found[i + 1]) for i in (0, 2, 6)]
     for name, (low, high) in zip(("ahead", "to the left", "of turning"), pairs, strict=True):
         if low > high:
-            what = f"velocity_bounds: the speed {name} is from {low:g} to {high:g}; the second has to be more"
-            raise StageError(reader.place("velocity_bounds"), what)
-    return (pairs[0], pairs[1], pairs[2])
+            what = f"velocity_bounds: the speed {name} is from {low:g} to {high:g}; the two are exchanged"
+            units.note(reader.place("velocity_bounds"), what)
+    ahead, left, turn = ((min(pair), max(pair)) for pair in pairs)
+    return (ahead, left, turn)
 
 
 def _notes(reader: Reader, units: Units) -> None:
@@ -193,103 +196,108 @@ def _on(thing: Thing, base: Thing) -> Pose4:
     return (on_x, on_y, on_z, heading)
 
 
-def _laser(thing: Thing, base: Thing, units: Units) -> StageLaser:
+def _laser(thing: Thing, base: Thing, units: Units) -> list[StageLaser]:
+    """The laser that stageros publishes of a ranger; none if it measures nothing."""
     if thing.kind == "laser":
         return _old_laser(thing, base, units)
     sensors = [child for child in thing.entity.children if child.kind == "sensor"]
     if not sensors:
-        raise StageError(thing.place, f"the ranger {thing.name} has no sensor( ... ), so it measures nothing")
+        what = "the ranger {} has no sensor( ... ), so it measures nothing and is left out"
+        units.note(thing.place, what, thing.name, left_out="a ranger without sensors")
+        return []
     if len(sensors) > 1:
         what = f"{{}} has {len(sensors)} sensors; stageros publishes the first alone"
         units.note(sensors[1].place, what, thing.name)
     return _sensor(sensors[0], thing, base, units)
 
 
-def _sensor(entity: Entity, thing: Thing, base: Thing, units: Units) -> StageLaser:
+def _sensor(entity: Entity, thing: Thing, base: Thing, units: Units) -> list[StageLaser]:
     reader = Reader(entity, units)
     pose = reader.several("pose", "llla", (0.0, 0.0, 0.0, 0.0))
     size = reader.several("size", "lll", SENSOR_SIZE)
     low, high = reader.several("range", "ll", (0.0, 5.0))
     constant, part, _ = reader.several("noise", "lfa", (0.0, 0.0, 0.0))
-    fov, samples = reader.angle("fov", 0.1), reader.whole("samples", 1, minimum=1)
+    fov, samples = reader.angle("fov", 0.1), reader.whole("samples", 1)
     reader.done(("color", "color_rgba"))
-    _check(reader, low, high, fov, samples)
     if constant < 0 or part < 0:
-        raise StageError(reader.place("noise"), "noise cannot be negative")
+        units.note(reader.place("noise"), "noise is negative; 0 is used")
     on = moved(_on(thing, base), thing.origin)
     mounted = moved(on, (pose[0], pose[1], pose[2], pose[3]))
-    return StageLaser(
-        mounted,
-        base.at[2] + mounted[2] + size[2] / 2,
-        low,
-        high,
-        fov,
-        samples,
-        (constant, part),
-        entity.place,
-    )
+    height = base.at[2] + mounted[2] + size[2] / 2
+    noise = (max(constant, 0.0), max(part, 0.0))
+    return _checked(StageLaser(mounted, height, low, high, fov, samples, noise, entity.place), reader, units)
 
 
-def _old_laser(thing: Thing, base: Thing, units: Units) -> StageLaser:
+def _old_laser(thing: Thing, base: Thing, units: Units) -> list[StageLaser]:
     """A laser of Stage 3, whose files are still about."""
     reader = thing.reader
     units.note(thing.place, "Stage 4 knows no laser; it is read as a ranger with one sensor")
     low = reader.length("range_min", LASER3_RANGE[0])
     high = reader.length("range_max", LASER3_RANGE[1])
     fov = reader.angle("fov", LASER3_FOV)
-    samples = reader.whole("samples", LASER3_SAMPLES, minimum=1)
-    _check(reader, low, high, fov, samples)
+    samples = reader.whole("samples", LASER3_SAMPLES)
     on = moved(_on(thing, base), thing.origin)
     height = base.at[2] + on[2] + SENSOR_SIZE[2] / 2
-    return StageLaser(on, height, low, high, fov, samples, (0.0, 0.0), thing.place)
+    laser = StageLaser(on, height, low, high, fov, samples, (0.0, 0.0), thing.place)
+    return _checked(laser, reader, units)
 
 
-def _check(reader: Reader, low: float, high: float, fov: float, samples: int) -> None:
+def _checked(laser: StageLaser, reader: Reader, units: Units) -> list[StageLaser]:
+    """The laser with numbers that are possible; none if it measures nothing. Raises `StageError` for too many beams."""
     name = "range" if "range" in reader.entity.properties else "range_max"
-    if low < 0 or high <= low:
-        span = f"from {low:g} m to {high:g} m"
-        what = f"a ranger measures {span}; the first has to be 0 or more, and the second more than it"
-        raise StageError(reader.place(name), what)
-    if not 0 <= fov <= 2 * math.pi + 1e-9:
+    if laser.samples < 1 or laser.range_max <= 0:
+        what = f"a ranger of {laser.samples} samples up to {laser.range_max:g} m measures nothing and is left out"
+        units.note(laser.place, what, left_out="a ranger that measures nothing")
+        return []
+    if laser.samples > MOST_BEAMS:
         raise StageError(
-            reader.place("fov"), f"fov is {math.degrees(fov):g} degrees; it has to be from 0 to 360"
+            reader.place("samples"), f"samples is {laser.samples}; a ranger has {MOST_BEAMS} at the most"
         )
-    if samples > MOST_BEAMS:
-        raise StageError(
-            reader.place("samples"), f"samples is {samples}; a ranger has {MOST_BEAMS} at the most"
-        )
+    if not 0 <= laser.range_min < laser.range_max:
+        span = f"from {laser.range_min:g} m to {laser.range_max:g} m"
+        units.note(reader.place(name), f"a ranger measures {span}; the first is taken for 0")
+        laser = replace(laser, range_min=0.0)
+    if abs(laser.fov) > 2 * math.pi + 1e-9:
+        what = f"fov is {math.degrees(laser.fov):g} degrees; 360 is used, the most that is possible"
+        units.note(reader.place("fov"), what)
+        laser = replace(laser, fov=math.copysign(2 * math.pi, laser.fov))
+    return [laser]
 
 
-def _camera(thing: Thing, base: Thing) -> StageCamera:
+def _camera(thing: Thing, base: Thing, units: Units) -> list[StageCamera]:
+    """The camera; none if it has no picture. Raises `StageError` for too many pixels."""
     reader = thing.reader
-    width, height = reader.several("resolution", "ff", CAMERA_RESOLUTION)
-    if not (width >= 1 and height >= 1 and width == int(width) and height == int(height)):
-        what = f"resolution is [{width:g} {height:g}]; a picture has whole numbers of pixels"
-        raise StageError(reader.place("resolution"), what)
+    width, height = (int(part) for part in reader.several("resolution", "ff", CAMERA_RESOLUTION))
     if width * height > MOST_PIXELS:
-        what = f"resolution is [{width:g} {height:g}]; a picture has {MOST_PIXELS} pixels at the most"
+        what = f"resolution is [{width} {height}]; a picture has {MOST_PIXELS} pixels at the most"
         raise StageError(reader.place("resolution"), what)
     horizontal, vertical = reader.several("fov", "ff", CAMERA_FOV)  # in degrees, whatever unit_angle says
-    if not (0 < horizontal < 180 and 0 < vertical < 180):
-        what = f"fov is [{horizontal:g} {vertical:g}] degrees; a camera sees more than 0 and less than 180"
-        raise StageError(reader.place("fov"), what)
     near, far = reader.several("range", "ll", CAMERA_RANGE)
-    if not 0 < near < far:
-        raise StageError(
-            reader.place("range"), f"range is [{near:g} {far:g}]; it has to be more than 0, and go up"
-        )
+    wrong = ""
+    if not (width >= 1 and height >= 1):
+        wrong = f"its resolution is [{width} {height}]"
+    elif not (0 < horizontal < 180 and 0 < vertical < 180):
+        wrong = f"its fov is [{horizontal:g} {vertical:g}] degrees"
+    elif not 0 < near < far:
+        wrong = f"its range is [{near:g} {far:g}]"
+    if wrong:
+        what = f"the camera {{}} has no picture, since {wrong}: it is left out"
+        units.note(thing.place, what, thing.name, left_out="a camera that has no picture")
+        return []
     pan, tilt = reader.several("pantilt", "ff", (0.0, 0.0))
     fov = (math.radians(horizontal), math.radians(vertical))
     pose = moved(_on(thing, base), thing.origin)
-    return StageCamera(
-        pose,
-        base.at[2] + pose[2],
-        int(width),
-        int(height),
-        fov,
-        near,
-        far,
-        math.radians(pan),
-        math.radians(tilt),
-        thing.place,
-    )
+    return [
+        StageCamera(
+            pose,
+            base.at[2] + pose[2],
+            width,
+            height,
+            fov,
+            near,
+            far,
+            math.radians(pan),
+            math.radians(tilt),
+            thing.place,
+        )
+    ]

@@ -12,7 +12,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .blocks import Block, Body, block, frame, image, square, stretched
+from rosmini.sim.shapes import colour_problem
+
+from .blocks import EDGE, Block, Body, block, frame, image, square, stretched
 from .errors import Place, StageError
 from .parse import Entity, Parsed, unknown_kind
 from .tokens import find_file, searched
@@ -124,7 +126,8 @@ class Maker:
         """One model; None if nothing of it is simulated."""
         if entity.kind in LEFT_OUT:
             article = "an" if entity.kind[0] in "aeiou" else "a"
-            self.units.note(entity.place, f"{article} {entity.kind} is not simulated and is left out")
+            what = f"{article} {entity.kind}"
+            self.units.note(entity.place, f"{what} is not simulated and is left out", left_out=what)
             return None
         if entity.kind not in SIMULATED:
             raise unknown_kind(entity, (*SIMULATED, *LEFT_OUT, "window"), self.parsed.macros)
@@ -172,12 +175,11 @@ class Maker:
         return f"{prefix}{entity.kind}:{number}"
 
     def _size(self, reader: Reader, default: tuple[float, float, float]) -> tuple[float, float, float]:
-        x, y, z = reader.several("size", "lll", default)
-        for axis, part in zip("xyz", (x, y, z), strict=True):
-            if part <= 0:
-                raise StageError(
-                    reader.place("size"), f"the {axis} of size is {part:g}; it has to be more than 0"
-                )
+        found = reader.several("size", "lll", default)
+        x, y, z = (max(abs(part), EDGE) for part in found)
+        if min(found) < EDGE:
+            what = f"each side of a size is {EDGE:g} m or more here: {found[0]:g} {found[1]:g} {found[2]:g} becomes"
+            self.units.note(reader.place("size"), f"{what} {x:g} {y:g} {z:g}")
         return (x, y, z)
 
     def _seen(self, reader: Reader) -> float:
@@ -192,52 +194,63 @@ class Maker:
 
     def _colour(self, reader: Reader, default: str) -> str:
         name = reader.text("color", default)
-        if reader.find("color_rgba") is not None:
+        if reader.find("color_rgba") is not None and reader.find("color") is None:
             red, green, blue, _ = reader.several("color_rgba", "ffff", (1.0, 0.0, 0.0, 1.0))
             return rgb(red, green, blue)
         if name == "random":
             self.units.note(reader.place("color"), "a random colour is grey here, the same on each run")
             return "grey"
-        found = name if name.startswith("#") else colour(name)
+        found = name if name.startswith("#") and not colour_problem(name) else colour(name)
         if found is None:
             hint = suggestion(name)
-            what = f'there is no colour "{name}" among those of X11{"; " + hint if hint else ""}'
-            raise StageError(reader.place("color"), what)
+            what = f'there is no colour "{name}" among those of X11, so it is red, as in Stage'
+            self.units.note(reader.place("color"), f"{what}{'; ' + hint if hint else ''}")
+            return rgb(1.0, 0.0, 0.0)
         return found
 
     # -- bodies --------------------------------------------------------------------------------------------------
 
     def _body(self, reader: Reader, kind: str, size: tuple[float, float, float]) -> Body | None:
         entity = reader.entity
-        own = [self._block(child) for child in entity.children if child.kind == "block"]
+        blocks = [child for child in entity.children if child.kind == "block"]
+        own = tuple(found for child in blocks if (found := self._block(child)) is not None)
         bitmap = reader.text("bitmap", "")
         boundary = frame(size) if reader.flag("boundary", default=False) else ()
         if bitmap:
             traced, box, odd = self._image(bitmap, reader.place("bitmap"))
             if odd and not boundary:
                 self.units.note(reader.place("bitmap"), odd)
+            plan = stretched(traced, size, box)
             if own:
-                raise StageError(
-                    entity.place, f"{entity.title} has a bitmap and blocks; rosmini reads one of them"
-                )
-            return Body(stretched(traced, size, box), traced=True, boundary=boundary)
-        if own:
-            return Body(stretched(tuple(own), size), boundary=boundary)
+                every = stretched((*plan, *own), size)
+                plan, boundary = every[: len(plan)], (*boundary, *every[len(plan) :])
+            if not plan:
+                return Body((), boundary=boundary) if boundary else None
+            return Body(plan, traced=True, boundary=boundary)
+        if blocks:
+            return Body(stretched(own, size), boundary=boundary) if own or boundary else None
         if kind in BODILESS or reader.flag("noblocks", default=False):
-            return Body(boundary) if boundary else None
+            return Body((), boundary=boundary) if boundary else None
         return Body(stretched((square(),), size), boundary=boundary)
 
-    def _block(self, entity: Entity) -> Block:
+    def _block(self, entity: Entity) -> Block | None:
+        """A block; None if it encloses nothing."""
         reader = Reader(entity, self.units)
         count = reader.whole("points", 0, minimum=0)
-        points = []
-        for i in range(count):
-            if reader.find(f"point[{i}]") is None:
-                raise StageError(reader.place("points"), f"a block of {count} points has no point[{i}]")
-            points.append(reader.several(f"point[{i}]", "ll", (0.0, 0.0)))
+        count = min(
+            count, len(entity.properties) + 1
+        )  # of the points that are missing, one is as good as many
+        missing = [i for i in range(count) if f"point[{i}]" not in entity.properties]
+        if missing:
+            what = f"a block has no point[{missing[0]}]; as in Stage, [0 0] is used"
+            self.units.note(reader.place("points"), what)
+        points = [reader.several(f"point[{i}]", "ll", (0.0, 0.0)) for i in range(count)]
         bottom, top = reader.several("z", "ll", (0.0, 1.0))
         reader.done(("color", "color_rgba"))
-        return block(np.array(points, dtype=float).reshape(-1, 2), bottom, top, entity.place)
+        found, odd = block(np.array(points, dtype=float).reshape(-1, 2), bottom, top)
+        if odd:
+            self.units.note(entity.place, odd, left_out="" if found else "a block that encloses nothing")
+        return found
 
     def _image(
         self, name: str, place: Place

@@ -31,7 +31,7 @@ _TOKEN = re.compile(
     r"""(?P<space>[ \t\r\f\v]+|\#[^\n]*)
       | (?P<line>\n)
       | (?P<word>[A-Za-z](?:[\w.\-]|\[\d+\])*)
-      | (?P<number>[-+]?(\d+\.?\d*|\.\d+)(?![\w.+\-]))
+      | (?P<number>[-+.\d]+(?!\w))
       | (?P<string>"[^"\n]*")
       | (?P<mark>[()\[\]])""",
     re.VERBOSE,

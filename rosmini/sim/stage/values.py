@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from rosmini.errors import nearest
 
 from .errors import Place, StageError
-from .parse import Entity, Property
+from .parse import Entity, Property, Value, leading_number
 
 DEGREE = math.pi / 180
 
@@ -23,11 +24,18 @@ class Units:
 
     length: float = 1.0
     angle: float = DEGREE
+    left_out: Counter[str] = field(default_factory=Counter)
+    """What is left out of the world, in a few words each, and how often."""
     _notes: dict[str, list[str]] = field(default_factory=dict)
 
-    def note(self, place: Place, what: str, who: str = "") -> None:
-        """Remember what is left out or not as it looks; in `what`, {} stands for the name of `who` it is said of."""
+    def note(self, place: Place, what: str, who: str = "", left_out: str = "") -> None:
+        """Remember what differs from the file, or from Stage; `{}` in `what` is replaced by the name `who`.
+
+        `left_out` names the thing that is left out, in a few words.
+        """
         self._notes.setdefault(what, []).append(f"{place}: {what.replace('{}', who)}")
+        if left_out:
+            self.left_out[left_out] += 1
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -39,7 +47,11 @@ class Units:
 
 
 class Reader:
-    """Reads the properties of one entity. Each method raises `StageError` for a value of another kind."""
+    """Reads the properties of one entity, as leniently as Stage.
+
+    Stage reads a number from whatever begins like one, and 0 from anything else; it takes the first of several values,
+    and the default of a choice that it does not know. Each such reading leaves a note.
+    """
 
     def __init__(self, entity: Entity, units: Units) -> None:
         self.entity = entity
@@ -47,92 +59,107 @@ class Reader:
         self.read: set[str] = set()
 
     def find(self, name: str) -> Property | None:
-        """The property of this name, if it is there."""
+        """Return the property of this name, if it is there."""
         self.read.add(name)
         return self.entity.properties.get(name)
 
     def place(self, name: str) -> Place:
-        """Where a property stands; if it is not there, where the entity does."""
+        """Return where a property is written; if it is not there, where the entity is."""
         found = self.entity.properties.get(name)
         return found.place if found else self.entity.place
 
     def text(self, name: str, default: str, choices: Sequence[str] = ()) -> str:
-        """A string, one of the `choices` if there are any."""
+        """Return a string, one of the `choices` if there are any."""
         found = self.find(name)
         if found is None:
             return default
-        if len(found.values) != 1 or not isinstance(found.values[0], str):
-            raise StageError(found.place, f"{name} needs a string in double quotes, not {_shown(found)}")
-        value = found.values[0]
+        value = self._first(found)
+        if not isinstance(value, str):
+            value = f"{value:g}"
         if choices and value not in choices:
             hint = nearest(value, choices)
             options = " or ".join(f'"{choice}"' for choice in choices)
-            raise StageError(
-                found.place, f'{name} is "{value}"; it has to be {options}{"; " + hint if hint else ""}'
-            )
+            what = f'{name} is "{value}", and it has to be {options}; "{default}" is used, as in Stage'
+            self.units.note(found.place, f"{what}{'; ' + hint if hint else ''}")
+            return default
         return value
 
     def number(
         self, name: str, default: float, *, minimum: float | None = None, above: float | None = None
     ) -> float:
-        """A number, at least the `minimum`, or more than `above`."""
+        """Return a number, at least the `minimum`. Raises `StageError` if it is not more than `above`."""
         found = self.find(name)
         if found is None:
             return default
-        if len(found.values) != 1 or not isinstance(found.values[0], float):
-            raise StageError(found.place, f"{name} needs a number, not {_shown(found)}")
-        value = found.values[0]
+        value = self._number(found, self._first(found))
         if minimum is not None and value < minimum:
-            raise StageError(found.place, f"{name} is {value:g}; it has to be at least {minimum:g}")
+            self.units.note(
+                found.place, f"{name} is {value:g}; {minimum:g} is used, the least that is possible"
+            )
+            return minimum
         if above is not None and value <= above:
             raise StageError(found.place, f"{name} is {value:g}; it has to be more than {above:g}")
         return value
 
     def whole(self, name: str, default: int, *, minimum: int | None = None) -> int:
-        """A whole number."""
+        """Return a whole number; as in Stage the digits after the point do not count."""
         value = self.number(name, default, minimum=minimum)
         if value != int(value):
-            raise StageError(self.place(name), f"{name} is {value:g}; it has to be a whole number")
+            self.units.note(self.place(name), f"{name} is {value:g}; as in Stage it is cut to {int(value)}")
         return int(value)
 
     def flag(self, name: str, *, default: bool) -> bool:
-        """1 or 0."""
-        return self.number(name, float(default)) != 0
+        """Return whether a number is 1 or more, or negative."""
+        return int(self.number(name, float(default))) != 0
 
     def length(self, name: str, default: float, *, minimum: float | None = None) -> float:
-        """A length [m]."""
+        """Return a length [m]."""
         value = self.number(name, default / self.units.length, minimum=minimum)
         return value * self.units.length
 
     def angle(self, name: str, default: float) -> float:
-        """An angle [rad]."""
+        """Return an angle [rad]."""
         return self.number(name, default / self.units.angle) * self.units.angle
 
     def several(self, name: str, kinds: str, default: Sequence[float]) -> tuple[float, ...]:
-        """Numbers in brackets, one for each letter: l a length [m], a an angle [rad], f a number as it is.
+        """Return numbers in brackets, one for each letter: l a length [m], a an angle [rad], f a plain number.
 
-        If there are fewer, the rest is that of `default`, as in Stage.
+        Where there are fewer, the rest is that of `default`, as in Stage 4.1; more are ignored.
         """
         found = self.find(name)
         if found is None:
             return tuple(default)
-        if not found.bracketed:
-            raise StageError(
-                found.place, f"{name} needs {len(kinds)} numbers in brackets, not {_shown(found)}"
-            )
-        if not 0 < len(found.values) <= len(kinds):
-            msg = f"{name} has {len(found.values)} values in its brackets; it needs {len(kinds)}"
-            raise StageError(found.place, msg)
         scale = {"l": self.units.length, "a": self.units.angle, "f": 1.0}
-        values = []
-        for kind, value in zip(kinds, found.values, strict=False):
-            if not isinstance(value, float):
-                raise StageError(found.place, f'{name} holds numbers, not "{value}"')
-            values.append(value * scale[kind])
-        if len(values) < len(kinds):
+        pairs = zip(kinds, found.values, strict=False)
+        values = [self._number(found, value) * scale[kind] for kind, value in pairs]
+        if len(found.values) < len(kinds):
             what = f"{name} has {len(values)} of its {len(kinds)} numbers; the others are taken as they are by default"
             self.units.note(found.place, what)
+        elif len(found.values) > len(kinds):
+            self.units.note(
+                found.place, f"{name} has {len(found.values)} numbers; only the first {len(kinds)} count"
+            )
         return (*values, *default[len(values) :])
+
+    def _first(self, found: Property) -> Value:
+        """Return the value of a property that takes one. Raises `StageError` if it has none."""
+        if not found.values:
+            raise StageError(found.place, f"{found.name} needs a value, and there is none in its brackets")
+        if len(found.values) > 1:
+            self.units.note(
+                found.place, f"{found.name} has {len(found.values)} values; only the first counts"
+            )
+        return found.values[0]
+
+    def _number(self, found: Property, value: Value) -> float:
+        if isinstance(value, float):
+            return value
+        number, whole = leading_number(value)
+        if not whole:
+            self.units.note(
+                found.place, f'{found.name} is "{value}", which Stage reads as the number {number:g}'
+            )
+        return number
 
     def done(self, known: Sequence[str]) -> None:
         """Note the properties that nobody has read and that Stage does not know either."""
@@ -142,16 +169,11 @@ class Reader:
             hint = nearest(name, [*self.read, *known])
             title = self.entity.title or "the world"
             what = f"{name} is no property of {title} that is known here, and is left out{'; ' + hint if hint else ''}"
-            self.units.note(found.place, what)
-
-
-def _shown(found: Property) -> str:
-    values = " ".join(f'"{value}"' if isinstance(value, str) else f"{value:g}" for value in found.values)
-    return f"[{values}]" if found.bracketed else values
+            self.units.note(found.place, what, left_out=f"the property {name}")
 
 
 def units_of(root: Entity) -> Units:
-    """What lengths and angles of a world file are in. Raises `StageError`."""
+    """Return the units of the lengths and angles of a world file."""
     units = Units()
     reader = Reader(root, units)
     units.length = UNITS[reader.text("unit_length", "m", tuple(UNITS))]

@@ -2,15 +2,16 @@
 
 What is read: include, define, units, `resolution`, `interval_sim`, `speedup`, `paused`, `quit_time`, and
 the models `model`, `position`, `ranger`, `laser` (of Stage 3) and `camera` with blocks, bitmaps and boundaries.
-Models with `gripper_return 1` can be pushed. What is left out is told in `StageWorld.notes`, with file and line; what
-is wrong is a `StageError`, which names them too.
+Models with `gripper_return 1` can be pushed; lasers see those with `obstacle_return 0`, and robots drive through them.
+The file is read as leniently as by Stage itself. `StageWorld.notes` lists what is left out or read otherwise, with file
+and line; what Stage refuses, too, is a `StageError`, which names them as well.
 """
 
 from __future__ import annotations
 
 import os
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -27,7 +28,7 @@ from .errors import Place, StageError
 from .parse import Parsed, parse_file
 from .robots import BASE, StageRobot, robot
 from .solids import Solid, filled, placed, solid
-from .things import UNUSED, Maker, Thing
+from .things import MASS, UNUSED, Maker, Thing
 from .tokens import expanded
 from .values import Reader, units_of
 
@@ -77,6 +78,8 @@ class StageWorld:
     """Of Stage's raytracing [m]. Here rays are exact."""
     notes: tuple[str, ...]
     """What is left out, or not as one would think, each with file and line."""
+    left_out: dict[str, int]
+    """What is left out, in a few words each, and how often."""
 
 
 def load(path: str | os.PathLike[str]) -> StageWorld:
@@ -115,13 +118,13 @@ class _World:
                 each.reader.done((*UNUSED, *KNOWN[each.kind]))
         resolution = reader.length("resolution", DEFAULT_RESOLUTION)
         if resolution <= 0:
-            raise StageError(
-                reader.place("resolution"), f"resolution is {resolution:g}; it has to be more than 0"
-            )
+            what = f"resolution is {resolution:g}; {DEFAULT_RESOLUTION:g} is used"
+            units.note(reader.place("resolution"), what)
+            resolution = DEFAULT_RESOLUTION
         made = StageWorld(
             name=name,
             path=parsed.path,
-            world=self._with_starts(self._world(name)),
+            world=self._note_starts(self._world(name)),
             robots=tuple(self.robots),
             interval=interval,
             speedup=speedup,
@@ -129,10 +132,10 @@ class _World:
             quit_time=reader.number("quit_time", 0.0, minimum=0.0),
             resolution=resolution,
             notes=(),
+            left_out={},
         )
         reader.done((*WORLD, *IGNORED))
-        object.__setattr__(made, "notes", units.notes)
-        return made
+        return replace(made, notes=units.notes, left_out=dict(units.left_out))
 
     def _speedup(self, reader: Reader) -> float:
         speedup = reader.number("speedup", 1.0)
@@ -167,12 +170,12 @@ class _World:
             return
         for each in thing.family():
             if each.kind == "position":
-                what = f"the position {each.name} is on the model {thing.name}, which does not move"
-                raise StageError(each.place, f"{what}; give it a place of its own")
+                what = "the position {} is on a model, so it does not drive here; give it a place of its own"
+                self.units.note(each.place, what, each.name, left_out="a position on a model")
             if each.kind in ("ranger", "laser", "camera"):
                 self.units.note(each.place, "{} is on no position: stageros does not find it", each.name)
         bodies = [each for each in thing.family() if each.body is not None]
-        if thing.pushable:
+        if thing.pushable and thing.solid:
             self._push(thing, bodies)
             return
         for each in bodies:
@@ -187,6 +190,9 @@ class _World:
         if body.traced and solid(thing, blocks[0]).bottom <= 0 and not self.walls:
             corners = [placed(thing, each) for each in blocks]
             self.walls.append((thing, np.vstack([sides_of(loop) for loop in corners])))
+            if thing.seen < 0:
+                what = "ranger_return changes nothing for the first bitmap of a world: {} is seen by lasers"
+                self.units.note(thing.reader.place("ranger_return"), what, thing.name)
             blocks = ()
         else:
             blocks = self._filled(thing)
@@ -198,15 +204,17 @@ class _World:
         blocks: list[tuple[Thing, Block]] = []
         for each in bodies:
             if each.body is not None and self._there(each):
+                if not each.solid:
+                    what = "{} is on a thing that can be pushed, so that robots bump into it, too"
+                    self.units.note(each.place, what, each.name)
                 blocks += [(each, one) for one in (*self._filled(each), *each.body.boundary)]
         if not blocks:
             return
         mass = thing.mass
         if mass <= 0:
-            raise StageError(
-                thing.reader.place("mass"),
-                f"{thing.name} can be pushed, so its mass has to be more than 0 kg",
-            )
+            what = f"{{}} can be pushed, so its mass has to be more than 0; {MASS:g} kg are used"
+            self.units.note(thing.reader.place("mass"), what, thing.name)
+            mass = MASS
         solids = [solid(owner, each) for owner, each in blocks]
         low, high = min(each.bottom for each in solids), max(each.top for each in solids)
         if high <= 0:
@@ -219,17 +227,12 @@ class _World:
             self._add(thing, Solid(parts, pose, low, high), mass)
 
     def _there(self, thing: Thing) -> bool:
-        """Return whether anything bumps into the thing, and note what is not as the file says."""
-        if not thing.solid:
-            what = "nothing bumps into {} and nothing sees it: it is left out"
-            if thing.seen >= 0:
-                what = "nothing bumps into {}: it is left out here, so that no laser sees it either"
-            self.units.note(thing.place, what, thing.name)
-            return False
-        if thing.seen < 0:
-            what = "ranger_return changes nothing here: {} is seen by lasers"
-            self.units.note(thing.reader.place("ranger_return"), what, thing.name)
-        return True
+        """Return whether anything bumps into the thing or lasers see it, and note if not."""
+        if thing.solid or thing.seen >= 0:
+            return True
+        what = "nothing bumps into {} and no laser sees it: it is left out"
+        self.units.note(thing.place, what, thing.name, left_out="a thing that nothing touches or sees")
+        return False
 
     def _filled(self, thing: Thing) -> tuple[Block, ...]:
         """The blocks of a thing's body, without what is hollow in them."""
@@ -249,6 +252,7 @@ class _World:
         self._add(thing, found)
 
     def _add(self, thing: Thing, what: Solid, mass: float | None = None) -> None:
+        """Take one solid of a thing into the world; without a mass it is fixed."""
         count = self.names[thing.name]
         self.names[thing.name] += 1
         name = thing.name if not count else f"{thing.name} ({count + 1})"
@@ -261,17 +265,19 @@ class _World:
                 bottom=what.bottom,
                 colour=thing.colour,
                 mass=mass,
+                passable=not thing.solid,
+                seen_by_lasers=thing.seen >= 0,
             )
         except WorldError as error:
             raise StageError(thing.place, str(error)) from error
         self.obstacles.append(found)
 
-    def _with_starts(self, world: World) -> World:
-        """The same world. Raises `StageError` if a robot starts outside of it."""
+    def _note_starts(self, world: World) -> World:
+        """Return the same world, and note the robots that start outside of it."""
         for each in self.robots:
             outside = world.outside(each.pose)
             if outside:
-                raise StageError(each.place, f"{each.name} cannot start there: {outside}")
+                self.units.note(each.place, f"{{}} starts outside: {outside}", each.name)
         return world
 
     def _world(self, name: str) -> World:
@@ -282,5 +288,12 @@ class _World:
         thing, walls = self.walls[0]
         top = thing.at[2] + thing.size[2]
         return World(
-            name, tuple(self.obstacles), walls=walls, wall_height=top, starts=starts, title=title, solid=True
+            name,
+            tuple(self.obstacles),
+            walls=walls,
+            wall_height=top,
+            starts=starts,
+            title=title,
+            solid=True,
+            passable_walls=not thing.solid,
         )
