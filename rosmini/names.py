@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
 __all__ = [
+    "ROS_RELEASE",
     "AnonymousNames",
     "Remappings",
     "canonicalize",
@@ -32,6 +33,9 @@ __all__ = [
     "resolve_for",
     "split_resource_name",
 ]
+
+ROS_RELEASE = {"ROS_VERSION": "1", "ROS_DISTRO": "noetic", "ROS_PYTHON_VERSION": "3"}
+"""The environment variables that name the ROS release, which conditions in manifests (REP 149) read, too."""
 
 GRAPH_NAME = re.compile(r"(?:[~/A-Za-z][A-Za-z0-9_/]*)?")
 BASE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")

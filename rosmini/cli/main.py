@@ -12,15 +12,17 @@ import importlib
 import io
 import os
 import sys
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
 from rosmini import __version__
 from rosmini.errors import RosminiError, nearest
+from rosmini.names import ROS_RELEASE
 
 from .checkout import find_checkout
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
 
 class Command(Protocol):
@@ -217,6 +219,24 @@ def main(argv: Sequence[str] | None = None) -> int:
     except RosminiError as error:
         print(f"rosmini: {error}", file=sys.stderr)
         return 2
+    with _ros_release():
+        return _run(name, argv)
+
+
+@contextmanager
+def _ros_release() -> Iterator[None]:
+    """Set the environment variables that name the ROS release, as a setup file of ROS does."""
+    missing = ROS_RELEASE.keys() - os.environ.keys()
+    os.environ.update({variable: ROS_RELEASE[variable] for variable in missing})
+    try:
+        yield
+    finally:
+        for variable in missing:
+            os.environ.pop(variable, None)
+
+
+def _run(name: str | None, argv: list[str]) -> int:
+    """Run a subcommand and return its exit status; errors are reported."""
     try:
         loaded = {name: COMMANDS[name].load()} if name else {}
         parser = build_parser(loaded, others=argv[:1] != [name])

@@ -149,6 +149,16 @@ class Graph(GraphCore):
         self._online = self.scheduler.on_hub(lambda: begin(self, master_uri, environ, live=live))
         return self._online
 
+    @property
+    def is_online(self) -> bool:
+        """True between :meth:`online` and :meth:`offline`."""
+        return self._online is not None
+
+    def keep_pace(self, condition: Callable[[], bool]) -> None:
+        """Let simulated time go no faster than real time while ``condition()`` is true; only with :meth:`online`."""
+        if self._online is not None:
+            self._online.keep_pace(condition)
+
     def offline(self) -> None:
         """Leave the nodes of other processes; those of this one go on among themselves. Harmless when repeated."""
         online, self._online = self._online, None

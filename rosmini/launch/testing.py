@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from socket import socket
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
@@ -14,13 +17,14 @@ from rosmini.markup import MarkupError, parse_file
 from .running import Launch, Running, in_graph
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from rosmini.markup import Element
     from rosmini.packages import PackageIndex
 
     from .plan import Plan, TestPlan
 
+MASTER_URI = "ROS_MASTER_URI"
 KINDS = ("failure", "error", "skipped")
 
 
@@ -117,7 +121,7 @@ def _run_test(
     file.unlink(missing_ok=True)
     classname = f"{test.package}.rosunit-{test.test_name}"
     node = replace(test, args=f"{test.args} '--gtest_output=xml:{file}'", output="screen")
-    with Graph(simulated=simulated, strict=False) as graph:
+    with Graph(simulated=simulated, strict=False) as graph, _own_master(graph):
         launch = Launch(plan, graph, in_graph(graph, packages), say=say, warn=say)
         launch.start()
         made = launch.start_node(node)
@@ -131,6 +135,25 @@ def _run_test(
         said = f"the test did not end within its time limit of {test.time_limit:g} s"
         return [Case(classname, test.test_name, "failure", said)]
     return _results_of(made, code, file, classname, test)
+
+
+@contextmanager
+def _own_master(graph: Graph) -> Iterator[None]:
+    """Serve the graph's Master at a free port, and name it in ``ROS_MASTER_URI``, as rostest does."""
+    with socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    before = os.environ.get(MASTER_URI)
+    graph.online(f"http://localhost:{port}", live=False)
+    os.environ[MASTER_URI] = graph.master_uri
+    try:
+        yield
+    finally:
+        graph.offline()
+        if before is None:
+            del os.environ[MASTER_URI]
+        else:
+            os.environ[MASTER_URI] = before
 
 
 def _results_of(made: Running, code: int, file: Path, classname: str, test: TestPlan) -> list[Case]:

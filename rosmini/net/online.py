@@ -27,7 +27,7 @@ from .sockets import Unreached
 from .watch import Watch
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from rosmini.graph import Graph
     from rosmini.graph.transport import Triple
@@ -98,6 +98,7 @@ class Online:
         self.server: MasterServer | None = None
         """What serves this graph's Master; None where the graph has joined another one."""
         self._pace: Pace | None = None
+        self._companions: list[Callable[[], bool]] = []
         self._is_live_of_ours = False
         self._had_rosout = False
         try:
@@ -185,15 +186,27 @@ class Online:
             port.call("setParam", node.name, USE_SIM_TIME, True)
             publisher = node.publisher("/clock", graph.clock_class, queue_size=1)
 
-            self._pace = Pace(graph.scheduler, self.network.io) if live else None
+            if live:
+                self.keep_pace(lambda: True)
 
             def tell_time(_: Any) -> None:
-                if self._pace is not None and not graph.is_live:  # which has a pace of its own
-                    self._pace.keep()
+                if not graph.is_live:  # which has a pace of its own
+                    self._keep_pace()
                 if publisher.num_connections():
                     publisher.publish(clock=graph.now())
 
             node.timer(1 / CLOCK_HZ, tell_time)
+
+    def keep_pace(self, condition: Callable[[], bool]) -> None:
+        """Let simulated time go no faster than real time while ``condition()`` is true. Has no effect in wall time."""
+        if not self._companions:
+            self._pace = Pace(self.graph.scheduler, self.network.io)
+        self._companions.append(condition)
+
+    def _keep_pace(self) -> None:
+        self._companions = [condition for condition in self._companions if condition()]
+        if self._pace is not None and self._companions:
+            self._pace.keep()
 
     def _go_on(self) -> None:
         """Let the graph go on by itself in a notebook."""

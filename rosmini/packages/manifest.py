@@ -10,11 +10,9 @@ from typing import NamedTuple
 
 from rosmini import files
 from rosmini.errors import DefinitionError
+from rosmini.names import ROS_RELEASE
 
 from .folders import MANIFEST, ROSBUILD_MANIFEST, STACK_MANIFEST
-
-# What `condition` attributes of a manifest (REP 149) are compared with: the ROS that rosmini is.
-ROS_CONDITIONS = {"ROS_VERSION": "1", "ROS_DISTRO": "noetic", "ROS_PYTHON_VERSION": "3"}
 
 
 @dataclass(frozen=True)
@@ -119,7 +117,7 @@ def read_package(folder: Path) -> Package:
         parsed = parse_package_string(data, str(manifest), warnings=[])
         with warnings.catch_warnings():  # catkin_pkg calls pyparsing by names that pyparsing means to drop
             warnings.simplefilter("ignore", DeprecationWarning)
-            parsed.evaluate_conditions(ROS_CONDITIONS)
+            parsed.evaluate_conditions(ROS_RELEASE)
     except (InvalidPackage, AssertionError, ValueError) as error:
         reason = _reason(error)
         raise DefinitionError(reason, manifest, _line_at_fault(data, reason)) from error

@@ -7,8 +7,8 @@ random generator. What blocks or keeps state in a module of its own (``time``, `
 replaced by the script's importer instead.
 
 Shared by all scripts, as threads of one process share it: the current folder (``os.chdir``), open files,
- ``sys.setrecursionlimit``, the locale. A blocking call that is not named in :mod:`rosmini.scripts.shims`
-(``subprocess.run``, sockets, ``asyncio.run``) holds up the other scripts while it lasts.
+``sys.setrecursionlimit``, the locale. A blocking call that is not named in :mod:`rosmini.scripts.shims`
+(sockets, ``asyncio.run``) holds up the other scripts while it lasts.
 
 For the client library (rospy), which finds its caller's script as ``scheduler.current().context``:
 
@@ -27,6 +27,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import threading
 import warnings
 from contextlib import contextmanager
 from functools import partial
@@ -298,6 +299,28 @@ class ScriptContext:
             return waiter.wait(timeout_ns)
         finally:
             self._foreign.discard(waiter)
+
+    def outside(self, function: Callable[[], Any]) -> Any:
+        """Return ``function()``, which waits for another process; where that can reach the graph, this goes on."""
+        if not self.scheduler.is_hub_thread() or (self.graph.simulated and not self.graph.is_online):
+            return function()
+        waiter = self.scheduler.waiter("another process", remote=True)
+
+        def work() -> None:
+            try:
+                waiter.wake(function())
+            except BaseException as error:
+                waiter.fail(error)
+
+        helper = threading.Thread(target=work, name="rosmini-helper", daemon=True)
+        helper.start()
+        self.keep_pace(helper.is_alive)
+        self.block(waiter)
+        return waiter.value
+
+    def keep_pace(self, condition: Callable[[], bool]) -> None:
+        """Let simulated time go no faster than real time while ``condition()`` is true, if others see the graph."""
+        self.graph.keep_pace(condition)
 
     def check(self) -> None:
         """Raise what the caller was asked to raise: the end of the script, or an interrupt in its main thread."""

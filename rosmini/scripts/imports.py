@@ -101,6 +101,8 @@ class Importer:
             module = self.private[name] = self._given[name]
         elif name in PRIVATE_COPIES:
             module = self._copy(name)
+        elif name in BUILDERS:
+            module = self.private[name] = BUILDERS[name](self._context)
         elif child == "cfg" and (folder := self._reconfigure_folder(parent_name)) is not None:
             module = self._load_reconfigure(name, folder)
             if parent_name not in self.local:  # the module of the messages, which is not the script's

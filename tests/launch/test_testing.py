@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -102,6 +103,58 @@ def test_tests_pass(tmp_path: Path, capsys: Any) -> None:
     root = parse_file(file)
     assert [(root.get(name)) for name in ("tests", "failures", "errors", "skipped")] == ["4", "0", "0", "1"]
     assert [case.get("name") for case in root.all("testcase")][-1] == "ends"
+
+
+WIRE = """#!/usr/bin/env python3
+import os, subprocess, sys, unittest, xmlrpc.client
+import rosgraph, rospy, rostest
+from std_msgs.msg import String
+
+TOOL = [sys.executable, "-m", "rosmini", "rostopic"]
+
+class TestWire(unittest.TestCase):
+    def setUp(self):
+        rospy.init_node("hears")
+
+    def test_a_tool_asks_the_master(self):
+        self.assertIn("/chatter", subprocess.check_output([*TOOL, "list"], text=True).split())
+
+    def test_a_tool_hears_a_node(self):
+        tool = subprocess.Popen([*TOOL, "echo", "-n", "1", "/chatter"], stdout=subprocess.PIPE, text=True)
+        self.assertIn("hello", tool.communicate()[0])
+
+    def test_a_node_hears_a_tool(self):
+        words = [*TOOL, "pub", "-r", "20", "/news", "std_msgs/String", "good"]
+        tool = subprocess.Popen(words, stdout=subprocess.DEVNULL)
+        try:
+            self.assertEqual(rospy.wait_for_message("news", String, 50).data, "good")
+        finally:
+            tool.terminate()
+            tool.wait()
+
+    def test_the_api_of_a_node(self):
+        master = rosgraph.Master("/hears")
+        self.assertEqual(master.master_uri, os.environ["ROS_MASTER_URI"])
+        with xmlrpc.client.ServerProxy(rosgraph.get_master_uri()) as proxy:
+            self.assertEqual(proxy.getPid("/hears")[0], 1)
+        with xmlrpc.client.ServerProxy(master.lookupNode("/talker")) as proxy:
+            self.assertEqual(proxy.getPublications("/hears")[0], 1)
+
+    def test_the_release(self):
+        self.assertEqual(os.environ["ROS_DISTRO"], rospy.get_param("/rosdistro").strip())
+
+rostest.rosrun("speaking", "hears", TestWire, sys.argv)
+"""
+
+
+def test_tests_have_a_master_that_other_processes_reach(folder: Path, monkeypatch: Any, capsys: Any) -> None:
+    (folder / "scripts" / "hears.py").write_text(WIRE, encoding="utf-8")
+    monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:9")
+    status = main(["test", "speaking", "talk.test"])
+    out = capsys.readouterr().out
+    assert status == 0, out
+    assert " * TESTS: 6\n" in out
+    assert os.environ["ROS_MASTER_URI"] == "http://localhost:9"
 
 
 @pytest.mark.usefixtures("folder")

@@ -42,17 +42,20 @@ _BUILDERS_IN = {
     "os": "leaving",
     "select": "terminal",
     "signal": "process",
+    "subprocess": "outside",
     "sys": "process",
     "termios": "terminal",
     "threading": "threads",
     "time": "clock",
     "tty": "terminal",
+    "xmlrpc": "outside",
+    "xmlrpc.client": "outside",
 }
 
 
 def _build(name: str, context: Script) -> ModuleType:
     maker = importlib.import_module(f"{__name__}.{_BUILDERS_IN[name]}")
-    module: ModuleType = getattr(maker, f"make_{name.strip('_')}")(context)
+    module: ModuleType = getattr(maker, f"make_{name.strip('_').replace('.', '_')}")(context)
     return module
 
 

@@ -10,6 +10,8 @@ from rosmini.graph import running_graph
 from rosmini.graph.master_port import METHODS
 from rosmini.names import resolve_for
 
+from .rosenv import get_master_uri
+
 
 class MasterException(RosminiError):
     """The Master did not do what it was asked for."""
@@ -37,7 +39,7 @@ class Master:
 
     def __init__(self, caller_id: str, master_uri: str | None = None) -> None:
         self.caller_id = resolve_for(caller_id, "/").rstrip("/") or "/"
-        self.master_uri = master_uri or running_graph().master_uri
+        self.master_uri = master_uri or get_master_uri()
 
     def is_online(self) -> bool:
         """Return whether there is a Master: always, in a process that has its own."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from typing import Any
 
 from rosmini.graph import running_graph
@@ -16,6 +18,15 @@ DEFAULT_MASTER_PORT = 11311
 DEFAULT_MASTER_URI = f"http://localhost:{DEFAULT_MASTER_PORT}/"
 
 
-def get_master_uri(env: Any = None, argv: Any = None) -> str:  # noqa: ARG001 - rosgraph's signature
-    """Return the URI of this process's Master."""
-    return running_graph().master_uri
+def get_master_uri(env: Any = None, argv: Any = None) -> str:
+    """Return the URI that ``__master:=`` or ``ROS_MASTER_URI`` names; else that of the Master of this graph.
+
+    Raises ``ValueError`` for ``__master:=`` without a URI.
+    """
+    for word in sys.argv if argv is None else argv:
+        if word.startswith("__master:="):
+            uri = word.removeprefix("__master:=")
+            if not uri or ":=" in uri:
+                raise ValueError(f"__master remapping argument '{word}' improperly specified")
+            return str(uri)
+    return (os.environ if env is None else env).get(ROS_MASTER_URI) or running_graph().master_uri
