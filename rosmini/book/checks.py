@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from rosmini.errors import RosminiError, nearest
+from rosmini.graph.notebook import mark_as_shown
 from rosmini.packages import PackageIndex
 from rosmini.viz.book_form import book_form
 
@@ -86,13 +87,19 @@ class Status(Enum):
     RIGHT = "right"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Verdict:
-    """What a check found, the text that the reader sees, and what shows it: None, or a picture."""
+    """The result of a check, true if the answer is right: the text for the reader, and a picture of the run or None."""
 
     status: Status
     text: str
     view: Any = None
+
+    def __bool__(self) -> bool:
+        return self.status is Status.RIGHT
+
+    def __repr__(self) -> str:
+        return self.text
 
 
 @dataclass(frozen=True)
@@ -266,11 +273,12 @@ def expect_heard(publisher: Publisher) -> None:
     )
 
 
-def check(number: str, *answer: Any) -> None:
-    """Print what is to be said about `answer` to exercise `number` ("11.2"), and show what a robot did with it.
+def check(number: str, *answer: Any) -> Verdict:
+    """Check `answer` to exercise `number` ("11.2"), print the verdict, show the robot's run, and return the verdict.
 
-    Without an answer it is the script that a `%%node` cell with `# Exercise 11.2` in its second line has written.
-    Raises `UnknownExercise` if there is no such exercise, and `NoAnswer` if no such cell was run.
+    The verdict is true if the answer is right, so that `assert check("11.2")` works. The default answer is the script
+    written by the `%%node` cell with `# Exercise 11.2` in its second line. Raises `UnknownExercise` if there is no such
+    exercise, and `NoAnswer` if no such cell was run.
     """
     exercise = find(number)
     given = answer or (written(number),)
@@ -280,6 +288,9 @@ def check(number: str, *answer: Any) -> None:
         from IPython.core.display_functions import display
 
         display(verdict.view)  # type: ignore[no-untyped-call]
+    if shell := getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)():
+        mark_as_shown(verdict, shell)
+    return verdict
 
 
 def _where(answer: Any, verdict: Verdict) -> str:

@@ -15,6 +15,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rosmini.errors import UsageError, nearest
+from rosmini.graph.notebook import mark_as_shown
 
 from . import failing
 from .completion import candidates
@@ -124,7 +125,7 @@ def run(
         display(view)  # type: ignore[no-untyped-call]
     for text in filter(None, ("" if view else str(result), *result.complaints)):
         say(text)
-    _show_no_more(result, shell)
+    mark_as_shown(result, shell)
     return result
 
 
@@ -158,15 +159,3 @@ def _value(variables: Mapping[str, Any], name: str, match: re.Match[str]) -> str
         hint = nearest(match[2], own) or "write $$ for a dollar sign"
         raise UsageError(f"%{name}: there is no variable {match[2]}; {hint}")
     return str(variables[match[2]])
-
-
-def _show_no_more(result: Result, shell: Any) -> None:
-    """Keep IPython from showing a result again that this cell has printed; later cells show it as anything else."""
-    cell = shell.execution_count
-
-    def display() -> None:
-        if shell.execution_count != cell:
-            del vars(result)["_ipython_display_"]
-            print(result)
-
-    vars(result)["_ipython_display_"] = display

@@ -23,6 +23,18 @@ def kernel_shell() -> Any:
     return shell if hasattr(shell, "kernel") else None
 
 
+def mark_as_shown(result: object, shell: Any) -> None:
+    """Keep IPython from showing a result again at the end of the cell that printed it; later cells show its text."""
+    cell = shell.execution_count
+
+    def display() -> None:
+        if shell.execution_count != cell:
+            del vars(result)["_ipython_display_"]
+            print(result)
+
+    vars(result)["_ipython_display_"] = display
+
+
 def kernel_loop() -> asyncio.AbstractEventLoop:
     """Return the event loop of the kernel's main thread, or the running one. Raises ``RosminiError`` without one."""
     loop = getattr(getattr(getattr(kernel_shell(), "kernel", None), "io_loop", None), "asyncio_loop", None)

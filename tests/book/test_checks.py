@@ -133,13 +133,37 @@ def test_a_right_answer_is_praised():
     assert wheels.grade(6).text == "Exercise 98.1: right. Six wheels it is."
 
 
-def test_check_prints_and_returns_nothing(monkeypatch, capsys):
+@pytest.fixture
+def chapter_98(monkeypatch):
     chapter = types.ModuleType("chapter_98")
     chapter.wheels, chapter.doubling = wheels, doubling
     monkeypatch.setattr(checks.importlib.util, "find_spec", lambda name: name.endswith("chapter_98"))
     monkeypatch.setattr(checks.importlib, "import_module", lambda name: chapter)
-    assert check("98.1", 6) is None
-    assert capsys.readouterr().out == "Exercise 98.1: right. Six wheels it is.\n"
+
+
+def test_check_prints_and_returns_the_verdict(chapter_98, capsys):
+    right, wrong, stub = check("98.1", 6), check("98.1", 5), check("98.1", ...)
+    assert [bool(verdict) for verdict in (right, wrong, stub)] == [True, False, False]
+    assert (right.status, repr(right)) == (Status.RIGHT, "Exercise 98.1: right. Six wheels it is.")
+    assert capsys.readouterr().out == f"{right}\n{wrong}\n{stub}\n"
+
+
+def test_a_notebook_shows_a_verdict_once_in_the_cell_of_its_check(chapter_98, capsys):
+    from IPython.core.interactiveshell import InteractiveShell
+
+    InteractiveShell.clear_instance()
+    shell = InteractiveShell.instance()
+    try:
+        shell.run_cell("from rosmini.book import check\ncheck('98.1', 6)", store_history=True)
+        assert capsys.readouterr().out.count("right. Six wheels it is.") == 1
+        shell.run_cell("verdict = check('98.1', 5)\nassert not verdict", store_history=True)
+        shell.run_cell("verdict", store_history=True)
+        assert capsys.readouterr().out.count("A rover has 6 wheels, not 5.") == 2
+    finally:
+        InteractiveShell.clear_instance()
+
+
+def test_a_number_of_an_exercise_that_is_not_there(chapter_98):
     with pytest.raises(UnknownExercise, match=r"there is no exercise '98\.9'; did you mean 98\.1 or 98\.2\?"):
         check("98.9", 6)
 
